@@ -1,0 +1,50 @@
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# What every target of the project is compiled with.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+
+option(HAPNET_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
+set(HAPNET_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined")
+set_property(CACHE HAPNET_SANITIZE PROPERTY STRINGS "" "address,undefined" "thread")
+
+add_library(hapnet_options INTERFACE)
+target_include_directories(hapnet_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(hapnet_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+    -Wnon-virtual-dtor
+    # One result for one seed, whatever the compiler: no fused multiply-add behind our back.
+    -ffp-contract=off)
+target_compile_definitions(hapnet_options INTERFACE GLM_FORCE_EXPLICIT_CTOR)
+if(HAPNET_WARNINGS_AS_ERRORS)
+    target_compile_options(hapnet_options INTERFACE -Werror)
+endif()
+if(HAPNET_SANITIZE)
+    target_compile_options(hapnet_options INTERFACE
+        -fsanitize=${HAPNET_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(hapnet_options INTERFACE -fsanitize=${HAPNET_SANITIZE})
+endif()
+if(HAPNET_SANITIZE MATCHES "thread")
+    # GCC says that TSan cannot see std::atomic_thread_fence; the queue we use has one.
+    target_compile_options(hapnet_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
+endif()
+
+# hapnet_library(NAME SOURCES ... DEPENDS ...): one folder of the map.
+function(hapnet_library name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
+    add_library(${name} STATIC ${arg_SOURCES})
+    target_link_libraries(${name} PUBLIC hapnet_options ${arg_DEPENDS})
+endfunction()
+
+# hapnet_program(NAME SOURCES ... DEPENDS ...): one binary that is installed.
+function(hapnet_program name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
+    add_executable(${name} ${arg_SOURCES})
+    target_link_libraries(${name} PRIVATE hapnet_options ${arg_DEPENDS})
+    install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()

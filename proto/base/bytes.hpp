@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/ensure.hpp"
+
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+namespace hapnet::base {
+
+/// Reads little-endian fields one after another. Running short is remembered, not reported at
+/// each field: read straight through, then ask complete() once.
+class ByteReader {
+public:
+    explicit ByteReader(std::span<const std::byte> bytes) : bytes_{bytes} {}
+
+    [[nodiscard]] std::uint8_t u8() { return unsigned_of<std::uint8_t>(); }
+    [[nodiscard]] std::uint16_t u16() { return unsigned_of<std::uint16_t>(); }
+    [[nodiscard]] std::uint32_t u32() { return unsigned_of<std::uint32_t>(); }
+    [[nodiscard]] std::uint64_t u64() { return unsigned_of<std::uint64_t>(); }
+    [[nodiscard]] std::int64_t i64() { return static_cast<std::int64_t>(u64()); }
+    [[nodiscard]] float f32() { return std::bit_cast<float>(u32()); }
+    [[nodiscard]] double f64() { return std::bit_cast<double>(u64()); }
+
+    /// The next `count` bytes; empty when fewer are left.
+    [[nodiscard]] std::span<const std::byte> raw(std::size_t count)
+    {
+        if (!take(count)) return {};
+        return bytes_.subspan(position_ - count, count);
+    }
+
+    /// Whether every read was served.
+    [[nodiscard]] bool ok() const { return !short_; }
+    /// Whether every read was served and nothing is left over.
+    [[nodiscard]] bool complete() const { return !short_ && position_ == bytes_.size(); }
+
+private:
+    [[nodiscard]] bool take(std::size_t count)
+    {
+        if (short_ || bytes_.size() - position_ < count) {
+            short_ = true;
+            return false;
+        }
+        position_ += count;
+        return true;
+    }
+
+    template <std::unsigned_integral T>
+    [[nodiscard]] T unsigned_of()
+    {
+        if (!take(sizeof(T))) return 0;
+        std::uint64_t value = 0;
+        for (std::size_t i = sizeof(T); i > 0; --i) {
+            value = value << 8 | std::to_integer<std::uint64_t>(bytes_[position_ - sizeof(T) + i - 1]);
+        }
+        return static_cast<T>(value);
+    }
+
+    std::span<const std::byte> bytes_;
+    std::size_t position_ = 0;
+    bool short_ = false;
+};
+
+/// Writes little-endian fields one after another into a buffer that is large enough.
+class ByteWriter {
+public:
+    explicit ByteWriter(std::span<std::byte> buffer) : buffer_{buffer} {}
+
+    void u8(std::uint8_t value) { put(value); }
+    void u16(std::uint16_t value) { put(value); }
+    void u32(std::uint32_t value) { put(value); }
+    void u64(std::uint64_t value) { put(value); }
+    void i64(std::int64_t value) { put(static_cast<std::uint64_t>(value)); }
+    void f32(float value) { put(std::bit_cast<std::uint32_t>(value)); }
+    void f64(double value) { put(std::bit_cast<std::uint64_t>(value)); }
+    void raw(std::span<const std::byte> bytes)
+    {
+        for (const std::byte b : bytes) put(std::to_integer<std::uint8_t>(b));
+    }
+
+    [[nodiscard]] std::span<const std::byte> written() const { return buffer_.first(position_); }
+
+private:
+    template <std::unsigned_integral T>
+    void put(T value)
+    {
+        ensure(buffer_.size() - position_ >= sizeof(T));
+        for (std::size_t i = 0; i < sizeof(T); ++i) {
+            buffer_[position_++] = static_cast<std::byte>(value & 0xffU);
+            if constexpr (sizeof(T) > 1) value = static_cast<T>(value >> 8);
+        }
+    }
+
+    std::span<std::byte> buffer_;
+    std::size_t position_ = 0;
+};
+
+} // namespace hapnet::base

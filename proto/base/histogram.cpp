@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/base/histogram.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace hapnet::base {
+
+// Bins 0..63 hold the values 0..63 exactly; after that each octave [2^k, 2^(k+1)) has 64 bins.
+std::size_t DurationHistogram::bin_of(std::uint64_t nanoseconds)
+{
+    const int octave = std::max(0, static_cast<int>(std::bit_width(nanoseconds)) - sub_bits - 1);
+    const auto within = nanoseconds >> octave; // 64..127 once octave > 0
+    const auto bin = (static_cast<std::uint64_t>(octave) << sub_bits) + within;
+    return static_cast<std::size_t>(std::min<std::uint64_t>(bin, bins - 1));
+}
+
+std::uint64_t DurationHistogram::upper_edge(std::size_t bin)
+{
+    constexpr std::size_t per_octave = 1U << sub_bits;
+    if (bin < 2 * per_octave) return bin;
+    const auto octave = bin / per_octave - 1;
+    const auto within = bin - octave * per_octave;
+    return ((within + 1) << octave) - 1;
+}
+
+void DurationHistogram::add(Duration duration)
+{
+    const auto nanoseconds = static_cast<std::uint64_t>(std::max<Duration::rep>(0, duration.count()));
+    ++counts_[bin_of(nanoseconds)];
+    ++count_;
+    max_ = std::max(max_, nanoseconds);
+}
+
+std::optional<Duration> DurationHistogram::quantile(double q) const
+{
+    ensure(q > 0.0 && q <= 1.0);
+    if (count_ == 0) return std::nullopt;
+    const auto wanted =
+        std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_))));
+    std::uint64_t seen = 0;
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        seen += counts_[bin];
+        if (seen >= wanted) {
+            return Duration{static_cast<Duration::rep>(std::min(upper_edge(bin), max_))};
+        }
+    }
+    return max();
+}
+
+std::optional<Duration> DurationHistogram::max() const
+{
+    if (count_ == 0) return std::nullopt;
+    return Duration{static_cast<Duration::rep>(max_)};
+}
+
+} // namespace hapnet::base

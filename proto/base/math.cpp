@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/base/math.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+namespace hapnet::base {
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// The integer nearest to x, |x| < 2^51, by the rounding of an addition.
+double nearest(double x)
+{
+    constexpr double shift = 6755399441055744.0; // 1.5 * 2^52
+    const double shifted = x + shift;
+    return shifted - shift;
+}
+
+/// x = quadrant * pi/2 + (high + low), |high| <= pi/4.
+struct Reduced {
+    double high, low;
+    int quadrant;
+};
+
+Reduced reduce(double x)
+{
+    // pi/2 in three parts of 33 bits (fdlibm e_rem_pio2.c): n * part is exact for |n| < 2^20.
+    constexpr double two_over_pi = 6.36619772367581382433e-01;
+    constexpr double part1 = 1.57079632673412561417e+00;
+    constexpr double part2 = 6.07710050630396597660e-11;
+    constexpr double part3 = 2.02226624871116645580e-21;
+    constexpr double rest3 = 8.47842766036889956997e-32;
+    const double n = nearest(x * two_over_pi);
+    const double first = x - n * part1;
+    const double second = first - n * part2;
+    const double lost2 = (first - second) - n * part2;
+    const double third = second - n * part3;
+    const double lost3 = (second - third) - n * part3;
+    const double tail = lost2 + lost3 - n * rest3;
+    const double high = third + tail;
+    return {high, (third - high) + tail, static_cast<int>(static_cast<std::int64_t>(n) & 3)};
+}
+
+double kernel_sin(double x, double tail)
+{
+    const double z = x * x;
+    const double cube = z * x;
+    const double series =
+        8.33333333332248946124e-03 +
+        z * (-1.98412698298579493134e-04 +
+             z * (2.75573137070700676789e-06 +
+                  z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+    return x - ((z * (0.5 * tail - cube * series) - tail) - cube * -1.66666666666666324348e-01);
+}
+
+double kernel_cos(double x, double tail)
+{
+    const double z = x * x;
+    const double series =
+        z * (4.16666666666666019037e-02 +
+             z * (-1.38888888888741095749e-03 +
+                  z * (2.48015872894767294178e-05 +
+                       z * (-2.75573143513906633035e-07 +
+                            z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
+    const double half = 0.5 * z;
+    const double high = 1.0 - half;
+    return high + (((1.0 - high) - half) + (z * series - x * tail));
+}
+
+double circular(double radians, int phase)
+{
+    if (!(radians >= -1e6 && radians <= 1e6)) return not_a_number;
+    const Reduced r = reduce(radians);
+    switch ((r.quadrant + phase) & 3) {
+    case 0: return kernel_sin(r.high, r.low);
+    case 1: return kernel_cos(r.high, r.low);
+    case 2: return -kernel_sin(r.high, r.low);
+    default: return -kernel_cos(r.high, r.low);
+    }
+}
+
+} // namespace
+
+double sin(double radians) { return circular(radians, 0); }
+
+double cos(double radians) { return circular(radians, 1); }
+
+double exp(double x)
+{
+    if (x != x) return not_a_number;
+    if (x > 700.0) return std::numeric_limits<double>::infinity();
+    if (x < -700.0) return 0.0;
+    // x = n ln2 + high - low, then fdlibm e_exp.c.
+    constexpr double log2_of_e = 1.44269504088896338700e+00;
+    constexpr double ln2_high = 6.93147180369123816490e-01;
+    constexpr double ln2_low = 1.90821492927058770002e-10;
+    const double n = nearest(x * log2_of_e);
+    const double high = x - n * ln2_high;
+    const double low = n * ln2_low;
+    const double r = high - low;
+    const double z = r * r;
+    const double c =
+        r - z * (1.66666666666666019037e-01 +
+                 z * (-2.77777777770155933842e-03 +
+                      z * (6.61375632143793436117e-05 +
+                           z * (-1.65339022054652515390e-06 + z * 4.13813679705723846039e-08))));
+    const double fraction = 1.0 - ((low - (r * c) / (2.0 - c)) - high);
+    const auto exponent = static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023);
+    return fraction * std::bit_cast<double>(exponent << 52);
+}
+
+} // namespace hapnet::base

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+namespace hapnet::base {
+
+/// The one clock of the cores. It has no now(): a core that wants to read a clock does not
+/// compile. Shells fill it from CLOCK_MONOTONIC, virtual time from a counter.
+struct Timeline {
+    using duration = std::chrono::nanoseconds;
+    using rep = duration::rep;
+    using period = duration::period;
+    using time_point = std::chrono::time_point<Timeline>;
+    static constexpr bool is_steady = true;
+};
+
+using Duration = Timeline::duration;
+using TimePoint = Timeline::time_point;
+
+/// Whether there is a deadline and it has come. `std::nullopt <= now` would be true: hence this.
+[[nodiscard]] constexpr bool is_due(std::optional<TimePoint> deadline, TimePoint now)
+{
+    return deadline.has_value() && *deadline <= now;
+}
+
+/// The earlier of two deadlines; nullopt means never.
+[[nodiscard]] constexpr std::optional<TimePoint> earlier(std::optional<TimePoint> a,
+                                                         std::optional<TimePoint> b)
+{
+    if (!a) return b;
+    if (!b) return a;
+    return *a < *b ? a : b;
+}
+
+/// A duration as a floating-point number of seconds, for physics.
+[[nodiscard]] constexpr double to_seconds(Duration duration)
+{
+    return std::chrono::duration<double>{duration}.count();
+}
+
+/// The duration nearest to `seconds`; `seconds` must be finite and below 292 years.
+[[nodiscard]] constexpr Duration from_seconds(double seconds)
+{
+    const double nanoseconds = seconds * 1e9;
+    return Duration{static_cast<Duration::rep>(nanoseconds < 0 ? nanoseconds - 0.5
+                                                               : nanoseconds + 0.5)};
+}
+
+} // namespace hapnet::base

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/net/clock.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <cerrno>
+#include <ctime>
+#include <fstream>
+#include <sys/random.h>
+
+namespace hapnet::net {
+
+base::TimePoint monotonic_now()
+{
+    timespec now{};
+    base::ensure(clock_gettime(CLOCK_MONOTONIC, &now) == 0);
+    return base::TimePoint{std::chrono::seconds{now.tv_sec} +
+                           std::chrono::nanoseconds{now.tv_nsec}};
+}
+
+double wall_clock_seconds()
+{
+    timespec now{};
+    base::ensure(clock_gettime(CLOCK_REALTIME, &now) == 0);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void sleep_until(base::TimePoint when)
+{
+    const auto since_start = when.time_since_epoch();
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(since_start);
+    timespec until{};
+    until.tv_sec = seconds.count();
+    until.tv_nsec = (since_start - seconds).count();
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+    }
+}
+
+std::string boot_id()
+{
+    std::ifstream file{"/proc/sys/kernel/random/boot_id"};
+    std::string id;
+    file >> id;
+    return id;
+}
+
+std::uint64_t unpredictable_bits()
+{
+    std::uint64_t bits = 0;
+    base::ensure(getrandom(&bits, sizeof bits, 0) == static_cast<ssize_t>(sizeof bits));
+    return bits;
+}
+
+} // namespace hapnet::net

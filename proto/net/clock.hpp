@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace hapnet::net {
+
+/// CLOCK_MONOTONIC. The only clock of the project; called once per wake-up by a shell.
+[[nodiscard]] base::TimePoint monotonic_now();
+
+/// The time of day in seconds since 1970, for manifests and file names only.
+[[nodiscard]] double wall_clock_seconds();
+
+/// Sleeps until `when` on CLOCK_MONOTONIC; returns at once when it has passed.
+void sleep_until(base::TimePoint when);
+
+/// The identity of this boot of this machine: two records with equal boot ids have one
+/// CLOCK_MONOTONIC and compare directly. Empty when the system does not tell.
+[[nodiscard]] std::string boot_id();
+
+/// 64 bits from the kernel's random source, for session nonces; never for an experiment.
+[[nodiscard]] std::uint64_t unpredictable_bits();
+
+} // namespace hapnet::net

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/net/endpoint.hpp"
+
+#include "proto/base/ensure.hpp"
+#include "proto/base/text.hpp"
+
+#include <arpa/inet.h>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <spdlog/fmt/fmt.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace hapnet::net {
+
+namespace {
+
+/// The errors of getaddrinfo, which are not errno values.
+class NameLookupCategory : public std::error_category {
+public:
+    [[nodiscard]] const char* name() const noexcept override { return "name lookup"; }
+    [[nodiscard]] std::string message(int code) const override { return gai_strerror(code); }
+};
+
+const std::error_category& name_lookup()
+{
+    static const NameLookupCategory category;
+    return category;
+}
+
+template <typename SocketAddress>
+SocketAddress address_as(const sockaddr_storage& storage)
+{
+    SocketAddress address{};
+    std::memcpy(&address, &storage, sizeof address);
+    return address;
+}
+
+} // namespace
+
+Endpoint::Endpoint(const sockaddr_storage& address, socklen_t length)
+    : address_{address}, length_{length}
+{
+    base::ensure(address.ss_family == AF_INET || address.ss_family == AF_INET6);
+}
+
+const sockaddr* Endpoint::address() const
+{
+    return reinterpret_cast<const sockaddr*>(&address_); // the socket API's own idiom
+}
+
+std::uint16_t Endpoint::port() const
+{
+    return family() == AF_INET ? ntohs(address_as<sockaddr_in>(address_).sin_port)
+                               : ntohs(address_as<sockaddr_in6>(address_).sin6_port);
+}
+
+bool Endpoint::is_loopback() const
+{
+    if (family() == AF_INET) {
+        const auto host = ntohl(address_as<sockaddr_in>(address_).sin_addr.s_addr);
+        return (host >> 24) == IN_LOOPBACKNET;
+    }
+    const auto host = address_as<sockaddr_in6>(address_).sin6_addr;
+    const bool mapped_loopback = IN6_IS_ADDR_V4MAPPED(&host) && host.s6_addr[12] == IN_LOOPBACKNET;
+    return IN6_IS_ADDR_LOOPBACK(&host) || mapped_loopback;
+}
+
+bool Endpoint::is_any() const
+{
+    if (family() == AF_INET) {
+        return address_as<sockaddr_in>(address_).sin_addr.s_addr == htonl(INADDR_ANY);
+    }
+    const auto host = address_as<sockaddr_in6>(address_).sin6_addr;
+    return IN6_IS_ADDR_UNSPECIFIED(&host);
+}
+
+std::string Endpoint::to_text() const
+{
+    std::array<char, INET6_ADDRSTRLEN> host{};
+    if (family() == AF_INET) {
+        const auto address = address_as<sockaddr_in>(address_);
+        inet_ntop(AF_INET, &address.sin_addr, host.data(), host.size());
+        return fmt::format("{}:{}", host.data(), port());
+    }
+    const auto address = address_as<sockaddr_in6>(address_);
+    inet_ntop(AF_INET6, &address.sin6_addr, host.data(), host.size());
+    return fmt::format("[{}]:{}", host.data(), port());
+}
+
+bool operator==(const Endpoint& a, const Endpoint& b)
+{
+    if (a.family() != b.family() || a.port() != b.port()) return false;
+    if (a.family() == AF_INET) {
+        return address_as<sockaddr_in>(a.address_).sin_addr.s_addr ==
+               address_as<sockaddr_in>(b.address_).sin_addr.s_addr;
+    }
+    const auto host_a = address_as<sockaddr_in6>(a.address_).sin6_addr;
+    const auto host_b = address_as<sockaddr_in6>(b.address_).sin6_addr;
+    return std::memcmp(&host_a, &host_b, sizeof host_a) == 0;
+}
+
+base::Result<HostPort> parse_host_port(std::string_view text)
+{
+    const auto colon = text.rfind(':');
+    if (colon == std::string_view::npos || colon == 0) {
+        return base::fail(fmt::format(
+            "'{}' is not an address: write HOST:PORT, such as 127.0.0.1:7001 or [::1]:7001", text));
+    }
+    std::string_view host = text.substr(0, colon);
+    if (host.front() == '[') {
+        if (host.back() != ']' || host.size() < 3) {
+            return base::fail(fmt::format("'{}': write an IPv6 address as [::1]:7001", text));
+        }
+        host = host.substr(1, host.size() - 2);
+    } else if (host.find(':') != std::string_view::npos) {
+        return base::fail(fmt::format("'{}': write an IPv6 address as [::1]:7001", text));
+    }
+    const auto port = base::parse_count(text.substr(colon + 1), 65535);
+    if (!port) return base::fail(fmt::format("'{}': the port {}", text, port.error().message));
+    return HostPort{std::string{host}, static_cast<std::uint16_t>(*port)};
+}
+
+Endpoint resolve(const HostPort& where, int family)
+{
+    addrinfo hints{};
+    hints.ai_family = family;
+    hints.ai_socktype = SOCK_DGRAM;
+    addrinfo* found = nullptr;
+    const int code =
+        getaddrinfo(where.host.c_str(), std::to_string(where.port).c_str(), &hints, &found);
+    if (code != 0) {
+        throw std::system_error{code, name_lookup(), fmt::format("cannot look up '{}'", where.host)};
+    }
+    sockaddr_storage address{};
+    std::memcpy(&address, found->ai_addr, found->ai_addrlen);
+    const socklen_t length = found->ai_addrlen;
+    freeaddrinfo(found);
+    return Endpoint{address, length};
+}
+
+void require_route(const Endpoint& remote)
+{
+    const int descriptor = socket(remote.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (descriptor < 0) throw std::system_error{errno, std::generic_category(), "socket"};
+    const int outcome = connect(descriptor, remote.address(), remote.length());
+    const int error = errno;
+    close(descriptor);
+    if (outcome != 0) {
+        throw std::system_error{error, std::generic_category(),
+                                fmt::format("cannot reach {}", remote.to_text())};
+    }
+}
+
+} // namespace hapnet::net

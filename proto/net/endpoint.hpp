@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <sys/socket.h>
+
+namespace hapnet::net {
+
+/// An IPv4 or IPv6 address and a UDP port.
+class Endpoint {
+public:
+    /// The endpoint in a socket address of `length` bytes; ensures family AF_INET or AF_INET6.
+    Endpoint(const sockaddr_storage& address, socklen_t length);
+
+    [[nodiscard]] const sockaddr* address() const;
+    [[nodiscard]] socklen_t length() const { return length_; }
+    [[nodiscard]] int family() const { return address_.ss_family; }
+    [[nodiscard]] std::uint16_t port() const;
+    [[nodiscard]] bool is_loopback() const;
+    [[nodiscard]] bool is_any() const;
+
+    /// "127.0.0.1:7001", "[::1]:7001"
+    [[nodiscard]] std::string to_text() const;
+
+    friend bool operator==(const Endpoint& a, const Endpoint& b);
+
+private:
+    sockaddr_storage address_{};
+    socklen_t length_ = 0;
+};
+
+/// "host:port" or "[v6]:port" taken apart; the host is not looked up.
+struct HostPort {
+    std::string host;
+    std::uint16_t port = 0;
+};
+[[nodiscard]] base::Result<HostPort> parse_host_port(std::string_view text);
+
+/// Looks up the first address of a host that has the family asked for (AF_UNSPEC: any).
+/// Throws std::system_error naming the host when the name does not resolve.
+[[nodiscard]] Endpoint resolve(const HostPort& where, int family = AF_UNSPEC);
+
+/// Throws std::system_error when this machine has no route to `remote`. Sends nothing.
+void require_route(const Endpoint& remote);
+
+} // namespace hapnet::net

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace hapnet::net {
+
+/// What the system granted of what a 1 kHz loop wants.
+struct RealTime {
+    bool fifo = false;          // SCHED_FIFO
+    bool locked_memory = false; // mlockall
+    /// "" when all was granted, otherwise one sentence: what is missing and how to allow it.
+    [[nodiscard]] std::string shortage() const;
+};
+
+/// Asks for SCHED_FIFO at `priority` and the finest timer slack for the calling thread, and for
+/// locked memory for the process. Never fails: says what it got.
+[[nodiscard]] RealTime request_real_time(int priority);
+
+} // namespace hapnet::net

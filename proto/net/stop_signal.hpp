@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace hapnet::net {
+
+/// SIGINT and SIGTERM as something to wait for. Construct one, first thing in main and before
+/// any thread: from then on the two signals interrupt nothing and are read here.
+class StopSignal {
+public:
+    StopSignal();
+    ~StopSignal();
+    StopSignal(const StopSignal&) = delete;
+    StopSignal& operator=(const StopSignal&) = delete;
+
+    /// Readable once a signal has come.
+    [[nodiscard]] int descriptor() const { return descriptor_; }
+
+    /// Whether SIGINT or SIGTERM has come since construction; stays true.
+    [[nodiscard]] bool requested();
+
+private:
+    int descriptor_ = -1;
+    bool requested_ = false;
+};
+
+} // namespace hapnet::net

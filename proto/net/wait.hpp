@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <optional>
+#include <span>
+
+namespace hapnet::net {
+
+/// Sleeps until one of the descriptors is readable or `deadline` has come, whichever is first;
+/// nullopt waits for the descriptors alone. A signal may end it early.
+void wait_readable(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
+
+} // namespace hapnet::net
