@@ -56,7 +56,8 @@ private:
         if (!take(sizeof(T))) return 0;
         std::uint64_t value = 0;
         for (std::size_t i = sizeof(T); i > 0; --i) {
-            value = value << 8 | std::to_integer<std::uint64_t>(bytes_[position_ - sizeof(T) + i - 1]);
+            value =
+                value << 8 | std::to_integer<std::uint64_t>(bytes_[position_ - sizeof(T) + i - 1]);
         }
         return static_cast<T>(value);
     }

@@ -14,8 +14,8 @@ constexpr void ensure(bool condition,
 {
     if (condition) [[likely]]
         return;
-    std::fprintf(stderr, "%s:%u: %s: this must never happen; please report it\n",
-                 where.file_name(), where.line(), where.function_name());
+    std::fprintf(stderr, "%s:%u: %s: this must never happen; please report it\n", where.file_name(),
+                 where.line(), where.function_name());
     std::abort();
 }
 

@@ -30,7 +30,8 @@ std::uint64_t DurationHistogram::upper_edge(std::size_t bin)
 
 void DurationHistogram::add(Duration duration)
 {
-    const auto nanoseconds = static_cast<std::uint64_t>(std::max<Duration::rep>(0, duration.count()));
+    const auto nanoseconds =
+        static_cast<std::uint64_t>(std::max<Duration::rep>(0, duration.count()));
     ++counts_[bin_of(nanoseconds)];
     ++count_;
     max_ = std::max(max_, nanoseconds);
@@ -40,8 +41,8 @@ std::optional<Duration> DurationHistogram::quantile(double q) const
 {
     ensure(q > 0.0 && q <= 1.0);
     if (count_ == 0) return std::nullopt;
-    const auto wanted =
-        std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_))));
+    const auto wanted = std::max<std::uint64_t>(
+        1, static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_))));
     std::uint64_t seen = 0;
     for (std::size_t bin = 0; bin < bins; ++bin) {
         seen += counts_[bin];

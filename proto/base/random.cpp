@@ -40,8 +40,8 @@ RandomStream Seed::stream(std::string_view name) const
     // The name goes through the cipher under the seed's key: neither near seeds nor near
     // names give related stream keys.
     const std::uint64_t hash = hash_of(name);
-    const auto block = philox(value_, {{static_cast<std::uint32_t>(hash),
-                                        static_cast<std::uint32_t>(hash >> 32), 0, 1}});
+    const auto block = philox(
+        value_, {{static_cast<std::uint32_t>(hash), static_cast<std::uint32_t>(hash >> 32), 0, 1}});
     return RandomStream{low_words(block), block[2]};
 }
 

@@ -67,10 +67,7 @@ struct Position {
 {
     return {v.value * to_seconds(t)};
 }
-[[nodiscard]] constexpr Impulse operator*(Force f, Duration t)
-{
-    return {f.value * to_seconds(t)};
-}
+[[nodiscard]] constexpr Impulse operator*(Force f, Duration t) { return {f.value * to_seconds(t)}; }
 
 /// The length of a vector, by a correctly rounded square root: the same bits everywhere.
 template <typename Kind>

@@ -45,8 +45,8 @@ using TimePoint = Timeline::time_point;
 [[nodiscard]] constexpr Duration from_seconds(double seconds)
 {
     const double nanoseconds = seconds * 1e9;
-    return Duration{static_cast<Duration::rep>(nanoseconds < 0 ? nanoseconds - 0.5
-                                                               : nanoseconds + 0.5)};
+    return Duration{
+        static_cast<Duration::rep>(nanoseconds < 0 ? nanoseconds - 0.5 : nanoseconds + 0.5)};
 }
 
 } // namespace hapnet::base

@@ -33,8 +33,7 @@ void sleep_until(base::TimePoint when)
     timespec until{};
     until.tv_sec = seconds.count();
     until.tv_nsec = (since_start - seconds).count();
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-    }
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
 }
 
 std::string boot_id()

@@ -134,7 +134,8 @@ Endpoint resolve(const HostPort& where, int family)
     const int code =
         getaddrinfo(where.host.c_str(), std::to_string(where.port).c_str(), &hints, &found);
     if (code != 0) {
-        throw std::system_error{code, name_lookup(), fmt::format("cannot look up '{}'", where.host)};
+        throw std::system_error{code, name_lookup(),
+                                fmt::format("cannot look up '{}'", where.host)};
     }
     sockaddr_storage address{};
     std::memcpy(&address, found->ai_addr, found->ai_addrlen);

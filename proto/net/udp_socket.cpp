@@ -97,8 +97,7 @@ UdpSocket::~UdpSocket()
 
 UdpSocket::UdpSocket(UdpSocket&& other) noexcept
     : descriptor_{std::exchange(other.descriptor_, -1)}, buffers_{std::move(other.buffers_)}
-{
-}
+{}
 
 std::span<const Received> UdpSocket::receive()
 {
@@ -160,8 +159,7 @@ Endpoint UdpSocket::local() const
 {
     sockaddr_storage address{};
     socklen_t length = sizeof address;
-    base::ensure(
-        getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &length) == 0);
+    base::ensure(getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &length) == 0);
     return Endpoint{address, length};
 }
 

@@ -25,7 +25,7 @@ enum class SendOutcome : std::uint8_t { sent, buffer_full, no_route, too_big, re
 /// nothing.
 class UdpSocket {
 public:
-    static constexpr std::size_t batch_max = 32;       // datagrams per receive()
+    static constexpr std::size_t batch_max = 32; // datagrams per receive()
     static constexpr std::size_t payload_bytes_max = 65535;
 
     /// Binds to `local` (port 0: any free port). Throws std::system_error naming the address.
