@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/simulated/hand_noise.hpp"
+#include "device/simulated/task.hpp"
+
+#include <optional>
+
+namespace hapnet::device {
+
+/// A hand on a stylus as a linear impedance: m h'' + b h' + k (h - intention) = force. The mass
+/// contains the device's apparent 45 g. Nominal values for a relaxed pen grip; measured arms:
+/// 0.554 kg, 6.45 N s/m, 135 N/m (Scientific Reports 6:18004).
+struct HandImpedance {
+    double mass_kg = 0.20;
+    double damping_ns_per_m = 5.0;
+    double stiffness_n_per_m = 200.0;
+};
+
+/// A PHANToM Omni in the air, per Cartesian axis: figures of its data sheet.
+struct OmniPlant {
+    double force_max_n = 3.3;
+    double friction_n = 0.26;       // back-drive, Coulomb
+    double resolution_m = 0.000055; // nominal position resolution
+    glm::dvec3 half_workspace_m{0.080, 0.060, 0.035};
+    double velocity_cutoff_hz = 30.0; // of the filter on differenced positions
+};
+
+/// A simulated Omni held by a simulated hand that plays its part of a task. Not a human being:
+/// a linear hand with scripted intentions.
+class SimulatedOmni final : public Device {
+public:
+    SimulatedOmni(Task task, const HandImpedance& hand, const OmniPlant& plant);
+
+    [[nodiscard]] Sample read(base::TimePoint now) override;
+    void apply(base::Force force) override;
+    void on_cue(const Cue& cue) override;
+    [[nodiscard]] std::string description() const override;
+
+    /// Steps of the plant's own simulation; read() advances it by whole ones.
+    static constexpr base::Duration step{std::chrono::microseconds{50}};
+    /// A longer gap between reads is not lived through.
+    static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};
+
+private:
+    [[nodiscard]] Intention intention(base::TimePoint now) const;
+    void advance(const Intention& intention);
+    void stop_at_workspace_end(int axis);
+    [[nodiscard]] glm::dvec3 quantised(const glm::dvec3& position) const;
+
+    Task task_;
+    HandImpedance hand_;
+    OmniPlant plant_;
+    glm::dvec3 centre_{0.0}; // of the workspace, in the scene
+    glm::dvec3 position_{0.0, 0.0, 0.035};
+    glm::dvec3 velocity_{0.0};
+    glm::dvec3 force_{0.0};
+    std::optional<base::TimePoint> simulated_to_;
+    std::optional<base::TimePoint> last_read_;
+    glm::dvec3 last_reported_{0.0};
+    glm::dvec3 filtered_velocity_{0.0};
+
+    struct Part {
+        Script script;
+        HandNoise noise;
+        base::TimePoint start;
+        bool wavers; // an exactly prescribed path has no noise on it
+    };
+    std::optional<Part> part_;
+    std::optional<base::TimePoint> cued_at_;
+    glm::dvec3 rest_{0.0, 0.0, 0.035}; // where the hand was before its cue
+};
+
+} // namespace hapnet::device

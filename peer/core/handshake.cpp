@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/handshake.hpp"
+
+#include <limits>
+
+namespace hapnet::peer {
+
+namespace {
+
+/// The same number on both sides, another one for every pair of runs; never 0.
+std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
+{
+    std::uint64_t mixed = (static_cast<std::uint64_t>(low_nonce) << 32 | high_nonce);
+    mixed ^= mixed >> 31; // the finalizer of SplitMix64 (Steele, Lea, Flood 2014)
+    mixed *= 0xbf58476d1ce4e5b9U;
+    mixed ^= mixed >> 27;
+    mixed *= 0x94d049bb133111ebU;
+    const auto number = static_cast<std::uint32_t>(mixed >> 32);
+    return number == 0 ? 1 : number;
+}
+
+} // namespace
+
+std::optional<wire::ByeReason> Handshake::objection(const wire::Hello& hello) const
+{
+    if (hello.peer_id == self_.id) return wire::ByeReason::same_id;
+    if (hello.scene_hash != self_.scene_hash) return wire::ByeReason::other_scene;
+    if (!(hello.task == self_.task)) return wire::ByeReason::other_task;
+    if (hello.tick_rate_hz != self_.tick_rate_hz) return wire::ByeReason::other_tick_rate;
+    return std::nullopt;
+}
+
+std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
+                                                   base::TimePoint arrived)
+{
+    if (const auto reason = objection(hello)) return reason;
+    if (!heard_ || heard_->nonce != hello.nonce) meet(hello);
+    if (hello.nonce_heard != self_.nonce) { // it has not heard this run of us yet
+        asked_ = true;
+        last_heard_ = wire::Echo{hello.sent, {}};
+        last_heard_at_ = arrived;
+        return std::nullopt;
+    }
+    on_echo(hello.echo, hello.sent, arrived);
+    agree(hello, arrived);
+    return std::nullopt;
+}
+
+void Handshake::meet(const wire::Hello& hello)
+{
+    heard_ = Heard{hello.nonce, hello.peer_id};
+    clock_.reset();
+    last_heard_.reset();
+    start_heard_.reset();
+    acknowledged_ = false;
+    if (!session_) return;
+    // The other side was restarted: this one goes on and lets it join.
+    session_->number = number();
+    session_->is_left = is_left();
+    session_->joined_late = false;
+    owns_start_ = true;
+    stayed_ = true;
+}
+
+bool Handshake::is_left() const { return self_.id < heard_->id; }
+
+std::uint32_t Handshake::number() const
+{
+    return is_left() ? session_number(self_.nonce, heard_->nonce)
+                     : session_number(heard_->nonce, self_.nonce);
+}
+
+void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
+{
+    const bool ours_to_decide = owns_start_ || (is_left() && !hello.in_session);
+    if (ours_to_decide) {
+        if (!session_) propose(arrived + start_after);
+        acknowledged_ = hello.start_heard == session_->start;
+        asked_ = !acknowledged_;
+    } else if (hello.start) {
+        adopt(hello);
+        asked_ = true; // it repeats itself until it hears our acknowledgement
+    }
+}
+
+void Handshake::propose(base::TimePoint start)
+{
+    session_ = Session{number(), start, self_.seed, is_left(), false};
+    owns_start_ = true;
+}
+
+void Handshake::adopt(const wire::Hello& hello)
+{
+    const auto clock = clock_.estimate();
+    if (!clock || start_heard_ == hello.start) return;
+    start_heard_ = hello.start;
+    session_ =
+        Session{number(), *hello.start - clock->offset, hello.seed, is_left(), hello.in_session};
+}
+
+void Handshake::on_echo(const std::optional<wire::Echo>& echo, base::TimePoint sent,
+                        base::TimePoint arrived)
+{
+    if (echo) clock_.add({echo->of, sent - echo->age, sent, arrived});
+    if (!last_heard_ || sent > last_heard_->of) {
+        last_heard_ = wire::Echo{sent, {}};
+        last_heard_at_ = arrived;
+    }
+}
+
+std::optional<wire::Echo> Handshake::echo(base::TimePoint now) const
+{
+    if (!last_heard_) return std::nullopt;
+    const base::Duration age = now - last_heard_at_;
+    constexpr auto age_max = base::Duration{std::numeric_limits<std::uint32_t>::max()};
+    if (age < base::Duration{0} || age > age_max) return std::nullopt;
+    return wire::Echo{last_heard_->of, age};
+}
+
+std::optional<wire::Hello> Handshake::hello(base::TimePoint now)
+{
+    const bool settled = session_ && (owns_start_ ? acknowledged_ : start_heard_.has_value());
+    if (settled && !asked_) return std::nullopt;
+    if (last_hello_ && now - *last_hello_ < hello_every) return std::nullopt;
+    last_hello_ = now;
+    asked_ = false;
+    wire::Hello hello;
+    hello.nonce = self_.nonce;
+    hello.nonce_heard = heard_ ? heard_->nonce : 0;
+    hello.peer_id = self_.id;
+    hello.tick_rate_hz = self_.tick_rate_hz;
+    hello.scene_hash = self_.scene_hash;
+    hello.seed = session_ ? session_->seed : self_.seed;
+    hello.sent = now;
+    hello.echo = echo(now);
+    if (session_ && owns_start_) hello.start = session_->start;
+    hello.start_heard = start_heard_;
+    hello.in_session = stayed_;
+    hello.task = self_.task;
+    return hello;
+}
+
+} // namespace hapnet::peer

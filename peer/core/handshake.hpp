@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/clock_offset.hpp"
+#include "proto/wire/message.hpp"
+
+#include <optional>
+
+namespace hapnet::peer {
+
+/// What a peer brings to the meeting. Id, scene, tick rate and task must suit the other side.
+struct Introduction {
+    std::uint16_t id = 1;
+    std::uint32_t nonce = 1; // this run of the program, unpredictable, not 0
+    std::uint64_t scene_hash = 0;
+    std::uint64_t seed = 0;
+    std::uint16_t tick_rate_hz = 1000;
+    wire::TaskName task;
+};
+
+/// The session two peers have agreed on, as one of them sees it.
+struct Session {
+    std::uint32_t number = 0;
+    base::TimePoint start; // on this peer's clock
+    std::uint64_t seed = 0;
+    bool is_left = false;     // the lower id
+    bool joined_late = false; // the other side was there before: take its cube
+};
+
+/// How two peers find each other and agree on a start: hellos every 20 ms until both know it.
+/// The lower id sets the start one second after it learns that it was heard, and keeps saying so
+/// until that is acknowledged; the other side joins when it hears of it, if need be late. A peer
+/// that restarts meets one that is in session already and joins that session. Feed with on_hello(),
+/// drain with hello(), and read session() after either.
+class Handshake {
+public:
+    static constexpr base::Duration hello_every{std::chrono::milliseconds{20}};
+    static constexpr base::Duration start_after{std::chrono::seconds{1}};
+
+    explicit Handshake(const Introduction& introduction) : self_{introduction} {}
+
+    /// Takes a hello in. Returns why the two cannot play together, if so.
+    [[nodiscard]] std::optional<wire::ByeReason> on_hello(const wire::Hello& hello,
+                                                          base::TimePoint arrived);
+
+    /// Takes the clock echo of any message of the other side.
+    void on_echo(const std::optional<wire::Echo>& echo, base::TimePoint sent,
+                 base::TimePoint arrived);
+
+    /// A state of this session arrived: the other side knows the start.
+    void on_state() { acknowledged_ = true; }
+
+    /// The hello that is due, if one is.
+    [[nodiscard]] std::optional<wire::Hello> hello(base::TimePoint now);
+
+    /// What the next message to the other side should echo.
+    [[nodiscard]] std::optional<wire::Echo> echo(base::TimePoint now) const;
+
+    [[nodiscard]] const std::optional<Session>& session() const { return session_; }
+    [[nodiscard]] std::optional<ClockOffset::Estimate> clock() const { return clock_.estimate(); }
+    /// Whether the other side has been heard in this run of it.
+    [[nodiscard]] bool has_met() const { return heard_.has_value(); }
+
+private:
+    struct Heard {
+        std::uint32_t nonce = 0;
+        std::uint16_t id = 0;
+    };
+
+    [[nodiscard]] std::optional<wire::ByeReason> objection(const wire::Hello& hello) const;
+    void meet(const wire::Hello& hello);
+    [[nodiscard]] bool is_left() const;
+    [[nodiscard]] std::uint32_t number() const;
+    void agree(const wire::Hello& hello, base::TimePoint arrived);
+    void propose(base::TimePoint start);
+    void adopt(const wire::Hello& hello);
+
+    Introduction self_;
+    std::optional<Heard> heard_;
+    ClockOffset clock_;
+    std::optional<wire::Echo> last_heard_; // `age` unused: its arrival is below
+    base::TimePoint last_heard_at_;
+    std::optional<Session> session_;
+    bool owns_start_ = false;   // this side decides the start
+    bool stayed_ = false;       // it was in session when the other side was restarted
+    bool acknowledged_ = false; // the other side knows the start
+    bool asked_ = true;         // a hello is wanted although all is settled
+    std::optional<base::TimePoint> start_heard_; // the other side's start, on its clock
+    std::optional<base::TimePoint> last_hello_;
+};
+
+} // namespace hapnet::peer

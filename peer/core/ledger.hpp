@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/space.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace hapnet::peer {
+
+/// Running sums of what this peer's hand has caused since the session began. Sent as they
+/// stand, so that a receiver that missed messages has missed nothing.
+class Ledger {
+public:
+    void add(base::Displacement moved) { displacement_ += moved; }
+    void add(base::Impulse given) { impulse_ += given; }
+
+    /// In nanometres.
+    [[nodiscard]] std::array<std::int64_t, 3> displacement_nm() const
+    {
+        return billionths(displacement_.value);
+    }
+    /// In nanonewton seconds.
+    [[nodiscard]] std::array<std::int64_t, 3> impulse_nns() const
+    {
+        return billionths(impulse_.value);
+    }
+
+private:
+    [[nodiscard]] static std::array<std::int64_t, 3> billionths(const glm::dvec3& v)
+    {
+        return {std::llround(v.x * 1e9), std::llround(v.y * 1e9), std::llround(v.z * 1e9)};
+    }
+
+    base::Displacement displacement_;
+    base::Impulse impulse_;
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/peer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapnet::peer {
+
+namespace {
+
+// No hand or cube of ours is ever farther out or faster: what claims to be is not to be believed.
+constexpr double reach_max_m = 10.0;
+constexpr double speed_max_m_per_s = 1000.0;
+
+bool is_within(const glm::dvec3& v, double most)
+{
+    return base::is_finite(v) && std::abs(v.x) <= most && std::abs(v.y) <= most &&
+           std::abs(v.z) <= most;
+}
+
+bool is_usable(const Hand& hand)
+{
+    return is_within(hand.hip.value, reach_max_m) &&
+           is_within(hand.velocity.value, speed_max_m_per_s);
+}
+
+bool is_plausible(const wire::State& state)
+{
+    const bool hand = is_usable({state.hip, state.hip_velocity});
+    const bool body = !state.body || (is_within(state.body->position.value, reach_max_m) &&
+                                      is_within(state.body->velocity.value, speed_max_m_per_s));
+    return hand && body;
+}
+
+} // namespace
+
+Peer::Peer(const Settings& settings)
+    : settings_{settings},
+      handshake_{settings.introduction},
+      remote_{settings.staleness},
+      cube_{settings.scene, settings.tick},
+      touch_{settings.scene}
+{}
+
+base::Duration Peer::hands_on() const
+{
+    return settings_.length - std::min(hands_off_length, settings_.length / 2);
+}
+
+void Peer::on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived)
+{
+    const auto message = wire::decode(datagram);
+    if (message) {
+        std::visit([&](const auto& m) { on_message(m, arrived); }, *message);
+        return;
+    }
+    const auto version = wire::version_of(datagram);
+    if (!version || *version == wire::protocol_version) {
+        ++counters_.malformed;
+        return;
+    }
+    ++counters_.other_version;
+    if (!session()) refuse(wire::ByeReason::other_version, true);
+}
+
+void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
+{
+    ++counters_.hellos;
+    const bool had_met = handshake_.has_met();
+    const bool had_session = session().has_value();
+    if (const auto reason = handshake_.on_hello(hello, arrived)) {
+        if (had_session) {
+            outbox_.put(wire::encode(wire::Bye{0, *reason})); // our session goes on without it
+        } else {
+            refuse(*reason, true);
+        }
+        return;
+    }
+    if (!had_met) events_.put(Event::met);
+    if (!session() || session()->number == session_number_) return;
+    session_number_ = session()->number;
+    sequence_ = 0;
+    remote_.forget();
+    gone_ = false;
+    lost_ = false;
+    cube_known_ = !session()->joined_late;
+    events_.put(had_session ? Event::restarted : Event::agreed);
+}
+
+void Peer::on_message(const wire::State& state, base::TimePoint arrived)
+{
+    if (!session() || state.session != session_number_ || gone_) {
+        ++counters_.other_session;
+        return;
+    }
+    if (!is_plausible(state)) {
+        ++counters_.implausible;
+        return;
+    }
+    handshake_.on_state();
+    handshake_.on_echo(state.echo, state.sent, arrived);
+    ++(remote_.update(state, arrived) ? counters_.states : counters_.outdated);
+}
+
+void Peer::on_message(const wire::Bye& bye, base::TimePoint /*arrived*/)
+{
+    ++counters_.byes;
+    const bool refuses = bye.reason >= wire::ByeReason::other_version;
+    if (refuses) {
+        if (!session()) refuse(bye.reason, false);
+        return;
+    }
+    if (!session() || bye.session != session_number_ || gone_) return;
+    gone_ = true;
+    events_.put(Event::left);
+}
+
+void Peer::refuse(wire::ByeReason reason, bool tell)
+{
+    if (refusal_) return;
+    refusal_ = reason;
+    events_.put(Event::refused);
+    leave(reason);
+    if (!tell) byes_left_ = 0;
+}
+
+void Peer::leave(wire::ByeReason reason)
+{
+    if (leaving_) return;
+    leaving_ = true;
+    leaving_because_ = reason;
+    const bool nobody_to_tell = !handshake_.has_met() && !refusal_;
+    if (nobody_to_tell) byes_left_ = 0;
+}
+
+Phase Peer::phase_at(base::TimePoint now) const
+{
+    if (leaving_) return Phase::ended;
+    if (!session()) return Phase::waiting;
+    const base::Duration since_start = now - session()->start;
+    if (since_start < base::Duration{0}) return Phase::countdown;
+    if (since_start < hands_on()) return Phase::running;
+    if (since_start < settings_.length) return Phase::hands_off;
+    return Phase::ended;
+}
+
+void Peer::note(Phase phase, double freshness)
+{
+    const bool in_session = phase == Phase::running || phase == Phase::hands_off;
+    if (phase != phase_) {
+        if (phase == Phase::running) {
+            events_.put(session()->joined_late ? Event::joined : Event::started);
+        }
+        if (phase == Phase::hands_off) events_.put(Event::hands_off);
+        if (phase == Phase::ended && !refusal_) events_.put(Event::ended);
+        phase_ = phase;
+    }
+    if (!in_session || gone_ || !remote_.arrived()) return;
+    const bool lost = freshness <= 0.0;
+    if (lost != lost_) events_.put(lost ? Event::lost : Event::back);
+    lost_ = lost;
+}
+
+Tick Peer::tick(base::TimePoint now, const Hand& hand)
+{
+    Tick tick;
+    tick.phase = phase_at(now);
+    tick.freshness = gone_ ? 0.0 : remote_.freshness(now);
+    note(tick.phase, tick.freshness);
+    if (tick.phase == Phase::ended) {
+        leave(wire::ByeReason::finished);
+        say_bye(now);
+        return tick;
+    }
+    if (const auto hello = handshake_.hello(now)) outbox_.put(wire::encode(*hello));
+    if (tick.phase == Phase::running || tick.phase == Phase::hands_off) play(tick, now, hand);
+    return tick;
+}
+
+void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
+{
+    if (!cube_known_ && remote_.body()) {
+        cube_.place(remote_.body()->position, remote_.body()->velocity);
+        cube_known_ = true;
+    }
+    const bool usable = is_usable(hand);
+    if (!usable) {
+        ++counters_.unusable_hand;
+        touch_.release();
+    }
+    if (usable && cube_known_) tick.touched = touch_.feel(hand, cube_.box(), cube_.velocity());
+
+    const Situation situation{.now = now,
+                              .local = tick.touched,
+                              .remote = remote_,
+                              .freshness = tick.freshness,
+                              .yields = !session()->is_left};
+    tick.remote_touching = remote_touching(situation);
+    tick.remote_force = remote_force(situation, settings_.scene.force_max_n);
+    const base::Position before = cube_.position();
+    if (cube_known_) {
+        std::visit([&](auto& algorithm) { algorithm.tick(cube_, situation, tick.remote_force); },
+                   settings_.algorithm);
+    }
+    account(tick.touched, cube_.position() - before, now);
+    tick.force = tick.touched.on_hand;
+    tick.permitted = usable && cube_known_ && tick.freshness > 0.0;
+    if (!gone_) say_state(tick, now, usable ? hand : Hand{});
+}
+
+void Peer::account(const Touched& touched, base::Displacement moved, base::TimePoint now)
+{
+    if (touched.touching) {
+        last_touch_ = now;
+        ledger_.add(touched.on_cube * settings_.tick);
+    }
+    // The cube still coasts from this hand's push for a while after it.
+    const bool ours = last_touch_ && now - *last_touch_ < BaseAlgorithm::settle_after;
+    if (ours) ledger_.add(moved);
+    if (touched.touching || base::norm(moved) > 1e-9) last_stir_ = now;
+}
+
+bool Peer::mentions_body(base::TimePoint now) const
+{
+    if (!cube_known_) return false;
+    const bool stirs = last_stir_ && now - *last_stir_ < body_lingers;
+    return stirs || sequence_ % body_every == 1;
+}
+
+void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
+{
+    tick.sequence = ++sequence_;
+    wire::State state;
+    state.session = session_number_;
+    state.sequence = sequence_;
+    state.sent = now;
+    state.echo = handshake_.echo(now);
+    state.touching = tick.touched.touching;
+    state.holding = tick.touched.holding;
+    state.hip = hand.hip;
+    state.hip_velocity = hand.velocity;
+    state.contact_force = tick.touched.on_cube;
+    if (mentions_body(now)) {
+        state.body = wire::BodyState{.body = 0,
+                                     .position = cube_.position(),
+                                     .velocity = cube_.velocity(),
+                                     .caused_displacement_nm = ledger_.displacement_nm(),
+                                     .caused_impulse_nns = ledger_.impulse_nns()};
+    }
+    outbox_.put(wire::encode(state));
+    ++counters_.sent;
+}
+
+void Peer::say_bye(base::TimePoint now)
+{
+    if (byes_left_ == 0 || (last_bye_ && now - *last_bye_ < bye_every)) return;
+    last_bye_ = now;
+    --byes_left_;
+    outbox_.put(wire::encode(wire::Bye{session_number_, leaving_because_}));
+}
+
+} // namespace hapnet::peer

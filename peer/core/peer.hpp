@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/algorithm.hpp"
+#include "peer/core/handshake.hpp"
+#include "peer/core/ledger.hpp"
+#include "peer/core/outbox.hpp"
+#include "peer/core/remote.hpp"
+
+#include <optional>
+#include <span>
+
+namespace hapnet::peer {
+
+struct Settings {
+    Introduction introduction;
+    Scene scene = paper_scene();
+    Algorithm algorithm;
+    Staleness staleness;
+    base::Duration tick{std::chrono::milliseconds{1}};
+    base::Duration length{std::chrono::seconds{30}}; // of the session, from its start
+};
+
+/// Where in its life a session is. The last 3 s of it (half of it, when it is shorter than 6 s)
+/// are hands off.
+enum class Phase : std::uint8_t { waiting, countdown, running, hands_off, ended };
+
+/// What a person should be told.
+enum class Event : std::uint8_t {
+    met,       // the other side answers
+    agreed,    // the start is known
+    started,   // the session has begun
+    joined,    // ... and was under way already: the cube is where the other side has it
+    lost,      // nothing heard for so long that the forces faded to zero
+    back,      // heard again
+    restarted, // the other side came back as a new run
+    left,      // the other side said goodbye
+    refused,   // the two cannot play together: see refusal()
+    hands_off,
+    ended,
+};
+
+/// What was received, and what of it could not be used.
+struct Counters {
+    std::uint64_t states = 0; // taken
+    std::uint64_t hellos = 0;
+    std::uint64_t byes = 0;
+    std::uint64_t outdated = 0; // states older than one already known, and duplicates
+    std::uint64_t other_session = 0;
+    std::uint64_t malformed = 0;
+    std::uint64_t other_version = 0;
+    std::uint64_t implausible = 0;   // finite but out of any scene's reach
+    std::uint64_t unusable_hand = 0; // ticks in which the device's word was not usable
+    std::uint64_t sent = 0;
+};
+
+/// What one tick decided.
+struct Tick {
+    Phase phase = Phase::waiting;
+    bool permitted = false; // whether the hand may feel anything at all
+    base::Force force;      // on the hand, before the governor
+    Touched touched;
+    bool remote_touching = false;
+    base::Force remote_force;
+    double freshness = 0.0;
+    std::uint32_t sequence = 0; // of the state that was sent; 0: none
+};
+
+/// One peer without device, socket or clock: its copy of the scene, its hand, what it knows of
+/// the other side, and the session between them. Call on_datagram() for what arrives, tick()
+/// once per millisecond, and then poll() and event() until they are empty.
+class Peer {
+public:
+    static constexpr base::Duration hands_off_length{std::chrono::seconds{3}};
+    static constexpr base::Duration body_lingers{std::chrono::seconds{1}};
+    static constexpr std::uint32_t body_every = 64; // messages
+    static constexpr int byes = 5;
+    static constexpr base::Duration bye_every{std::chrono::milliseconds{5}};
+
+    explicit Peer(const Settings& settings);
+
+    void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived);
+    [[nodiscard]] Tick tick(base::TimePoint now, const Hand& hand);
+
+    /// The next datagram for the other side.
+    [[nodiscard]] std::optional<wire::Datagram> poll() { return outbox_.take(); }
+    [[nodiscard]] std::optional<Event> event() { return events_.take(); }
+
+    /// Ends the session: byes follow, then finished() holds.
+    void leave(wire::ByeReason reason);
+    /// Nothing more will come of this peer.
+    [[nodiscard]] bool finished() const { return leaving_ && byes_left_ == 0; }
+
+    [[nodiscard]] const Cube& cube() const { return cube_; }
+    [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
+    [[nodiscard]] std::optional<ClockOffset::Estimate> clock() const { return handshake_.clock(); }
+    [[nodiscard]] const Counters& counters() const { return counters_; }
+    [[nodiscard]] bool is_alone() const { return gone_; }
+    [[nodiscard]] std::optional<wire::ByeReason> refusal() const { return refusal_; }
+    /// How long the hands are on, from the start.
+    [[nodiscard]] base::Duration hands_on() const;
+    [[nodiscard]] base::Duration length() const { return settings_.length; }
+
+private:
+    void on_message(const wire::Hello& hello, base::TimePoint arrived);
+    void on_message(const wire::State& state, base::TimePoint arrived);
+    void on_message(const wire::Bye& bye, base::TimePoint arrived);
+    void refuse(wire::ByeReason reason, bool tell);
+
+    [[nodiscard]] Phase phase_at(base::TimePoint now) const;
+    void note(Phase phase, double freshness);
+    void play(Tick& tick, base::TimePoint now, const Hand& hand);
+    void account(const Touched& touched, base::Displacement moved, base::TimePoint now);
+    void say_state(Tick& tick, base::TimePoint now, const Hand& hand);
+    void say_bye(base::TimePoint now);
+    [[nodiscard]] bool mentions_body(base::TimePoint now) const;
+
+    Settings settings_;
+    Handshake handshake_;
+    Remote remote_;
+    Cube cube_;
+    Touch touch_;
+    Ledger ledger_;
+    Outbox<wire::Datagram, 8> outbox_;
+    Outbox<Event, 32> events_;
+    Counters counters_;
+
+    Phase phase_ = Phase::waiting;
+    bool gone_ = false;      // the other side said goodbye
+    bool lost_ = false;      // the other side fell silent
+    bool cube_known_ = true; // false: joined late, the other side's cube not seen yet
+    std::uint32_t session_number_ = 0;
+    std::uint32_t sequence_ = 0;
+    std::optional<base::TimePoint> last_touch_; // by this hand
+    std::optional<base::TimePoint> last_stir_;  // the body was touched or moved
+    std::optional<wire::ByeReason> refusal_;
+    bool leaving_ = false;
+    wire::ByeReason leaving_because_ = wire::ByeReason::finished;
+    int byes_left_ = byes;
+    std::optional<base::TimePoint> last_bye_;
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/options.hpp"
+
+#include "proto/base/text.hpp"
+#include "proto/base/version.hpp"
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+namespace {
+
+constexpr const char* description =
+    "One of two peers that push the same virtual cube and feel each other through it: a 1 kHz\n"
+    "haptic loop with its own copy of the scene, a device, and 1000 messages a second to the\n"
+    "other peer, directly or through hapnet-emulator.";
+
+constexpr const char* footer =
+    R"(Tasks of the simulated hands (the lower --id is L and pushes from the left):
+  P1  L holds the cube and carries it along a prescribed path, R watches (the paper's Table 1)
+  T1  by turns: L pushes the cube where the path rises, R where it falls
+  T3  both squeeze the cube between them and carry it along the path at half speed
+Each ends with 3 s hands off. Both peers need the same task.
+
+Examples, with hapnet-emulator listening on ports 7001 and 7002 of this machine:
+  hapnet-peer --id 1 --remote 127.0.0.1:7001 --task T3 --duration 20s --record a.rec
+  hapnet-peer --id 2 --remote 127.0.0.1:7002 --task T3 --duration 20s --record b.rec
+
+Prints one line "ready ..." on stdout when its loop runs, and what happens on stderr.
+SIGINT or SIGTERM ends it with zero force and says goodbye to the other peer.
+Exit codes: 0 done, 1 the run failed, 2 bad usage, 3 the system refused (port in use, no route).)";
+
+struct Texts {
+    std::string id = "1";
+    std::string listen = "127.0.0.1:0";
+    std::string remote;
+    std::string device = "sim";
+    std::string scene = "paper";
+    std::string task = "P1";
+    std::string algorithm = "base";
+    std::string seed = "1";
+    std::string duration = "30s";
+    std::optional<std::string> key;
+    bool insecure = false;
+    std::optional<std::string> record;
+    std::optional<std::string> stats;
+};
+
+void add_options(CLI::App& app, Texts& texts)
+{
+    const auto add = [&app](const char* name, auto& text, const char* help, const char* type) {
+        return app.add_option(name, text, help)->type_name(type);
+    };
+    add("--id", texts.id, "This peer's number; the lower is L (default 1)", "1..65535");
+    add("--listen", texts.listen, "Where to receive (default 127.0.0.1:0, any free port)",
+        "HOST:PORT");
+    add("--remote", texts.remote, "The other peer, or the emulator's side for this one",
+        "HOST:PORT")
+        ->required();
+    add("--device", texts.device, "sim: a simulated Omni in a simulated hand (default)", "sim");
+    add("--scene", texts.scene, "paper: one movable and one static cube (default)", "paper");
+    add("--task", texts.task, "What the simulated hands do (default P1)", "P1|T1|T3");
+    add("--algorithm", texts.algorithm, "How the two cubes are kept together (default base)",
+        "base");
+    add("--seed", texts.seed, "Of all chance in the hands; the lower id's counts (default 1)",
+        "NUMBER");
+    add("--duration", texts.duration, "Length of the session from its common start (default 30s)",
+        "TIME");
+    add("--key", texts.key, "Not available yet: authenticated sessions are still to come", "FILE");
+    app.add_flag("--insecure", texts.insecure, "Allow a session without a key over a real network");
+    add("--record", texts.record, "Write every tick and message to FILE (see hapnet-lab)", "FILE");
+    add("--stats", texts.stats, "Write statistics to FILE at the end; - is stdout", "FILE");
+}
+
+/// Takes parsed texts; the first error stays and names its option.
+class Taker {
+public:
+    template <typename Target, typename T>
+    void take(Target& target, const char* option, base::Result<T> value)
+    {
+        if (value) {
+            target = Target(*std::move(value));
+        } else if (!error_) {
+            error_ = fmt::format("{}: {}", option, value.error().message);
+        }
+    }
+    void require(bool condition, std::string message)
+    {
+        if (!condition && !error_) error_ = std::move(message);
+    }
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
+private:
+    std::optional<std::string> error_;
+};
+
+base::Result<std::variant<Options, Answer>> options_from(const Texts& texts)
+{
+    Options options;
+    Taker taker;
+    taker.take(options.id, "--id", base::parse_count(texts.id, 65535));
+    taker.require(options.id != 0, "--id: 0 is not a number of a peer; use 1 to 65535");
+    taker.take(options.listen, "--listen", net::parse_host_port(texts.listen));
+    taker.take(options.remote, "--remote", net::parse_host_port(texts.remote));
+    taker.require(options.remote.port != 0, "--remote: needs a port");
+    taker.take(options.task, "--task", device::task_named(texts.task));
+    taker.take(options.algorithm, "--algorithm", algorithm_named(texts.algorithm));
+    taker.take(options.seed, "--seed",
+               base::parse_count(texts.seed, std::numeric_limits<std::uint64_t>::max()));
+    taker.take(options.duration, "--duration", base::parse_duration(texts.duration));
+    taker.require(options.duration >= std::chrono::seconds{1}, "--duration: at least 1s");
+    taker.require(texts.device == "sim",
+                  fmt::format("--device: '{}' is not available; this version has only sim, the "
+                              "simulated Omni",
+                              texts.device));
+    taker.require(
+        texts.scene == "paper",
+        fmt::format("--scene: '{}' is not known; this version has only paper", texts.scene));
+    taker.require(!texts.key, "--key: authenticated sessions are not available yet; use --insecure "
+                              "on a network you trust");
+    if (taker.error()) return base::fail(*taker.error());
+    options.algorithm_name = texts.algorithm;
+    options.insecure = texts.insecure;
+    options.record = texts.record;
+    options.stats = texts.stats;
+    return options;
+}
+
+} // namespace
+
+base::Result<std::variant<Options, Answer>> parse_options(std::span<char*> words)
+{
+    CLI::App app{description, "hapnet-peer"};
+    Texts texts;
+    add_options(app, texts);
+    app.footer(footer);
+    app.set_version_flag("--version", base::version_line("hapnet-peer"));
+    try {
+        app.parse(static_cast<int>(words.size()), words.data());
+    } catch (const CLI::CallForHelp&) {
+        return Answer{app.help()};
+    } catch (const CLI::CallForVersion&) {
+        return Answer{base::version_line("hapnet-peer") + "\n"};
+    } catch (const CLI::ParseError& error) {
+        return base::fail(fmt::format("{}; see hapnet-peer --help", error.what()));
+    }
+    return options_from(texts);
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/simulated/task.hpp"
+#include "peer/core/algorithm.hpp"
+#include "proto/base/random.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+#include "proto/net/endpoint.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+
+namespace hapnet::peer {
+
+/// What the command line asks for. Names are not looked up yet.
+struct Options {
+    std::uint16_t id = 1;
+    net::HostPort listen{"127.0.0.1", 0};
+    net::HostPort remote;
+    std::string device = "sim";
+    std::string scene = "paper";
+    device::Task task = device::Task::p1;
+    std::string algorithm_name = "base";
+    Algorithm algorithm;
+    base::Seed seed{1};
+    base::Duration duration{std::chrono::seconds{30}};
+    bool insecure = false;
+    std::optional<std::string> record;
+    std::optional<std::string> stats; // a file, or "-" for stdout
+};
+
+/// A text to print on stdout instead of running.
+struct Answer {
+    std::string text;
+};
+
+/// Reads the command line; the error names the option, what is wrong with it, and what would be
+/// right.
+[[nodiscard]] base::Result<std::variant<Options, Answer>> parse_options(std::span<char*> words);
+
+} // namespace hapnet::peer

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/report.hpp"
+
+#include "proto/base/text.hpp"
+#include "proto/base/version.hpp"
+#include "proto/net/clock.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+namespace {
+
+using nlohmann::json;
+
+// A run is valid when 99 % of its ticks are at most this late and at most this share is missed.
+constexpr base::Duration late_budget{std::chrono::milliseconds{1}};
+constexpr double missed_share_budget = 0.005;
+
+json microseconds(std::optional<base::Duration> duration)
+{
+    if (!duration) return nullptr;
+    return base::to_seconds(*duration) * 1e6;
+}
+
+double missed_share(const LoopCounters& loop)
+{
+    const auto all = static_cast<double>(loop.ticks + loop.missed);
+    return all > 0.0 ? static_cast<double>(loop.missed) / all : 0.0;
+}
+
+json tick_json(const LoopCounters& loop)
+{
+    return {{"count", loop.ticks},
+            {"missed", loop.missed},
+            {"missed_share", missed_share(loop)},
+            {"late_us",
+             {{"p50", microseconds(loop.late.quantile(0.5))},
+              {"p90", microseconds(loop.late.quantile(0.9))},
+              {"p99", microseconds(loop.late.quantile(0.99))},
+              {"p999", microseconds(loop.late.quantile(0.999))},
+              {"max", microseconds(loop.late.max())}}}};
+}
+
+json messages_json(const Run& run)
+{
+    const Counters& c = run.peer.counters();
+    return {{"states_sent", c.sent},
+            {"states_received", c.states},
+            {"outdated", c.outdated},
+            {"other_session", c.other_session},
+            {"hellos", c.hellos},
+            {"byes", c.byes},
+            {"malformed", c.malformed},
+            {"other_version", c.other_version},
+            {"implausible", c.implausible},
+            {"strangers", run.servo.counters().strangers},
+            {"overflowed", run.socket.overflowed()},
+            {"send_failed", run.servo.counters().send_failures}};
+}
+
+json session_json(const Run& run)
+{
+    const auto& session = run.peer.session();
+    if (!session) return nullptr;
+    const auto clock = run.peer.clock();
+    json out{{"number", session->number},
+             {"seed", session->seed},
+             {"role", session->is_left ? "L" : "R"},
+             {"joined_late", session->joined_late},
+             {"clock_offset_ms", nullptr},
+             {"clock_uncertainty_ms", nullptr}};
+    if (clock) {
+        out["clock_offset_ms"] = base::to_seconds(clock->offset) * 1e3;
+        out["clock_uncertainty_ms"] = base::to_seconds(clock->uncertainty) * 1e3;
+    }
+    return out;
+}
+
+bool is_valid(const LoopCounters& loop)
+{
+    const auto p99 = loop.late.quantile(0.99);
+    return p99 && *p99 <= late_budget && missed_share(loop) <= missed_share_budget;
+}
+
+} // namespace
+
+json configuration_json(const Options& options, std::string_view device)
+{
+    return {{"program", "hapnet-peer"},
+            {"version", base::version()},
+            {"commit", base::commit()},
+            {"compiler", base::compiler()},
+            {"peer_id", options.id},
+            {"task", device::name_of(options.task)},
+            {"scene", options.scene},
+            {"algorithm", options.algorithm_name},
+            {"seed", options.seed.value()},
+            {"device", device},
+            {"duration_s", base::to_seconds(options.duration)},
+            {"tick_ns", 1'000'000},
+            {"boot_id", net::boot_id()},
+            {"started_unix_s", net::wall_clock_seconds()}};
+}
+
+std::string statistics_json(const Run& run)
+{
+    const device::GovernorCounters& governor = run.servo.governor();
+    json out = configuration_json(run.options, run.device);
+    out.erase("started_unix_s");
+    out["session"] = session_json(run);
+    out["tick"] = tick_json(run.servo.counters());
+    out["messages"] = messages_json(run);
+    out["governor"] = {{"not_finite", governor.not_finite},
+                       {"clamped", governor.clamped},
+                       {"slewed", governor.slewed},
+                       {"faded", governor.faded},
+                       {"unusable_samples", run.peer.counters().unusable_hand}};
+    out["record_rows_lost"] = run.journal.lost();
+    out["real_time"] = {{"fifo", run.servo.real_time().fifo},
+                        {"locked_memory", run.servo.real_time().locked_memory}};
+    out["refusal"] = nullptr;
+    if (const auto reason = run.peer.refusal()) out["refusal"] = words_for(*reason);
+    out["valid"] = is_valid(run.servo.counters());
+    return out.dump(2) + "\n";
+}
+
+std::string summary(const Run& run)
+{
+    const LoopCounters& loop = run.servo.counters();
+    const Counters& c = run.peer.counters();
+    const auto p99 = loop.late.quantile(0.99);
+    std::string text =
+        fmt::format("hapnet-peer {}: {} ticks, {} missed", run.options.id, loop.ticks, loop.missed);
+    if (p99) text += fmt::format(", 99 % at most {:.0f} us late", base::to_seconds(*p99) * 1e6);
+    text += fmt::format("; {} states sent, {} received{}\n", c.sent, c.states,
+                        is_valid(loop) ? "" : "; NOT VALID as a measurement: the loop was late");
+    if (const auto lost = run.journal.lost(); lost > 0) {
+        text +=
+            fmt::format("hapnet-peer {}: {} rows of the record were lost\n", run.options.id, lost);
+    }
+    return text;
+}
+
+std::string_view words_for(wire::ByeReason reason)
+{
+    switch (reason) {
+    case wire::ByeReason::finished: return "finished";
+    case wire::ByeReason::interrupted: return "interrupted";
+    case wire::ByeReason::other_version:
+        return "it speaks another version of the protocol: use the same version of hapnet on both "
+               "sides";
+    case wire::ByeReason::other_scene: return "it has another scene: give both the same --scene";
+    case wire::ByeReason::other_task: return "it has another task: give both the same --task";
+    case wire::ByeReason::other_tick_rate: return "it has another tick rate";
+    case wire::ByeReason::same_id: return "it has the same id: give the two different --id";
+    }
+    return "";
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/governor.hpp"
+#include "peer/core/peer.hpp"
+#include "peer/journal.hpp"
+#include "proto/base/histogram.hpp"
+#include "proto/net/real_time.hpp"
+#include "proto/net/udp_socket.hpp"
+
+#include <atomic>
+
+namespace hapnet::peer {
+
+/// How punctual the loop was.
+struct LoopCounters {
+    std::uint64_t ticks = 0;
+    std::uint64_t missed = 0; // ticks skipped because the one before ended too late
+    base::DurationHistogram late;
+    std::uint64_t strangers = 0;     // datagrams from elsewhere than the remote
+    std::uint64_t send_failures = 0; // the remote's host may be down: not an end
+};
+
+/// The 1 kHz loop: device, scene, governor, device, network, in this order and on one thread.
+/// Wakes by absolute time; a tick that comes later than a whole period skips the ones it has
+/// missed and counts them. After run() the device has been told zero force three times, whatever
+/// ended it.
+class Servo {
+public:
+    /// All that a servo works with; outlives it.
+    struct Parts {
+        Peer& peer;
+        device::Device& device;
+        net::UdpSocket& socket;
+        net::Endpoint remote;
+        Journal& journal;
+        std::uint16_t id = 1;
+        base::Duration tick{std::chrono::milliseconds{1}};
+    };
+
+    explicit Servo(const Parts& parts);
+
+    /// Runs until the session has ended, or until the goodbye after stop() is said.
+    void run();
+
+    /// From another thread: leave the session and end.
+    void stop() { stop_.store(true, std::memory_order_relaxed); }
+    /// From another thread: whether the loop has run its first tick.
+    [[nodiscard]] bool is_running() const { return running_.load(std::memory_order_acquire); }
+    /// From another thread: whether run() has returned.
+    [[nodiscard]] bool is_done() const { return done_.load(std::memory_order_acquire); }
+
+    /// After run().
+    [[nodiscard]] const LoopCounters& counters() const { return counters_; }
+    [[nodiscard]] const device::GovernorCounters& governor() const { return governor_.counters(); }
+    [[nodiscard]] net::RealTime real_time() const { return real_time_; }
+
+private:
+    void loop();
+    void turn(record::TickRow& row, base::TimePoint now);
+    void receive(std::uint64_t tick);
+    void send();
+    void note_session(base::TimePoint now);
+
+    Parts parts_;
+    device::Governor governor_;
+    LoopCounters counters_;
+    net::RealTime real_time_;
+    std::optional<record::SessionRow> noted_;
+    std::optional<base::TimePoint> noted_at_;
+    std::atomic<bool> stop_{false};
+    std::atomic<bool> running_{false};
+    std::atomic<bool> done_{false};
+};
+
+} // namespace hapnet::peer

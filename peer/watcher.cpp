@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/watcher.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+#include <utility>
+
+namespace hapnet::peer {
+
+namespace {
+
+constexpr base::Duration on_terminal_every{std::chrono::milliseconds{200}};
+constexpr base::Duration elsewhere_every{std::chrono::seconds{5}};
+
+std::string line_of(const Glance& glance, const Glance& before, base::Duration between)
+{
+    const record::TickRow& tick = *glance.tick;
+    if (!glance.session) {
+        return "waiting for the other peer; is it running, and is the emulator between the two?";
+    }
+    const double at = base::to_seconds(tick.due - glance.session->start);
+    const double rate =
+        static_cast<double>(glance.messages - before.messages) / base::to_seconds(between);
+    return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube {:+6.1f} mm  force {:4.2f} N  "
+                       "received {:4.0f}/s  round trip {:5.1f} ms  missed ticks {}",
+                       at, base::to_seconds(glance.session->length), record::name_of(tick.phase),
+                       tick.cube.x() * 1e3, base::norm(tick.device), rate,
+                       base::to_seconds(glance.session->offset_uncertainty) * 2e3, glance.missed);
+}
+
+} // namespace
+
+std::string_view words_for(Event event)
+{
+    switch (event) {
+    case Event::met: return "the other peer answers";
+    case Event::agreed: return "session agreed; it starts within a second";
+    case Event::started: return "session started";
+    case Event::joined: return "joined the session under way; the cube is where the other has it";
+    case Event::lost:
+        return "the other peer has been silent for 300 ms: force faded to zero; waiting for it "
+               "(is it running, and is the emulator between the two?)";
+    case Event::back: return "the other peer is heard again: force ramps in";
+    case Event::restarted: return "the other peer was restarted: it joins the session";
+    case Event::left: return "the other peer said goodbye: going on alone, with zero force";
+    case Event::refused: return "the other peer cannot play with this one";
+    case Event::hands_off: return "hands off";
+    case Event::ended: return "session ended";
+    }
+    return "";
+}
+
+Watcher::Watcher(Journal& journal, std::optional<record::Writer> writer, std::uint16_t peer_id)
+    : journal_{journal},
+      writer_{std::move(writer)},
+      peer_id_{peer_id},
+      is_terminal_{isatty(STDERR_FILENO) != 0}
+{}
+
+void Watcher::drain()
+{
+    while (const auto entry = journal_.take()) {
+        if (const auto* row = std::get_if<record::Row>(&*entry)) {
+            take(*row);
+        } else {
+            tell(std::get<Happening>(*entry));
+        }
+    }
+}
+
+void Watcher::take(const record::Row& row)
+{
+    if (writer_) writer_->write(row);
+    if (const auto* tick = std::get_if<record::TickRow>(&row)) {
+        glance_.tick = *tick;
+        ++glance_.ticks;
+        glance_.missed += tick->missed_before;
+    } else if (const auto* session = std::get_if<record::SessionRow>(&row)) {
+        glance_.session = *session;
+    } else {
+        ++glance_.messages;
+    }
+}
+
+void Watcher::tell(const Happening& happening)
+{
+    const bool in_session = glance_.session && happening.at >= glance_.session->start;
+    if (in_session) {
+        say(fmt::format("{:.1f} s: {}", base::to_seconds(happening.at - glance_.session->start),
+                        words_for(happening.event)));
+    } else {
+        say(words_for(happening.event));
+    }
+}
+
+void Watcher::say(std::string_view text)
+{
+    if (line_open_) fmt::print(stderr, "\r\x1b[K");
+    line_open_ = false;
+    fmt::print(stderr, "hapnet-peer {}: {}\n", peer_id_, text);
+}
+
+void Watcher::show(base::TimePoint now)
+{
+    if (!glance_.tick) return;
+    if (next_show_ && !base::is_due(next_show_, now)) return;
+    const base::Duration every = is_terminal_ ? on_terminal_every : elsewhere_every;
+    if (next_show_ || is_terminal_) {
+        const std::string line = line_of(glance_, shown_, every);
+        if (is_terminal_) {
+            fmt::print(stderr, "\r\x1b[Khapnet-peer {}: {}", peer_id_, line);
+            line_open_ = true;
+        } else {
+            say(line);
+        }
+    }
+    shown_ = glance_;
+    next_show_ = now + every;
+}
+
+void Watcher::finish()
+{
+    drain();
+    if (writer_) writer_->flush();
+    if (line_open_) fmt::print(stderr, "\n");
+    line_open_ = false;
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/net/result_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <spdlog/fmt/fmt.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace hapnet::net {
+
+namespace {
+
+[[noreturn]] void refuse(int error, const std::string& path)
+{
+    throw std::system_error{error, std::generic_category(), fmt::format("cannot write {}", path)};
+}
+
+} // namespace
+
+ResultFile::ResultFile(std::string path)
+    : path_{std::move(path)}, temporary_{fmt::format("{}.{}.partial", path_, getpid())}
+{
+    struct stat found {};
+    if (stat(path_.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) refuse(EISDIR, path_);
+    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (descriptor_ < 0) refuse(errno, path_);
+}
+
+ResultFile::~ResultFile()
+{
+    if (descriptor_ < 0) return;
+    close(descriptor_);
+    unlink(temporary_.c_str());
+}
+
+void ResultFile::commit(std::string_view text)
+{
+    while (!text.empty()) {
+        const auto count = write(descriptor_, text.data(), text.size());
+        if (count < 0 && errno != EINTR) refuse(errno, path_);
+        if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+    }
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) refuse(errno, path_);
+    close(std::exchange(descriptor_, -1));
+}
+
+} // namespace hapnet::net

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace hapnet::net {
+
+/// A file that appears whole or not at all: it is written beside its place under a temporary
+/// name, which is taken at construction, so that a place that cannot be written is found before
+/// the run and not after it.
+class ResultFile {
+public:
+    /// Throws std::system_error naming the file.
+    explicit ResultFile(std::string path);
+    /// Removes what was not committed.
+    ~ResultFile();
+    ResultFile(const ResultFile&) = delete;
+    ResultFile& operator=(const ResultFile&) = delete;
+
+    /// Writes the text and moves the file to its place. Throws std::system_error.
+    void commit(std::string_view text);
+
+private:
+    std::string path_;
+    std::string temporary_;
+    int descriptor_ = -1;
+};
+
+} // namespace hapnet::net

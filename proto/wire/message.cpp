@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/wire/message.hpp"
+
+#include "proto/base/bytes.hpp"
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace hapnet::wire {
+
+namespace {
+
+using base::ByteReader;
+using base::ByteWriter;
+using base::fail;
+using base::Result;
+
+constexpr std::uint16_t magic = 0x4e48; // "HN"
+enum Type : std::uint8_t { type_hello = 1, type_state = 2, type_bye = 3 };
+
+constexpr std::uint8_t flag_echo = 1U << 0;
+// hello
+constexpr std::uint8_t flag_start = 1U << 1;
+constexpr std::uint8_t flag_start_heard = 1U << 2;
+constexpr std::uint8_t flag_in_session = 1U << 3;
+// state
+constexpr std::uint8_t flag_touching = 1U << 1;
+constexpr std::uint8_t flag_holding = 1U << 2;
+constexpr std::uint8_t flag_body = 1U << 3;
+constexpr std::uint8_t flags_known = 0x0f;
+
+constexpr auto echo_age_max = base::Duration{std::numeric_limits<std::uint32_t>::max()};
+
+std::uint8_t flag_if(bool condition, std::uint8_t flag) { return condition ? flag : 0; }
+
+void put_header(ByteWriter& out, Type type, std::uint32_t session)
+{
+    out.u16(magic);
+    out.u8(protocol_version);
+    out.u8(type);
+    out.u32(session);
+}
+
+void put_time(ByteWriter& out, base::TimePoint time) { out.i64(time.time_since_epoch().count()); }
+
+base::TimePoint take_time(ByteReader& in) { return base::TimePoint{base::Duration{in.i64()}}; }
+
+void put_vector(ByteWriter& out, const glm::dvec3& v)
+{
+    constexpr double most = std::numeric_limits<float>::max();
+    for (const double component : {v.x, v.y, v.z}) {
+        base::ensure(component >= -most && component <= most);
+        out.f32(static_cast<float>(component));
+    }
+}
+
+glm::dvec3 take_vector(ByteReader& in)
+{
+    const double x = in.f32();
+    const double y = in.f32();
+    const double z = in.f32();
+    return {x, y, z};
+}
+
+/// Optional fields always take their room; absent ones are all zero.
+void put_echo(ByteWriter& out, const std::optional<Echo>& echo)
+{
+    base::ensure(!echo || (echo->age >= base::Duration{0} && echo->age <= echo_age_max));
+    put_time(out, echo ? echo->of : base::TimePoint{});
+    out.u32(echo ? static_cast<std::uint32_t>(echo->age.count()) : 0);
+}
+
+/// nullopt when absent; canonical is cleared when an absent field is not all zero.
+std::optional<Echo> take_echo(ByteReader& in, bool present, bool& canonical)
+{
+    const Echo echo{take_time(in), base::Duration{in.u32()}};
+    if (present) return echo;
+    canonical = canonical && echo == Echo{};
+    return std::nullopt;
+}
+
+std::optional<base::TimePoint> take_optional_time(ByteReader& in, bool present, bool& canonical)
+{
+    const base::TimePoint time = take_time(in);
+    if (present) return time;
+    canonical = canonical && time == base::TimePoint{};
+    return std::nullopt;
+}
+
+void put(ByteWriter& out, const Hello& hello)
+{
+    base::ensure(hello.nonce != 0);
+    put_header(out, type_hello, 0);
+    const int flags = flag_if(hello.echo.has_value(), flag_echo) |
+                      flag_if(hello.start.has_value(), flag_start) |
+                      flag_if(hello.start_heard.has_value(), flag_start_heard) |
+                      flag_if(hello.in_session, flag_in_session);
+    out.u8(static_cast<std::uint8_t>(flags));
+    out.u32(hello.nonce);
+    out.u32(hello.nonce_heard);
+    out.u16(hello.peer_id);
+    out.u16(hello.tick_rate_hz);
+    out.u64(hello.scene_hash);
+    out.u64(hello.seed);
+    put_time(out, hello.sent);
+    put_echo(out, hello.echo);
+    put_time(out, hello.start.value_or(base::TimePoint{}));
+    put_time(out, hello.start_heard.value_or(base::TimePoint{}));
+    const auto task = hello.task.text();
+    base::ensure(!task.empty());
+    out.raw(std::as_bytes(std::span{task}));
+    for (auto i = task.size(); i < TaskName::bytes_max; ++i) out.u8(0);
+}
+
+Result<Message> take_hello(ByteReader& in)
+{
+    bool canonical = in.u32() == 0; // no session yet
+    const std::uint8_t flags = in.u8();
+    Hello hello;
+    hello.nonce = in.u32();
+    hello.nonce_heard = in.u32();
+    hello.peer_id = in.u16();
+    hello.tick_rate_hz = in.u16();
+    hello.scene_hash = in.u64();
+    hello.seed = in.u64();
+    hello.sent = take_time(in);
+    hello.echo = take_echo(in, (flags & flag_echo) != 0, canonical);
+    hello.start = take_optional_time(in, (flags & flag_start) != 0, canonical);
+    hello.start_heard = take_optional_time(in, (flags & flag_start_heard) != 0, canonical);
+    hello.in_session = (flags & flag_in_session) != 0;
+    const auto name = in.raw(TaskName::bytes_max);
+    if (!in.complete()) return fail("hello: wrong length");
+    const auto end = std::find(name.begin(), name.end(), std::byte{0});
+    canonical =
+        canonical && std::all_of(end, name.end(), [](std::byte b) { return b == std::byte{0}; });
+    std::string text;
+    std::transform(name.begin(), end, std::back_inserter(text),
+                   [](std::byte b) { return static_cast<char>(b); });
+    const auto task = TaskName::from_text(text);
+    if (!task || hello.nonce == 0 || (flags & ~flags_known) != 0 || !canonical) {
+        return fail("hello: not canonical");
+    }
+    hello.task = *task;
+    return hello;
+}
+
+void put(ByteWriter& out, const BodyState& body)
+{
+    out.u16(body.body);
+    put_vector(out, body.position.value);
+    put_vector(out, body.velocity.value);
+    for (const auto component : body.caused_displacement_nm) out.i64(component);
+    for (const auto component : body.caused_impulse_nns) out.i64(component);
+}
+
+BodyState take_body(ByteReader& in)
+{
+    BodyState body;
+    body.body = in.u16();
+    body.position = {take_vector(in)};
+    body.velocity = {take_vector(in)};
+    for (auto& component : body.caused_displacement_nm) component = in.i64();
+    for (auto& component : body.caused_impulse_nns) component = in.i64();
+    return body;
+}
+
+void put(ByteWriter& out, const State& state)
+{
+    base::ensure(state.sequence != 0);
+    base::ensure(state.touching || !state.holding);
+    put_header(out, type_state, state.session);
+    out.u32(state.sequence);
+    put_time(out, state.sent);
+    const int flags =
+        flag_if(state.echo.has_value(), flag_echo) | flag_if(state.touching, flag_touching) |
+        flag_if(state.holding, flag_holding) | flag_if(state.body.has_value(), flag_body);
+    out.u8(static_cast<std::uint8_t>(flags));
+    out.u8(0); // reserved
+    put_echo(out, state.echo);
+    put_vector(out, state.hip.value);
+    put_vector(out, state.hip_velocity.value);
+    put_vector(out, state.contact_force.value);
+    if (state.body) put(out, *state.body);
+}
+
+bool is_finite(const State& state)
+{
+    const bool body_is = !state.body || (base::is_finite(state.body->position) &&
+                                         base::is_finite(state.body->velocity));
+    return base::is_finite(state.hip) && base::is_finite(state.hip_velocity) &&
+           base::is_finite(state.contact_force) && body_is;
+}
+
+Result<Message> take_state(ByteReader& in)
+{
+    bool canonical = true;
+    State state;
+    state.session = in.u32();
+    state.sequence = in.u32();
+    state.sent = take_time(in);
+    const std::uint8_t flags = in.u8();
+    const std::uint8_t reserved = in.u8();
+    state.echo = take_echo(in, (flags & flag_echo) != 0, canonical);
+    state.touching = (flags & flag_touching) != 0;
+    state.holding = (flags & flag_holding) != 0;
+    state.hip = {take_vector(in)};
+    state.hip_velocity = {take_vector(in)};
+    state.contact_force = {take_vector(in)};
+    if ((flags & flag_body) != 0) state.body = take_body(in);
+    if (!in.complete()) return fail("state: wrong length");
+    if (!is_finite(state)) return fail("state: not finite");
+    if (state.sequence == 0 || reserved != 0 || (flags & ~flags_known) != 0 || !canonical ||
+        (state.holding && !state.touching)) {
+        return fail("state: not canonical");
+    }
+    return state;
+}
+
+void put(ByteWriter& out, const Bye& bye)
+{
+    put_header(out, type_bye, bye.session);
+    out.u8(static_cast<std::uint8_t>(bye.reason));
+}
+
+Result<Message> take_bye(ByteReader& in)
+{
+    const std::uint32_t session = in.u32();
+    const std::uint8_t reason = in.u8();
+    if (!in.complete()) return fail("bye: wrong length");
+    if (reason >= bye_reasons) return fail("bye: unknown reason");
+    return Bye{session, static_cast<ByeReason>(reason)};
+}
+
+} // namespace
+
+std::optional<TaskName> TaskName::from_text(std::string_view text)
+{
+    const auto is_printable = [](char c) { return c > ' ' && c <= '~'; };
+    if (text.empty() || text.size() > bytes_max) return std::nullopt;
+    if (!std::all_of(text.begin(), text.end(), is_printable)) return std::nullopt;
+    TaskName name;
+    std::copy(text.begin(), text.end(), name.characters_.begin());
+    return name;
+}
+
+std::string_view TaskName::text() const
+{
+    const auto end = std::find(characters_.begin(), characters_.end(), '\0');
+    return {characters_.data(), static_cast<std::size_t>(end - characters_.begin())};
+}
+
+Datagram encode(const Message& message)
+{
+    Datagram datagram;
+    ByteWriter out{datagram.bytes_};
+    std::visit([&out](const auto& m) { put(out, m); }, message);
+    datagram.size_ = out.written().size();
+    return datagram;
+}
+
+Result<Message> decode(std::span<const std::byte> datagram)
+{
+    ByteReader in{datagram};
+    if (in.u16() != magic || !in.ok()) return fail("not one of ours");
+    if (in.u8() != protocol_version) return fail("another protocol version");
+    switch (in.u8()) {
+    case type_hello: return take_hello(in);
+    case type_state: return take_state(in);
+    case type_bye: return take_bye(in);
+    default: return fail("unknown type");
+    }
+}
+
+std::optional<std::uint8_t> version_of(std::span<const std::byte> datagram)
+{
+    ByteReader in{datagram};
+    const bool ours = in.u16() == magic;
+    const std::uint8_t version = in.u8();
+    if (!ours || !in.ok()) return std::nullopt;
+    return version;
+}
+
+} // namespace hapnet::wire
