@@ -4,6 +4,8 @@
 
 namespace hapnet::base {
 
+inline constexpr double two_pi = 6.283185307179586476925;
+
 // sin, cos and exp from + - * / alone, so that a stepped loop gives the same bits with every
 // compiler and C library. Within 2 units in the last place of the true value over the stated
 // range; polynomials and reduction after fdlibm (Sun Microsystems, 1993).

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "proto/base/text.hpp"
 
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -26,37 +29,44 @@ constexpr std::array<Unit, 5> units{{
 }};
 
 struct Quantity {
-    double number;
+    std::string_view digits;
     std::string_view unit;
 };
 
-/// "160ms" into 160 and "ms". Plain decimals: no sign, no exponent, no inf or nan.
-std::optional<Quantity> split(std::string_view text)
+/// "160ms" into "160" and "ms".
+Quantity split(std::string_view text)
 {
-    const auto end = text.find_first_not_of("0123456789.");
-    const std::string_view digits = text.substr(0, end);
-    Quantity quantity{0.0, end == std::string_view::npos ? std::string_view{} : text.substr(end)};
-    const auto [rest, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), quantity.number);
-    if (error != std::errc{} || rest != digits.data() + digits.size()) return std::nullopt;
-    return quantity;
+    const auto end = std::min(text.find_first_not_of("0123456789."), text.size());
+    return {text.substr(0, end), text.substr(end)};
+}
+
+/// The double nearest to `digits` times 10^exponent. Plain decimals: no sign, no exponent of
+/// their own, no inf or nan.
+std::optional<double> number(std::string_view digits, int exponent = 0)
+{
+    const auto text = fmt::format("{}e{}", digits, exponent);
+    double value = 0.0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || rest != text.data() + text.size()) return std::nullopt;
+    return value;
 }
 
 } // namespace
 
 Result<Duration> parse_duration(std::string_view text)
 {
-    const auto quantity = split(text);
+    const auto [digits, unit_name] = split(text);
+    const auto count = number(digits);
     const auto expected = [&] {
         return fail(fmt::format(
             "'{}' is not a duration: write a number and its unit, such as 160ms, 15us or 1.5s",
             text));
     };
-    if (!quantity) return expected();
-    if (quantity->unit.empty() && quantity->number == 0.0) return Duration{0};
+    if (!count) return expected();
+    if (unit_name.empty() && *count == 0.0) return Duration{0};
     for (const Unit& unit : units) {
-        if (unit.name != quantity->unit) continue;
-        const double nanoseconds = quantity->number * unit.nanoseconds;
+        if (unit.name != unit_name) continue;
+        const double nanoseconds = *count * unit.nanoseconds;
         if (nanoseconds > 1e15) return fail(fmt::format("'{}' is longer than 10^6 s", text));
         return Duration{std::llround(nanoseconds)};
     }
@@ -75,11 +85,11 @@ std::string to_text(Duration duration)
 
 Result<Probability> parse_probability(std::string_view text)
 {
-    const auto quantity = split(text);
-    if (quantity && (quantity->unit == "%" || (quantity->unit.empty() && quantity->number == 0))) {
-        if (const auto probability = Probability::from_fraction(quantity->number / 100.0)) {
-            return *probability;
-        }
+    const auto [digits, unit] = split(text);
+    // Shifted as a decimal, not divided: every fraction can be written, and rounds once.
+    const auto fraction = number(digits, -2);
+    if (fraction && (unit == "%" || (unit.empty() && *fraction == 0.0))) {
+        if (const auto probability = Probability::from_fraction(*fraction)) return *probability;
         return fail(fmt::format("'{}' is more than 100%", text));
     }
     return fail(fmt::format("'{}' is not a share: write a number from 0% to 100%", text));
@@ -87,14 +97,17 @@ Result<Probability> parse_probability(std::string_view text)
 
 std::string to_text(Probability probability)
 {
-    // Percent with the fewest digits that give the same fraction again.
-    for (int digits = 1; digits < 17; ++digits) {
-        auto text = fmt::format("{:.{}g}%", probability.percent(), digits);
-        if (text.find('e') != std::string::npos) continue;
+    // Percent with the fewest decimals that read as the same fraction again. A long double holds
+    // the product closely enough for any of them.
+    const long double percent = 100.0L * static_cast<long double>(probability.fraction());
+    constexpr int decimals_max = 400; // more than the smallest double needs
+    for (int decimals = 0; decimals < decimals_max; ++decimals) {
+        auto text = fmt::format("{:.{}f}%", percent, decimals);
         const auto again = parse_probability(text);
         if (again && *again == probability) return text;
     }
-    return fmt::format("{:.17f}%", probability.percent());
+    ensure(false);
+    return {};
 }
 
 Result<std::uint64_t> parse_count(std::string_view text, std::uint64_t most)

@@ -5,6 +5,7 @@
 #include "proto/base/ensure.hpp"
 #include "proto/net/clock.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -19,18 +20,29 @@ namespace hapnet::net {
 
 namespace {
 
-/// CLOCK_MONOTONIC minus CLOCK_REALTIME, read as close together as userspace can.
-base::Duration monotonic_minus_real()
-{
-    timespec real{};
-    base::ensure(clock_gettime(CLOCK_REALTIME, &real) == 0);
-    const auto mono = monotonic_now().time_since_epoch();
-    return mono - (std::chrono::seconds{real.tv_sec} + std::chrono::nanoseconds{real.tv_nsec});
-}
-
 base::Duration to_duration(const timespec& time)
 {
     return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
+}
+
+/// CLOCK_MONOTONIC minus CLOCK_REALTIME. Being interrupted between the readings would shift the
+/// stamps by as much, so the closest of a few readings counts; the first usually does.
+base::Duration monotonic_minus_real()
+{
+    constexpr int readings_max = 4;
+    constexpr base::Duration close_enough = std::chrono::microseconds{1};
+    auto closest = base::Duration::max();
+    base::Duration offset{};
+    for (int i = 0; i < readings_max && closest > close_enough; ++i) {
+        timespec real{};
+        const auto before = monotonic_now().time_since_epoch();
+        base::ensure(clock_gettime(CLOCK_REALTIME, &real) == 0);
+        const auto took = monotonic_now().time_since_epoch() - before;
+        if (took >= closest) continue;
+        closest = took;
+        offset = before + took / 2 - to_duration(real);
+    }
+    return offset;
 }
 
 void set_option(int descriptor, int name, int value)
@@ -125,7 +137,7 @@ std::span<const Received> UdpSocket::receive()
             if (c->cmsg_type == SO_TIMESTAMPNS) {
                 timespec stamp{};
                 std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
-                at = base::TimePoint{to_duration(stamp) + to_monotonic};
+                at = std::min(now, base::TimePoint{to_duration(stamp) + to_monotonic});
             } else if (c->cmsg_type == SO_RXQ_OVFL) {
                 std::uint32_t total = 0;
                 std::memcpy(&total, CMSG_DATA(c), sizeof total);

@@ -38,7 +38,8 @@ public:
 
     /// Up to batch_max waiting datagrams, oldest first; empty when there are none. Never blocks,
     /// never allocates. Stamps are converted from the kernel's real-time clock with an offset
-    /// read at each call, so a step of the wall clock hurts one batch at most.
+    /// read at each call, so a step of the wall clock hurts one batch at most, and never lie in the
+    /// future.
     [[nodiscard]] std::span<const Received> receive();
 
     /// Sends one datagram. Never blocks.

@@ -45,7 +45,16 @@ void put_header(ByteWriter& out, Type type, std::uint32_t session)
 
 void put_time(ByteWriter& out, base::TimePoint time) { out.i64(time.time_since_epoch().count()); }
 
-base::TimePoint take_time(ByteReader& in) { return base::TimePoint{base::Duration{in.i64()}}; }
+/// Times farther from the clock's zero than 36 years are nobody's; refusing them keeps every
+/// difference of two times within range.
+constexpr std::int64_t time_max_ns = std::int64_t{1} << 60;
+
+base::TimePoint take_time(ByteReader& in, bool& canonical)
+{
+    const std::int64_t nanoseconds = in.i64();
+    canonical = canonical && nanoseconds >= -time_max_ns && nanoseconds <= time_max_ns;
+    return base::TimePoint{base::Duration{nanoseconds}};
+}
 
 void put_vector(ByteWriter& out, const glm::dvec3& v)
 {
@@ -75,7 +84,7 @@ void put_echo(ByteWriter& out, const std::optional<Echo>& echo)
 /// nullopt when absent; canonical is cleared when an absent field is not all zero.
 std::optional<Echo> take_echo(ByteReader& in, bool present, bool& canonical)
 {
-    const Echo echo{take_time(in), base::Duration{in.u32()}};
+    const Echo echo{take_time(in, canonical), base::Duration{in.u32()}};
     if (present) return echo;
     canonical = canonical && echo == Echo{};
     return std::nullopt;
@@ -83,7 +92,7 @@ std::optional<Echo> take_echo(ByteReader& in, bool present, bool& canonical)
 
 std::optional<base::TimePoint> take_optional_time(ByteReader& in, bool present, bool& canonical)
 {
-    const base::TimePoint time = take_time(in);
+    const base::TimePoint time = take_time(in, canonical);
     if (present) return time;
     canonical = canonical && time == base::TimePoint{};
     return std::nullopt;
@@ -125,7 +134,7 @@ Result<Message> take_hello(ByteReader& in)
     hello.tick_rate_hz = in.u16();
     hello.scene_hash = in.u64();
     hello.seed = in.u64();
-    hello.sent = take_time(in);
+    hello.sent = take_time(in, canonical);
     hello.echo = take_echo(in, (flags & flag_echo) != 0, canonical);
     hello.start = take_optional_time(in, (flags & flag_start) != 0, canonical);
     hello.start_heard = take_optional_time(in, (flags & flag_start_heard) != 0, canonical);
@@ -199,7 +208,7 @@ Result<Message> take_state(ByteReader& in)
     State state;
     state.session = in.u32();
     state.sequence = in.u32();
-    state.sent = take_time(in);
+    state.sent = take_time(in, canonical);
     const std::uint8_t flags = in.u8();
     const std::uint8_t reserved = in.u8();
     state.echo = take_echo(in, (flags & flag_echo) != 0, canonical);

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/core/analysis.hpp"
+#include "lab/core/csv.hpp"
+#include "lab/core/report.hpp"
+#include "lab/options.hpp"
+#include "proto/record/reader.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace hapnet::lab {
+
+namespace {
+
+constexpr int exit_failed = 1;
+constexpr int exit_bad_input = 2;
+constexpr int exit_environment = 3;
+
+void say(std::string_view what)
+{
+    std::fprintf(stderr, "hapnet-lab: %.*s\n", static_cast<int>(what.size()), what.data());
+}
+
+void print(const std::string& text)
+{
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+        throw std::system_error{errno, std::generic_category(), "cannot write the result"};
+    }
+}
+
+base::Result<record::Record> read_record(const std::string& path)
+{
+    auto record = record::read(path);
+    if (record && record->cut_off) {
+        say(path + " ends inside a row, which is left out: its writer was killed");
+    }
+    return record;
+}
+
+base::Result<void> run(const AnalyseCommand& command)
+{
+    const auto a = read_record(command.record_a);
+    if (!a) return tl::unexpected{a.error()};
+    const auto b = read_record(command.record_b);
+    if (!b) return tl::unexpected{b.error()};
+    const auto analysis = analyse(*a, *b);
+    if (!analysis) {
+        return base::fail("cannot compare " + command.record_a + " (A) with " + command.record_b +
+                          " (B): " + analysis.error().message);
+    }
+    print(command.json ? to_json(*analysis).dump(2) + '\n' : to_table(*analysis));
+    return {};
+}
+
+base::Result<void> run(const ExportCommand& command)
+{
+    const auto record = read_record(command.record);
+    if (!record) return tl::unexpected{record.error()};
+    const auto zero = csv_zero(*record);
+    const auto print_rows = [&](const std::string& header, const auto& rows) {
+        print(header + '\n');
+        for (const auto& row : rows) print(csv_line(row, zero) + '\n');
+    };
+    switch (command.rows) {
+    case ExportRows::ticks: print_rows(tick_csv_header(), record->ticks); break;
+    case ExportRows::messages: print_rows(message_csv_header(), record->messages); break;
+    }
+    return {};
+}
+
+int execute(const Command& command)
+{
+    const auto done = std::visit([](const auto& chosen) { return run(chosen); }, command);
+    if (!done) {
+        say(done.error().message);
+        return exit_bad_input;
+    }
+    if (std::fflush(stdout) != 0) {
+        throw std::system_error{errno, std::generic_category(), "cannot write the result"};
+    }
+    return 0;
+}
+
+} // namespace
+
+} // namespace hapnet::lab
+
+int main(int argc, char** argv)
+try {
+    const auto command = hapnet::lab::parse_command_line(argc, argv);
+    return command ? hapnet::lab::execute(*command) : command.error();
+} catch (const std::system_error& error) {
+    hapnet::lab::say(error.what());
+    return hapnet::lab::exit_environment;
+} catch (const std::exception& error) {
+    hapnet::lab::say(error.what());
+    return hapnet::lab::exit_failed;
+}

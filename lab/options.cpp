@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/options.hpp"
+
+#include "proto/base/version.hpp"
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace hapnet::lab {
+
+namespace {
+
+constexpr int exit_usage = 2;
+
+} // namespace
+
+tl::expected<Command, int> parse_command_line(int argc, const char* const* argv)
+{
+    CLI::App app{"Reads the records that hapnet-peer --record writes", "hapnet-lab"};
+    app.set_version_flag("--version", base::version_line("hapnet-lab"));
+    app.require_subcommand(1);
+    app.footer("Exit codes: 0 done, 2 usage or bad input, 3 the environment.");
+
+    AnalyseCommand analyse;
+    auto* analyse_command = app.add_subcommand(
+        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
+                   "forces were apart, what the network did, whether the run is valid.\n"
+                   "A run that is not valid says so; the exit code stays 0");
+    analyse_command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
+    analyse_command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
+    analyse_command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
+
+    ExportCommand exported;
+    auto* export_command =
+        app.add_subcommand("export", "Print the rows of a record, time counted from its T0");
+    export_command->add_option("RECORD", exported.record, "record of one peer")->required();
+    bool csv = true;
+    export_command->add_flag("--csv", csv, "as CSV: the only format, and the default");
+    std::string rows = "ticks";
+    export_command->add_option("--rows", rows, "ticks of the haptic loop, or messages received")
+        ->option_text("ticks|messages [ticks]")
+        ->check(CLI::IsMember{{"ticks", "messages"}});
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return tl::unexpected{app.exit(error) == 0 ? 0 : exit_usage};
+    }
+    if (analyse_command->parsed()) return analyse;
+    exported.rows = rows == "messages" ? ExportRows::messages : ExportRows::ticks;
+    return exported;
+}
+
+} // namespace hapnet::lab

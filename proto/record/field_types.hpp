@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/bytes.hpp"
+#include "proto/record/rows.hpp"
+
+namespace hapnet::record {
+
+/// How a field of type T stands in a row: its type and unit as the header names them, its bytes,
+/// and both ways between. take() is false when the bytes are not ones that put() writes.
+template <typename T>
+struct FieldType;
+
+template <>
+struct FieldType<std::uint16_t> {
+    static constexpr std::string_view type = "u16", unit = "";
+    static constexpr std::size_t bytes = 2;
+    static void put(base::ByteWriter& out, std::uint16_t value) { out.u16(value); }
+    static bool take(base::ByteReader& in, std::uint16_t& value)
+    {
+        value = in.u16();
+        return true;
+    }
+};
+
+template <>
+struct FieldType<std::uint32_t> {
+    static constexpr std::string_view type = "u32", unit = "";
+    static constexpr std::size_t bytes = 4;
+    static void put(base::ByteWriter& out, std::uint32_t value) { out.u32(value); }
+    static bool take(base::ByteReader& in, std::uint32_t& value)
+    {
+        value = in.u32();
+        return true;
+    }
+};
+
+template <>
+struct FieldType<std::uint64_t> {
+    static constexpr std::string_view type = "u64", unit = "";
+    static constexpr std::size_t bytes = 8;
+    static void put(base::ByteWriter& out, std::uint64_t value) { out.u64(value); }
+    static bool take(base::ByteReader& in, std::uint64_t& value)
+    {
+        value = in.u64();
+        return true;
+    }
+};
+
+template <>
+struct FieldType<bool> {
+    static constexpr std::string_view type = "bool", unit = "";
+    static constexpr std::size_t bytes = 1;
+    static void put(base::ByteWriter& out, bool value) { out.u8(value ? 1 : 0); }
+    static bool take(base::ByteReader& in, bool& value)
+    {
+        const std::uint8_t byte = in.u8();
+        value = byte == 1;
+        return byte <= 1;
+    }
+};
+
+template <>
+struct FieldType<Phase> {
+    static constexpr std::string_view type = "u8", unit = "";
+    static constexpr std::size_t bytes = 1;
+    static void put(base::ByteWriter& out, Phase value)
+    {
+        out.u8(static_cast<std::uint8_t>(value));
+    }
+    static bool take(base::ByteReader& in, Phase& value)
+    {
+        const std::uint8_t byte = in.u8();
+        if (byte >= phase_names.size()) return false;
+        value = static_cast<Phase>(byte);
+        return true;
+    }
+};
+
+/// No clock and no session of ours reads more than 36 years; below, sums of several times cannot
+/// overflow in whoever reads a damaged record.
+inline constexpr base::Duration time_max{std::int64_t{1} << 60};
+
+template <>
+struct FieldType<base::Duration> {
+    static constexpr std::string_view type = "i64", unit = "ns";
+    static constexpr std::size_t bytes = 8;
+    static void put(base::ByteWriter& out, base::Duration value) { out.i64(value.count()); }
+    static bool take(base::ByteReader& in, base::Duration& value)
+    {
+        value = base::Duration{in.i64()};
+        return -time_max <= value && value <= time_max;
+    }
+};
+
+template <>
+struct FieldType<base::TimePoint> {
+    static constexpr std::string_view type = "i64", unit = "ns of CLOCK_MONOTONIC";
+    static constexpr std::size_t bytes = 8;
+    static void put(base::ByteWriter& out, base::TimePoint value)
+    {
+        FieldType<base::Duration>::put(out, value.time_since_epoch());
+    }
+    static bool take(base::ByteReader& in, base::TimePoint& value)
+    {
+        base::Duration since_epoch{};
+        const bool sane = FieldType<base::Duration>::take(in, since_epoch);
+        value = base::TimePoint{since_epoch};
+        return sane;
+    }
+};
+
+/// Three doubles of one physical kind. Values that are not finite pass: a record is the witness
+/// of a run that went wrong, too.
+template <typename V>
+struct VectorFieldType {
+    static constexpr std::string_view type = "f64[3]";
+    static constexpr std::size_t bytes = 24;
+    static void put(base::ByteWriter& out, const V& vector)
+    {
+        out.f64(vector.value.x);
+        out.f64(vector.value.y);
+        out.f64(vector.value.z);
+    }
+    static bool take(base::ByteReader& in, V& vector)
+    {
+        vector.value.x = in.f64();
+        vector.value.y = in.f64();
+        vector.value.z = in.f64();
+        return true;
+    }
+};
+
+template <>
+struct FieldType<base::Position> : VectorFieldType<base::Position> {
+    static constexpr std::string_view unit = "m";
+};
+template <>
+struct FieldType<base::Velocity> : VectorFieldType<base::Velocity> {
+    static constexpr std::string_view unit = "m/s";
+};
+template <>
+struct FieldType<base::Force> : VectorFieldType<base::Force> {
+    static constexpr std::string_view unit = "N";
+};
+
+template <>
+struct FieldType<std::array<std::byte, MessageRow::bytes_max>> {
+    using Bytes = std::array<std::byte, MessageRow::bytes_max>;
+    static constexpr std::string_view type = "u8[160]", unit = "";
+    static constexpr std::size_t bytes = MessageRow::bytes_max;
+    static void put(base::ByteWriter& out, const Bytes& value) { out.raw(value); }
+    static bool take(base::ByteReader& in, Bytes& value)
+    {
+        for (std::byte& b : value) b = std::byte{in.u8()};
+        return true;
+    }
+};
+
+} // namespace hapnet::record

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/record/header.hpp"
+
+#include "proto/record/codec.hpp"
+#include "proto/record/field_types.hpp"
+#include "proto/record/fields.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::record {
+
+namespace {
+
+constexpr int version = 1;
+
+template <typename R>
+nlohmann::json schema_of()
+{
+    std::size_t offset = sizeof(Kind<R>::code);
+    auto fields = nlohmann::json::array();
+    const R row{};
+    for_each_field(row, [&]<typename T>(std::string_view name, const T&) {
+        nlohmann::json field{{"name", name}, {"type", FieldType<T>::type}, {"offset", offset}};
+        if (!FieldType<T>::unit.empty()) field["unit"] = FieldType<T>::unit;
+        if constexpr (std::same_as<T, Phase>) field["values"] = phase_names;
+        fields.push_back(std::move(field));
+        offset += FieldType<T>::bytes;
+    });
+    return {{"kind", unsigned{Kind<R>::code}}, {"fields", std::move(fields)}};
+}
+
+/// All of the header that is the same in every record of this format.
+nlohmann::json layout()
+{
+    return {{"format", "hapnet-record"},
+            {"version", version},
+            {"row_bytes", row_bytes},
+            {"byte_order", "little"},
+            {"schema",
+             {{Kind<TickRow>::name, schema_of<TickRow>()},
+              {Kind<MessageRow>::name, schema_of<MessageRow>()},
+              {Kind<SessionRow>::name, schema_of<SessionRow>()}}}};
+}
+
+} // namespace
+
+std::string header_line(const nlohmann::json& config)
+{
+    const auto ours = layout();
+    nlohmann::ordered_json header; // the format stands first, for whoever looks into the file
+    for (const char* key : {"format", "version", "row_bytes", "byte_order", "schema"}) {
+        header[key] = ours[key];
+    }
+    header["config"] = config;
+    // Text from the command line may be no UTF-8: better a replaced letter than no record.
+    return header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+base::Result<nlohmann::json> parse_header(std::string_view line)
+{
+    const auto header = nlohmann::json::parse(line, nullptr, false);
+    const auto ours = layout();
+    for (const char* key : {"format", "version", "row_bytes", "byte_order"}) {
+        if (!header.is_object() || !header.contains(key) || header[key] != ours[key]) {
+            return base::fail(
+                fmt::format("expected a JSON line with \"{}\":{}", key, ours[key].dump()));
+        }
+    }
+    if (!header.contains("schema") || header["schema"] != ours["schema"]) {
+        return base::fail("its schema is not that of version 1");
+    }
+    if (!header.contains("config") || !header["config"].is_object()) {
+        return base::fail("expected an object \"config\" in its header");
+    }
+    return header["config"];
+}
+
+} // namespace hapnet::record

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/space.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <variant>
+
+namespace hapnet::record {
+
+/// Where a session stands for this peer.
+enum class Phase : std::uint8_t {
+    waiting,   ///< no T0 agreed
+    countdown, ///< T0 agreed, not yet come
+    running,   ///< from T0 until the hands let go: what the metrics score
+    hands_off, ///< the tail in which nobody touches and the copies must agree again
+    alone,     ///< the other side has gone; zero force until the own end
+    ended,
+};
+
+/// The words of the phases, in order; also in the header of a record and in its CSV.
+inline constexpr std::array<std::string_view, 6> phase_names{"waiting",   "countdown", "running",
+                                                             "hands_off", "alone",     "ended"};
+
+[[nodiscard]] constexpr std::string_view name_of(Phase phase)
+{
+    return phase_names.at(static_cast<std::size_t>(phase));
+}
+
+/// One turn of the haptic loop. Times are this peer's CLOCK_MONOTONIC, lengths SI.
+struct TickRow {
+    std::uint64_t tick = 0;
+    /// When the loop was to wake.
+    base::TimePoint due{};
+    /// How long after `due` it woke.
+    base::Duration late{};
+    /// Ticks skipped between the row before and this one.
+    std::uint32_t missed_before = 0;
+    /// Sequence of the state message sent in this tick; 1 is the first of a session, 0: none sent.
+    std::uint32_t sent_sequence = 0;
+    Phase phase = Phase::waiting;
+    bool touching = false;
+    bool remote_touching = false;
+    /// Whether the remote state is young enough to be used.
+    bool remote_fresh = false;
+    base::Position hip;
+    base::Velocity hip_velocity;
+    base::Position cube;
+    base::Velocity cube_velocity;
+    /// What the scene does to the HIP, before the governor.
+    base::Force contact;
+    /// What the device is told, after the governor.
+    base::Force device;
+    /// The remote contact force as this tick used it.
+    base::Force remote;
+
+    /// When the device was read: the row's positions and forces hold then.
+    [[nodiscard]] base::TimePoint at() const { return due + late; }
+
+    friend bool operator==(const TickRow&, const TickRow&) = default;
+};
+
+/// A state message as it came from the remote, undecoded.
+struct MessageRow {
+    static constexpr std::size_t bytes_max = 160;
+
+    /// The tick that read it from the socket.
+    std::uint64_t tick = 0;
+    /// The kernel's receive stamp.
+    base::TimePoint received_at{};
+    /// How much of `bytes` is the datagram; at most bytes_max.
+    std::uint16_t size = 0;
+    std::array<std::byte, bytes_max> bytes{};
+
+    [[nodiscard]] std::span<const std::byte> datagram() const
+    {
+        return std::span{bytes}.first(size);
+    }
+
+    friend bool operator==(const MessageRow&, const MessageRow&) = default;
+};
+
+/// What both peers agreed on; written when T0 is agreed and whenever any of it changes.
+struct SessionRow {
+    /// T0 on this peer's clock.
+    base::TimePoint start{};
+    base::Duration length{};
+    /// The remote's clock minus this clock.
+    base::Duration remote_offset{};
+    /// Bound of the error of `remote_offset`.
+    base::Duration offset_uncertainty{};
+    std::uint32_t session = 0;
+    /// The seed that counts: that of the lower id.
+    std::uint64_t seed = 0;
+
+    friend bool operator==(const SessionRow&, const SessionRow&) = default;
+};
+
+using Row = std::variant<TickRow, MessageRow, SessionRow>;
+
+} // namespace hapnet::record

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# Fuzzes every parser with libFuzzer (Clang): scripts/fuzz.sh [SECONDS PER TARGET, default 60].
+# Needs clang-14 and libclang-rt-14-dev. A crash leaves its input in build/fuzz/; add it to
+# tests/fuzz/corpus/<target>/ with the fix.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+seconds=${1:-60}
+cmake --preset fuzz
+cmake --build --preset fuzz
+
+echo "canary: must be found within 60 s"
+if build/fuzz/bin/fuzz_canary -max_total_time=60 -artifact_prefix=build/fuzz/ \
+    >build/fuzz/canary.log 2>&1; then
+    echo "the canary survived: the fuzzer would not notice a crash" >&2
+    exit 1
+fi
+
+for target in wire_message record_row text; do
+    echo "$target: $seconds s"
+    mkdir -p "build/fuzz/corpus/$target"
+    "build/fuzz/bin/fuzz_$target" -max_total_time="$seconds" -max_len=512 -print_final_stats=1 \
+        -artifact_prefix="build/fuzz/$target-" \
+        "build/fuzz/corpus/$target" "tests/fuzz/corpus/$target" 2>&1 |
+        tee "build/fuzz/$target.log" | grep -E 'stat::number_of_executed|ERROR|SUMMARY' || true
+    if [ "${PIPESTATUS[0]}" -ne 0 ]; then
+        tail -n 20 "build/fuzz/$target.log" >&2
+        exit 1
+    fi
+done
+echo "no crash"

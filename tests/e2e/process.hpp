@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <sys/types.h>
+#include <vector>
+
+namespace hapnet::e2e {
+
+/// One of our programs, running. Its stdout and stderr are collected whenever one of the wait
+/// functions runs, or out() and err(). Killed with SIGKILL and reaped when it goes out of scope;
+/// dies with the test program too.
+class Process {
+public:
+    /// Starts `name`, one of the programs of this build, e.g. "hapnet-emulator".
+    Process(std::string_view name, const std::vector<std::string>& arguments);
+    ~Process();
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    /// The first line of stdout (stderr) that contains `words`, without its newline. Waits for it;
+    /// nullopt when the program has closed the stream, or `timeout` has passed, without one.
+    std::optional<std::string> wait_for_out(std::string_view words,
+                                            std::chrono::milliseconds timeout);
+    std::optional<std::string> wait_for_err(std::string_view words,
+                                            std::chrono::milliseconds timeout);
+
+    /// The exit code; 128 + n when signal n killed it, as a shell says it; nullopt when it still
+    /// runs after `timeout`.
+    std::optional<int> wait_exit(std::chrono::milliseconds timeout);
+
+    /// Sends SIGTERM, SIGKILL, SIGSTOP, ...; nothing when it has been reaped.
+    void signal(int number) const;
+
+    [[nodiscard]] pid_t pid() const { return pid_; }
+
+    /// All that it has written so far.
+    [[nodiscard]] const std::string& out();
+    [[nodiscard]] const std::string& err();
+
+private:
+    struct Stream {
+        int descriptor = -1; // -1 once closed by the program
+        std::string text;
+    };
+
+    /// Takes what is there, waiting for it until `deadline` at most.
+    void collect(std::chrono::steady_clock::time_point deadline);
+    std::optional<std::string> wait_for(const Stream& stream, std::string_view words,
+                                        std::chrono::milliseconds timeout);
+
+    pid_t pid_ = -1;
+    std::optional<int> exit_;
+    Stream out_;
+    Stream err_;
+};
+
+/// What a program that ends by itself leaves behind.
+struct Outcome {
+    std::optional<int> exit; // nullopt: it did not end in time and was killed
+    std::string out;
+    std::string err;
+};
+[[nodiscard]] Outcome run(std::string_view name, const std::vector<std::string>& arguments,
+                          std::chrono::milliseconds timeout = std::chrono::seconds{20});
+
+/// An empty folder for one test; removed with all it holds when it goes out of scope.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] std::string file(std::string_view name) const;
+
+private:
+    std::string path_;
+};
+
+/// The text of a file; empty when there is none.
+[[nodiscard]] std::string text_of(const std::string& file);
+
+} // namespace hapnet::e2e

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/random.hpp"
+#include "proto/record/rows.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace hapnet::record {
+
+/// Fills the fields of a row with whatever bits a row may hold; draws in a fixed order from one
+/// stream.
+class RandomFields {
+public:
+    RandomFields(base::RandomStream stream, std::uint64_t round) : stream_{stream}, round_{round} {}
+
+    void operator()(std::string_view, bool& value) { value = (bits() & 1) != 0; }
+    void operator()(std::string_view, Phase& value)
+    {
+        value = static_cast<Phase>(bits() % phase_names.size());
+    }
+    void operator()(std::string_view name, std::uint16_t& value)
+    {
+        value = static_cast<std::uint16_t>(bits());
+        if (name == "size") value = static_cast<std::uint16_t>(value % (MessageRow::bytes_max + 1));
+    }
+    void operator()(std::string_view, std::uint32_t& value)
+    {
+        value = static_cast<std::uint32_t>(bits());
+    }
+    void operator()(std::string_view, std::uint64_t& value) { value = bits(); }
+    void operator()(std::string_view, base::Duration& value)
+    {
+        value = base::Duration{signed_bits()};
+    }
+    void operator()(std::string_view, base::TimePoint& value)
+    {
+        value = base::TimePoint{base::Duration{signed_bits()}};
+    }
+    void operator()(std::string_view, std::array<std::byte, MessageRow::bytes_max>& value)
+    {
+        for (std::byte& b : value) b = static_cast<std::byte>(bits() & 0xff);
+    }
+    // Any finite double; not the rest, which equals nothing and could not be compared.
+    void operator()(std::string_view, auto& vector)
+    {
+        for (glm::length_t i = 0; i < 3; ++i) {
+            const auto value = std::bit_cast<double>(bits());
+            vector.value[i] = std::isfinite(value) ? value : 0.0;
+        }
+    }
+
+private:
+    std::uint64_t bits() { return stream_.bits(round_, draw_++); }
+    // As far as a row may go: 2^60 ns either way.
+    std::int64_t signed_bits() { return static_cast<std::int64_t>(bits()) >> 3; }
+
+    base::RandomStream stream_;
+    std::uint64_t round_;
+    std::uint32_t draw_ = 0;
+};
+
+} // namespace hapnet::record

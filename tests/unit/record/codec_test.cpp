@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/record/codec.hpp"
+
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace hapnet::record {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::uint8_t at(const RowBytes& bytes, std::size_t index)
+{
+    return std::to_integer<std::uint8_t>(bytes.at(index));
+}
+
+TEST(RecordCodec, PutsFieldsLittleEndianAtTheOffsetsOfVersion1)
+{
+    TickRow row;
+    row.tick = 0x0102030405060708;
+    row.due = base::TimePoint{256ns};
+    row.late = -1ns;
+    row.sent_sequence = 7;
+    row.phase = Phase::running;
+    row.remote_fresh = true;
+    row.hip = {{1.0, 0.0, 0.0}};
+    const RowBytes bytes = encode(row);
+    EXPECT_EQ(at(bytes, 0), 1); // a tick row
+    EXPECT_EQ(at(bytes, 1), 8); // tick
+    EXPECT_EQ(at(bytes, 8), 1);
+    EXPECT_EQ(at(bytes, 10), 1);    // due
+    EXPECT_EQ(at(bytes, 17), 255);  // late
+    EXPECT_EQ(at(bytes, 29), 7);    // sent_sequence
+    EXPECT_EQ(at(bytes, 33), 2);    // phase
+    EXPECT_EQ(at(bytes, 36), 1);    // remote_fresh
+    EXPECT_EQ(at(bytes, 43), 0xf0); // hip: 1.0 is 0x3ff0000000000000
+    EXPECT_EQ(at(bytes, 44), 0x3f);
+    EXPECT_EQ(at(bytes, 205), 0); // after the last field
+}
+
+TEST(RecordCodec, RefusesAnUnknownKindOfRow)
+{
+    RowBytes bytes{};
+    EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 0");
+    bytes[0] = std::byte{4};
+    EXPECT_EQ(decode(bytes).error().message, "unknown kind of row 4");
+}
+
+TEST(RecordCodec, RefusesAPhaseThatDoesNotExist)
+{
+    RowBytes bytes = encode(TickRow{});
+    bytes[33] = std::byte{6};
+    EXPECT_EQ(decode(bytes).error().message, "impossible value of 'phase' in a tick row");
+}
+
+TEST(RecordCodec, RefusesATruthOtherThan0Or1)
+{
+    RowBytes bytes = encode(TickRow{});
+    bytes[34] = std::byte{2};
+    EXPECT_EQ(decode(bytes).error().message, "impossible value of 'touching' in a tick row");
+}
+
+TEST(RecordCodec, RefusesATimeThatNoClockReads)
+{
+    RowBytes bytes = encode(TickRow{});
+    bytes[16] = std::byte{0x10}; // due: 2^60 ns
+    EXPECT_TRUE(decode(bytes));
+    bytes[9] = std::byte{1};
+    EXPECT_EQ(decode(bytes).error().message, "impossible value of 'due' in a tick row");
+    bytes[16] = std::byte{0x80};
+    EXPECT_EQ(decode(bytes).error().message, "impossible value of 'due' in a tick row");
+}
+
+TEST(RecordCodec, RefusesPaddingThatIsNotZero)
+{
+    RowBytes bytes = encode(SessionRow{});
+    bytes.back() = std::byte{1};
+    EXPECT_EQ(decode(bytes).error().message, "padding of a session row is not zero");
+}
+
+TEST(RecordCodec, RefusesAMessageLongerThanItsRow)
+{
+    MessageRow row;
+    row.size = MessageRow::bytes_max;
+    RowBytes bytes = encode(row);
+    EXPECT_TRUE(decode(bytes));
+    bytes[17] = std::byte{MessageRow::bytes_max + 1};
+    EXPECT_EQ(decode(bytes).error().message, "a message longer than its row");
+}
+
+TEST(RecordCodec, RefusesBytesThatAreNotOneWholeRow)
+{
+    const RowBytes bytes = encode(TickRow{});
+    EXPECT_FALSE(decode(std::span{bytes}.first(row_bytes - 1)));
+    EXPECT_FALSE(decode({}));
+}
+
+TEST(RecordCodec, KeepsForcesThatAreNotFiniteBecauseTheyAreEvidence)
+{
+    TickRow row;
+    row.contact = {{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}};
+    const auto again = decode(encode(row));
+    ASSERT_TRUE(again);
+    EXPECT_FALSE(base::is_finite(std::get<TickRow>(*again).contact));
+}
+
+} // namespace
+} // namespace hapnet::record

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/record/codec.hpp"
+#include "proto/record/header.hpp"
+#include "proto/record/reader.hpp"
+#include "proto/record/writer.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <system_error>
+#include <unistd.h>
+
+namespace hapnet::record {
+namespace {
+
+using namespace std::chrono_literals;
+
+const nlohmann::json config{{"peer_id", 1}, {"task", "T1"}, {"tick_ns", 1'000'000}};
+
+/// A path of its own for each test; the file goes with it.
+class TemporaryPath {
+public:
+    TemporaryPath()
+    {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        path_ = std::filesystem::temp_directory_path() /
+                ("hapnet_" + std::to_string(::getpid()) + "_" + test->name());
+    }
+    ~TemporaryPath() { std::filesystem::remove_all(path_); }
+    TemporaryPath(const TemporaryPath&) = delete;
+    TemporaryPath& operator=(const TemporaryPath&) = delete;
+
+    [[nodiscard]] std::string text() const { return path_.string(); }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    void fill(const std::string& content) const
+    {
+        std::ofstream{path_, std::ios::binary} << content;
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+TickRow tick(std::uint64_t number)
+{
+    TickRow row;
+    row.tick = number;
+    row.due = base::TimePoint{number * 1ms};
+    return row;
+}
+
+TEST(RecordFile, GivesBackRowsOfEachKindInTheOrderWritten)
+{
+    const TemporaryPath file;
+    MessageRow message;
+    message.size = 3;
+    message.bytes[2] = std::byte{9};
+    SessionRow session;
+    session.session = 77;
+    {
+        Writer writer{file.text(), config};
+        writer.write(tick(1));
+        writer.write(session);
+        writer.write(message);
+        writer.write(tick(2));
+    }
+    const auto record = read(file.text());
+    ASSERT_TRUE(record) << record.error().message;
+    EXPECT_EQ(record->config, config);
+    EXPECT_EQ(record->ticks, (std::vector{tick(1), tick(2)}));
+    EXPECT_EQ(record->messages, std::vector{message});
+    EXPECT_EQ(record->sessions, std::vector{session});
+    EXPECT_EQ(record->ticks_before_session, std::vector<std::size_t>{1});
+    EXPECT_FALSE(record->cut_off);
+}
+
+TEST(RecordFile, HasOneHeaderLineAndThenNothingButRows)
+{
+    const TemporaryPath file;
+    Writer writer{file.text(), config};
+    writer.write(tick(1));
+    writer.flush();
+    EXPECT_EQ(std::filesystem::file_size(file.path()), header_line(config).size() + 1 + row_bytes);
+}
+
+TEST(RecordFile, IsReadableFromTheMomentItIsOpened)
+{
+    const TemporaryPath file;
+    const Writer writer{file.text(), config};
+    const auto record = read(file.text());
+    ASSERT_TRUE(record) << record.error().message;
+    EXPECT_TRUE(record->ticks.empty());
+}
+
+TEST(RecordFile, LosesOnlyTheLastRowWhenThatIsCutOff)
+{
+    const TemporaryPath file;
+    {
+        Writer writer{file.text(), config};
+        for (std::uint64_t i = 0; i < 3; ++i) writer.write(tick(i));
+    }
+    std::filesystem::resize_file(file.path(), std::filesystem::file_size(file.path()) - 1);
+    const auto record = read(file.text());
+    ASSERT_TRUE(record) << record.error().message;
+    EXPECT_EQ(record->ticks, (std::vector{tick(0), tick(1)}));
+    EXPECT_TRUE(record->cut_off);
+}
+
+TEST(RecordFile, NamesFileAndNumberOfADamagedRow)
+{
+    const TemporaryPath file;
+    file.fill(header_line(config) + "\n" + std::string(2 * row_bytes, '\xff'));
+    EXPECT_EQ(read(file.text()).error().message,
+              file.text() + ": row 1 is damaged: unknown kind of row 255");
+}
+
+TEST(RecordFile, SaysThatAFileOfAnotherKindIsNoRecordAndWhatWasExpected)
+{
+    const TemporaryPath file;
+    for (const std::string content :
+         {"", "\n", "tick,hip_x\n", "[1]\n", "{}\n", "7\n", "\"format\"\n",
+          "{\"format\":\"hapnet-record\"", "\xff\xfe\n"}) {
+        file.fill(content);
+        const auto record = read(file.text());
+        ASSERT_FALSE(record) << content;
+        EXPECT_EQ(record.error().message, file.text() +
+                                              " is not a record: expected a JSON line with "
+                                              "\"format\":\"hapnet-record\"");
+    }
+}
+
+TEST(RecordFile, DoesNotReadALargeFileWithoutLinesAsOneHeader)
+{
+    const TemporaryPath file;
+    file.fill(std::string(3U << 20U, 'x'));
+    EXPECT_FALSE(read(file.text()));
+}
+
+TEST(RecordFile, SaysWhichFileIsMissing)
+{
+    EXPECT_EQ(read("/nonexistent/a.rec").error().message,
+              "cannot open /nonexistent/a.rec: No such file or directory");
+}
+
+TEST(RecordFile, RefusesAFolder) { EXPECT_FALSE(read("/")); }
+
+TEST(RecordFile, ThrowsWithTheNameOfTheFileThatCannotBeCreated)
+{
+    try {
+        const Writer writer{"/nonexistent/a.rec", config};
+        FAIL() << "created a file in a folder that does not exist";
+    } catch (const std::system_error& error) {
+        EXPECT_EQ(error.code(), std::errc::no_such_file_or_directory);
+        EXPECT_NE(std::string{error.what()}.find("/nonexistent/a.rec"), std::string::npos);
+    }
+}
+
+TEST(RecordFile, ThrowsWhenTheDiskIsFull)
+{
+    EXPECT_THROW(Writer("/dev/full", config), std::system_error);
+}
+
+TEST(RecordHeader, DescribesEveryFieldWithItsTypeOffsetAndUnit)
+{
+    const auto header = nlohmann::json::parse(header_line(config));
+    EXPECT_EQ(header["format"], "hapnet-record");
+    EXPECT_EQ(header["row_bytes"], row_bytes);
+    const auto& fields = header["schema"]["tick"]["fields"];
+    ASSERT_EQ(fields.size(), 16);
+    EXPECT_EQ(fields[1],
+              nlohmann::json::parse(
+                  R"({"name":"due","type":"i64","offset":9,"unit":"ns of CLOCK_MONOTONIC"})"));
+    EXPECT_EQ(fields[15], nlohmann::json::parse(
+                              R"({"name":"remote","type":"f64[3]","offset":181,"unit":"N"})"));
+    EXPECT_EQ(fields[5]["values"][3], "hands_off");
+    EXPECT_EQ(header["schema"]["message"]["kind"], 2);
+}
+
+TEST(RecordHeader, RefusesAnotherVersionRowSizeOrSchema)
+{
+    const auto ours = nlohmann::json::parse(header_line(config));
+    auto other = ours;
+    other["version"] = 2;
+    EXPECT_EQ(parse_header(other.dump()).error().message,
+              "expected a JSON line with \"version\":1");
+    other = ours;
+    other["row_bytes"] = 200;
+    EXPECT_EQ(parse_header(other.dump()).error().message,
+              "expected a JSON line with \"row_bytes\":216");
+    other = ours;
+    other["schema"]["tick"]["fields"][0]["offset"] = 2;
+    EXPECT_EQ(parse_header(other.dump()).error().message, "its schema is not that of version 1");
+    other = ours;
+    other["config"] = 1;
+    EXPECT_FALSE(parse_header(other.dump()));
+    EXPECT_TRUE(parse_header(ours.dump()));
+}
+
+TEST(RecordHeader, IsOneLineOfUtf8WhateverTheConfigurationSays)
+{
+    const auto line = header_line({{"scene", "a\nb\xff"}});
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+    EXPECT_TRUE(line.starts_with(R"({"format":"hapnet-record","version":1,)"));
+    EXPECT_TRUE(parse_header(line));
+}
+
+} // namespace
+} // namespace hapnet::record
