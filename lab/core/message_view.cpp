@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/message_view.hpp"
 
-#include "proto/record/field_types.hpp"
 #include "proto/wire/message.hpp"
 
 namespace hapnet::lab {
@@ -12,9 +11,6 @@ std::optional<MessageView> view_of(const record::MessageRow& row)
     const auto message = wire::decode(row.datagram());
     const auto* state = message ? std::get_if<wire::State>(&*message) : nullptr;
     if (state == nullptr) return std::nullopt;
-    // A remote may claim any time; from here on times are added without fear.
-    const base::Duration sent = state->sent.time_since_epoch();
-    if (sent < -record::time_max || sent > record::time_max) return std::nullopt;
     return MessageView{state->session, state->sequence, state->sent};
 }
 

@@ -6,6 +6,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace hapnet::net {
 
@@ -41,8 +42,11 @@ std::string RealTime::shortage() const
     if (fifo && locked_memory) return "";
     std::string text = "running without ";
     text += fifo ? "locked memory" : locked_memory ? "SCHED_FIFO" : "SCHED_FIFO and locked memory";
-    text += ": expect a longer tail of late wake-ups; to allow it run as root, or give your user "
-            "'rtprio 50' and 'memlock unlimited' in /etc/security/limits.d";
+    text += geteuid() == 0
+                ? " although root: this container or virtual machine withholds it"
+                : ": to allow it run as root, or give your user 'rtprio 50' and 'memlock "
+                  "unlimited' in /etc/security/limits.d";
+    text += "; expect some wake-ups to be later";
     return text;
 }
 

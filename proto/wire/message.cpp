@@ -43,16 +43,23 @@ void put_header(ByteWriter& out, Type type, std::uint32_t session)
     out.u32(session);
 }
 
-void put_time(ByteWriter& out, base::TimePoint time) { out.i64(time.time_since_epoch().count()); }
-
 /// Times farther from the clock's zero than 36 years are nobody's; refusing them keeps every
 /// difference of two times within range.
 constexpr std::int64_t time_max_ns = std::int64_t{1} << 60;
 
+bool is_near(std::int64_t ns) { return ns >= -time_max_ns && ns <= time_max_ns; }
+
+void put_time(ByteWriter& out, base::TimePoint time)
+{
+    const std::int64_t nanoseconds = time.time_since_epoch().count();
+    base::ensure(is_near(nanoseconds));
+    out.i64(nanoseconds);
+}
+
 base::TimePoint take_time(ByteReader& in, bool& canonical)
 {
     const std::int64_t nanoseconds = in.i64();
-    canonical = canonical && nanoseconds >= -time_max_ns && nanoseconds <= time_max_ns;
+    canonical = canonical && is_near(nanoseconds);
     return base::TimePoint{base::Duration{nanoseconds}};
 }
 

@@ -131,7 +131,8 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Ensures what decode() checks: finite vectors, no zero nonce, echo age in range. Positions,
+/// Ensures what decode() checks: finite vectors, times within 2^60 ns, no zero nonce, echo age in
+/// range. Positions,
 /// velocities and forces are rounded to single precision (4 nm at 10 cm).
 [[nodiscard]] Datagram encode(const Message& message);
 

@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <system_error>
 #include <thread>
+#include <tuple>
 #include <unistd.h>
 
 namespace hapnet::e2e {
@@ -197,6 +198,16 @@ TemporaryFolder::~TemporaryFolder()
 std::string TemporaryFolder::file(std::string_view name) const
 {
     return path_ + "/" + std::string{name};
+}
+
+std::vector<std::string> TemporaryFolder::names() const
+{
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator{path_}) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 std::string text_of(const std::string& file)

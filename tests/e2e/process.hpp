@@ -78,6 +78,9 @@ public:
 
     [[nodiscard]] std::string file(std::string_view name) const;
 
+    /// The names of what it holds, sorted.
+    [[nodiscard]] std::vector<std::string> names() const;
+
 private:
     std::string path_;
 };

@@ -115,7 +115,6 @@ TEST(Path, SkipsMessagesOfAnotherSessionAndWhatIsNoMessage)
     b.message(900, start, start);
     b.session(1s).message(1, start, start + 1ms);
     b.content().messages.push_back({.size = 70});
-    b.message(2, base::TimePoint::max(), start).message(2, base::TimePoint::min(), start);
     const Path path = analysis_of(a, b).a_to_b;
     EXPECT_EQ(path.received, 1U);
     EXPECT_EQ(path.loss, 0.0);

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/statistics.hpp"
+
+#include <cstddef>
+#include <numeric>
+
+namespace hapnet::emulator {
+
+std::uint64_t& Statistics::dropped_by(DropCause cause)
+{
+    return dropped[static_cast<std::size_t>(cause)];
+}
+
+std::uint64_t Statistics::dropped_by(DropCause cause) const
+{
+    return dropped[static_cast<std::size_t>(cause)];
+}
+
+std::uint64_t Statistics::dropped_total() const
+{
+    return std::accumulate(dropped.begin(), dropped.end(), std::uint64_t{0});
+}
+
+bool Statistics::is_valid(base::Duration budget) const
+{
+    const auto p99 = lateness.quantile(0.99);
+    return !p99 || *p99 <= budget;
+}
+
+} // namespace hapnet::emulator

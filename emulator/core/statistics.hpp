@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/verdict.hpp"
+#include "proto/base/histogram.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace hapnet::emulator {
+
+/// What became of the datagrams of one direction. At every moment
+/// received + duplicated = delivered + dropped_total() + in_flight.
+struct Statistics {
+    std::uint64_t received = 0;   // from the endpoint that this direction belongs to
+    std::uint64_t delivered = 0;  // handed to the system, which took them
+    std::uint64_t duplicated = 0; // extra copies
+    std::uint64_t corrupted = 0;
+    std::uint64_t reordered = 0; // left after one with a higher number had left (RFC 4737)
+    std::uint64_t in_flight = 0; // waiting to leave
+    std::uint64_t bytes_in = 0;  // payload of `received`
+    std::uint64_t bytes_out = 0; // payload of `delivered`
+    std::array<std::uint64_t, drop_causes.size()> dropped{};
+    base::DurationHistogram lateness; // of each delivered one: left minus due
+
+    [[nodiscard]] std::uint64_t& dropped_by(DropCause cause);
+    [[nodiscard]] std::uint64_t dropped_by(DropCause cause) const;
+    [[nodiscard]] std::uint64_t dropped_total() const;
+
+    /// Whether the emulator's own timing error is tolerable: 99 % left at most `budget` late, or
+    /// nothing left at all.
+    [[nodiscard]] bool is_valid(base::Duration budget) const;
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/correspondent.hpp"
+#include "emulator/core/link.hpp"
+#include "emulator/options.hpp"
+#include "emulator/places.hpp"
+#include "proto/base/time.hpp"
+#include "proto/net/endpoint.hpp"
+#include "proto/net/udp_socket.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::emulator {
+
+/// The two sockets and the two directions between them. Moves datagrams; every decision is taken
+/// in Link and Correspondent.
+class Relay {
+public:
+    /// Binds both sockets. Throws std::system_error when it cannot.
+    Relay(const Places& places, const Options& options);
+
+    /// Takes what has arrived, at most one batch a side, so that a flood cannot hold up what is
+    /// due. Returns how many senders were adopted by that.
+    int receive();
+
+    /// Sends what is due at `now`.
+    void release(base::TimePoint now);
+
+    /// When the next datagram is due to leave; nullopt when none is in flight.
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
+
+    /// One side of the relay, and the direction that begins there.
+    struct Side {
+        Side(const net::Endpoint& listen, const std::optional<net::Endpoint>& peer, Link direction);
+
+        net::UdpSocket socket;
+        Correspondent<net::Endpoint> correspondent;
+        Link link;
+        std::uint64_t strangers = 0; // datagrams from any other address
+    };
+    [[nodiscard]] const Side& a() const { return a_; }
+    [[nodiscard]] const Side& b() const { return b_; }
+
+private:
+    Side a_;
+    Side b_;
+};
+
+} // namespace hapnet::emulator

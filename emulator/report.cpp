@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/report.hpp"
+
+#include "emulator/core/statistics.hpp"
+#include "proto/base/version.hpp"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
+#include <string_view>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+using Microseconds = std::chrono::duration<double, std::micro>;
+
+Json microseconds(std::optional<base::Duration> duration)
+{
+    if (!duration) return nullptr;
+    return Microseconds{*duration}.count();
+}
+
+Json json_of(const base::DurationHistogram& lateness)
+{
+    return {{"p50", microseconds(lateness.quantile(0.5))},
+            {"p90", microseconds(lateness.quantile(0.9))},
+            {"p99", microseconds(lateness.quantile(0.99))},
+            {"p999", microseconds(lateness.quantile(0.999))},
+            {"max", microseconds(lateness.max())}};
+}
+
+Json json_of(const Relay::Side& side, base::Duration budget)
+{
+    const Statistics& s = side.link.statistics();
+    Json dropped = Json::object();
+    for (const DropCause cause : drop_causes) {
+        dropped[std::string{to_text(cause)}] = s.dropped_by(cause);
+    }
+    return {{"received", s.received},      {"delivered", s.delivered},
+            {"duplicated", s.duplicated},  {"corrupted", s.corrupted},
+            {"reordered", s.reordered},    {"in_flight", s.in_flight},
+            {"bytes_in", s.bytes_in},      {"bytes_out", s.bytes_out},
+            {"dropped", dropped},          {"lateness_us", json_of(s.lateness)},
+            {"strangers", side.strangers}, {"overflowed", side.socket.overflowed()},
+            {"valid", s.is_valid(budget)}};
+}
+
+Json json_of(const Conditions& conditions)
+{
+    Json burst = nullptr;
+    if (conditions.burst_loss) burst = to_text(*conditions.burst_loss);
+    return {{"delay_ms", Milliseconds{conditions.delay}.count()},
+            {"jitter_ms", Milliseconds{conditions.jitter}.count()},
+            {"order", to_text(conditions.order)},
+            {"loss", conditions.loss.fraction()},
+            {"burst_loss", burst}};
+}
+
+Json address_of(const Relay::Side& side)
+{
+    const auto& address = side.correspondent.address();
+    return address ? Json(address->to_text()) : Json(nullptr);
+}
+
+std::string in_words(const char* title, const Relay::Side& side, base::Duration budget)
+{
+    const Statistics& s = side.link.statistics();
+    std::string text = fmt::format("{}: {} received, {} delivered, {} in flight", title, s.received,
+                                   s.delivered, s.in_flight);
+    for (const DropCause cause : drop_causes) {
+        if (s.dropped_by(cause) == 0) continue;
+        text += fmt::format(", {} {}", s.dropped_by(cause), to_text(cause));
+    }
+    if (s.reordered > 0) text += fmt::format(", {} reordered", s.reordered);
+    if (side.strangers > 0) text += fmt::format(", {} from strangers", side.strangers);
+    if (const auto overflowed = side.socket.overflowed(); overflowed > 0) {
+        text += fmt::format(", {} overflowed", overflowed);
+    }
+    if (const auto p99 = s.lateness.quantile(0.99)) {
+        text += fmt::format("; left late by {:.0f} us median, {:.0f} us p99, {:.0f} us at most",
+                            Microseconds{*s.lateness.quantile(0.5)}.count(),
+                            Microseconds{*p99}.count(), Microseconds{*s.lateness.max()}.count());
+    }
+    if (!s.is_valid(budget)) text += "; NOT VALID: p99 exceeds the budget";
+    return text + "\n";
+}
+
+std::string in_short(const char* title, const Relay::Side& side)
+{
+    const Statistics& s = side.link.statistics();
+    std::string text =
+        fmt::format("{} {} in, {} out, {} lost", title, s.received, s.delivered, s.dropped_total());
+    if (const auto p99 = s.lateness.quantile(0.99)) {
+        text += fmt::format(", p99 {:.0f} us", Microseconds{*p99}.count());
+    }
+    return text;
+}
+
+} // namespace
+
+std::string ready_line(const Options& options, const Relay& relay)
+{
+    return fmt::format("ready a={} b={} seed={} timing={}\n", relay.a().socket.local().to_text(),
+                       relay.b().socket.local().to_text(), options.seed.value(),
+                       to_text(options.timing));
+}
+
+std::string endpoints_line(const Relay& relay)
+{
+    const auto in_words = [](const Relay::Side& side) {
+        const auto& address = side.correspondent.address();
+        return address ? address->to_text() : std::string{"not known yet"};
+    };
+    return fmt::format("a is {}, b is {}", in_words(relay.a()), in_words(relay.b()));
+}
+
+std::string jitter_note(const Options& options)
+{
+    for (const Conditions* way : {&options.up, &options.down}) {
+        if (way->order == Order::free || way->jitter == base::Duration{0}) continue;
+        return "jitter with --order keep lengthens the mean delay and narrows the spread where "
+               "datagrams are close together (15ms at 1000 per second: +9 ms); --order free does "
+               "neither, and reorders";
+    }
+    return "";
+}
+
+std::string statistics_json(const Run& run)
+{
+    const Options& options = run.options;
+    const Relay::Side& a = run.relay.a();
+    const Relay::Side& b = run.relay.b();
+    const auto valid = [&](const Relay::Side& side) {
+        return side.link.statistics().is_valid(options.budget);
+    };
+    const Json json{
+        {"program", "hapnet-emulator"},
+        {"version", base::version()},
+        {"commit", base::commit()},
+        {"compiler", base::compiler()},
+        {"seed", options.seed.value()},
+        {"timing", to_text(options.timing)},
+        {"budget_us", microseconds(options.budget)},
+        {"duration_s", base::to_seconds(run.elapsed)},
+        {"real_time",
+         {{"fifo", run.real_time.fifo}, {"locked_memory", run.real_time.locked_memory}}},
+        {"listen_a", a.socket.local().to_text()},
+        {"listen_b", b.socket.local().to_text()},
+        {"a", address_of(a)},
+        {"b", address_of(b)},
+        {"configuration", {{"up", json_of(options.up)}, {"down", json_of(options.down)}}},
+        {"strangers", a.strangers + b.strangers},
+        {"overflowed", a.socket.overflowed() + b.socket.overflowed()},
+        {"valid", valid(a) && valid(b)},
+        {"up", json_of(a, options.budget)},
+        {"down", json_of(b, options.budget)},
+    };
+    return json.dump(2) + "\n";
+}
+
+std::string summary(const Run& run)
+{
+    return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(run.elapsed),
+                       run.options.seed.value()) +
+           in_words("up   (A to B)", run.relay.a(), run.options.budget) +
+           in_words("down (B to A)", run.relay.b(), run.options.budget);
+}
+
+std::string status_line(const Run& run)
+{
+    return fmt::format("{:.0f} s | {} | {}", base::to_seconds(run.elapsed),
+                       in_short("up", run.relay.a()), in_short("down", run.relay.b()));
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/options.hpp"
+#include "emulator/places.hpp"
+#include "emulator/relay.hpp"
+#include "proto/base/time.hpp"
+#include "proto/net/real_time.hpp"
+
+#include <string>
+
+namespace hapnet::emulator {
+
+/// All that a report is made from.
+struct Run {
+    const Options& options;
+    const Relay& relay;
+    net::RealTime real_time;
+    base::Duration elapsed{}; // since the sockets were bound
+};
+
+/// The line that says that the emulator listens: "ready a=127.0.0.1:7001 b=... seed=42 ...".
+[[nodiscard]] std::string ready_line(const Options& options, const Relay& relay);
+
+/// Who is on each side: "a is 127.0.0.1:5000, b is not known yet".
+[[nodiscard]] std::string endpoints_line(const Relay& relay);
+
+/// A warning when the options ask for jitter that does something else than it seems to; or "".
+[[nodiscard]] std::string jitter_note(const Options& options);
+
+/// What --stats writes: one JSON object.
+[[nodiscard]] std::string statistics_json(const Run& run);
+
+/// A few lines for a person.
+[[nodiscard]] std::string summary(const Run& run);
+
+/// One short line for a terminal.
+[[nodiscard]] std::string status_line(const Run& run);
+
+} // namespace hapnet::emulator

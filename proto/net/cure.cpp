@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/net/cure.hpp"
+
+#include <cerrno>
+#include <spdlog/fmt/fmt.h>
+#include <string_view>
+
+namespace hapnet::net {
+
+namespace {
+
+std::string_view cure_of(const std::error_code& error)
+{
+    if (std::string_view{error.category().name()} == "name lookup") {
+        return "check the spelling, or write an IP address; both ends of a side are IPv4 or both "
+               "IPv6";
+    }
+    switch (error.value()) {
+    case EADDRINUSE:
+        return "another program has that port: stop it, choose another port, or 0 for any free one";
+    case EADDRNOTAVAIL:
+        return "this machine has no such address: 'ip address' lists them, 0.0.0.0 is all of them";
+    case EACCES:
+    case EPERM: return "choose a port above 1023, or another place, or run with the permission";
+    case ENOENT:
+    case ENOTDIR:
+    case EISDIR: return "name a file in a folder that exists";
+    case ENETUNREACH:
+    case EHOSTUNREACH:
+        return "there is no route: check the address, and the network with 'ip route'";
+    default: return "";
+    }
+}
+
+} // namespace
+
+std::string explained(const std::system_error& error)
+{
+    const auto cure = cure_of(error.code());
+    return cure.empty() ? error.what() : fmt::format("{}; {}", error.what(), cure);
+}
+
+} // namespace hapnet::net

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What the emulator does to datagrams on real sockets, in real time.
+#include "proto/base/random.hpp"
+#include "tests/e2e/emulator.hpp"
+#include "tests/e2e/udp.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+std::vector<std::uint64_t> numbers_of(const std::vector<Arrival>& arrivals)
+{
+    std::vector<std::uint64_t> numbers;
+    for (const Arrival& arrival : arrivals) numbers.push_back(arrival.number);
+    return numbers;
+}
+
+base::Duration median_delay(std::vector<Arrival> arrivals)
+{
+    if (arrivals.empty()) return base::Duration::max();
+    const auto middle = arrivals.begin() + static_cast<std::ptrdiff_t>(arrivals.size() / 2);
+    std::nth_element(arrivals.begin(), middle, arrivals.end(),
+                     [](const Arrival& x, const Arrival& y) { return x.delay < y.delay; });
+    return middle->delay;
+}
+
+/// Both hosts as the options that name them.
+std::vector<std::string> naming(const Host& a, const Host& b, std::vector<std::string> options)
+{
+    options.insert(options.end(), {"--a", a.endpoint().to_text(), "--b", b.endpoint().to_text()});
+    return options;
+}
+
+/// The numbers, of 0 to count-1, that get from A to B.
+std::vector<std::uint64_t> survivors(const std::vector<std::string>& options, std::uint64_t count)
+{
+    Host a;
+    Host b;
+    Emulator emulator{naming(a, b, options)};
+    stream(a, emulator.a(), count, 200us);
+    auto numbers = numbers_of(b.receive(count, 500ms));
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["received"], count);
+    EXPECT_EQ(statistics["up"]["delivered"], numbers.size());
+    return numbers;
+}
+
+} // namespace
+
+TEST(Emulator, ForwardsBothWaysAndDelaysEachByItsOwnDelay)
+{
+    Host a;
+    Host b;
+    Emulator emulator{naming(a, b, {"--delay", "160ms", "--down.delay", "40ms"})};
+    stream(a, emulator.a(), 1000, 1ms);
+    EXPECT_EQ(b.receive(1000, 1s).size(), 1000U);
+    stream(b, emulator.b(), 500, 1ms);
+    EXPECT_EQ(a.receive(500, 1s).size(), 500U);
+
+    EXPECT_NEAR(base::to_seconds(median_delay(b.arrivals())), 0.160, 0.001);
+    EXPECT_NEAR(base::to_seconds(median_delay(a.arrivals())), 0.040, 0.001);
+    const auto numbers = numbers_of(b.arrivals());
+    EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
+    // Nothing early: but two kernel stamps were converted to the monotonic clock, each to 1 us.
+    for (const Arrival& arrival : b.arrivals()) EXPECT_GE(arrival.delay, 160ms - 2us);
+
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["received"], 1000);
+    EXPECT_EQ(statistics["up"]["delivered"], 1000);
+    EXPECT_EQ(statistics["up"]["bytes_in"], 100'000);
+    EXPECT_EQ(statistics["up"]["bytes_out"], 100'000);
+    EXPECT_EQ(statistics["up"]["reordered"], 0);
+    EXPECT_EQ(statistics["down"]["delivered"], 500);
+    EXPECT_EQ(statistics["configuration"]["down"]["delay_ms"], 40.0);
+    EXPECT_TRUE(statistics["up"]["lateness_us"]["p99"].is_number());
+}
+
+TEST(Emulator, WithZeroDelayForwardsAtOnce)
+{
+    for (const std::string timing : {"eco", "precise", "spin"}) {
+        Host a;
+        Host b;
+        Emulator emulator{naming(a, b, {"--delay", "0", "--timing", timing})};
+        stream(a, emulator.a(), 300, 1ms);
+        EXPECT_EQ(b.receive(300, 1s).size(), 300U) << timing;
+        EXPECT_LT(median_delay(b.arrivals()), 1ms) << timing;
+        EXPECT_EQ(emulator.stop()["timing"], timing);
+    }
+}
+
+TEST(Emulator, LosesTheSameDatagramsForTheSameSeedWhateverTheDelay)
+{
+    const auto first = survivors({"--loss", "50%", "--seed", "42"}, 2000);
+    const auto again = survivors({"--loss", "50%", "--seed", "42", "--delay", "20ms"}, 2000);
+    const auto other = survivors({"--loss", "50%", "--seed", "43"}, 2000);
+    EXPECT_EQ(first, again);
+    EXPECT_NE(first, other);
+    // Binomial(2000, 1/2): standard deviation 22.4.
+    EXPECT_NEAR(static_cast<double>(first.size()), 1000.0, 4 * 22.4);
+}
+
+TEST(Emulator, LosesExactlyTheBurstsItIsAskedFor)
+{
+    EXPECT_EQ(survivors({"--burst-loss", "40/100"}, 1000).size(), 600U);
+}
+
+TEST(Emulator, KeepsOrderUnderJitterUnlessItIsSetFree)
+{
+    const auto kept = survivors({"--delay", "20ms", "--jitter", "10ms"}, 500);
+    EXPECT_EQ(kept.size(), 500U);
+    EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+    const auto freed = survivors({"--delay", "20ms", "--jitter", "10ms", "--order", "free"}, 500);
+    EXPECT_EQ(freed.size(), 500U);
+    EXPECT_FALSE(std::is_sorted(freed.begin(), freed.end()));
+}
+
+TEST(Emulator, AdoptsTheFirstSenderOfEachSideOnLoopback)
+{
+    Host a;
+    Host b;
+    Emulator emulator{{}};
+    a.send(emulator.a(), 0);
+    const auto only_a = "a is " + a.endpoint().to_text() + ", b is not known yet";
+    ASSERT_TRUE(emulator.process().wait_for_err(only_a, 5s));
+    b.send(emulator.b(), 1);
+    EXPECT_EQ(a.receive(1, 1s).size(), 1U);
+    a.send(emulator.a(), 2);
+    EXPECT_EQ(numbers_of(b.receive(1, 1s)), (std::vector<std::uint64_t>{2}));
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["dropped"]["no_destination"], 1);
+    EXPECT_EQ(statistics["a"], a.endpoint().to_text());
+}
+
+TEST(Emulator, AdoptsAnewWhenTheAdoptedOneHasBeenSilentForASecond)
+{
+    Host b;
+    Host restarted;
+    Emulator emulator{{"--b", b.endpoint().to_text()}};
+    {
+        Host a;
+        a.send(emulator.a(), 0);
+        EXPECT_EQ(b.receive(1, 1s).size(), 1U);
+    }
+    restarted.send(emulator.a(), 1);
+    EXPECT_EQ(b.receive(2, 300ms).size(), 1U);
+    EXPECT_FALSE(emulator.process().wait_exit(900ms)); // goes on running, for more than a second
+    restarted.send(emulator.a(), 2);
+    EXPECT_EQ(numbers_of(b.receive(2, 1s)), (std::vector<std::uint64_t>{0, 2}));
+    b.send(emulator.b(), 3);
+    EXPECT_EQ(numbers_of(restarted.receive(1, 1s)), (std::vector<std::uint64_t>{3}));
+    EXPECT_EQ(emulator.stop()["up"]["strangers"], 1);
+}
+
+TEST(Emulator, CountsAndDropsStrangers)
+{
+    Host a;
+    Host b;
+    Host stranger;
+    Emulator emulator{naming(a, b, {})};
+    for (std::uint64_t i = 0; i < 5; ++i) stranger.send(emulator.a(), i);
+    for (std::uint64_t i = 0; i < 3; ++i) stranger.send(emulator.b(), i);
+    a.send(emulator.b(), 8); // known, but not on this side
+    a.send(emulator.a(), 9);
+    EXPECT_EQ(numbers_of(b.receive(1, 1s)), (std::vector<std::uint64_t>{9}));
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["strangers"], 5);
+    EXPECT_EQ(statistics["down"]["strangers"], 4);
+    EXPECT_EQ(statistics["up"]["received"], 1);
+    EXPECT_EQ(statistics["down"]["received"], 0);
+    EXPECT_TRUE(statistics["down"]["lateness_us"]["p99"].is_null());
+}
+
+TEST(Emulator, RelaysOverIpv6)
+{
+    Host a{"[::1]:0"};
+    Host b{"[::1]:0"};
+    Emulator emulator{{"--delay", "5ms"}, "[::1]:0"};
+    b.send(emulator.b(), 0);
+    ASSERT_TRUE(emulator.process().wait_for_err("b is " + b.endpoint().to_text(), 5s));
+    stream(a, emulator.a(), 100, 1ms);
+    EXPECT_EQ(b.receive(100, 1s).size(), 100U);
+    EXPECT_EQ(emulator.stop()["b"], b.endpoint().to_text());
+}
+
+TEST(Emulator, SurvivesRandomBytesOfAllSizesOnBothSockets)
+{
+    Host a;
+    Host b;
+    Host stranger;
+    Emulator emulator{naming(a, b, {"--delay", "1ms", "--loss", "10%"})};
+    const auto chance = base::Seed{1}.stream("random bytes");
+    std::vector<std::byte> bytes(65'507); // the largest UDP payload over IPv4
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        bytes[i] = static_cast<std::byte>(chance.below(256, i));
+    }
+    for (std::uint64_t i = 0; i < 600; ++i) {
+        const auto size = static_cast<std::size_t>(chance.below(i % 50 == 0 ? 65'508 : 1500, i, 1));
+        const auto datagram = std::span{bytes}.first(size);
+        for (Host* host : {&a, &b, &stranger}) {
+            host->send_bytes(i % 2 == 0 ? emulator.a() : emulator.b(), datagram);
+        }
+        if (i % 20 == 0) std::ignore = b.receive(1, 1ms);
+    }
+    a.send_bytes(emulator.a(), bytes);
+    stream(a, emulator.a(), 100, 1ms);
+    EXPECT_GT(b.receive(100, 500ms).size(), 60U);
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["received"].get<int>() + statistics["up"]["overflowed"].get<int>() +
+                  statistics["up"]["strangers"].get<int>(),
+              300 * 3 + 1 + 100);
+}
+
+TEST(Emulator, IsThereAgainOnTheSamePortsAfterAKill)
+{
+    Host a;
+    Host b;
+    Emulator first{naming(a, b, {})};
+    const auto at_a = first.a();
+    const auto at_b = first.b();
+    first.process().signal(SIGKILL);
+    EXPECT_EQ(first.process().wait_exit(5s), 128 + SIGKILL);
+    Process second{"hapnet-emulator",
+                   naming(a, b, {"--listen-a", at_a.to_text(), "--listen-b", at_b.to_text()})};
+    ASSERT_TRUE(second.wait_for_out("ready ", 5s));
+    a.send(at_a, 7);
+    EXPECT_EQ(numbers_of(b.receive(1, 1s)), (std::vector<std::uint64_t>{7}));
+}
+
+} // namespace hapnet::e2e

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What the emulator says to the person, or the script, that starts it.
+#include "proto/base/ensure.hpp"
+#include "tests/e2e/emulator.hpp"
+#include "tests/e2e/udp.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sched.h>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::vector<std::string> listening{"--listen-a",  "127.0.0.1:0", "--listen-b",
+                                         "127.0.0.1:0", "--duration",  "50ms"};
+
+Outcome run_with(std::vector<std::string> options)
+{
+    options.insert(options.begin(), listening.begin(), listening.end());
+    return run("hapnet-emulator", options);
+}
+
+void expect_refusal(const Outcome& outcome, int exit, const std::vector<std::string>& words)
+{
+    EXPECT_EQ(outcome.exit, exit) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    for (const std::string& word : words) {
+        EXPECT_NE(outcome.err.find(word), std::string::npos) << word << "\n" << outcome.err;
+    }
+}
+
+/// No network at all, not even a running loopback, for programs started meanwhile. Needs root.
+class NoNetwork {
+public:
+    NoNetwork() : before_{open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC)}
+    {
+        in_force_ = before_ >= 0 && unshare(CLONE_NEWNET) == 0;
+    }
+    ~NoNetwork()
+    {
+        if (in_force_) base::ensure(setns(before_, CLONE_NEWNET) == 0);
+        if (before_ >= 0) close(before_);
+    }
+    NoNetwork(const NoNetwork&) = delete;
+    NoNetwork& operator=(const NoNetwork&) = delete;
+
+    [[nodiscard]] bool in_force() const { return in_force_; }
+
+private:
+    int before_;
+    bool in_force_ = false;
+};
+
+} // namespace
+
+TEST(EmulatorUsage, PrintsHelpWithEveryOptionAndExamples)
+{
+    const auto outcome = run("hapnet-emulator", {"--help"});
+    EXPECT_EQ(outcome.exit, 0);
+    for (const char* word :
+         {"--listen-a",        "--listen-b", "--a ",     "--b ",         "--delay",
+          "--jitter",          "--order",    "--loss",   "--burst-loss", "--up.delay",
+          "--down.burst-loss", "--seed",     "--stats",  "--duration",   "--timing",
+          "--budget",          "--version",  "Examples", "160ms",        "Exit codes"}) {
+        EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+    }
+}
+
+TEST(EmulatorUsage, PrintsItsVersion)
+{
+    const auto outcome = run("hapnet-emulator", {"--version"});
+    EXPECT_EQ(outcome.exit, 0);
+    EXPECT_EQ(outcome.out.rfind("hapnet-emulator ", 0), 0U);
+}
+
+TEST(EmulatorUsage, RefusesWhatItDoesNotKnowNamingIt)
+{
+    expect_refusal(run_with({"--dealy", "160ms"}), 2, {"--dealy", "--help"});
+    expect_refusal(run_with({"stray"}), 2, {"stray"});
+    expect_refusal(run("hapnet-emulator", {}), 2, {"--listen-a"});
+    expect_refusal(run("hapnet-emulator", {"--listen-a", "127.0.0.1:0"}), 2, {"--listen-b"});
+}
+
+TEST(EmulatorUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
+{
+    expect_refusal(run_with({"--delay", "160"}), 2, {"--delay", "'160'", "160ms"});
+    expect_refusal(run_with({"--delay=-5ms"}), 2, {"--delay", "'-5ms'"});
+    expect_refusal(run_with({"--up.jitter", "5%"}), 2, {"--up.jitter", "'5%'", "15us"});
+    expect_refusal(run_with({"--loss", "93"}), 2, {"--loss", "'93'", "100%"});
+    expect_refusal(run_with({"--down.loss", "101%"}), 2, {"--down.loss", "'101%'"});
+    expect_refusal(run_with({"--burst-loss", "100/40"}), 2, {"--burst-loss", "'100/40'", "40/100"});
+    expect_refusal(run_with({"--order", "random"}), 2, {"--order", "'random'", "keep", "free"});
+    expect_refusal(run_with({"--timing", "now"}), 2, {"--timing", "'now'", "precise"});
+    expect_refusal(run_with({"--seed", "x"}), 2, {"--seed", "'x'", "whole number"});
+    expect_refusal(run_with({"--a", "127.0.0.1"}), 2, {"--a", "HOST:PORT"});
+    expect_refusal(run_with({"--a", "127.0.0.1:0"}), 2, {"--a", "port 0"});
+    expect_refusal(run_with({"--a", "127.0.0.1:70000"}), 2, {"--a", "65535"});
+    expect_refusal(run_with({"--delay", "1ms", "--delay", "2ms"}), 2, {"--delay"});
+    expect_refusal(run_with({"--delay"}), 2, {"--delay"});
+}
+
+TEST(EmulatorUsage, AdoptsOnLoopbackOnly)
+{
+    expect_refusal(run("hapnet-emulator", {"--listen-a", "0.0.0.0:0", "--listen-b", "127.0.0.1:0"}),
+                   2, {"--listen-a 0.0.0.0", "--a HOST:PORT"});
+    expect_refusal(run("hapnet-emulator", {"--listen-a", "127.0.0.1:0", "--listen-b", "[::]:0"}), 2,
+                   {"--listen-b", "--b HOST:PORT"});
+}
+
+TEST(EmulatorUsage, RefusesAPeerThatItsOwnAddressCannotReach)
+{
+    expect_refusal(run_with({"--b", "192.0.2.1:7000"}), 2, {"--b", "--listen-b", "0.0.0.0"});
+}
+
+TEST(EmulatorUsage, SaysThatAPortIsInUse)
+{
+    const Host other;
+    const auto outcome = run(
+        "hapnet-emulator", {"--listen-a", other.endpoint().to_text(), "--listen-b", "127.0.0.1:0"});
+    expect_refusal(outcome, 3, {other.endpoint().to_text(), "another port"});
+}
+
+TEST(EmulatorUsage, SaysThatANameDoesNotResolve)
+{
+    expect_refusal(run_with({"--a", "no-such-host.invalid:7000"}), 3,
+                   {"no-such-host.invalid", "IP address"});
+}
+
+TEST(EmulatorUsage, SaysThatAnAddressIsNotOfThisMachine)
+{
+    expect_refusal(run("hapnet-emulator", {"--listen-a", "192.0.2.1:0", "--a", "127.0.0.1:7000",
+                                           "--listen-b", "127.0.0.1:0"}),
+                   3, {"192.0.2.1", "0.0.0.0"});
+}
+
+TEST(EmulatorUsage, SaysThatThereIsNoRoute)
+{
+    const NoNetwork no_network;
+    if (!no_network.in_force()) GTEST_SKIP() << "only root may take the network away";
+    expect_refusal(run("hapnet-emulator", {"--listen-a", "0.0.0.0:0", "--a", "192.0.2.1:7000",
+                                           "--listen-b", "127.0.0.1:0"}),
+                   3, {"192.0.2.1:7000", "no route"});
+}
+
+TEST(EmulatorUsage, FindsOutBeforeTheRunThatStatisticsCannotBeWritten)
+{
+    expect_refusal(run_with({"--stats", "/no/such/folder/stats.json"}), 3,
+                   {"/no/such/folder/stats.json", "folder that exists"});
+    expect_refusal(run_with({"--stats", "/tmp"}), 3, {"/tmp", "name a file"});
+}
+
+TEST(EmulatorUsage, PrintsExactlyOneReadyLineAndASummaryForPeople)
+{
+    const auto outcome = run_with({"--seed", "42"});
+    EXPECT_EQ(outcome.exit, 0);
+    EXPECT_EQ(outcome.out.rfind("ready a=127.0.0.1:", 0), 0U) << outcome.out;
+    EXPECT_NE(outcome.out.find(" seed=42 "), std::string::npos);
+    EXPECT_EQ(outcome.out.find('\n'), outcome.out.size() - 1);
+    EXPECT_NE(outcome.err.find("0 received"), std::string::npos) << outcome.err;
+}
+
+TEST(EmulatorUsage, WritesStatisticsToStdoutForADash)
+{
+    const auto outcome = run_with({"--stats", "-", "--loss", "5%", "--up.loss", "7%"});
+    EXPECT_EQ(outcome.exit, 0);
+    const auto statistics = nlohmann::json::parse(outcome.out.substr(outcome.out.find('\n')));
+    EXPECT_EQ(statistics["configuration"]["up"]["loss"], 0.07);
+    EXPECT_EQ(statistics["configuration"]["down"]["loss"], 0.05);
+    EXPECT_EQ(statistics["seed"], 1);
+    EXPECT_EQ(statistics["budget_us"], 1000.0);
+    EXPECT_TRUE(statistics["valid"].get<bool>());
+}
+
+TEST(EmulatorUsage, EndsCleanlyOnEitherSignalWithItsStatisticsWritten)
+{
+    for (const int signal_number : {SIGTERM, SIGINT}) {
+        Emulator emulator{{"--delay", "1s"}};
+        Host a;
+        a.send(emulator.a(), 0);
+        a.receive(1, 50ms);
+        const auto statistics = emulator.stop(signal_number);
+        EXPECT_EQ(statistics["up"]["received"], 1);
+        EXPECT_EQ(statistics["up"]["in_flight"], 1);
+    }
+}
+
+TEST(EmulatorUsage, LeavesNoPartOfAStatisticsFileBehind)
+{
+    const TemporaryFolder folder;
+    const auto outcome = run_with({"--stats", folder.file("stats.json")});
+    EXPECT_EQ(outcome.exit, 0);
+    EXPECT_TRUE(nlohmann::json::accept(text_of(folder.file("stats.json"))));
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"stats.json"});
+}
+
+} // namespace hapnet::e2e

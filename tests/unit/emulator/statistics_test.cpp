@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/statistics.hpp"
+
+#include <chrono>
+#include <gtest/gtest.h>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+} // namespace
+
+TEST(Statistics, OfNothingAreValid) { EXPECT_TRUE(Statistics{}.is_valid(0ns)); }
+
+TEST(Statistics, AreValidAsLongAsOneInAHundredIsLate)
+{
+    Statistics statistics;
+    for (int i = 0; i < 99; ++i) statistics.lateness.add(10us);
+    statistics.lateness.add(5ms);
+    EXPECT_TRUE(statistics.is_valid(1ms));
+    statistics.lateness.add(5ms);
+    EXPECT_FALSE(statistics.is_valid(1ms));
+}
+
+TEST(Statistics, SumDropsOverAllCauses)
+{
+    Statistics statistics;
+    for (const DropCause cause : drop_causes) statistics.dropped_by(cause) = 2;
+    EXPECT_EQ(statistics.dropped_total(), 2 * drop_causes.size());
+}
+
+} // namespace hapnet::emulator
