@@ -3,6 +3,7 @@
 #include "lab/core/analysis.hpp"
 #include "lab/core/csv.hpp"
 #include "lab/core/report.hpp"
+#include "lab/demo_command.hpp"
 #include "lab/options.hpp"
 #include "proto/record/reader.hpp"
 
@@ -42,7 +43,7 @@ base::Result<record::Record> read_record(const std::string& path)
     return record;
 }
 
-base::Result<void> run(const AnalyseCommand& command)
+base::Result<int> run(const AnalyseCommand& command)
 {
     const auto a = read_record(command.record_a);
     if (!a) return tl::unexpected{a.error()};
@@ -54,10 +55,10 @@ base::Result<void> run(const AnalyseCommand& command)
                           " (B): " + analysis.error().message);
     }
     print(command.json ? to_json(*analysis).dump(2) + '\n' : to_table(*analysis));
-    return {};
+    return 0;
 }
 
-base::Result<void> run(const ExportCommand& command)
+base::Result<int> run(const ExportCommand& command)
 {
     const auto record = read_record(command.record);
     if (!record) return tl::unexpected{record.error()};
@@ -70,7 +71,12 @@ base::Result<void> run(const ExportCommand& command)
     case ExportRows::ticks: print_rows(tick_csv_header(), record->ticks); break;
     case ExportRows::messages: print_rows(message_csv_header(), record->messages); break;
     }
-    return {};
+    return 0;
+}
+
+base::Result<int> run(const DemoReportCommand& command)
+{
+    return conclude_demo(command).map([](bool is_met) { return is_met ? 0 : exit_failed; });
 }
 
 int execute(const Command& command)
@@ -83,7 +89,7 @@ int execute(const Command& command)
     if (std::fflush(stdout) != 0) {
         throw std::system_error{errno, std::generic_category(), "cannot write the result"};
     }
-    return 0;
+    return *done;
 }
 
 } // namespace

@@ -20,7 +20,7 @@ tl::expected<Command, int> parse_command_line(int argc, const char* const* argv)
     CLI::App app{"Reads the records that hapnet-peer --record writes", "hapnet-lab"};
     app.set_version_flag("--version", base::version_line("hapnet-lab"));
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 2 usage or bad input, 3 the environment.");
+    app.footer("Exit codes: 0 done, 1 failed, 2 usage or bad input, 3 the environment.");
 
     AnalyseCommand analyse;
     auto* analyse_command = app.add_subcommand(
@@ -42,12 +42,22 @@ tl::expected<Command, int> parse_command_line(int argc, const char* const* argv)
         ->option_text("ticks|messages [ticks]")
         ->check(CLI::IsMember{{"ticks", "messages"}});
 
+    DemoReportCommand demo;
+    auto* demo_command = app.add_subcommand(
+        "demo-report", "The end of scripts/demo.sh: read what it recorded in a folder, print it\n"
+                       "beside the paper's Table 1, write manifest.json. Exit code 1: it misses");
+    demo_command->add_option("FOLDER", demo.folder, "what scripts/demo.sh wrote")->required();
+    demo_command->add_option("--command", demo.command, "what was typed, for the manifest");
+    demo_command->add_option("--start", demo.start, "when it began, for the manifest");
+    demo_command->add_option("--wall-time", demo.wall_time_s, "seconds since, for the manifest");
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return tl::unexpected{app.exit(error) == 0 ? 0 : exit_usage};
     }
     if (analyse_command->parsed()) return analyse;
+    if (demo_command->parsed()) return demo;
     exported.rows = rows == "messages" ? ExportRows::messages : ExportRows::ticks;
     return exported;
 }

@@ -24,7 +24,15 @@ struct ExportCommand {
     ExportRows rows = ExportRows::ticks;
 };
 
-using Command = std::variant<AnalyseCommand, ExportCommand>;
+/// `hapnet-lab demo-report FOLDER`: the end of scripts/demo.sh.
+struct DemoReportCommand {
+    std::string folder;
+    std::string command; // what was typed
+    std::string start;   // ISO 8601, UTC
+    double wall_time_s = 0.0;
+};
+
+using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand>;
 
 /// What the command line asks for. Otherwise the exit code: 0 after --help or --version, 2 after
 /// a mistake; what there was to say has then been printed.

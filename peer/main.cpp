@@ -6,6 +6,7 @@
 #include "peer/servo.hpp"
 #include "peer/watcher.hpp"
 #include "proto/net/clock.hpp"
+#include "proto/net/cure.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/wait.hpp"
@@ -187,7 +188,7 @@ int main_program(std::span<char*> words)
     try {
         return play(std::get<Options>(*parsed));
     } catch (const std::system_error& error) {
-        say(error.what());
+        say(net::explained(error));
         return exit_environment;
     } catch (const std::exception& error) {
         say(error.what());

@@ -145,23 +145,25 @@ void Servo::note_session(base::TimePoint now)
 {
     const auto& session = parts_.peer.session();
     if (!session) return;
-    const auto clock = parts_.peer.clock();
-    const bool is_new =
-        !noted_ || noted_->session != session->number || noted_->start != session->start;
-    if (!is_new && now - *noted_at_ < session_noted_every) return;
-    noted_ =
-        record::SessionRow{.start = session->start,
-                           .length = parts_.peer.length(),
-                           .remote_offset = clock ? clock->offset : base::Duration{0},
-                           .offset_uncertainty = clock ? clock->uncertainty : base::Duration::max(),
-                           .session = session->number,
-                           .seed = session->seed};
-    noted_at_ = now;
-    parts_.journal.put(*noted_);
-    if (is_new) {
+    if (cued_ != session->start) {
+        cued_ = session->start;
         parts_.device.on_cue({session->start, parts_.peer.hands_on(), base::Seed{session->seed},
                               parts_.id, session->is_left});
     }
+    // A side that was restarted has a clock unknown to us until it has answered.
+    const auto clock = parts_.peer.clock();
+    if (!clock) return;
+    const bool is_new =
+        !noted_ || noted_->session != session->number || noted_->start != session->start;
+    if (!is_new && now - *noted_at_ < session_noted_every) return;
+    noted_ = record::SessionRow{.start = session->start,
+                                .length = parts_.peer.length(),
+                                .remote_offset = clock->offset,
+                                .offset_uncertainty = clock->uncertainty,
+                                .session = session->number,
+                                .seed = session->seed};
+    noted_at_ = now;
+    parts_.journal.put(*noted_);
 }
 
 } // namespace hapnet::peer

@@ -70,6 +70,7 @@ private:
     net::RealTime real_time_;
     std::optional<record::SessionRow> noted_;
     std::optional<base::TimePoint> noted_at_;
+    std::optional<base::TimePoint> cued_; // the start that the device was told
     std::atomic<bool> stop_{false};
     std::atomic<bool> running_{false};
     std::atomic<bool> done_{false};

@@ -13,15 +13,18 @@ namespace {
 constexpr base::Duration on_terminal_every{std::chrono::milliseconds{200}};
 constexpr base::Duration elsewhere_every{std::chrono::seconds{5}};
 
-std::string line_of(const Glance& glance, const Glance& before, base::Duration between)
+std::string line_of(const Glance& glance, const Glance& before)
 {
     const record::TickRow& tick = *glance.tick;
     if (!glance.session) {
         return "waiting for the other peer; is it running, and is the emulator between the two?";
     }
     const double at = base::to_seconds(tick.due - glance.session->start);
+    // Per second of the session's own ticks, of which there are 1000.
+    const auto ticks = glance.ticks_in_session - before.ticks_in_session;
+    const auto messages = glance.messages - before.messages;
     const double rate =
-        static_cast<double>(glance.messages - before.messages) / base::to_seconds(between);
+        ticks == 0 ? 0.0 : 1000.0 * static_cast<double>(messages) / static_cast<double>(ticks);
     return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube {:+6.1f} mm  force {:4.2f} N  "
                        "received {:4.0f}/s  round trip {:5.1f} ms  missed ticks {}",
                        at, base::to_seconds(glance.session->length), record::name_of(tick.phase),
@@ -74,7 +77,7 @@ void Watcher::take(const record::Row& row)
     if (writer_) writer_->write(row);
     if (const auto* tick = std::get_if<record::TickRow>(&row)) {
         glance_.tick = *tick;
-        ++glance_.ticks;
+        if (tick->sent_sequence > 0) ++glance_.ticks_in_session;
         glance_.missed += tick->missed_before;
     } else if (const auto* session = std::get_if<record::SessionRow>(&row)) {
         glance_.session = *session;
@@ -107,7 +110,7 @@ void Watcher::show(base::TimePoint now)
     if (next_show_ && !base::is_due(next_show_, now)) return;
     const base::Duration every = is_terminal_ ? on_terminal_every : elsewhere_every;
     if (next_show_ || is_terminal_) {
-        const std::string line = line_of(glance_, shown_, every);
+        const std::string line = line_of(glance_, shown_);
         if (is_terminal_) {
             fmt::print(stderr, "\r\x1b[Khapnet-peer {}: {}", peer_id_, line);
             line_open_ = true;

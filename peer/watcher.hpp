@@ -14,7 +14,7 @@ struct Glance {
     std::optional<record::TickRow> tick;
     std::optional<record::SessionRow> session;
     std::uint64_t messages = 0;
-    std::uint64_t ticks = 0;
+    std::uint64_t ticks_in_session = 0;
     std::uint64_t missed = 0;
 };
 

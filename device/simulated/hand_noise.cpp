@@ -4,6 +4,7 @@
 
 #include "proto/base/math.hpp"
 
+#include <cmath>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device {
@@ -32,7 +33,9 @@ double HandNoise::at(double seconds) const
 {
     double sum = 0.0;
     for (const Swing& s : swings_) {
-        sum += s.amplitude_m * base::sin(base::two_pi * s.hertz * seconds + s.phase);
+        const double turns = s.hertz * seconds;
+        // Whole turns taken off: the sine's range would end after some hours.
+        sum += s.amplitude_m * base::sin(base::two_pi * (turns - std::floor(turns)) + s.phase);
     }
     return sum;
 }

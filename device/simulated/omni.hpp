@@ -46,7 +46,7 @@ public:
 
 private:
     [[nodiscard]] Intention intention(base::TimePoint now) const;
-    void advance(const Intention& intention);
+    void advance(const Intention& intended);
     void stop_at_workspace_end(int axis);
     [[nodiscard]] glm::dvec3 quantised(const glm::dvec3& position) const;
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -35,7 +36,9 @@ constexpr std::array<std::pair<std::string_view, Task>, 3> tasks{
 
 double swing(double amplitude_mm, double hertz, double phase, double seconds)
 {
-    return amplitude_mm * base::sin(base::two_pi * hertz * seconds + phase);
+    const double turns = hertz * seconds;
+    // Whole turns taken off: the sine's range would end after some days.
+    return amplitude_mm * base::sin(base::two_pi * (turns - std::floor(turns)) + phase);
 }
 
 double path_speed(double seconds)

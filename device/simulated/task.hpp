@@ -40,7 +40,7 @@ public:
     [[nodiscard]] Intention at(base::TimePoint now) const;
 
 private:
-    [[nodiscard]] double working_x(double seconds) const;
+    [[nodiscard]] double working_x(double t) const;
 
     Task task_;
     Cue cue_;

@@ -6,6 +6,7 @@
 #include "proto/base/math.hpp"
 
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace hapnet::peer {
 
@@ -56,20 +57,21 @@ void Cube::stop_at_platform()
 
 void Cube::stop_at_static_cube(const Box& before)
 {
-    // Axis-parallel boxes meet face to face: on the axis along which they were still apart.
+    // Axis-parallel boxes meet face to face: on the axis along which they were most apart.
     const glm::dvec3 reach = box_.half + static_cube_.half;
     const glm::dvec3 apart = (box_.centre - static_cube_.centre).value;
     for (const int axis : {0, 1, 2}) {
         if (std::abs(apart[axis]) >= reach[axis]) return;
     }
     const glm::dvec3 apart_before = (before.centre - static_cube_.centre).value;
-    for (const int axis : {0, 1, 2}) {
-        if (std::abs(apart_before[axis]) < reach[axis]) continue;
-        const double side = apart_before[axis] < 0.0 ? -1.0 : 1.0;
-        box_.centre.value[axis] = static_cube_.centre.value[axis] + side * reach[axis];
-        velocity_.value[axis] = 0.0;
-        return;
+    const glm::dvec3 gap = glm::abs(apart_before) - reach; // < 0: placed into it, e.g. by rounding
+    int axis = 0;
+    for (const int other : {1, 2}) {
+        if (gap[other] > gap[axis]) axis = other;
     }
+    const double side = apart_before[axis] < 0.0 ? -1.0 : 1.0;
+    box_.centre.value[axis] = static_cube_.centre.value[axis] + side * reach[axis];
+    velocity_.value[axis] = 0.0;
 }
 
 } // namespace hapnet::peer

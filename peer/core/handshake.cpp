@@ -8,6 +8,9 @@ namespace hapnet::peer {
 
 namespace {
 
+// No session is longer than a program can be asked for (10^6 s): a start farther away is nonsense.
+constexpr base::Duration start_away_max{std::chrono::seconds{1'000'001}};
+
 /// The same number on both sides, another one for every pair of runs; never 0.
 std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
 {
@@ -76,10 +79,10 @@ void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
     const bool ours_to_decide = owns_start_ || (is_left() && !hello.in_session);
     if (ours_to_decide) {
         if (!session_) propose(arrived + start_after);
-        acknowledged_ = hello.start_heard == session_->start;
+        if (hello.start_heard == session_->start) acknowledged_ = true;
         asked_ = !acknowledged_;
     } else if (hello.start) {
-        adopt(hello);
+        adopt(hello, arrived);
         asked_ = true; // it repeats itself until it hears our acknowledgement
     }
 }
@@ -90,13 +93,14 @@ void Handshake::propose(base::TimePoint start)
     owns_start_ = true;
 }
 
-void Handshake::adopt(const wire::Hello& hello)
+void Handshake::adopt(const wire::Hello& hello, base::TimePoint arrived)
 {
     const auto clock = clock_.estimate();
     if (!clock || start_heard_ == hello.start) return;
+    const base::TimePoint start = *hello.start - clock->offset;
+    if (std::chrono::abs(start - arrived) > start_away_max) return;
     start_heard_ = hello.start;
-    session_ =
-        Session{number(), *hello.start - clock->offset, hello.seed, is_left(), hello.in_session};
+    session_ = Session{number(), start, hello.seed, is_left(), hello.in_session};
 }
 
 void Handshake::on_echo(const std::optional<wire::Echo>& echo, base::TimePoint sent,

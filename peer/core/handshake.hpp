@@ -74,7 +74,7 @@ private:
     [[nodiscard]] std::uint32_t number() const;
     void agree(const wire::Hello& hello, base::TimePoint arrived);
     void propose(base::TimePoint start);
-    void adopt(const wire::Hello& hello);
+    void adopt(const wire::Hello& hello, base::TimePoint arrived);
 
     Introduction self_;
     std::optional<Heard> heard_;

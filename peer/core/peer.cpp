@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hapnet::peer {
 
@@ -78,9 +79,11 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
         return;
     }
     if (!had_met) events_.put(Event::met);
-    if (!session() || session()->number == session_number_) return;
-    session_number_ = session()->number;
-    sequence_ = 0;
+    if (!session() || session()->number == current_.number) return;
+    // A late hello of an earlier run may make us change over and back: then count on.
+    former_ = std::exchange(current_, session()->number == former_.number
+                                          ? former_
+                                          : Numbering{.number = session()->number});
     remote_.forget();
     gone_ = false;
     lost_ = false;
@@ -90,7 +93,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
 
 void Peer::on_message(const wire::State& state, base::TimePoint arrived)
 {
-    if (!session() || state.session != session_number_ || gone_) {
+    if (!session() || state.session != current_.number || gone_) {
         ++counters_.other_session;
         return;
     }
@@ -111,9 +114,9 @@ void Peer::on_message(const wire::Bye& bye, base::TimePoint /*arrived*/)
         if (!session()) refuse(bye.reason, false);
         return;
     }
-    if (!session() || bye.session != session_number_ || gone_) return;
+    if (!session() || bye.session != current_.number || gone_) return;
     gone_ = true;
-    events_.put(Event::left);
+    if (!leaving_) events_.put(Event::left);
 }
 
 void Peer::refuse(wire::ByeReason reason, bool tell)
@@ -203,37 +206,41 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
         std::visit([&](auto& algorithm) { algorithm.tick(cube_, situation, tick.remote_force); },
                    settings_.algorithm);
     }
-    account(tick.touched, cube_.position() - before, now);
+    account(tick, cube_.position() - before, now);
     tick.force = tick.touched.on_hand;
-    tick.permitted = usable && cube_known_ && tick.freshness > 0.0;
+    // The governor's own fade runs along with the remote's: zero when the remote counts as gone.
+    tick.permitted = usable && cube_known_ && tick.freshness >= 1.0;
     if (!gone_) say_state(tick, now, usable ? hand : Hand{});
 }
 
-void Peer::account(const Touched& touched, base::Displacement moved, base::TimePoint now)
+void Peer::account(const Tick& tick, base::Displacement moved, base::TimePoint now)
 {
-    if (touched.touching) {
+    const bool touching = tick.touched.touching;
+    if (touching) {
         last_touch_ = now;
-        ledger_.add(touched.on_cube * settings_.tick);
+        ledger_.add(tick.touched.on_cube * settings_.tick);
+    } else if (tick.remote_touching) {
+        last_touch_.reset(); // the other hand has taken the cube over
     }
     // The cube still coasts from this hand's push for a while after it.
     const bool ours = last_touch_ && now - *last_touch_ < BaseAlgorithm::settle_after;
     if (ours) ledger_.add(moved);
-    if (touched.touching || base::norm(moved) > 1e-9) last_stir_ = now;
+    if (touching || base::norm(moved) > 1e-9) last_stir_ = now;
 }
 
 bool Peer::mentions_body(base::TimePoint now) const
 {
     if (!cube_known_) return false;
     const bool stirs = last_stir_ && now - *last_stir_ < body_lingers;
-    return stirs || sequence_ % body_every == 1;
+    return stirs || current_.sequence % body_every == 1;
 }
 
 void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
 {
-    tick.sequence = ++sequence_;
+    tick.sequence = ++current_.sequence;
     wire::State state;
-    state.session = session_number_;
-    state.sequence = sequence_;
+    state.session = current_.number;
+    state.sequence = current_.sequence;
     state.sent = now;
     state.echo = handshake_.echo(now);
     state.touching = tick.touched.touching;
@@ -257,7 +264,7 @@ void Peer::say_bye(base::TimePoint now)
     if (byes_left_ == 0 || (last_bye_ && now - *last_bye_ < bye_every)) return;
     last_bye_ = now;
     --byes_left_;
-    outbox_.put(wire::encode(wire::Bye{session_number_, leaving_because_}));
+    outbox_.put(wire::encode(wire::Bye{current_.number, leaving_because_}));
 }
 
 } // namespace hapnet::peer

@@ -111,7 +111,7 @@ private:
     [[nodiscard]] Phase phase_at(base::TimePoint now) const;
     void note(Phase phase, double freshness);
     void play(Tick& tick, base::TimePoint now, const Hand& hand);
-    void account(const Touched& touched, base::Displacement moved, base::TimePoint now);
+    void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
     void say_state(Tick& tick, base::TimePoint now, const Hand& hand);
     void say_bye(base::TimePoint now);
     [[nodiscard]] bool mentions_body(base::TimePoint now) const;
@@ -130,8 +130,12 @@ private:
     bool gone_ = false;      // the other side said goodbye
     bool lost_ = false;      // the other side fell silent
     bool cube_known_ = true; // false: joined late, the other side's cube not seen yet
-    std::uint32_t session_number_ = 0;
-    std::uint32_t sequence_ = 0;
+    struct Numbering {
+        std::uint32_t number = 0; // of the session
+        std::uint32_t sequence = 0;
+    };
+    Numbering current_;
+    Numbering former_;                          // the session before
     std::optional<base::TimePoint> last_touch_; // by this hand
     std::optional<base::TimePoint> last_stir_;  // the body was touched or moved
     std::optional<wire::ByeReason> refusal_;

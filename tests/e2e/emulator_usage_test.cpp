@@ -1,18 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // What the emulator says to the person, or the script, that starts it.
-#include "proto/base/ensure.hpp"
 #include "tests/e2e/emulator.hpp"
+#include "tests/e2e/no_network.hpp"
 #include "tests/e2e/udp.hpp"
 
 #include <chrono>
 #include <csignal>
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sched.h>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace hapnet::e2e {
@@ -38,28 +35,6 @@ void expect_refusal(const Outcome& outcome, int exit, const std::vector<std::str
         EXPECT_NE(outcome.err.find(word), std::string::npos) << word << "\n" << outcome.err;
     }
 }
-
-/// No network at all, not even a running loopback, for programs started meanwhile. Needs root.
-class NoNetwork {
-public:
-    NoNetwork() : before_{open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC)}
-    {
-        in_force_ = before_ >= 0 && unshare(CLONE_NEWNET) == 0;
-    }
-    ~NoNetwork()
-    {
-        if (in_force_) base::ensure(setns(before_, CLONE_NEWNET) == 0);
-        if (before_ >= 0) close(before_);
-    }
-    NoNetwork(const NoNetwork&) = delete;
-    NoNetwork& operator=(const NoNetwork&) = delete;
-
-    [[nodiscard]] bool in_force() const { return in_force_; }
-
-private:
-    int before_;
-    bool in_force_ = false;
-};
 
 } // namespace
 

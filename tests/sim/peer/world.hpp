@@ -57,6 +57,7 @@ public:
     [[nodiscard]] bool is_alive(std::size_t side) const { return sides_[side].has_value(); }
 
     [[nodiscard]] Side& side(std::size_t index) { return *sides_[index]; }
+    [[nodiscard]] const Side& side(std::size_t index) const { return *sides_[index]; }
     [[nodiscard]] base::TimePoint now() const { return now_; }
     /// |x_A - x_B| of the cubes, metres.
     [[nodiscard]] double discrepancy_x() const;

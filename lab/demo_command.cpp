@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/demo_command.hpp"
+
+#include "lab/core/demo_report.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <spdlog/fmt/fmt.h>
+#include <string>
+#include <sys/utsname.h>
+#include <system_error>
+#include <thread>
+
+namespace hapnet::lab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+base::Result<Json> read_json(const std::string& path)
+{
+    std::ifstream file{path};
+    if (!file) return base::fail("cannot open " + path);
+    Json json = Json::parse(file, nullptr, false);
+    if (!json.is_object()) return base::fail(path + " does not hold one JSON object");
+    return json;
+}
+
+base::Result<DemoTask> read_task(const std::string& folder)
+{
+    DemoTask task;
+    for (auto [part, name] : {std::pair{&task.analysis, "/analysis.json"},
+                              {&task.emulator, "/emulator.json"},
+                              {&task.peer, "/peer-1.json"}}) {
+        auto json = read_json(folder + name);
+        if (!json) return tl::unexpected{json.error()};
+        *part = *std::move(json);
+    }
+    return task;
+}
+
+Json host()
+{
+    utsname system{};
+    uname(&system);
+    return {{"name", system.nodename},
+            {"system", fmt::format("{} {}", system.sysname, system.release)},
+            {"machine", system.machine},
+            {"processors", std::thread::hardware_concurrency()}};
+}
+
+void write(const std::string& path, const std::string& text)
+{
+    std::ofstream file{path, std::ios::binary};
+    file << text;
+    if (!file.flush()) {
+        throw std::system_error{errno, std::generic_category(), "cannot write " + path};
+    }
+}
+
+} // namespace
+
+base::Result<bool> conclude_demo(const DemoReportCommand& command)
+{
+    auto p1 = read_task(command.folder + "/p1");
+    if (!p1) return tl::unexpected{p1.error()};
+    auto t3 = read_task(command.folder + "/t3");
+    if (!t3) return tl::unexpected{t3.error()};
+    const DemoRun run{*std::move(p1), *std::move(t3)};
+    const DemoCircumstances circumstances{command.command, command.start, command.wall_time_s,
+                                          host()};
+    write(command.folder + "/manifest.json", demo_manifest(run, circumstances).dump(2) + '\n');
+    fmt::print("{}", demo_table(run));
+    return demo_is_met(run);
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# Installs what is missing to build Hapnet on Debian 12 and, with --test, to test it.
+set -euo pipefail
+
+usage="usage: scripts/setup.sh [--test]
+Installs the Debian 12 packages that building Hapnet needs and that are missing; with --test
+also those that scripts/test.sh needs. Runs as root or with sudo, asks nothing, and does nothing
+when nothing is missing."
+
+packages=(g++ cmake ninja-build libcli11-dev libexpected-dev libglm-dev librandom123-dev
+    libreaderwriterqueue-dev libspdlog-dev nlohmann-json3-dev)
+test_packages=(clang-14 clang-format-14 clang-tidy-14 jq libgtest-dev shellcheck)
+
+for argument in "$@"; do
+    case $argument in
+    --test) packages+=("${test_packages[@]}") ;;
+    -h | --help) echo "$usage" && exit 0 ;;
+    *) echo "setup: unknown argument '$argument'"$'\n'"$usage" >&2 && exit 2 ;;
+    esac
+done
+
+environment_error() {
+    printf 'setup: %s\n' "$@" >&2
+    exit 3
+}
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    environment_error "this is not Debian. Install what these Debian 12 packages hold," \
+        "then build with 'cmake --workflow --preset release':" "${packages[*]}"
+fi
+
+# shellcheck disable=SC2016 # dpkg-query expands these, not the shell
+format='${Package} ${db:Status-Status}\n'
+installed=$(dpkg-query -W -f "$format" "${packages[@]}" 2>/dev/null || true)
+missing=()
+for package in "${packages[@]}"; do
+    grep -qxF "$package installed" <<<"$installed" || missing+=("$package")
+done
+((${#missing[@]} > 0)) || exit 0
+
+install="apt-get install --no-install-recommends ${missing[*]}"
+if ((EUID == 0)); then
+    as_root=(env DEBIAN_FRONTEND=noninteractive)
+elif command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; then
+    as_root=(sudo env DEBIAN_FRONTEND=noninteractive)
+else
+    environment_error "installing needs root, and sudo is not there or wants a password." \
+        "Ask an administrator to run: $install"
+fi
+
+echo "setup: installing ${missing[*]}"
+apt=("${as_root[@]}" apt-get -q -y -o DPkg::Lock::Timeout=120)
+"${apt[@]}" update || environment_error "'apt-get update' failed (see above)." \
+    "Check the network and /etc/apt, then run this again."
+"${apt[@]}" install --no-install-recommends "${missing[@]}" ||
+    environment_error "installing failed (see above). These are packages of Debian 12;" \
+        "when that is cured, run this again, or: $install"

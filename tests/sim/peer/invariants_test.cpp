@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// Conditions drawn from a seed, and what must hold in every millisecond under them.
+#include "tests/sim/peer/score.hpp"
+
+#include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
+#include <string>
+
+namespace hapnet::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr base::Duration length = 10s; // 7 s hands on
+
+/// Delay 0 to 300 ms, jitter up to the delay, loss 0 to 90 %, sometimes bursts.
+emulator::Conditions conditions_of(const base::RandomStream& draw, std::uint32_t way)
+{
+    emulator::Conditions c;
+    c.delay = base::from_seconds(0.3 * draw.uniform(0, way));
+    c.jitter = base::from_seconds(base::to_seconds(c.delay) * draw.uniform(1, way));
+    c.order = draw.below(2, 2, way) == 0 ? emulator::Order::keep : emulator::Order::free;
+    if (draw.below(3, 3, way) != 0) {
+        c.loss = base::Probability::from_fraction(0.9 * draw.uniform(4, way)).value();
+    }
+    if (draw.below(3, 5, way) == 0) {
+        c.burst_loss = emulator::Burst{static_cast<std::uint32_t>(draw.below(60, 6, way) + 1), 100};
+    }
+    return c;
+}
+
+Setting setting_of(std::uint64_t seed)
+{
+    const auto draw = base::Seed{seed}.stream("conditions");
+    Setting setting;
+    setting.task = static_cast<device::Task>(draw.below(3, 10));
+    setting.seed = base::Seed{seed};
+    setting.length = length;
+    setting.up = conditions_of(draw, 0);
+    setting.down = conditions_of(draw, 1);
+    return setting;
+}
+
+std::string words_for(const emulator::Conditions& c)
+{
+    return fmt::format("delay {} ms, jitter {} ms {}, loss {} %, burst {}",
+                       base::to_seconds(c.delay) * 1e3, base::to_seconds(c.jitter) * 1e3,
+                       to_text(c.order), c.loss.percent(), c.burst_loss ? c.burst_loss->lost : 0);
+}
+
+std::string words_for(const Setting& s)
+{
+    return fmt::format("seed {}, {}; up: {}; down: {}", s.seed.value(), device::name_of(s.task),
+                       words_for(s.up), words_for(s.down));
+}
+
+void expect_invariants(const World& world)
+{
+    for (const std::size_t i : {0U, 1U}) {
+        const auto& link = world.link(i).statistics();
+        ASSERT_EQ(link.received + link.duplicated,
+                  link.delivered + link.dropped_total() + link.in_flight);
+        ASSERT_LE(link.in_flight, 2000U); // 0.6 s at most, of a message or two each millisecond
+        if (!world.is_alive(i)) continue;
+        const Side& side = world.side(i);
+        ASSERT_TRUE(base::is_finite(side.applied));
+        ASSERT_LE(base::norm(side.applied), 3.3 + 1e-12);
+        ASSERT_TRUE(base::is_finite(side.last.force));
+        ASSERT_TRUE(base::is_finite(side.peer->cube().position()));
+        ASSERT_LE(std::abs(side.peer->cube().position().x()), 0.2);
+        const auto& counters = side.peer->counters();
+        ASSERT_EQ(counters.malformed + counters.implausible + counters.unusable_hand, 0U);
+    }
+}
+
+class Conditions : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Conditions, OfEveryKindLeaveForcesFiniteLinksAccountedForAndCopiesEqualInTheEnd)
+{
+    const Setting setting = setting_of(GetParam());
+    SCOPED_TRACE(words_for(setting));
+    World world{setting};
+    const auto step = [&world] {
+        world.step();
+        expect_invariants(world);
+        return !testing::Test::HasFatalFailure();
+    };
+    // At 90 % loss in both directions the start takes about a second; 60 s is never reached.
+    for (int ms = 0; ms < 60'000 && !world.side(0).peer->session(); ++ms) ASSERT_TRUE(step());
+    ASSERT_TRUE(world.side(0).peer->session());
+    const base::TimePoint start = world.side(0).peer->session()->start;
+    const base::Duration hands_on = world.side(0).peer->hands_on();
+    while (world.now() < start + hands_on + 2s)
+        ASSERT_TRUE(step()) << world.now().time_since_epoch().count();
+    ASSERT_TRUE(world.side(1).peer->session());
+    EXPECT_LE(world.discrepancy_x(), 0.1e-3);
+    while (world.now() < start + length + 500ms) ASSERT_TRUE(step());
+    EXPECT_TRUE(world.side(0).peer->finished());
+    EXPECT_TRUE(world.side(1).peer->finished());
+}
+
+INSTANTIATE_TEST_SUITE_P(Seed, Conditions, testing::Range(std::uint64_t{0}, std::uint64_t{60}));
+
+TEST(Conditions, WhereOneOf100MessagesArrivesStillEndWithEqualCopies)
+{
+    Setting setting = under(device::Task::t3, {});
+    setting.length = 60s;
+    setting.up.loss = setting.down.loss = base::Probability::from_fraction(0.99).value();
+    World world{setting};
+    for (int ms = 0; ms < 120'000 && !world.side(1).peer->session(); ++ms) {
+        world.step();
+        expect_invariants(world);
+    }
+    ASSERT_TRUE(world.side(1).peer->session());
+    const base::TimePoint start = world.side(0).peer->session()->start;
+    ASSERT_LT(world.now(), start + 50s) << "the other side heard of the start too late to play";
+    while (world.now() < start + world.side(0).peer->hands_on() + 2s) world.step();
+    expect_invariants(world);
+    EXPECT_LE(world.discrepancy_x(), 0.1e-3);
+}
+
+} // namespace
+} // namespace hapnet::sim

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/tidy/arrows.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace hapnet::tidy {
+
+namespace {
+
+struct Folder {
+    std::string_view name;
+    bool is_core;
+    std::vector<std::string_view> arrows;
+};
+
+/// The map. A folder comes before the one that it lies in.
+const std::vector<Folder>& map()
+{
+    static const std::vector<Folder> folders{
+        {"proto/base", true, {}},
+        {"proto/wire", true, {"proto/base"}},
+        {"proto/record", false, {"proto/base"}},
+        {"proto/net", false, {"proto/base"}},
+        {"emulator/core", true, {"proto/base"}},
+        {"emulator", false, {"emulator/core", "proto/net"}},
+        {"device", true, {"proto/base"}},
+        {"peer/core", true, {"proto/wire"}},
+        {"peer", false, {"peer/core", "device", "proto/record", "proto/net"}},
+        {"lab/core", true, {"emulator/core", "peer/core", "proto/record", "device"}},
+        {"lab", false, {"lab/core", "proto/net"}},
+    };
+    return folders;
+}
+
+bool is_impure(std::string_view header)
+{
+    constexpr std::array headers{"condition_variable",
+                                 "csignal",
+                                 "cstdio",
+                                 "ctime",
+                                 "filesystem",
+                                 "fstream",
+                                 "future",
+                                 "iostream",
+                                 "mutex",
+                                 "netdb.h",
+                                 "poll.h",
+                                 "pthread.h",
+                                 "random",
+                                 "sched.h",
+                                 "signal.h",
+                                 "stdio.h",
+                                 "stop_token",
+                                 "syncstream",
+                                 "thread",
+                                 "time.h",
+                                 "unistd.h",
+                                 "semaphore",
+                                 "fcntl.h"};
+    constexpr std::array folders{"sys/", "arpa/", "netinet/", "linux/", "readerwriterqueue/"};
+    if (header.starts_with("spdlog/")) return !header.starts_with("spdlog/fmt/");
+    return std::find(headers.begin(), headers.end(), header) != headers.end() ||
+           std::any_of(folders.begin(), folders.end(),
+                       [&](const char* folder) { return header.starts_with(folder); });
+}
+
+} // namespace
+
+std::string folder_of(std::string_view path)
+{
+    for (const Folder& folder : map()) {
+        if (path.starts_with(std::string{folder.name} + "/")) return std::string{folder.name};
+    }
+    return "";
+}
+
+bool may_include(std::string_view from, std::string_view to)
+{
+    if (from == to) return true;
+    const auto folder = std::find_if(map().begin(), map().end(),
+                                     [&](const Folder& one) { return one.name == from; });
+    return folder != map().end() &&
+           std::any_of(folder->arrows.begin(), folder->arrows.end(),
+                       [&](std::string_view next) { return may_include(next, to); });
+}
+
+std::vector<std::string> wrong_arrows(const SourceFile& file)
+{
+    std::vector<std::string> complaints;
+    const std::string from = folder_of(file.path);
+    if (!file.is_cpp() || (from.empty() && !file.is_in("tests"))) return complaints;
+    for (const auto& [path, is_quoted] : includes_of(file)) {
+        if (!is_quoted || path == "hapnet_commit.hpp") continue;
+        const std::string to = folder_of(path);
+        if (to.empty() && !(from.empty() && path.starts_with("tests/"))) {
+            complaints.push_back(path + ": not a path from the root into a folder of the map");
+        } else if (!from.empty() && !may_include(from, to)) {
+            complaints.push_back(path + ": no arrow leads from " + from + " to " + to);
+        }
+    }
+    return complaints;
+}
+
+std::vector<std::string> impure_includes(const SourceFile& file)
+{
+    std::vector<std::string> complaints;
+    const std::string from = folder_of(file.path);
+    const bool is_core = std::any_of(map().begin(), map().end(), [&](const Folder& folder) {
+        return folder.name == from && folder.is_core;
+    });
+    // The one function that prints and aborts when our own code is wrong.
+    if (!is_core || file.path == "proto/base/ensure.hpp") return complaints;
+    for (const Include& include : includes_of(file)) {
+        if (!is_impure(include.path)) continue;
+        complaints.push_back(include.path + ": a core does no I/O, reads no clock, has no thread");
+    }
+    return complaints;
+}
+
+} // namespace hapnet::tidy

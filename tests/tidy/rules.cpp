@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/tidy/rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <sstream>
+
+namespace hapnet::tidy {
+
+namespace {
+
+constexpr std::size_t file_lines_max = 400;
+constexpr std::size_t line_characters_max = 100;
+constexpr std::size_t function_lines_max = 60;
+
+bool is_code(const SourceFile& file)
+{
+    return file.is_cpp() || file.is_cmake() || file.is_script();
+}
+
+std::string at(std::size_t index, const std::string& what)
+{
+    return "line " + std::to_string(index + 1) + ": " + what;
+}
+
+/// The characters of UTF-8 text: its bytes without the continuation bytes.
+std::size_t characters(std::string_view text)
+{
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
+    }));
+}
+
+bool is_word_character(char c)
+{
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// Whether the line holds the word, not as the end of a longer one.
+bool holds(std::string_view line, std::string_view word)
+{
+    for (auto at = line.find(word); at != std::string_view::npos; at = line.find(word, at + 1)) {
+        const bool is_tail =
+            at > 0 && is_word_character(word.front()) && is_word_character(line[at - 1]);
+        if (!is_tail) return true;
+    }
+    return false;
+}
+
+struct Ban {
+    std::string_view word;
+    std::string_view reason;
+    std::vector<std::string_view> allowed_in;
+};
+
+// Written in halves, so that this file keeps its own rules.
+const std::vector<Ban>& bans()
+{
+    static const std::vector<Ban> list{
+        {"ra"
+         "nd(",
+         "chance comes from base::Seed",
+         {}},
+        {"::no"
+         "w(",
+         "time is an argument",
+         {"proto/net", "tests/bench", "tests/e2e", "tests/compile_fail"}},
+        {"sleep_"
+         "for",
+         "nothing sleeps but end-to-end tests",
+         {"tests/e2e"}},
+        {"random_"
+         "device",
+         "chance comes from base::Seed",
+         {}},
+        {"TO"
+         "DO",
+         "write the issue instead",
+         {}},
+        {"FIX"
+         "ME",
+         "write the issue instead",
+         {}},
+        {"/wo"
+         "rk/",
+         "a path of somebody's workplace",
+         {}},
+        {"../sha"
+         "red",
+         "a path of somebody's workplace",
+         {}},
+    };
+    return list;
+}
+
+/// Adds the path of each "x.cpp" that a CMakeLists.txt names, which is relative to its folder.
+void add_sources_named_in(const SourceFile& cmake, std::set<std::string>& paths)
+{
+    const std::string folder = cmake.path.substr(0, cmake.path.rfind('/') + 1);
+    for (std::string line : cmake.lines) {
+        std::replace_if(
+            line.begin(), line.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
+        std::istringstream words{line};
+        for (std::string word; words >> word;) {
+            if (word.ends_with(".cpp")) paths.insert(folder + word);
+        }
+    }
+}
+
+bool is_globbed_test(const SourceFile& file)
+{
+    return file.is_in("tests/unit") || file.is_in("tests/property") || file.is_in("tests/sim") ||
+           file.is_in("tests/e2e") || file.is_in("tests/fuzz") || file.is_in("tests/compile_fail");
+}
+
+} // namespace
+
+std::vector<std::string> lengths(const SourceFile& file)
+{
+    std::vector<std::string> complaints;
+    if (!is_code(file)) return complaints;
+    if (file.lines.size() > file_lines_max) {
+        complaints.push_back(std::to_string(file.lines.size()) + " lines: a file is one idea");
+    }
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+        const auto length = characters(file.lines[i]);
+        if (length > line_characters_max) {
+            complaints.push_back(at(i, std::to_string(length) + " characters"));
+        }
+    }
+    return complaints;
+}
+
+std::vector<std::string> long_functions(const SourceFile& file)
+{
+    std::vector<std::string> complaints;
+    if (!file.is_cpp()) return complaints;
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+        const std::string& line = file.lines[i];
+        const auto indent = line.find_first_not_of(' ');
+        if (indent == std::string::npos || line.substr(indent) != "{") continue;
+        const std::string close = std::string(indent, ' ') + "}";
+        for (std::size_t end = i; end < file.lines.size() && file.lines[end] != close; ++end) {
+            if (end - i + 2 <= function_lines_max) continue;
+            complaints.push_back(at(i, "a function of more than 60 lines"));
+            break;
+        }
+    }
+    return complaints;
+}
+
+std::vector<std::string> banned_words(const SourceFile& file)
+{
+    std::vector<std::string> complaints;
+    for (const Ban& ban : bans()) {
+        const bool is_allowed =
+            std::any_of(ban.allowed_in.begin(), ban.allowed_in.end(),
+                        [&](std::string_view folder) { return file.is_in(folder); });
+        if (is_allowed) continue;
+        for (std::size_t i = 0; i < file.lines.size(); ++i) {
+            if (!holds(file.lines[i], ban.word)) continue;
+            complaints.push_back(at(i, std::string{ban.word}.append(": ").append(ban.reason)));
+        }
+    }
+    return complaints;
+}
+
+std::vector<std::string> missing_licence(const SourceFile& file)
+{
+    if (!is_code(file)) return {};
+    const std::size_t first = file.is_script() ? 1 : 0;
+    const bool is_there =
+        file.lines.size() > first + 1 &&
+        file.lines[first].ends_with(" SPDX-FileCopyrightText: 2026 The Hapnet authors") &&
+        file.lines[first + 1].ends_with(" SPDX-License-Identifier: MIT");
+    if (is_there) return {};
+    return {"the two SPDX lines do not stand first"};
+}
+
+std::vector<std::string> dead_files(const std::vector<SourceFile>& tree)
+{
+    std::set<std::string> alive;
+    for (const SourceFile& file : tree) {
+        for (const Include& include : includes_of(file)) alive.insert(include.path);
+        if (file.is_cmake()) add_sources_named_in(file, alive);
+    }
+    std::vector<std::string> complaints;
+    for (const SourceFile& file : tree) {
+        const bool is_ours_to_check = file.is_header() || (file.is_cpp() && !is_globbed_test(file));
+        if (!is_ours_to_check || alive.contains(file.path)) continue;
+        complaints.push_back(file.path + ": nothing builds or includes it");
+    }
+    return complaints;
+}
+
+} // namespace hapnet::tidy

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::tidy {
+
+/// One text file of the project.
+struct SourceFile {
+    std::string path; // from the root, with '/'
+    std::vector<std::string> lines;
+
+    [[nodiscard]] bool is_cpp() const;    // a C++ header or source
+    [[nodiscard]] bool is_header() const; // a C++ header
+    [[nodiscard]] bool is_cmake() const;
+    [[nodiscard]] bool is_script() const; // starts with #!
+    /// Whether the file lies in `folder` ("proto/net") or below it.
+    [[nodiscard]] bool is_in(std::string_view folder) const;
+};
+
+/// What one #include line names.
+struct Include {
+    std::string path;
+    bool is_quoted = false; // "ours", not <theirs>
+};
+[[nodiscard]] std::vector<Include> includes_of(const SourceFile& file);
+
+/// A file from its path and its text.
+[[nodiscard]] SourceFile source_file(std::string path, std::string_view text);
+
+/// Every text file below `root` that the project holds, without what is built or recorded there.
+[[nodiscard]] std::vector<SourceFile> read_tree(const std::string& root);
+
+} // namespace hapnet::tidy

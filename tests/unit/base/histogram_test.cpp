@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/base/histogram.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hapnet::base {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Histogram, OfNothingHasNoQuantileAndNoMaximum)
+{
+    const DurationHistogram nothing;
+    EXPECT_EQ(nothing.count(), 0U);
+    EXPECT_EQ(nothing.quantile(0.5), std::nullopt);
+    EXPECT_EQ(nothing.max(), std::nullopt);
+}
+
+TEST(Histogram, IsExactBelow128Nanoseconds)
+{
+    DurationHistogram histogram;
+    for (int i = 0; i < 128; ++i) histogram.add(Duration{i});
+    for (int i = 0; i < 128; ++i) {
+        EXPECT_EQ(histogram.quantile((i + 1) / 128.0), Duration{i}) << i;
+    }
+}
+
+TEST(Histogram, KeepsTheLargestValueExactly)
+{
+    DurationHistogram histogram;
+    histogram.add(1234567ns);
+    EXPECT_EQ(histogram.max(), 1234567ns);
+    EXPECT_EQ(histogram.quantile(1.0), 1234567ns);
+    EXPECT_EQ(histogram.quantile(0.001), 1234567ns);
+}
+
+TEST(Histogram, CountsNegativeDurationsAsZero)
+{
+    DurationHistogram histogram;
+    histogram.add(-5ms);
+    EXPECT_EQ(histogram.count(), 1U);
+    EXPECT_EQ(histogram.quantile(0.5), 0ns);
+    EXPECT_EQ(histogram.max(), 0ns);
+}
+
+TEST(Histogram, CountsWhatIsBeyondAnHourInItsLastBin)
+{
+    DurationHistogram histogram;
+    histogram.add(1ms);
+    histogram.add(Duration::max());
+    EXPECT_EQ(histogram.count(), 2U);
+    EXPECT_EQ(histogram.max(), Duration::max());
+    EXPECT_GE(histogram.quantile(1.0), 1h);
+}
+
+TEST(Histogram, StillTellsAnHourFromHalfAnHour)
+{
+    DurationHistogram histogram;
+    histogram.add(30min);
+    histogram.add(1h);
+    EXPECT_LT(histogram.quantile(0.5), 31min);
+    EXPECT_EQ(histogram.quantile(1.0), 1h);
+}
+
+TEST(HistogramDeathTest, AQuantileOutsideZeroToOneIsOurMistake)
+{
+    const DurationHistogram histogram;
+    EXPECT_DEATH(std::ignore = histogram.quantile(0.0), "must never happen");
+    EXPECT_DEATH(std::ignore = histogram.quantile(1.1), "must never happen");
+}
+
+} // namespace
+} // namespace hapnet::base

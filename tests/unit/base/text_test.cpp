@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/base/text.hpp"
+
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace hapnet::base {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace literals;
+
+struct Reading {
+    std::string_view text;
+    Duration duration;
+};
+
+TEST(Text, ReadsDurationsWithTheirUnit)
+{
+    for (const auto& [text, duration] : {
+             Reading{"160ms", 160ms},
+             Reading{"15us", 15us},
+             Reading{"250ns", 250ns},
+             Reading{"1.5s", 1500ms},
+             Reading{"2min", 120s},
+             Reading{"0.5ms", 500us},
+             Reading{".5s", 500ms},
+             Reading{"5.s", 5s},
+             Reading{"0", 0ns},
+             Reading{"0ms", 0ns},
+             Reading{"007ms", 7ms},
+             Reading{"1000000s", 1'000'000s},
+             Reading{"0.4ns", 0ns},
+             Reading{"0.6ns", 1ns},
+         }) {
+        const auto read = parse_duration(text);
+        ASSERT_TRUE(read) << text;
+        EXPECT_EQ(*read, duration) << text;
+    }
+}
+
+TEST(Text, RefusesWhatIsNotADurationAndSaysHowToWriteOne)
+{
+    for (const std::string_view text :
+         {"",     " ",    "5",      "-5ms",   "+5ms",   "1e3ms", "ms",   "5 ms", " 5ms",
+          "5ms ", "5Ms",  "5h",     "5msec",  "1.2.3s", ".s",    "..5s", "nan",  "nanms",
+          "inf",  "infs", "0x10ms", "5ms5ms", "1,5s",   "٣ms",   "0.1"}) {
+        const auto read = parse_duration(text);
+        ASSERT_FALSE(read) << text;
+        EXPECT_NE(read.error().message.find("160ms"), std::string::npos) << read.error().message;
+    }
+}
+
+TEST(Text, RefusesADurationBeyondTheStatedRange)
+{
+    for (const std::string_view text :
+         {"1000001s", "99999999999min", "999999999999999999999999999999999999999999999999s"}) {
+        EXPECT_FALSE(parse_duration(text)) << text;
+    }
+    EXPECT_FALSE(parse_duration(std::string(400, '9') + "s")); // beyond a double
+}
+
+TEST(Text, PrintsDurationsInTheLargestUnitThatNeedsNoFraction)
+{
+    EXPECT_EQ(to_text(Duration{0}), "0ms");
+    EXPECT_EQ(to_text(160ms), "160ms");
+    EXPECT_EQ(to_text(15us), "15us");
+    EXPECT_EQ(to_text(1500ms), "1500ms");
+    EXPECT_EQ(to_text(2s), "2s");
+    EXPECT_EQ(to_text(1ns), "1ns");
+}
+
+TEST(Text, ReadsSharesInPercent)
+{
+    EXPECT_EQ(parse_probability("93%").value(), 93_percent);
+    EXPECT_EQ(parse_probability("0.5%").value(), 0.5_percent);
+    EXPECT_EQ(parse_probability("0%").value(), 0_percent);
+    EXPECT_EQ(parse_probability("0").value(), 0_percent);
+    EXPECT_EQ(parse_probability("100%").value(), 100_percent);
+}
+
+TEST(Text, RefusesWhatIsNotAShare)
+{
+    for (const std::string_view text : {"", "%", "5", "0.5", "-5%", "nan%", "inf%", "101%",
+                                        "100.0001%", "1e1%", "5%%", "5 %", "93", "1", "5ms"}) {
+        EXPECT_FALSE(parse_probability(text)) << text;
+    }
+}
+
+TEST(Text, PrintsSharesWithTheFewestDigits)
+{
+    EXPECT_EQ(to_text(93_percent), "93%");
+    EXPECT_EQ(to_text(0.5_percent), "0.5%");
+    EXPECT_EQ(to_text(0_percent), "0%");
+    EXPECT_EQ(to_text(100_percent), "100%");
+    EXPECT_EQ(to_text(Probability::from_fraction(1.0 / 3.0).value()), "33.33333333333333%");
+    constexpr double smallest = std::numeric_limits<double>::denorm_min();
+    const Probability least = Probability::from_fraction(smallest).value();
+    EXPECT_EQ(parse_probability(to_text(least)).value(), least);
+}
+
+TEST(Text, ReadsWholeNumbersUpToTheBoundAndNotOneMore)
+{
+    EXPECT_EQ(parse_count("0", 10).value(), 0U);
+    EXPECT_EQ(parse_count("10", 10).value(), 10U);
+    EXPECT_FALSE(parse_count("11", 10));
+    EXPECT_EQ(parse_count("18446744073709551615", UINT64_MAX).value(), UINT64_MAX);
+    EXPECT_FALSE(parse_count("18446744073709551616", UINT64_MAX));
+}
+
+TEST(Text, RefusesWhatIsNotAWholeNumber)
+{
+    for (const std::string_view text :
+         {"", " ", "-1", "+1", "1.0", "1e3", "0x10", "1 ", " 1", "ten", "1'000"}) {
+        EXPECT_FALSE(parse_count(text, 1000)) << text;
+    }
+}
+
+} // namespace
+} // namespace hapnet::base

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/simulated/omni.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace hapnet::device {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr base::TimePoint start{1h};
+constexpr OmniPlant plant{};
+constexpr HandImpedance hand{};
+constexpr double half_count = plant.resolution_m / 2;
+
+SimulatedOmni omni_for(Task task) { return SimulatedOmni{task, hand, plant}; }
+
+/// Reads each millisecond in (from, from + length]; the last sample.
+Sample read_for(SimulatedOmni& omni, base::TimePoint from, base::Duration length)
+{
+    Sample sample;
+    for (auto time = base::Duration{1ms}; time <= length; time += 1ms) {
+        sample = omni.read(from + time);
+    }
+    return sample;
+}
+
+/// The x of every sample of two seconds of a task.
+std::vector<double> played(Task task, base::Seed seed, std::uint16_t peer_id)
+{
+    SimulatedOmni omni = omni_for(task);
+    omni.on_cue({start, 10s, seed, peer_id, true});
+    std::vector<double> xs;
+    for (int ms = 0; ms < 2000; ++ms) xs.push_back(omni.read(start + ms * 1ms).hip.x());
+    return xs;
+}
+
+TEST(SimulatedOmni, RestsWhereItIsBeforeItsCue)
+{
+    SimulatedOmni omni = omni_for(Task::t3);
+    for (int ms = 0; ms < 1000; ++ms) {
+        const Sample sample = omni.read(start + ms * 1ms);
+        EXPECT_EQ(sample.hip.x(), 0.0);
+        EXPECT_EQ(sample.hip.y(), 0.0);
+        EXPECT_NEAR(sample.hip.z(), 0.035, half_count);
+        EXPECT_EQ(sample.velocity, base::Velocity{});
+        EXPECT_FALSE(sample.gripping);
+    }
+}
+
+TEST(SimulatedOmni, GivesWayToAForceLikeASpringUpToItsFriction)
+{
+    for (const double newtons : {1.0, -2.0, 3.0}) {
+        SimulatedOmni omni = omni_for(Task::t3);
+        omni.apply({{newtons, 0.0, 0.0}});
+        const Sample sample = read_for(omni, start, 2s);
+        EXPECT_NEAR(sample.hip.x(), newtons / hand.stiffness_n_per_m,
+                    plant.friction_n / hand.stiffness_n_per_m + half_count)
+            << newtons;
+        EXPECT_EQ(sample.hip.y(), 0.0);
+        EXPECT_NEAR(sample.velocity.x(), 0.0, 1e-6);
+    }
+}
+
+TEST(SimulatedOmni, DoesNotBudgeForLessThanItsFriction)
+{
+    SimulatedOmni omni = omni_for(Task::t3);
+    omni.apply({{0.25, -0.25, 0.25}});
+    const Sample sample = read_for(omni, start, 2s);
+    EXPECT_EQ(sample.hip.x(), 0.0);
+    EXPECT_EQ(sample.hip.y(), 0.0);
+    EXPECT_NEAR(sample.hip.z(), 0.035, half_count);
+}
+
+TEST(SimulatedOmni, ReportsWholeCountsOnly)
+{
+    SimulatedOmni omni = omni_for(Task::t3);
+    omni.on_cue({start, 10s, base::Seed{3}, 1, true});
+    for (int ms = 0; ms < 3000; ++ms) {
+        const auto hip = omni.read(start + ms * 1ms).hip;
+        for (const double x : {hip.x(), hip.y(), hip.z()}) {
+            const double counts = x / plant.resolution_m;
+            EXPECT_NEAR(counts, std::round(counts), 1e-9);
+        }
+    }
+}
+
+TEST(SimulatedOmni, SaturatesAtItsPeakForce)
+{
+    SimulatedOmni asked_too_much = omni_for(Task::t3);
+    SimulatedOmni at_its_peak = omni_for(Task::t3);
+    asked_too_much.apply({{300.0, 0.0, 0.0}});
+    at_its_peak.apply({{plant.force_max_n, 0.0, 0.0}});
+    EXPECT_EQ(read_for(asked_too_much, start, 1s).hip, read_for(at_its_peak, start, 1s).hip);
+}
+
+TEST(SimulatedOmni, StopsAtTheEndsOfItsWorkspace)
+{
+    const HandImpedance weak{.stiffness_n_per_m = 5.0};
+    SimulatedOmni omni{Task::t3, weak, plant};
+    omni.apply({{-3.3, 0.0, 0.0}});
+    Sample sample = read_for(omni, start, 3s);
+    EXPECT_NEAR(sample.hip.x(), -0.080, half_count);
+    EXPECT_NEAR(sample.velocity.x(), 0.0, 1e-6);
+    omni.apply({{0.0, 3.3, 0.0}});
+    sample = read_for(omni, start + 3s, 3s);
+    EXPECT_NEAR(sample.hip.y(), 0.060, half_count);
+    omni.apply({{0.0, 0.0, -3.3}});
+    sample = read_for(omni, start + 6s, 3s);
+    EXPECT_NEAR(sample.hip.z(), -0.035, half_count);
+}
+
+TEST(SimulatedOmni, DoesNotLiveThroughAGapOfMoreThan100Ms)
+{
+    SimulatedOmni omni = omni_for(Task::t3);
+    std::ignore = omni.read(start);
+    omni.apply({{3.0, 0.0, 0.0}});
+    EXPECT_EQ(omni.read(start + 101ms).hip.x(), 0.0);
+    EXPECT_GT(omni.read(start + 201ms).hip.x(), 0.001);
+}
+
+TEST(SimulatedOmni, MovesOnlyWithTheTimeThatPasses)
+{
+    SimulatedOmni omni = omni_for(Task::t3);
+    std::ignore = omni.read(start);
+    omni.apply({{3.0, 0.0, 0.0}});
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(omni.read(start).hip.x(), 0.0);
+    EXPECT_EQ(omni.read(start + SimulatedOmni::step - 1ns).velocity, base::Velocity{});
+}
+
+TEST(SimulatedOmni, GoesToItsPartWithoutAJumpWhenCued)
+{
+    SimulatedOmni omni = omni_for(Task::t3);
+    Sample before = read_for(omni, start, 100ms);
+    omni.on_cue({start + 1s, 10s, base::Seed{1}, 1, true});
+    double fastest = 0.0;
+    for (int ms = 101; ms <= 1100; ++ms) {
+        const Sample sample = omni.read(start + ms * 1ms);
+        EXPECT_LT(base::norm(sample.hip - before.hip), 0.0005) << ms; // 0.5 m/s
+        fastest = std::max(fastest, base::norm(sample.velocity));
+        before = sample;
+    }
+    EXPECT_GT(fastest, 0.02);
+    // At its part: 21 mm left of the path's start, up to friction and its own unrest.
+    EXPECT_NEAR(before.hip.x(), -0.021, 0.0013 + 0.0021 + half_count);
+    EXPECT_NEAR(before.hip.z(), 0.0, 0.0013 + half_count);
+}
+
+TEST(SimulatedOmni, GripsWhatItsTaskHolds)
+{
+    SimulatedOmni omni = omni_for(Task::p1);
+    omni.on_cue({start + 100ms, 1s, base::Seed{1}, 1, true});
+    EXPECT_FALSE(read_for(omni, start, 99ms).gripping);
+    EXPECT_TRUE(omni.read(start + 100ms).gripping);
+    EXPECT_FALSE(omni.read(start + 1100ms).gripping);
+}
+
+TEST(SimulatedOmni, PlaysTheSameForTheSameSeedAndPeer)
+{
+    EXPECT_EQ(played(Task::t3, base::Seed{7}, 1), played(Task::t3, base::Seed{7}, 1));
+    EXPECT_NE(played(Task::t3, base::Seed{7}, 1), played(Task::t3, base::Seed{8}, 1));
+    EXPECT_NE(played(Task::t3, base::Seed{7}, 1), played(Task::t3, base::Seed{7}, 2));
+}
+
+TEST(SimulatedOmni, PlaysThePrescribedPathOfP1WithoutChance)
+{
+    EXPECT_EQ(played(Task::p1, base::Seed{7}, 1), played(Task::p1, base::Seed{8}, 2));
+}
+
+TEST(SimulatedOmni, SaysThatItIsSimulated)
+{
+    EXPECT_EQ(omni_for(Task::p1).description(),
+              "simulated Omni held by a simulated hand (0.2 kg, 5 N s/m, 200 N/m)");
+}
+
+} // namespace
+} // namespace hapnet::device
