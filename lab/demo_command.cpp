@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/demo_command.hpp"
 
+#include "lab/core/demo_page.hpp"
 #include "lab/core/demo_report.hpp"
+#include "proto/record/reader.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -41,6 +43,15 @@ base::Result<DemoTask> read_task(const std::string& folder)
     return task;
 }
 
+base::Result<TaskTrace> read_trace(const std::string& folder)
+{
+    const auto a = record::read(folder + "/peer-1.rec");
+    if (!a) return tl::unexpected{a.error()};
+    const auto b = record::read(folder + "/peer-2.rec");
+    if (!b) return tl::unexpected{b.error()};
+    return common_session(*a, *b).map([](const Session& session) { return trace_of(session); });
+}
+
 Json host()
 {
     utsname system{};
@@ -68,10 +79,15 @@ base::Result<bool> conclude_demo(const DemoReportCommand& command)
     if (!p1) return tl::unexpected{p1.error()};
     auto t3 = read_task(command.folder + "/t3");
     if (!t3) return tl::unexpected{t3.error()};
+    const auto p1_trace = read_trace(command.folder + "/p1");
+    if (!p1_trace) return tl::unexpected{p1_trace.error()};
+    const auto t3_trace = read_trace(command.folder + "/t3");
+    if (!t3_trace) return tl::unexpected{t3_trace.error()};
     const DemoRun run{*std::move(p1), *std::move(t3)};
     const DemoCircumstances circumstances{command.command, command.start, command.wall_time_s,
                                           host()};
     write(command.folder + "/manifest.json", demo_manifest(run, circumstances).dump(2) + '\n');
+    write(command.folder + "/report.html", demo_page(run, circumstances, *p1_trace, *t3_trace));
     fmt::print("{}", demo_table(run));
     return demo_is_met(run);
 }

@@ -8,8 +8,8 @@
 namespace hapnet::lab {
 
 /// Reads what scripts/demo.sh has recorded in a folder, prints the table beside the paper's and
-/// writes manifest.json. True when the demo met its target. Throws std::system_error when the
-/// manifest cannot be written.
+/// writes manifest.json and report.html. True when the demo met its target. Throws
+/// std::system_error when these cannot be written.
 [[nodiscard]] base::Result<bool> conclude_demo(const DemoReportCommand& command);
 
 } // namespace hapnet::lab

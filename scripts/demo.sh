@@ -122,5 +122,6 @@ verdict=0
 echo
 "$bin/hapnet-lab" demo-report "$out" --command "$command_line" --start "$start" \
     --wall-time $((SECONDS - started)) | tee "$out/table.txt" || verdict=$?
-printf '\ndemo: records, rows (CSV), statistics and manifest.json are in %s\n' "$out"
+printf '\ndemo: the report with plots, a page to open: %s\n' "$out/report.html"
+printf 'demo: records, rows (CSV), statistics and manifest.json are beside it\n'
 exit "$verdict"
