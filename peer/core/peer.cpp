@@ -84,6 +84,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
     former_ = std::exchange(current_, session()->number == former_.number
                                           ? former_
                                           : Numbering{.number = session()->number});
+    agreed_at_ = arrived;
     remote_.forget();
     gone_ = false;
     lost_ = false;
@@ -148,7 +149,7 @@ Phase Peer::phase_at(base::TimePoint now) const
     return Phase::ended;
 }
 
-void Peer::note(Phase phase, double freshness)
+void Peer::note(Phase phase, double freshness, base::TimePoint now)
 {
     const bool in_session = phase == Phase::running || phase == Phase::hands_off;
     if (phase != phase_) {
@@ -159,7 +160,9 @@ void Peer::note(Phase phase, double freshness)
         if (phase == Phase::ended && !refusal_) events_.put(Event::ended);
         phase_ = phase;
     }
-    if (!in_session || gone_ || !remote_.arrived()) return;
+    if (!in_session || gone_) return;
+    const bool may_be_on_its_way = now - std::max(session()->start, agreed_at_) < first_word_within;
+    if (!remote_.arrived() && may_be_on_its_way) return;
     const bool lost = freshness <= 0.0;
     if (lost != lost_) events_.put(lost ? Event::lost : Event::back);
     lost_ = lost;
@@ -170,7 +173,7 @@ Tick Peer::tick(base::TimePoint now, const Hand& hand)
     Tick tick;
     tick.phase = phase_at(now);
     tick.freshness = gone_ ? 0.0 : remote_.freshness(now);
-    note(tick.phase, tick.freshness);
+    note(tick.phase, tick.freshness, now);
     if (tick.phase == Phase::ended) {
         leave(wire::ByeReason::finished);
         say_bye(now);

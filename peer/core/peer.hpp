@@ -73,6 +73,8 @@ struct Tick {
 class Peer {
 public:
     static constexpr base::Duration hands_off_length{std::chrono::seconds{3}};
+    /// Without a state for so long after the start, the other side counts as silent.
+    static constexpr base::Duration first_word_within{std::chrono::seconds{1}};
     static constexpr base::Duration body_lingers{std::chrono::seconds{1}};
     static constexpr std::uint32_t body_every = 64; // messages
     static constexpr int byes = 5;
@@ -109,7 +111,7 @@ private:
     void refuse(wire::ByeReason reason, bool tell);
 
     [[nodiscard]] Phase phase_at(base::TimePoint now) const;
-    void note(Phase phase, double freshness);
+    void note(Phase phase, double freshness, base::TimePoint now);
     void play(Tick& tick, base::TimePoint now, const Hand& hand);
     void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
     void say_state(Tick& tick, base::TimePoint now, const Hand& hand);
@@ -135,7 +137,8 @@ private:
         std::uint32_t sequence = 0;
     };
     Numbering current_;
-    Numbering former_;                          // the session before
+    Numbering former_; // the session before
+    base::TimePoint agreed_at_;
     std::optional<base::TimePoint> last_touch_; // by this hand
     std::optional<base::TimePoint> last_stir_;  // the body was touched or moved
     std::optional<wire::ByeReason> refusal_;

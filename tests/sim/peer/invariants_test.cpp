@@ -102,6 +102,43 @@ TEST_P(Conditions, OfEveryKindLeaveForcesFiniteLinksAccountedForAndCopiesEqualIn
 
 INSTANTIATE_TEST_SUITE_P(Seed, Conditions, testing::Range(std::uint64_t{0}, std::uint64_t{60}));
 
+class Deaths : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Deaths, OfEitherSideAtAnyTimeEndInOneSessionWithEqualCopies)
+{
+    Setting setting = setting_of(GetParam());
+    setting.length = 20s;
+    SCOPED_TRACE(words_for(setting));
+    const auto draw = setting.seed.stream("deaths");
+    World world{setting};
+    for (std::uint64_t death = 0; death < 3; ++death) {
+        const std::size_t side = draw.below(2, death, 0);
+        const base::Duration alive = base::from_seconds(3.0 * draw.uniform(death, 1));
+        const base::Duration dead = base::from_seconds(draw.uniform(death, 2));
+        for (const auto end = world.now() + alive; world.now() < end;) world.step();
+        world.kill(side);
+        for (const auto end = world.now() + dead; world.now() < end;) {
+            world.step();
+            expect_invariants(world);
+        }
+        world.revive(side);
+    }
+    const auto in_one_session = [&world] {
+        const auto& a = world.side(0).peer->session();
+        const auto& b = world.side(1).peer->session();
+        return a && b && a->number == b->number;
+    };
+    for (int ms = 0; ms < 10'000; ++ms) world.step();
+    ASSERT_TRUE(in_one_session());
+    const base::TimePoint start = world.side(0).peer->session()->start;
+    while (world.now() < start + world.side(0).peer->hands_on() + 2s) world.step();
+    expect_invariants(world);
+    EXPECT_LE(world.discrepancy_x(), 0.1e-3);
+    EXPECT_GT(world.side(0).last.freshness + world.side(1).last.freshness, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seed, Deaths, testing::Range(std::uint64_t{100}, std::uint64_t{140}));
+
 TEST(Conditions, WhereOneOf100MessagesArrivesStillEndWithEqualCopies)
 {
     Setting setting = under(device::Task::t3, {});

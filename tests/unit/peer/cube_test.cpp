@@ -135,7 +135,7 @@ TEST(Cube, IsLiftedByMoreThanItsWeightOnly)
 TEST(Scene, HasAHashThatChangesWithEveryNumberOfIt)
 {
     const std::uint64_t known = hash(scene);
-    EXPECT_EQ(known, hash(paper_scene()));
+    EXPECT_EQ(known, 0x2ad1943de23891b5U); // on every machine
     const auto differs = [&](auto change) {
         Scene other = scene;
         change(other);

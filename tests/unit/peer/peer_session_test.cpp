@@ -102,6 +102,22 @@ TEST(PeerSession, TellsOfSilenceAfter300MsAndOfItsEnd)
     EXPECT_EQ(std::count(pair.events[0].begin(), pair.events[0].end(), Event::lost), 1);
 }
 
+TEST(PeerSession, TellsOfSilenceToOneThatHasNotHeardASingleStateASecondAfterItsStart)
+{
+    Pair pair;
+    while (pair.ticks[0].phase != Phase::countdown) pair.step();
+    pair.run_for(500ms);
+    pair.cut = true;
+    while (pair.ticks[0].phase != Phase::running) pair.step();
+    pair.run_for(999ms);
+    EXPECT_FALSE(pair.told(0, Event::lost));
+    pair.run_for(1ms);
+    EXPECT_TRUE(pair.told(0, Event::lost));
+    pair.cut = false;
+    pair.run_for(5ms);
+    EXPECT_TRUE(pair.told(0, Event::back));
+}
+
 TEST(PeerSession, PermitsForceOnlyWhileTheOtherSideIsFresh)
 {
     Pair pair;

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/e2e/peer.hpp"
+
+#include "tests/e2e/udp.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace hapnet::e2e {
+
+using namespace std::chrono_literals;
+
+std::string free_place() { return Host{}.endpoint().to_text(); }
+
+Peer::Peer(int id, std::string listen, std::string remote, std::vector<std::string> options)
+    : words_{"--id",     std::to_string(id), "--listen", std::move(listen),
+             "--remote", std::move(remote)}
+{
+    words_.insert(words_.end(), options.begin(), options.end());
+    words_.insert(words_.end(),
+                  {"--record", folder_.file("run.rec"), "--stats", folder_.file("run.json")});
+    start();
+}
+
+void Peer::start()
+{
+    process_.emplace("hapnet-peer", words_);
+    const auto ready = process_->wait_for_out("ready ", 10s);
+    if (!ready) throw std::runtime_error{"the peer is not ready: " + process_->err()};
+}
+
+bool Peer::says(std::string_view words)
+{
+    const bool said = process_->wait_for_err(words, 20s).has_value();
+    EXPECT_TRUE(said) << "expected: " << words << "\nbut said:\n" << process_->err();
+    return said;
+}
+
+void Peer::kill()
+{
+    process_->signal(SIGKILL);
+    EXPECT_EQ(process_->wait_exit(5s), 128 + SIGKILL);
+}
+
+void Peer::restart() { start(); }
+
+void Peer::expect_end() { EXPECT_EQ(process_->wait_exit(30s), 0) << process_->err(); }
+
+void Peer::stop()
+{
+    process_->signal(SIGTERM);
+    expect_end();
+}
+
+nlohmann::json Peer::statistics() const
+{
+    auto json =
+        nlohmann::json::parse(text_of(folder_.file("run.json")), nullptr, /*exceptions*/ false);
+    EXPECT_TRUE(json.is_object());
+    return json.is_object() ? json : nlohmann::json::object();
+}
+
+namespace {
+
+std::vector<std::string> cells_of(const std::string& line)
+{
+    std::istringstream stream{line};
+    std::vector<std::string> cells;
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    return cells;
+}
+
+} // namespace
+
+std::vector<Tick> ticks_of(const std::string& record)
+{
+    const Outcome exported = run("hapnet-lab", {"export", "--csv", record}, 30s);
+    EXPECT_EQ(exported.exit, 0) << exported.err;
+    std::istringstream lines{exported.out};
+    std::string line;
+    std::getline(lines, line);
+    const auto header = cells_of(line);
+    const auto column = [&](std::string_view name) {
+        const auto found = std::find(header.begin(), header.end(), name);
+        EXPECT_NE(found, header.end()) << name;
+        return static_cast<std::size_t>(found - header.begin());
+    };
+    const auto time = column("time_s");
+    const auto phase = column("phase");
+    const auto fresh = column("remote_fresh");
+    const auto force = column("device_x_n");
+    std::vector<Tick> ticks;
+    while (std::getline(lines, line)) {
+        const auto cells = cells_of(line);
+        if (cells.size() != header.size()) continue;
+        ticks.push_back({std::stod(cells[time]), cells[phase], cells[fresh] == "1",
+                         std::hypot(std::stod(cells[force]), std::stod(cells[force + 1]),
+                                    std::stod(cells[force + 2]))});
+    }
+    return ticks;
+}
+
+nlohmann::json analysis_of(const std::string& record_a, const std::string& record_b)
+{
+    const Outcome analysed = run("hapnet-lab", {"analyse", record_a, record_b, "--json"}, 30s);
+    EXPECT_EQ(analysed.exit, 0) << analysed.err;
+    auto json = nlohmann::json::parse(analysed.out, nullptr, /*exceptions*/ false);
+    EXPECT_TRUE(json.is_object()) << analysed.out;
+    return json.is_object() ? json : nlohmann::json::object();
+}
+
+} // namespace hapnet::e2e

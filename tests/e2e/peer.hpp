@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/e2e/process.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::e2e {
+
+/// "127.0.0.1:PORT" with a port that was free a moment ago: for programs that are to come back at
+/// the same place.
+[[nodiscard]] std::string free_place();
+
+/// A running hapnet-peer that writes a record and statistics.
+class Peer {
+public:
+    /// Starts it and waits until its loop runs; fails the test when it does not.
+    Peer(int id, std::string listen, std::string remote, std::vector<std::string> options);
+
+    [[nodiscard]] Process& process() { return *process_; }
+
+    /// Whether it says this on stderr within 20 s; what it has said so far does when it does not.
+    [[nodiscard]] bool says(std::string_view words);
+
+    /// Kills it on the spot.
+    void kill();
+    /// Starts it again at the same place, as a new run with a new record.
+    void restart();
+
+    /// Waits for its end, at most 30 s; expects exit code 0.
+    void expect_end();
+    /// SIGTERM, and its end.
+    void stop();
+
+    /// Of the newest run, after its end.
+    [[nodiscard]] nlohmann::json statistics() const;
+    [[nodiscard]] std::string record() const { return folder_.file("run.rec"); }
+
+private:
+    void start();
+
+    TemporaryFolder folder_;
+    std::vector<std::string> words_;
+    std::optional<Process> process_;
+};
+
+/// A tick of a record, as far as these tests look at it.
+struct Tick {
+    double time_s = 0.0; // from the start of the session
+    std::string phase;
+    bool remote_fresh = false;
+    double force_n = 0.0; // that the device was told
+};
+
+/// The ticks of a record, by `hapnet-lab export`.
+[[nodiscard]] std::vector<Tick> ticks_of(const std::string& record);
+
+/// What `hapnet-lab analyse --json` says of two records.
+[[nodiscard]] nlohmann::json analysis_of(const std::string& record_a, const std::string& record_b);
+
+} // namespace hapnet::e2e

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What the peer says to the person, or the script, that starts it.
+#include "tests/e2e/no_network.hpp"
+#include "tests/e2e/peer.hpp"
+#include "tests/e2e/udp.hpp"
+
+#include <chrono>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+Outcome run_with(std::vector<std::string> options)
+{
+    options.insert(options.begin(), {"--remote", "127.0.0.1:9"});
+    return run("hapnet-peer", options, 10s);
+}
+
+void expect_refusal(const Outcome& outcome, int exit, const std::vector<std::string>& words)
+{
+    EXPECT_EQ(outcome.exit, exit) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    for (const std::string& word : words) {
+        EXPECT_NE(outcome.err.find(word), std::string::npos) << word << "\n" << outcome.err;
+    }
+}
+
+} // namespace
+
+TEST(PeerUsage, PrintsHelpWithEveryOptionAndExamples)
+{
+    const auto outcome = run("hapnet-peer", {"--help"});
+    EXPECT_EQ(outcome.exit, 0);
+    for (const char* word :
+         {"--id", "--listen", "--remote", "--device", "--scene", "--task", "--algorithm", "--seed",
+          "--key", "--duration", "--record", "--stats", "--insecure", "--version", "Examples", "P1",
+          "T1", "T3", "Exit codes"}) {
+        EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+    }
+}
+
+TEST(PeerUsage, PrintsItsVersion)
+{
+    const auto outcome = run("hapnet-peer", {"--version"});
+    EXPECT_EQ(outcome.exit, 0);
+    EXPECT_EQ(outcome.out.rfind("hapnet-peer ", 0), 0U);
+}
+
+TEST(PeerUsage, RefusesWhatItDoesNotKnowNamingIt)
+{
+    expect_refusal(run("hapnet-peer", {}), 2, {"--remote"});
+    expect_refusal(run_with({"--tsak", "P1"}), 2, {"--tsak", "--help"});
+    expect_refusal(run_with({"stray"}), 2, {"stray"});
+    expect_refusal(run_with({"--task", "P2"}), 2, {"--task", "'P2'", "P1, T1, T3"});
+    expect_refusal(run_with({"--algorithm", "best"}), 2, {"--algorithm", "'best'", "base"});
+    expect_refusal(run_with({"--device", "omni1394:"}), 2, {"--device", "'omni1394:'", "sim"});
+    expect_refusal(run_with({"--scene", "moon"}), 2, {"--scene", "'moon'", "paper"});
+}
+
+TEST(PeerUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
+{
+    expect_refusal(run_with({"--duration", "30"}), 2, {"--duration", "'30'", "160ms"});
+    expect_refusal(run_with({"--duration", "5%"}), 2, {"--duration", "'5%'"});
+    expect_refusal(run_with({"--duration", "10ms"}), 2, {"--duration", "at least 1s"});
+    expect_refusal(run_with({"--id", "0"}), 2, {"--id", "1 to 65535"});
+    expect_refusal(run_with({"--id", "65536"}), 2, {"--id", "65536"});
+    expect_refusal(run_with({"--seed", "x"}), 2, {"--seed", "'x'"});
+    expect_refusal(run_with({"--listen", "7000"}), 2, {"--listen", "HOST:PORT"});
+    expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:0"}), 2, {"--remote", "port"});
+    expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:99999"}), 2, {"--remote", "65535"});
+    expect_refusal(run_with({"--listen", "[::1]:0"}), 2, {"--listen", "--remote", "IPv4", "IPv6"});
+    expect_refusal(run_with({"--task"}), 2, {"--task"});
+}
+
+TEST(PeerUsage, RefusesKeysUntilThereAreAny)
+{
+    expect_refusal(run_with({"--key", "secret"}), 2, {"--key", "not available", "--insecure"});
+}
+
+TEST(PeerUsage, PlaysOverARealNetworkOnlyWhenToldThatItIsInsecure)
+{
+    expect_refusal(run("hapnet-peer", {"--remote", "192.0.2.1:7000"}), 2, {"--insecure"});
+    expect_refusal(run_with({"--listen", "0.0.0.0:0"}), 2, {"--insecure"});
+}
+
+TEST(PeerUsage, EndsWithThreeWhenTheSystemRefuses)
+{
+    const Host occupant;
+    expect_refusal(run_with({"--listen", occupant.endpoint().to_text()}), 3,
+                   {occupant.endpoint().to_text(), "in use"});
+    expect_refusal(run("hapnet-peer", {"--remote", "no-such-host.invalid:7000"}), 3,
+                   {"no-such-host.invalid"});
+    expect_refusal(run_with({"--record", "/no/such/folder/a.rec"}), 3, {"/no/such/folder/a.rec"});
+    expect_refusal(run_with({"--stats", "/no/such/folder/a.json"}), 3, {"/no/such/folder"});
+}
+
+TEST(PeerUsage, EndsWithThreeWhenThereIsNoRoute)
+{
+    const NoNetwork none;
+    if (!none.in_force()) GTEST_SKIP() << "needs to be root, to take the network away";
+    expect_refusal(
+        run("hapnet-peer", {"--remote", "192.0.2.1:7000", "--insecure", "--listen", "0.0.0.0:0"}),
+        3, {"192.0.2.1", "nreachable"});
+}
+
+TEST(PeerUsage, SaysWhyTwoPeersCannotPlayTogetherAndHowTheyCould)
+{
+    struct Case {
+        std::string id;
+        std::string task;
+        std::string cure;
+    };
+    for (const Case& c : {Case{"2", "P1", "--task"}, Case{"1", "T3", "--id"}}) {
+        const std::string place_a = free_place();
+        const std::string place_b = free_place();
+        Process a{"hapnet-peer",
+                  {"--id", "1", "--task", "T3", "--listen", place_a, "--remote", place_b}};
+        Process b{"hapnet-peer",
+                  {"--id", c.id, "--task", c.task, "--listen", place_b, "--remote", place_a}};
+        for (Process* peer : {&a, &b}) {
+            EXPECT_EQ(peer->wait_exit(10s), 1);
+            EXPECT_TRUE(peer->wait_for_err("refused", 1s)) << peer->err();
+            EXPECT_NE(peer->err().find(c.cure), std::string::npos) << peer->err();
+        }
+    }
+}
+
+} // namespace hapnet::e2e
