@@ -8,12 +8,21 @@ namespace hapnet::device {
 
 base::Force Governor::limit(base::Force wanted, bool permitted, base::TimePoint now)
 {
-    const double elapsed = last_time_ ? base::to_seconds(now - *last_time_) : 0.0;
+    base::Duration gap = last_time_ ? now - *last_time_ : base::Duration{0};
     last_time_ = now;
+    if (gap > limits_.stall_max) {
+        ++counters_.stalled;
+        strength_ = 0.0;
+        last_ = {};
+        gap = base::Duration{0}; // as if this were the first tick
+    }
+    const base::Duration step_time = std::min(gap, limits_.tick);
 
-    const base::Duration full_swing = permitted ? limits_.ramp_in : limits_.fade_out;
-    const double change = elapsed / base::to_seconds(full_swing);
-    strength_ = std::clamp(strength_ + (permitted ? change : -change), 0.0, 1.0);
+    // A late tick fades by all the time that has passed, but ramps in by one tick only.
+    const double change = permitted
+                              ? base::to_seconds(step_time) / base::to_seconds(limits_.ramp_in)
+                              : -base::to_seconds(gap) / base::to_seconds(limits_.fade_out);
+    strength_ = std::clamp(strength_ + change, 0.0, 1.0);
     if (strength_ < 1.0) ++counters_.faded;
 
     if (!base::is_finite(wanted)) {
@@ -25,7 +34,7 @@ base::Force Governor::limit(base::Force wanted, bool permitted, base::TimePoint 
     if (!(force == wanted)) ++counters_.clamped;
     force = strength_ * force;
 
-    const double step_max = limits_.slew_max_n_per_s * elapsed;
+    const double step_max = limits_.slew_max_n_per_s * base::to_seconds(step_time);
     const base::Force step = force - last_;
     if (base::norm(step) > step_max) {
         ++counters_.slewed;

@@ -17,6 +17,8 @@ struct GovernorLimits {
     double slew_max_n_per_s = 1000.0;
     base::Duration fade_out{std::chrono::milliseconds{50}};
     base::Duration ramp_in{std::chrono::seconds{1}};
+    base::Duration tick{std::chrono::milliseconds{1}};       // a late tick grants no larger step
+    base::Duration stall_max{std::chrono::milliseconds{20}}; // a longer gap starts from zero
 };
 
 /// How often each rule had to act.
@@ -24,13 +26,15 @@ struct GovernorCounters {
     std::uint64_t not_finite = 0;
     std::uint64_t clamped = 0;
     std::uint64_t slewed = 0;
-    std::uint64_t faded = 0; // ticks at less than full strength
+    std::uint64_t faded = 0;   // ticks at less than full strength
+    std::uint64_t stalled = 0; // gaps between ticks that were too long
 };
 
 /// Stands between what the scene wants and what a motor gets; the only way to a motor.
 /// Non-finite becomes zero at once; without permission (no session, stale remote, unusable
 /// sample) the force fades to zero, and with it back ramps in again; the norm is clamped with the
-/// direction kept; the change per tick is limited.
+/// direction kept; the change per tick is limited; after a stall of the loop the force starts
+/// again from zero and ramps in.
 class Governor {
 public:
     explicit Governor(const GovernorLimits& limits) : limits_{limits} {}

@@ -34,9 +34,20 @@ struct Places {
     net::Endpoint remote;
 };
 
+/// The remote, preferably in the family of `listen`: a name may have addresses of both.
+net::Endpoint resolve_remote(const net::HostPort& remote, const net::Endpoint& listen)
+{
+    try {
+        return net::resolve(remote, listen.family());
+    } catch (const std::system_error&) {
+        return net::resolve(remote);
+    }
+}
+
 base::Result<Places> look_up(const Options& options)
 {
-    const Places places{net::resolve(options.listen), net::resolve(options.remote)};
+    const net::Endpoint listen = net::resolve(options.listen);
+    const Places places{listen, resolve_remote(options.remote, listen)};
     if (places.listen.family() != places.remote.family()) {
         return base::fail(fmt::format(
             "--listen {} and --remote {} are of different families: give both as IPv4 or as IPv6",

@@ -116,6 +116,7 @@ std::string statistics_json(const Run& run)
                        {"clamped", governor.clamped},
                        {"slewed", governor.slewed},
                        {"faded", governor.faded},
+                       {"stalled", governor.stalled},
                        {"unusable_samples", run.peer.counters().unusable_hand}};
     out["record_rows_lost"] = run.journal.lost();
     out["real_time"] = {{"fifo", run.servo.real_time().fifo},

@@ -4,11 +4,20 @@
 
 namespace hapnet::peer {
 
+namespace {
+
+// Clocks that count from a boot: nobody's is ten years ahead of another's.
+constexpr base::Duration offset_max{std::chrono::hours{10 * 365 * 24}};
+
+} // namespace
+
 void ClockOffset::add(const ClockSample& s)
 {
     const base::Duration round_trip = (s.answer_heard - s.sent) - (s.answered - s.heard);
-    if (round_trip < base::Duration{0}) return;
     const Sample sample{((s.heard - s.sent) + (s.answered - s.answer_heard)) / 2, round_trip};
+    const bool believable =
+        round_trip >= base::Duration{0} && std::chrono::abs(sample.offset) <= offset_max;
+    if (!believable) return;
     if (best_now_ && s.answer_heard - window_start_ >= window) {
         best_before_ = best_now_;
         best_now_.reset();

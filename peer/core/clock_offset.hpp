@@ -26,7 +26,7 @@ public:
         base::Duration uncertainty; // half the round trip: bounds what asymmetry can hide
     };
 
-    /// Ignores samples with a negative round trip.
+    /// Ignores samples with a negative round trip or an offset of more than ten years.
     void add(const ClockSample& sample);
 
     /// nullopt before the first sample.

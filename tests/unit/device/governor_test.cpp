@@ -5,6 +5,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 #include <limits>
+#include <tuple>
 
 namespace hapnet::device {
 namespace {
@@ -109,6 +110,28 @@ TEST(Governor, LetsAForceRiseByANewtonPerMillisecond)
     EXPECT_NEAR(ticks(along_x(3.0)).x(), 3.0, rounding);
     EXPECT_NEAR(ticks(along_x(-3.0)).x(), 2.0, rounding);
     EXPECT_EQ(ticks.governor.counters().slewed, 3U); // the last step of the rise is exactly 1 N
+}
+
+TEST(Governor, GrantsALateTickNoLargerStepThanAPunctualOne)
+{
+    Governor governor{{}};
+    auto now = start;
+    for (int i = 0; i <= 1001; ++i) std::ignore = governor.limit({}, true, now += 1ms);
+    EXPECT_NEAR(governor.limit(along_x(3.0), true, now += 20ms).x(), 1.0, rounding);
+    EXPECT_NEAR(governor.limit(along_x(3.0), true, now += 5ms).x(), 2.0, rounding);
+    EXPECT_EQ(governor.counters().stalled, 0U);
+}
+
+TEST(Governor, StartsFromZeroAndRampsInAgainAfterAStallOfTheLoop)
+{
+    Governor governor{{}};
+    auto now = start;
+    for (int i = 0; i <= 1010; ++i) std::ignore = governor.limit(along_x(3.0), true, now += 1ms);
+    EXPECT_NEAR(governor.limit(along_x(3.0), true, now += 1ms).x(), 3.0, rounding);
+    EXPECT_EQ(governor.limit(along_x(3.0), true, now += 20ms + 1ns), base::Force{});
+    for (int i = 0; i < 500; ++i) std::ignore = governor.limit(along_x(3.0), true, now += 1ms);
+    EXPECT_NEAR(governor.limit(along_x(3.0), true, now += 1ms).x(), 3.0 * 0.501, rounding);
+    EXPECT_EQ(governor.counters().stalled, 1U);
 }
 
 TEST(Governor, LimitsTheChangeAlongItsOwnDirection)
