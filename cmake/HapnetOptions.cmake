@@ -29,10 +29,6 @@ if(HAPNET_SANITIZE)
         -fsanitize=${HAPNET_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(hapnet_options INTERFACE -fsanitize=${HAPNET_SANITIZE})
 endif()
-if(HAPNET_SANITIZE MATCHES "thread")
-    # GCC says that TSan cannot see std::atomic_thread_fence; the queue we use has one.
-    target_compile_options(hapnet_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
-endif()
 
 # hapnet_library(NAME SOURCES ... DEPENDS ...): one folder of the map.
 function(hapnet_library name)
