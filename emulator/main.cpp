@@ -5,7 +5,7 @@
 #include "emulator/relay.hpp"
 #include "emulator/report.hpp"
 #include "proto/net/clock.hpp"
-#include "proto/net/cure.hpp"
+#include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
@@ -19,9 +19,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <unistd.h>
-#include <variant>
 
 namespace hapnet::emulator {
 
@@ -29,10 +27,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int exit_usage = 2;
-constexpr int exit_environment = 3;
+constexpr std::string_view program = "hapnet-emulator";
 
-void say(std::string_view text) { fmt::print(stderr, "hapnet-emulator: {}\n", text); }
+void say(std::string_view text) { net::say(program, text); }
 
 /// How long before a deadline sleeping ends and watching the clock begins. 60 us is what a wake-up
 /// costs, above it the median and p99 gain nothing (measured 2026, 2 virtual CPUs, Linux 6.18).
@@ -142,13 +139,10 @@ void write_statistics(const Run& run, std::optional<net::ResultFile>& file)
     }
 }
 
-int emulate(const Options& options)
+base::Result<int> emulate(const Options& options)
 {
     const auto places = look_up(options);
-    if (!places) {
-        say(places.error().message);
-        return exit_usage;
-    }
+    if (!places) return tl::unexpected{places.error()};
     net::StopSignal stop;
     Relay relay{*places, options};
     std::optional<net::ResultFile> file;
@@ -164,26 +158,12 @@ int emulate(const Options& options)
     return 0;
 }
 
+} // namespace
+
 int main_program(std::span<char*> words)
 {
-    const auto parsed = parse_options(words);
-    if (!parsed) {
-        say(parsed.error().message);
-        return exit_usage;
-    }
-    if (const auto* answer = std::get_if<Answer>(&*parsed)) {
-        fmt::print("{}", answer->text);
-        return 0;
-    }
-    try {
-        return emulate(std::get<Options>(*parsed));
-    } catch (const std::system_error& error) {
-        say(net::explained(error));
-        return exit_environment;
-    }
+    return net::run_program(program, parse_options(words), emulate);
 }
-
-} // namespace
 
 } // namespace hapnet::emulator
 

@@ -89,12 +89,10 @@ void add_conditions(CLI::App& app, const std::string& prefix, ConditionTexts& te
 
 void add_options(CLI::App& app, Texts& texts)
 {
-    app.add_option("--listen-a", texts.listen_a, "Where A sends to")
-        ->type_name("HOST:PORT")
-        ->required();
-    app.add_option("--listen-b", texts.listen_b, "Where B sends to")
-        ->type_name("HOST:PORT")
-        ->required();
+    app.add_option("--listen-a", texts.listen_a, "Where A sends to (required)")
+        ->type_name("HOST:PORT");
+    app.add_option("--listen-b", texts.listen_b, "Where B sends to (required)")
+        ->type_name("HOST:PORT");
     app.add_option("--a", texts.a, "A itself (default: the first sender)")->type_name("HOST:PORT");
     app.add_option("--b", texts.b, "B itself (default: the first sender)")->type_name("HOST:PORT");
     for (std::size_t i = 0; i < prefixes.size(); ++i) {
@@ -141,6 +139,12 @@ public:
         read(dashes + "burst-loss", texts.burst_loss, target.burst_loss, parse_burst);
     }
 
+    /// Not left to CLI11, which would speak of it before it speaks of a mistyped option.
+    void require(const std::string& option, const Text& text, const char* example)
+    {
+        if (!text && !error_) error_ = fmt::format("{0} is required: {0} {1}", option, example);
+    }
+
     [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
 
 private:
@@ -170,10 +174,12 @@ base::Result<net::HostPort> parse_peer(const std::string& text)
     return peer;
 }
 
-base::Result<std::variant<Options, Answer>> options_from(const Texts& texts)
+net::CommandLine<Options> options_from(const Texts& texts)
 {
     Options options;
     Reader reader;
+    reader.require("--listen-a", texts.listen_a, "127.0.0.1:7001");
+    reader.require("--listen-b", texts.listen_b, "127.0.0.1:7002");
     reader.read("--listen-a", texts.listen_a, options.listen_a, net::parse_host_port);
     reader.read("--listen-b", texts.listen_b, options.listen_b, net::parse_host_port);
     reader.read("--a", texts.a, options.a, parse_peer);
@@ -204,7 +210,7 @@ std::string_view to_text(Timing timing)
     return {};
 }
 
-base::Result<std::variant<Options, Answer>> parse_options(std::span<char*> words)
+net::CommandLine<Options> parse_options(std::span<char*> words)
 {
     CLI::App app{description, "hapnet-emulator"};
     app.footer(footer);
@@ -216,9 +222,9 @@ base::Result<std::variant<Options, Answer>> parse_options(std::span<char*> words
     try {
         app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::CallForHelp&) {
-        return Answer{app.help()};
+        return net::Answer{app.help()};
     } catch (const CLI::CallForVersion&) {
-        return Answer{app.version() + "\n"};
+        return net::Answer{app.version() + "\n"};
     } catch (const CLI::ParseError& error) {
         return base::fail(fmt::format("{} (--help lists the options)", error.what()));
     }

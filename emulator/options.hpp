@@ -7,6 +7,7 @@
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
+#include "proto/net/program.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -14,7 +15,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 
 namespace hapnet::emulator {
 
@@ -37,13 +37,8 @@ struct Options {
     std::optional<std::string> stats;       // a file, or "-" for stdout
 };
 
-/// A text to print on stdout instead of running.
-struct Answer {
-    std::string text;
-};
-
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.
-[[nodiscard]] base::Result<std::variant<Options, Answer>> parse_options(std::span<char*> words);
+[[nodiscard]] net::CommandLine<Options> parse_options(std::span<char*> words);
 
 } // namespace hapnet::emulator

@@ -9,7 +9,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -18,14 +17,7 @@ namespace hapnet::lab {
 
 namespace {
 
-constexpr int exit_failed = 1;
-constexpr int exit_bad_input = 2;
-constexpr int exit_environment = 3;
-
-void say(std::string_view what)
-{
-    std::fprintf(stderr, "hapnet-lab: %.*s\n", static_cast<int>(what.size()), what.data());
-}
+constexpr std::string_view program = "hapnet-lab";
 
 void print(const std::string& text)
 {
@@ -38,7 +30,7 @@ base::Result<record::Record> read_record(const std::string& path)
 {
     auto record = record::read(path);
     if (record && record->cut_off) {
-        say(path + " ends inside a row, which is left out: its writer was killed");
+        net::say(program, path + " ends inside a row, which is left out: its writer was killed");
     }
     return record;
 }
@@ -76,34 +68,28 @@ base::Result<int> run(const ExportCommand& command)
 
 base::Result<int> run(const DemoReportCommand& command)
 {
-    return conclude_demo(command).map([](bool is_met) { return is_met ? 0 : exit_failed; });
+    return conclude_demo(command).map([](bool is_met) { return is_met ? 0 : net::exit_failed; });
 }
 
-int execute(const Command& command)
+base::Result<int> execute(const Command& command)
 {
-    const auto done = std::visit([](const auto& chosen) { return run(chosen); }, command);
-    if (!done) {
-        say(done.error().message);
-        return exit_bad_input;
-    }
-    if (std::fflush(stdout) != 0) {
+    auto done = std::visit([](const auto& chosen) { return run(chosen); }, command);
+    if (done && std::fflush(stdout) != 0) {
         throw std::system_error{errno, std::generic_category(), "cannot write the result"};
     }
-    return *done;
+    return done;
 }
 
 } // namespace
 
+int main_program(std::span<char*> words)
+{
+    return net::run_program(program, parse_command_line(words), execute);
+}
+
 } // namespace hapnet::lab
 
 int main(int argc, char** argv)
-try {
-    const auto command = hapnet::lab::parse_command_line(argc, argv);
-    return command ? hapnet::lab::execute(*command) : command.error();
-} catch (const std::system_error& error) {
-    hapnet::lab::say(error.what());
-    return hapnet::lab::exit_environment;
-} catch (const std::exception& error) {
-    hapnet::lab::say(error.what());
-    return hapnet::lab::exit_failed;
+{
+    return hapnet::lab::main_program({argv, static_cast<std::size_t>(argc)});
 }

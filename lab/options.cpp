@@ -9,13 +9,7 @@
 
 namespace hapnet::lab {
 
-namespace {
-
-constexpr int exit_usage = 2;
-
-} // namespace
-
-tl::expected<Command, int> parse_command_line(int argc, const char* const* argv)
+net::CommandLine<Command> parse_command_line(std::span<char*> words)
 {
     CLI::App app{"Reads the records that hapnet-peer --record writes", "hapnet-lab"};
     app.set_version_flag("--version", base::version_line("hapnet-lab"));
@@ -52,14 +46,19 @@ tl::expected<Command, int> parse_command_line(int argc, const char* const* argv)
     demo_command->add_option("--wall-time", demo.wall_time_s, "seconds since, for the manifest");
 
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(words.size()), words.data());
+    } catch (const CLI::CallForHelp&) {
+        const auto chosen = app.get_subcommands();
+        return net::Answer{chosen.empty() ? app.help() : chosen.front()->help()};
+    } catch (const CLI::CallForVersion&) {
+        return net::Answer{base::version_line("hapnet-lab") + "\n"};
     } catch (const CLI::ParseError& error) {
-        return tl::unexpected{app.exit(error) == 0 ? 0 : exit_usage};
+        return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }
-    if (analyse_command->parsed()) return analyse;
-    if (demo_command->parsed()) return demo;
+    if (analyse_command->parsed()) return Command{analyse};
+    if (demo_command->parsed()) return Command{demo};
     exported.rows = rows == "messages" ? ExportRows::messages : ExportRows::ticks;
-    return exported;
+    return Command{exported};
 }
 
 } // namespace hapnet::lab

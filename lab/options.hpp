@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/net/program.hpp"
+
 #include <cstdint>
+#include <span>
 #include <string>
-#include <tl/expected.hpp>
 #include <variant>
 
 namespace hapnet::lab {
@@ -34,8 +36,7 @@ struct DemoReportCommand {
 
 using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand>;
 
-/// What the command line asks for. Otherwise the exit code: 0 after --help or --version, 2 after
-/// a mistake; what there was to say has then been printed.
-[[nodiscard]] tl::expected<Command, int> parse_command_line(int argc, const char* const* argv);
+/// Reads the command line.
+[[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);
 
 } // namespace hapnet::lab

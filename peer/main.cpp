@@ -6,7 +6,7 @@
 #include "peer/servo.hpp"
 #include "peer/watcher.hpp"
 #include "proto/net/clock.hpp"
-#include "proto/net/cure.hpp"
+#include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/wait.hpp"
@@ -22,12 +22,10 @@ namespace hapnet::peer {
 
 namespace {
 
-constexpr int exit_failed = 1;
-constexpr int exit_usage = 2;
-constexpr int exit_environment = 3;
+constexpr std::string_view program = "hapnet-peer";
 constexpr base::Duration drain_every{std::chrono::milliseconds{50}};
 
-void say(std::string_view text) { fmt::print(stderr, "hapnet-peer: {}\n", text); }
+void say(std::string_view text) { net::say(program, text); }
 
 struct Places {
     net::Endpoint listen;
@@ -150,13 +148,10 @@ void watch(Servo& servo, Watcher& watcher, net::StopSignal& stop, const std::str
     watcher.finish();
 }
 
-int play(const Options& options)
+base::Result<int> play(const Options& options)
 {
     const auto places = look_up(options);
-    if (!places) {
-        say(places.error().message);
-        return exit_usage;
-    }
+    if (!places) return tl::unexpected{places.error()};
     net::StopSignal stop;
     net::UdpSocket socket{places->listen};
     device::SimulatedOmni omni{options.task, device::HandImpedance{}, device::OmniPlant{}};
@@ -180,34 +175,17 @@ int play(const Options& options)
     if (const auto reason = peer.refusal()) {
         say(fmt::format("refused: the other peer cannot play with this one: {}",
                         words_for(*reason)));
-        return exit_failed;
+        return net::exit_failed;
     }
     return 0;
 }
 
+} // namespace
+
 int main_program(std::span<char*> words)
 {
-    const auto parsed = parse_options(words);
-    if (!parsed) {
-        say(parsed.error().message);
-        return exit_usage;
-    }
-    if (const auto* answer = std::get_if<Answer>(&*parsed)) {
-        fmt::print("{}", answer->text);
-        return 0;
-    }
-    try {
-        return play(std::get<Options>(*parsed));
-    } catch (const std::system_error& error) {
-        say(net::explained(error));
-        return exit_environment;
-    } catch (const std::exception& error) {
-        say(error.what());
-        return exit_failed;
-    }
+    return net::run_program(program, parse_options(words), play);
 }
-
-} // namespace
 
 } // namespace hapnet::peer
 

@@ -57,9 +57,8 @@ void add_options(CLI::App& app, Texts& texts)
     add("--id", texts.id, "This peer's number; the lower is L (default 1)", "1..65535");
     add("--listen", texts.listen, "Where to receive (default 127.0.0.1:0, any free port)",
         "HOST:PORT");
-    add("--remote", texts.remote, "The other peer, or the emulator's side for this one",
-        "HOST:PORT")
-        ->required();
+    add("--remote", texts.remote, "The other peer, or the emulator's side for this one (required)",
+        "HOST:PORT");
     add("--device", texts.device, "sim: a simulated Omni in a simulated hand (default)", "sim");
     add("--scene", texts.scene, "paper: one movable and one static cube (default)", "paper");
     add("--task", texts.task, "What the simulated hands do (default P1)", "P1|T1|T3");
@@ -97,13 +96,14 @@ private:
     std::optional<std::string> error_;
 };
 
-base::Result<std::variant<Options, Answer>> options_from(const Texts& texts)
+net::CommandLine<Options> options_from(const Texts& texts)
 {
     Options options;
     Taker taker;
     taker.take(options.id, "--id", base::parse_count(texts.id, 65535));
     taker.require(options.id != 0, "--id: 0 is not a number of a peer; use 1 to 65535");
     taker.take(options.listen, "--listen", net::parse_host_port(texts.listen));
+    taker.require(!texts.remote.empty(), "--remote is required: --remote 127.0.0.1:7001");
     taker.take(options.remote, "--remote", net::parse_host_port(texts.remote));
     taker.require(options.remote.port != 0, "--remote: needs a port");
     taker.take(options.task, "--task", device::task_named(texts.task));
@@ -131,7 +131,7 @@ base::Result<std::variant<Options, Answer>> options_from(const Texts& texts)
 
 } // namespace
 
-base::Result<std::variant<Options, Answer>> parse_options(std::span<char*> words)
+net::CommandLine<Options> parse_options(std::span<char*> words)
 {
     CLI::App app{description, "hapnet-peer"};
     Texts texts;
@@ -141,9 +141,9 @@ base::Result<std::variant<Options, Answer>> parse_options(std::span<char*> words
     try {
         app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::CallForHelp&) {
-        return Answer{app.help()};
+        return net::Answer{app.help()};
     } catch (const CLI::CallForVersion&) {
-        return Answer{base::version_line("hapnet-peer") + "\n"};
+        return net::Answer{base::version_line("hapnet-peer") + "\n"};
     } catch (const CLI::ParseError& error) {
         return base::fail(fmt::format("{}; see hapnet-peer --help", error.what()));
     }

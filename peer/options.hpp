@@ -8,11 +8,11 @@
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
+#include "proto/net/program.hpp"
 
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 
 namespace hapnet::peer {
 
@@ -33,13 +33,8 @@ struct Options {
     std::optional<std::string> stats; // a file, or "-" for stdout
 };
 
-/// A text to print on stdout instead of running.
-struct Answer {
-    std::string text;
-};
-
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.
-[[nodiscard]] base::Result<std::variant<Options, Answer>> parse_options(std::span<char*> words);
+[[nodiscard]] net::CommandLine<Options> parse_options(std::span<char*> words);
 
 } // namespace hapnet::peer

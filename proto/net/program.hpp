@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/net/cure.hpp"
+
+#include <exception>
+#include <spdlog/fmt/fmt.h>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <variant>
+
+namespace hapnet::net {
+
+/// What a program tells whoever started it, the same in all programs.
+inline constexpr int exit_failed = 1;      // it ran, and the run failed
+inline constexpr int exit_usage = 2;       // bad usage or bad input
+inline constexpr int exit_environment = 3; // the system refused
+
+/// A text to print on stdout instead of running: --help, --version.
+struct Answer {
+    std::string text;
+};
+
+/// A command line as it was understood; the error says what is wrong with it and how to mend it.
+template <typename Options>
+using CommandLine = base::Result<std::variant<Options, Answer>>;
+
+/// One line for a person, on stderr: "hapnet-peer: ...".
+inline void say(std::string_view program, std::string_view text)
+{
+    fmt::print(stderr, "{}: {}\n", program, text);
+}
+
+/// The life of every program: prints what is to be printed, runs, and turns each kind of trouble
+/// into a message and an exit code. `run` gives its own exit code, or says what was bad input.
+template <typename Options>
+[[nodiscard]] int run_program(std::string_view program, const CommandLine<Options>& line,
+                              base::Result<int> (*run)(const Options&))
+{
+    try {
+        if (!line) {
+            say(program, line.error().message);
+            return exit_usage;
+        }
+        if (const auto* answer = std::get_if<Answer>(&*line)) {
+            fmt::print("{}", answer->text);
+            return 0;
+        }
+        const auto code = run(std::get<Options>(*line));
+        if (code) return *code;
+        say(program, code.error().message);
+        return exit_usage;
+    } catch (const std::system_error& error) {
+        say(program, explained(error));
+        return exit_environment;
+    } catch (const std::exception& error) {
+        say(program, error.what());
+        return exit_failed;
+    }
+}
+
+} // namespace hapnet::net
