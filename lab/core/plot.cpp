@@ -51,6 +51,11 @@ Range usable(Range range)
     return range;
 }
 
+double legend_width(const Curve& curve)
+{
+    return 8.0 * static_cast<double>(curve.name.size()) + 16.0;
+}
+
 class Canvas {
 public:
     Canvas(Range x, Range y) : x_{x}, y_{y} {}
@@ -118,11 +123,12 @@ std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves)
         (top + height - bottom) / 2.0, titles.y);
     out += canvas.marks();
     for (const Curve& curve : curves) out += canvas.line(curve);
-    double legend = width - right; // from right to left, so that the first stands first
-    for (auto curve = curves.rbegin(); curve != curves.rend(); ++curve) {
-        out += fmt::format("<text x='{}' y='16' text-anchor='end' fill='{}'>{}</text>\n", legend,
-                           curve->colour, curve->name);
-        legend -= 9.0 * static_cast<double>(curve->name.size()) + 16.0;
+    double legend = width - right;
+    for (const Curve& curve : curves) legend -= legend_width(curve);
+    for (const Curve& curve : curves) {
+        out += fmt::format("<text x='{}' y='16' fill='{}'>{}</text>\n", legend, curve.colour,
+                           curve.name);
+        legend += legend_width(curve);
     }
     return out + "</svg>\n";
 }
