@@ -134,9 +134,8 @@ void write_statistics(const Run& run, std::optional<net::ResultFile>& file)
         file->commit(statistics_json(run));
     } else if (run.options.stats) {
         fmt::print("{}", statistics_json(run));
-    } else {
-        fmt::print(stderr, "{}", summary(run));
     }
+    fmt::print(stderr, "{}", summary(run));
 }
 
 base::Result<int> emulate(const Options& options)

@@ -214,7 +214,7 @@ net::CommandLine<Options> parse_options(std::span<char*> words)
 {
     CLI::App app{description, "hapnet-emulator"};
     app.footer(footer);
-    app.set_help_flag("--help", "Print this and exit");
+    app.set_help_flag("-h,--help", "Print this and exit");
     app.set_version_flag("--version", base::version_line("hapnet-emulator"),
                          "Print version, commit and compiler, and exit");
     Texts texts;

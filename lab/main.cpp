@@ -30,7 +30,8 @@ base::Result<record::Record> read_record(const std::string& path)
 {
     auto record = record::read(path);
     if (record && record->cut_off) {
-        net::say(program, path + " ends inside a row, which is left out: its writer was killed");
+        net::say(program, path + " ends inside a row, which is left out: its writer was killed or "
+                                 "its disk was full");
     }
     return record;
 }
@@ -73,11 +74,7 @@ base::Result<int> run(const DemoReportCommand& command)
 
 base::Result<int> execute(const Command& command)
 {
-    auto done = std::visit([](const auto& chosen) { return run(chosen); }, command);
-    if (done && std::fflush(stdout) != 0) {
-        throw std::system_error{errno, std::generic_category(), "cannot write the result"};
-    }
-    return done;
+    return std::visit([](const auto& chosen) { return run(chosen); }, command);
 }
 
 } // namespace

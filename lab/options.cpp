@@ -52,6 +52,11 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
         return net::Answer{chosen.empty() ? app.help() : chosen.front()->help()};
     } catch (const CLI::CallForVersion&) {
         return net::Answer{base::version_line("hapnet-lab") + "\n"};
+    } catch (const CLI::RequiredError& error) {
+        const bool names_one = words.size() > 1 && app.get_subcommands().empty();
+        if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
+        return base::fail(std::string{"'"} + words[1] +
+                          "' is not a command; use analyse or export, see hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }

@@ -23,7 +23,9 @@ constexpr const char* footer =
   P1  L holds the cube and carries it along a prescribed path, R watches (the paper's Table 1)
   T1  by turns: L pushes the cube where the path rises, R where it falls
   T3  both squeeze the cube between them and carry it along the path at half speed
-Each ends with 3 s hands off. Both peers need the same task.
+Each ends with 3 s hands off, within --duration (half of it when that is below 6s). Both peers
+need the same task, and should be given the same --duration. A peer waits for the other for as
+long as it takes; --duration counts from their common start.
 
 Examples, with hapnet-emulator listening on ports 7001 and 7002 of this machine:
   hapnet-peer --id 1 --remote 127.0.0.1:7001 --task T3 --duration 20s --record a.rec
@@ -121,6 +123,7 @@ net::CommandLine<Options> options_from(const Texts& texts)
         fmt::format("--scene: '{}' is not known; this version has only paper", texts.scene));
     taker.require(!texts.key, "--key: authenticated sessions are not available yet; use --insecure "
                               "on a network you trust");
+    taker.require(texts.record != "-", "--record: '-' is not a file: a record needs one");
     if (taker.error()) return base::fail(*taker.error());
     options.algorithm_name = texts.algorithm;
     options.insecure = texts.insecure;

@@ -50,6 +50,7 @@ std::string_view words_for(Event event)
     case Event::refused: return "the other peer cannot play with this one";
     case Event::hands_off: return "hands off";
     case Event::ended: return "session ended";
+    case Event::stopped: return "stopped before a session began";
     }
     return "";
 }

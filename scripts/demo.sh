@@ -12,7 +12,7 @@ each way, and prints what was measured beside the paper's Table 1. Writes everyt
 (results/demo-<time> when not given). Exits 0 when it went well, 1 when a program failed or the
 measurement misses, 3 when something that it needs cannot be installed."
 
-command_line="scripts/demo.sh $*"
+command_line="scripts/demo.sh${*:+ $*}"
 out=
 while (($# > 0)); do
     case $1 in

@@ -17,6 +17,7 @@ namespace {
 constexpr double workspace_offset_m = 0.025;
 // The hand takes this long from its rest to its part.
 constexpr double approach_s = 0.8;
+constexpr double aside_m = 0.055; // clear of a cube at its start
 
 } // namespace
 
@@ -40,8 +41,12 @@ Intention SimulatedOmni::intention(base::TimePoint now) const
     if (part_->wavers) {
         intended.target.value.x += part_->noise.at(base::to_seconds(now - part_->start));
     }
-    const double share = minimum_jerk(base::to_seconds(now - *cued_at_) / approach_s);
-    intended.target = {rest_ + share * (intended.target.value - rest_)};
+    // First aside, then to the part: the straight way might push the cube.
+    const double u = base::to_seconds(now - *cued_at_) / approach_s;
+    const glm::dvec3 aside{centre_.x < 0.0 ? -aside_m : aside_m, 0.0, rest_.z};
+    const glm::dvec3 on_the_way = rest_ + minimum_jerk(2.0 * u) * (aside - rest_);
+    intended.target = {on_the_way +
+                       minimum_jerk(2.0 * u - 1.0) * (intended.target.value - on_the_way)};
     return intended;
 }
 

@@ -112,6 +112,23 @@ std::optional<double> settled_discrepancy_of(const std::vector<Moment>& moments)
     return largest;
 }
 
+TouchShares touch_shares_of(const std::vector<Moment>& moments)
+{
+    TouchShares touched;
+    double scored = 0.0;
+    for (const Moment& moment : moments) {
+        if (!moment.both_in(Phase::running)) continue;
+        const bool a = moment.a->touching, b = moment.before->touching;
+        scored += 1.0;
+        touched.a += a ? 1.0 : 0.0;
+        touched.b += b ? 1.0 : 0.0;
+        touched.either += a || b ? 1.0 : 0.0;
+        touched.both += a && b ? 1.0 : 0.0;
+    }
+    if (scored == 0.0) return {};
+    return {touched.a / scored, touched.b / scored, touched.either / scored, touched.both / scored};
+}
+
 double overlap_of(const Session& session, const std::vector<Moment>& moments)
 {
     const base::TimePoint start = session.a.terms.start;
@@ -142,6 +159,7 @@ Agreement agreement_of(const Session& session)
     return {.discrepancy_x = spread_of(distances),
             .force_discrepancy = force_discrepancy_of(moments),
             .settled_discrepancy = settled_discrepancy_of(moments),
+            .touching = touch_shares_of(moments),
             .scored = static_cast<base::Duration::rep>(distances.size()) * session.tick,
             .overlap = overlap_of(session, moments)};
 }

@@ -23,6 +23,14 @@ struct ForceDiscrepancy {
     double max = 0.0;
 };
 
+/// Shares of time, 0 to 1. A task was played only while somebody touched.
+struct TouchShares {
+    double a = 0.0;
+    double b = 0.0;
+    double either = 0.0;
+    double both = 0.0;
+};
+
 /// How well both copies of the scene agree at equal times, namely at each tick of A; B's state
 /// then is interpolated linearly between its ticks.
 struct Agreement {
@@ -34,6 +42,8 @@ struct Agreement {
     /// The largest distance of the cubes, in metres, from 2 s after both let go to the end of the
     /// hands-off tail; nullopt when that was not reached.
     std::optional<double> settled_discrepancy;
+    /// Who touched the cube while both were running; all zero when they never were.
+    TouchShares touching;
     /// How long both were running.
     base::Duration scored{};
     /// The share of the session, 0 to 1, in which both have ticks and are running or hands off.

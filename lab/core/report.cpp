@@ -108,6 +108,11 @@ std::string table_of(const Agreement& agreement)
     const auto settled = agreement.settled_discrepancy;
     text += fmt::format("{:<26}{:>10}\n", "settled, mm",
                         cell(settled ? std::optional{mm * *settled} : std::nullopt, 4));
+    const TouchShares& touching = agreement.touching;
+    text += fmt::format("{:<26}{:>10}{:>10}{:>10}{:>10}\n", "", "A", "B", "either", "both");
+    text +=
+        fmt::format("{:<26}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}\n", "touching the cube, %",
+                    1e2 * touching.a, 1e2 * touching.b, 1e2 * touching.either, 1e2 * touching.both);
     text += fmt::format("{:<26}{:>10.3f}\n", "scored, s", base::to_seconds(agreement.scored));
     text += fmt::format("{:<26}{:>10.2f}\n", "overlap, %", 1e2 * agreement.overlap);
     return text;
@@ -159,6 +164,11 @@ Json to_json(const Analysis& analysis)
     return {{"discrepancy_x_mm", json_of(agreement.discrepancy_x)},
             {"force_discrepancy_n", json_of(agreement.force_discrepancy)},
             {"settled_discrepancy_mm", settled ? number(mm * *settled) : Json(nullptr)},
+            {"touching",
+             {{"a", agreement.touching.a},
+              {"b", agreement.touching.b},
+              {"either", agreement.touching.either},
+              {"both", agreement.touching.both}}},
             {"scored_s", base::to_seconds(agreement.scored)},
             {"overlap", agreement.overlap},
             {"a_to_b", json_of(analysis.a_to_b)},

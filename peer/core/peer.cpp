@@ -157,7 +157,9 @@ void Peer::note(Phase phase, double freshness, base::TimePoint now)
             events_.put(session()->joined_late ? Event::joined : Event::started);
         }
         if (phase == Phase::hands_off) events_.put(Event::hands_off);
-        if (phase == Phase::ended && !refusal_) events_.put(Event::ended);
+        if (phase == Phase::ended && !refusal_) {
+            events_.put(session() ? Event::ended : Event::stopped);
+        }
         phase_ = phase;
     }
     if (!in_session || gone_) return;

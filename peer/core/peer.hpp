@@ -39,6 +39,7 @@ enum class Event : std::uint8_t {
     refused,   // the two cannot play together: see refusal()
     hands_off,
     ended,
+    stopped, // before there was a session
 };
 
 /// What was received, and what of it could not be used.

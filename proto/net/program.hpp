@@ -5,6 +5,8 @@
 #include "proto/base/result.hpp"
 #include "proto/net/cure.hpp"
 
+#include <cerrno>
+#include <cstdio>
 #include <exception>
 #include <spdlog/fmt/fmt.h>
 #include <string>
@@ -34,6 +36,13 @@ inline void say(std::string_view program, std::string_view text)
     fmt::print(stderr, "{}: {}\n", program, text);
 }
 
+/// Throws std::system_error when what was printed could not be written: a full disk, say.
+inline void require_stdout()
+{
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    throw std::system_error{errno, std::generic_category(), "cannot write the output"};
+}
+
 /// The life of every program: prints what is to be printed, runs, and turns each kind of trouble
 /// into a message and an exit code. `run` gives its own exit code, or says what was bad input.
 template <typename Options>
@@ -47,12 +56,13 @@ template <typename Options>
         }
         if (const auto* answer = std::get_if<Answer>(&*line)) {
             fmt::print("{}", answer->text);
+            require_stdout();
             return 0;
         }
         const auto code = run(std::get<Options>(*line));
-        if (code) return *code;
-        say(program, code.error().message);
-        return exit_usage;
+        if (!code) say(program, code.error().message);
+        require_stdout();
+        return code.value_or(exit_usage);
     } catch (const std::system_error& error) {
         say(program, explained(error));
         return exit_environment;

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
+#include <filesystem>
 #include <spdlog/fmt/fmt.h>
 #include <sys/stat.h>
 #include <system_error>
@@ -22,11 +23,21 @@ namespace {
 
 } // namespace
 
-ResultFile::ResultFile(std::string path)
-    : path_{std::move(path)}, temporary_{fmt::format("{}.{}.partial", path_, getpid())}
+ResultFile::ResultFile(std::string path) : path_{std::move(path)}
 {
     struct stat found {};
-    if (stat(path_.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) refuse(EISDIR, path_);
+    if (stat(path_.c_str(), &found) == 0) {
+        if (S_ISDIR(found.st_mode)) refuse(EISDIR, path_);
+        if (!S_ISREG(found.st_mode)) {
+            descriptor_ = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+            if (descriptor_ < 0) refuse(errno, path_);
+            return;
+        }
+        std::error_code error; // it exists: nothing to go wrong but a race
+        path_ = std::filesystem::canonical(path_, error).string();
+        if (error) refuse(error.value(), path_);
+    }
+    temporary_ = fmt::format("{}.{}.partial", path_, getpid());
     descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (descriptor_ < 0) refuse(errno, path_);
 }
@@ -35,7 +46,7 @@ ResultFile::~ResultFile()
 {
     if (descriptor_ < 0) return;
     close(descriptor_);
-    unlink(temporary_.c_str());
+    if (!temporary_.empty()) unlink(temporary_.c_str());
 }
 
 void ResultFile::commit(std::string_view text)
@@ -45,7 +56,8 @@ void ResultFile::commit(std::string_view text)
         if (count < 0 && errno != EINTR) refuse(errno, path_);
         if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
     }
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) refuse(errno, path_);
+    const bool moves = !temporary_.empty();
+    if (moves && std::rename(temporary_.c_str(), path_.c_str()) != 0) refuse(errno, path_);
     close(std::exchange(descriptor_, -1));
 }
 

@@ -9,7 +9,8 @@ namespace hapnet::net {
 
 /// A file that appears whole or not at all: it is written beside its place under a temporary
 /// name, which is taken at construction, so that a place that cannot be written is found before
-/// the run and not after it.
+/// the run and not after it. A symbolic link is followed; what is there and is no regular file (a
+/// device, a pipe) is never replaced but written to.
 class ResultFile {
 public:
     /// Throws std::system_error naming the file.
@@ -24,7 +25,7 @@ public:
 
 private:
     std::string path_;
-    std::string temporary_;
+    std::string temporary_; // empty: written in place
     int descriptor_ = -1;
 };
 

@@ -12,6 +12,7 @@ namespace hapnet::net {
 
 StopSignal::StopSignal()
 {
+    std::signal(SIGPIPE, SIG_IGN);
     sigset_t signals{};
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);

@@ -5,7 +5,8 @@
 namespace hapnet::net {
 
 /// SIGINT and SIGTERM as something to wait for. Construct one, first thing in main and before
-/// any thread: from then on the two signals interrupt nothing and are read here.
+/// any thread: from then on the two signals interrupt nothing and are read here. SIGPIPE is
+/// ignored from then on: a reader that has left must not end a session.
 class StopSignal {
 public:
     StopSignal();

@@ -6,16 +6,41 @@
 #include "proto/record/header.hpp"
 
 #include <cerrno>
+#include <fcntl.h>
 #include <spdlog/fmt/fmt.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 namespace hapnet::record {
 
-Writer::Writer(std::string path, const nlohmann::json& config)
-    : path_{std::move(path)}, file_{std::fopen(path_.c_str(), "wbe")}
+namespace {
+
+/// The file, emptied; null with errno set when it cannot be had. Locked before it is emptied: two
+/// peers that were given one name must not spoil each other's record.
+std::FILE* open_alone(const std::string& path)
 {
-    if (!file_) refuse("create");
+    const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+    if (descriptor < 0) return nullptr;
+    struct stat found {};
+    const bool is_regular = fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode);
+    const bool is_ours =
+        !is_regular || (flock(descriptor, LOCK_EX | LOCK_NB) == 0 && ftruncate(descriptor, 0) == 0);
+    if (is_ours) return fdopen(descriptor, "wb");
+    const int error = errno;
+    close(descriptor);
+    errno = error;
+    return nullptr;
+}
+
+} // namespace
+
+Writer::Writer(std::string path, const nlohmann::json& config)
+    : path_{std::move(path)}, file_{open_alone(path_)}
+{
+    if (!file_) refuse(errno == EWOULDBLOCK ? "create (another program is writing)" : "create");
     const std::string header = header_line(config) + '\n';
     put(header.data(), header.size());
     flush();

@@ -32,6 +32,22 @@ TEST(Agreement, OfACubeSeenLaterByDIsItsSpeedTimesD)
     EXPECT_NEAR(x->std, 0.0, rounding);
 }
 
+TEST(Agreement, SharesOutWhoTouchedWhileBothWereRunning)
+{
+    const auto touching = [](record::TickRow& row, base::Duration) { row.touching = true; };
+    Recording a{1};
+    Recording b{2};
+    a.session(8ms).ticks(0ms, 4ms, Phase::running, touching).ticks(4ms, 8ms);
+    a.ticks(8ms, 10ms, Phase::hands_off, touching);
+    b.session(8ms).ticks(0ms, 3ms).ticks(3ms, 5ms, Phase::running, touching).ticks(5ms, 8ms);
+    b.ticks(8ms, 10ms, Phase::hands_off, touching);
+    const TouchShares shares = analysis_of(a, b).agreement.touching;
+    EXPECT_EQ(shares.a, 0.5);
+    EXPECT_EQ(shares.b, 0.25);
+    EXPECT_EQ(shares.either, 0.625);
+    EXPECT_EQ(shares.both, 0.125);
+}
+
 TEST(Agreement, HasTheMeanExtremesAndPopulationDeviationOfAllTicks)
 {
     Recording a{1};

@@ -39,6 +39,7 @@ TEST(Report, HasTheKeysAndUnitsThatProgramsReadInJson)
         "discrepancy_x_mm": {"mean": 250.0, "min": 250.0, "max": 250.0, "std": 0.0},
         "force_discrepancy_n": {"mean": 0.5, "max": 0.5},
         "settled_discrepancy_mm": null,
+        "touching": {"a": 1.0, "b": 1.0, "either": 1.0, "both": 1.0},
         "scored_s": 0.002,
         "overlap": 1.0,
         "a_to_b": {

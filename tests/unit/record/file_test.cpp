@@ -157,6 +157,16 @@ TEST(RecordFile, ThrowsWithTheNameOfTheFileThatCannotBeCreated)
     }
 }
 
+TEST(RecordFile, BelongsToOneWriterAtATimeAndIsNotEmptiedByAnother)
+{
+    const TemporaryPath path;
+    Writer writer{path.text(), config};
+    writer.write(TickRow{});
+    writer.flush();
+    EXPECT_THROW(Writer(path.text(), config), std::system_error);
+    EXPECT_EQ(read(path.text()).value().ticks.size(), 1U);
+}
+
 TEST(RecordFile, ThrowsWhenTheDiskIsFull)
 {
     EXPECT_THROW(Writer("/dev/full", config), std::system_error);
