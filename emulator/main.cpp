@@ -87,13 +87,13 @@ public:
     {
         if (!base::is_due(next_, now)) return;
         next_ = now + 500ms;
-        fmt::print(stderr, "\r{}\x1b[K", status_line(run));
+        net::tell(fmt::format("\r{}\x1b[K", status_line(run)));
     }
 
     /// Makes room for another line.
     void clear() const
     {
-        if (next_) fmt::print(stderr, "\r\x1b[K");
+        if (next_) net::tell("\r\x1b[K");
     }
 
 private:
@@ -135,7 +135,7 @@ void write_statistics(const Run& run, std::optional<net::ResultFile>& file)
     } else if (run.options.stats) {
         fmt::print("{}", statistics_json(run));
     }
-    fmt::print(stderr, "{}", summary(run));
+    net::tell(summary(run));
 }
 
 base::Result<int> emulate(const Options& options)

@@ -171,7 +171,7 @@ base::Result<int> play(const Options& options)
     } else if (options.stats) {
         fmt::print("{}", statistics_json(run));
     }
-    fmt::print(stderr, "{}", summary(run));
+    net::tell(summary(run));
     if (const auto reason = peer.refusal()) {
         say(fmt::format("refused: the other peer cannot play with this one: {}",
                         words_for(*reason)));

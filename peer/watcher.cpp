@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/watcher.hpp"
 
+#include "proto/net/program.hpp"
+
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 #include <utility>
@@ -100,9 +102,9 @@ void Watcher::tell(const Happening& happening)
 
 void Watcher::say(std::string_view text)
 {
-    if (line_open_) fmt::print(stderr, "\r\x1b[K");
+    if (line_open_) net::tell("\r\x1b[K");
     line_open_ = false;
-    fmt::print(stderr, "hapnet-peer {}: {}\n", peer_id_, text);
+    net::tell(fmt::format("hapnet-peer {}: {}\n", peer_id_, text));
 }
 
 void Watcher::show(base::TimePoint now)
@@ -113,7 +115,7 @@ void Watcher::show(base::TimePoint now)
     if (next_show_ || is_terminal_) {
         const std::string line = line_of(glance_, shown_);
         if (is_terminal_) {
-            fmt::print(stderr, "\r\x1b[Khapnet-peer {}: {}", peer_id_, line);
+            net::tell(fmt::format("\r\x1b[Khapnet-peer {}: {}", peer_id_, line));
             line_open_ = true;
         } else {
             say(line);
@@ -127,7 +129,7 @@ void Watcher::finish()
 {
     drain();
     if (writer_) writer_->flush();
-    if (line_open_) fmt::print(stderr, "\n");
+    if (line_open_) net::tell("\n");
     line_open_ = false;
 }
 

@@ -29,6 +29,7 @@ constexpr double follower_lag_s = 0.060;
 constexpr double carry_pace = 0.5;
 
 constexpr double let_go_m = 0.020;
+constexpr double lift_m = 0.045; // above the cube, whose upper face is at 20 mm
 constexpr double let_go_s = 0.5;
 
 constexpr std::array<std::pair<std::string_view, Task>, 3> tasks{
@@ -81,7 +82,9 @@ Intention Script::at(base::TimePoint now) const
     const bool works = t >= 0.0 && t < hands_on;
     const double let_go = side * let_go_m * minimum_jerk((t - hands_on) / let_go_s);
     const bool carries = task_ == Task::p1 && cue_.is_left;
-    return {.target = {{working_x(std::clamp(t, 0.0, hands_on)) + let_go, 0.0, 0.0}},
+    // Up and aside: after an outage the two copies may be apart, and aside alone may not be off.
+    const double lift = lift_m * minimum_jerk((t - hands_on) / let_go_s);
+    return {.target = {{working_x(std::clamp(t, 0.0, hands_on)) + let_go, lift, 0.0}},
             .gripping = carries && works};
 }
 

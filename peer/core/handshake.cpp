@@ -11,6 +11,9 @@ namespace {
 // No session is longer than a program can be asked for (10^6 s): a start farther away is nonsense.
 constexpr base::Duration start_away_max{std::chrono::seconds{1'000'001}};
 
+// By how much a message may overtake the one before.
+constexpr base::Duration ahead_max{std::chrono::seconds{10}};
+
 /// The same number on both sides, another one for every pair of runs; never 0.
 std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
 {
@@ -107,10 +110,17 @@ void Handshake::on_echo(const std::optional<wire::Echo>& echo, base::TimePoint s
                         base::TimePoint arrived)
 {
     if (echo) clock_.add({echo->of, sent - echo->age, sent, arrived});
-    if (!last_heard_ || sent > last_heard_->of) {
+    if (!last_heard_) {
         last_heard_ = wire::Echo{sent, {}};
         last_heard_at_ = arrived;
+        return;
     }
+    // Their clock runs as fast as ours: a time far ahead is damaged, and would be the last.
+    const base::Duration ahead = sent - last_heard_->of;
+    const bool is_newer = ahead > base::Duration{0};
+    if (!is_newer || ahead > (arrived - last_heard_at_) + ahead_max) return;
+    last_heard_ = wire::Echo{sent, {}};
+    last_heard_at_ = arrived;
 }
 
 std::optional<wire::Echo> Handshake::echo(base::TimePoint now) const

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace hapnet::peer {
@@ -62,7 +63,7 @@ void Peer::on_datagram(std::span<const std::byte> datagram, base::TimePoint arri
         return;
     }
     ++counters_.other_version;
-    if (!session()) refuse(wire::ByeReason::other_version, true);
+    if (!session()) object({wire::ByeReason::other_version, *version}, arrived);
 }
 
 void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
@@ -74,10 +75,11 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
         if (had_session) {
             outbox_.put(wire::encode(wire::Bye{0, *reason})); // our session goes on without it
         } else {
-            refuse(*reason, true);
+            object({*reason, hello.nonce}, arrived);
         }
         return;
     }
+    objection_.reset();
     if (!had_met) events_.put(Event::met);
     if (!session() || session()->number == current_.number) return;
     // A late hello of an earlier run may make us change over and back: then count on.
@@ -98,7 +100,7 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived)
         ++counters_.other_session;
         return;
     }
-    if (!is_plausible(state)) {
+    if (!is_plausible(state) || state.sequence > sequence_max(arrived)) {
         ++counters_.implausible;
         return;
     }
@@ -107,12 +109,22 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived)
     ++(remote_.update(state, arrived) ? counters_.states : counters_.outdated);
 }
 
-void Peer::on_message(const wire::Bye& bye, base::TimePoint /*arrived*/)
+std::uint32_t Peer::sequence_max(base::TimePoint arrived) const
+{
+    // One state a tick since the start; the slack is for clocks and starts that differ. A damaged
+    // number that was believed would make all that follows look outdated.
+    const auto ticks =
+        std::max<base::Duration::rep>(0, (arrived - session()->start) / settings_.tick);
+    return static_cast<std::uint32_t>(
+        std::min<base::Duration::rep>(ticks + sequence_slack, UINT32_MAX));
+}
+
+void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)
 {
     ++counters_.byes;
     const bool refuses = bye.reason >= wire::ByeReason::other_version;
     if (refuses) {
-        if (!session()) refuse(bye.reason, false);
+        if (!session()) object({bye.reason, 0}, arrived);
         return;
     }
     if (!session() || bye.session != current_.number || gone_) return;
@@ -120,13 +132,21 @@ void Peer::on_message(const wire::Bye& bye, base::TimePoint /*arrived*/)
     if (!leaving_) events_.put(Event::left);
 }
 
-void Peer::refuse(wire::ByeReason reason, bool tell)
+void Peer::object(const Objection& objection, base::TimePoint arrived)
 {
     if (refusal_) return;
-    refusal_ = reason;
+    const bool again = objection_ && objection_->reason == objection.reason &&
+                       objection_->about == objection.about;
+    if (!again) {
+        objection_ = objection;
+    } else if (arrived - objection_->last < objection_every) {
+        return;
+    }
+    objection_->last = arrived;
+    if (++objection_->times < objections) return;
+    refusal_ = objection.reason;
     events_.put(Event::refused);
-    leave(reason);
-    if (!tell) byes_left_ = 0;
+    leave(objection.reason);
 }
 
 void Peer::leave(wire::ByeReason reason)

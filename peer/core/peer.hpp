@@ -80,6 +80,11 @@ public:
     static constexpr std::uint32_t body_every = 64; // messages
     static constexpr int byes = 5;
     static constexpr base::Duration bye_every{std::chrono::milliseconds{5}};
+    /// A peer is refused for the same reason thrice, this far apart: one damaged datagram is no
+    /// reason.
+    static constexpr int objections = 3;
+    static constexpr base::Duration objection_every{std::chrono::milliseconds{4}};
+    static constexpr base::Duration::rep sequence_slack = 1000; // ticks
 
     explicit Peer(const Settings& settings);
 
@@ -106,10 +111,19 @@ public:
     [[nodiscard]] base::Duration length() const { return settings_.length; }
 
 private:
+    /// Why the two cannot play together, and who or what says so.
+    struct Objection {
+        wire::ByeReason reason = wire::ByeReason::finished;
+        std::uint32_t about = 0; // the nonce or version objected to
+        int times{};
+        base::TimePoint last{};
+    };
+
     void on_message(const wire::Hello& hello, base::TimePoint arrived);
     void on_message(const wire::State& state, base::TimePoint arrived);
     void on_message(const wire::Bye& bye, base::TimePoint arrived);
-    void refuse(wire::ByeReason reason, bool tell);
+    void object(const Objection& objection, base::TimePoint arrived);
+    [[nodiscard]] std::uint32_t sequence_max(base::TimePoint arrived) const;
 
     [[nodiscard]] Phase phase_at(base::TimePoint now) const;
     void note(Phase phase, double freshness, base::TimePoint now);
@@ -142,6 +156,7 @@ private:
     base::TimePoint agreed_at_;
     std::optional<base::TimePoint> last_touch_; // by this hand
     std::optional<base::TimePoint> last_stir_;  // the body was touched or moved
+    std::optional<Objection> objection_;
     std::optional<wire::ByeReason> refusal_;
     bool leaving_ = false;
     wire::ByeReason leaving_because_ = wire::ByeReason::finished;

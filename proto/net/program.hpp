@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <variant>
 
 namespace hapnet::net {
@@ -30,10 +31,17 @@ struct Answer {
 template <typename Options>
 using CommandLine = base::Result<std::variant<Options, Answer>>;
 
-/// One line for a person, on stderr: "hapnet-peer: ...".
+/// Text for a person, on stderr. What nobody can read is not an error: a closed or full stderr
+/// must not end a session.
+inline void tell(const std::string& text)
+{
+    std::ignore = std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+/// One line of it: "hapnet-peer: ...".
 inline void say(std::string_view program, std::string_view text)
 {
-    fmt::print(stderr, "{}: {}\n", program, text);
+    tell(fmt::format("{}: {}\n", program, text));
 }
 
 /// Throws std::system_error when what was printed could not be written: a full disk, say.

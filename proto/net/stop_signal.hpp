@@ -4,8 +4,9 @@
 
 namespace hapnet::net {
 
-/// SIGINT and SIGTERM as something to wait for. Construct one, first thing in main and before
-/// any thread: from then on the two signals interrupt nothing and are read here. SIGPIPE is
+/// SIGINT, SIGTERM and SIGHUP (the terminal has gone) as something to wait for. Construct one,
+/// first thing in main and before any thread: from then on they interrupt nothing and are read
+/// here. SIGPIPE is
 /// ignored from then on: a reader that has left must not end a session.
 class StopSignal {
 public:
@@ -17,7 +18,7 @@ public:
     /// Readable once a signal has come.
     [[nodiscard]] int descriptor() const { return descriptor_; }
 
-    /// Whether SIGINT or SIGTERM has come since construction; stays true.
+    /// Whether one of them has come since construction; stays true.
     [[nodiscard]] bool requested();
 
 private:

@@ -146,14 +146,48 @@ TEST(PeerSession, RefusesAndIsRefusedWithTheSameReason)
     }
 }
 
-TEST(PeerSession, RefusesAnotherVersionOfTheProtocol)
+TEST(PeerSession, RefusesAnotherVersionOfTheProtocolWhenItHasHeardItThrice)
 {
-    Pair pair;
+    Peer peer{settings_of(1, 50)};
+    const base::TimePoint now{std::chrono::hours{1}};
     const std::array<std::byte, 4> newer{std::byte{'H'}, std::byte{'N'}, std::byte{2},
                                          std::byte{9}};
-    pair.peers[0]->on_datagram(newer, pair.now);
-    EXPECT_EQ(pair.peers[0]->refusal(), wire::ByeReason::other_version);
-    EXPECT_EQ(pair.peers[0]->counters().other_version, 1U);
+    for (const auto at : {0ms, 1ms, 20ms}) peer.on_datagram(newer, now + at); // 1 ms is the same
+    EXPECT_FALSE(peer.refusal());
+    peer.on_datagram(newer, now + 40ms);
+    EXPECT_EQ(peer.refusal(), wire::ByeReason::other_version);
+    EXPECT_EQ(peer.counters().other_version, 4U);
+}
+
+TEST(PeerSession, IsNotRefusedForDamagedHellosBetweenGoodOnes)
+{
+    Pair pair;
+    Settings damaged = settings_of(2, 51);
+    damaged.introduction.scene_hash ^= 1;
+    Peer stranger{damaged};
+    for (int i = 0; i < 50 && pair.peers[0]->counters().hellos < 20; ++i) {
+        std::ignore = stranger.tick(pair.now, {});
+        if (const auto hello = stranger.poll()) {
+            pair.peers[0]->on_datagram(hello->bytes(), pair.now);
+        }
+        for (int ms = 0; ms < 20; ++ms) pair.step();
+    }
+    EXPECT_FALSE(pair.peers[0]->refusal());
+}
+
+TEST(PeerSession, DoesNotBelieveASequenceThatCannotBeYet)
+{
+    Pair pair;
+    pair.run_until_started();
+    wire::State wild;
+    wild.session = pair.peers[0]->session()->number;
+    wild.sequence = 1U << 30;
+    wild.sent = pair.now;
+    pair.peers[0]->on_datagram(wire::encode(wild).bytes(), pair.now);
+    EXPECT_EQ(pair.peers[0]->counters().implausible, 1U);
+    const auto taken = pair.peers[0]->counters().states;
+    for (int ms = 0; ms < 100; ++ms) pair.step();
+    EXPECT_GT(pair.peers[0]->counters().states, taken + 50);
 }
 
 TEST(PeerSession, UnderWayIsNotEndedByAStrangeHelloVersionOrRefusal)
