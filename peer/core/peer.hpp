@@ -51,7 +51,7 @@ struct Counters {
     std::uint64_t other_session = 0;
     std::uint64_t malformed = 0;
     std::uint64_t other_version = 0;
-    std::uint64_t implausible = 0;   // finite but out of any scene's reach
+    std::uint64_t implausible = 0;   // out of any scene's reach, or numbered ahead of time
     std::uint64_t unusable_hand = 0; // ticks in which the device's word was not usable
     std::uint64_t sent = 0;
 };
