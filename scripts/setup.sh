@@ -11,7 +11,7 @@ also those that scripts/test.sh needs. Runs as root or with sudo, asks nothing, 
 when nothing is missing."
 
 packages=(g++ cmake ninja-build libcli11-dev libexpected-dev libglm-dev librandom123-dev
-    libreaderwriterqueue-dev libspdlog-dev nlohmann-json3-dev)
+    libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev nlohmann-json3-dev)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 jq libgtest-dev shellcheck)
 
 for argument in "$@"; do

@@ -5,49 +5,72 @@
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <functional>
 
 namespace hapnet::emulator {
 
-namespace {
-
-/// The order of a heap whose front leaves first.
-bool leaves_after(const Datagram& a, const Datagram& b)
+DelayLine::DelayLine(std::size_t datagrams_max)
+    : datagrams_max_{datagrams_max}, in_turn_{datagrams_max}, sorted_{datagrams_max}
 {
-    return a.due != b.due ? a.due > b.due : a.number > b.number;
+    heap_.reserve(datagrams_max);
+    times_.reserve(datagrams_max);
 }
 
-} // namespace
-
-DelayLine::DelayLine(QueueLimits limits) : limits_{limits} { heap_.reserve(limits.datagrams_max); }
-
-bool DelayLine::has_room(std::size_t bytes) const
+bool DelayLine::leaves_after(const Entry& a, const Entry& b)
 {
-    return heap_.size() < limits_.datagrams_max && bytes <= limits_.bytes_max - bytes_;
+    return a.datagram.due != b.datagram.due ? a.datagram.due > b.datagram.due : a.rank > b.rank;
 }
 
-void DelayLine::push(Datagram datagram)
+void DelayLine::push(const Datagram& datagram)
 {
-    base::ensure(has_room(datagram.bytes.size()));
-    bytes_ += datagram.bytes.size();
-    heap_.push_back(std::move(datagram));
+    base::ensure(!is_full());
+    const Entry entry{datagram, pushed_++};
+    if (in_turn_.empty() || in_turn_.back().datagram.due <= datagram.due) {
+        in_turn_.push(entry);
+        return;
+    }
+    heap_.push_back(entry);
     std::push_heap(heap_.begin(), heap_.end(), leaves_after);
+}
+
+void DelayLine::push_sorted(const Datagram& datagram)
+{
+    base::ensure(!is_full());
+    sorted_.push(datagram);
+    times_.push_back(datagram.due);
+    std::push_heap(times_.begin(), times_.end(), std::greater<>{});
+}
+
+Datagram DelayLine::pop_sorted()
+{
+    std::pop_heap(times_.begin(), times_.end(), std::greater<>{});
+    Datagram datagram = sorted_.pop();
+    datagram.due = times_.back();
+    times_.pop_back();
+    return datagram;
 }
 
 std::optional<Datagram> DelayLine::pop(base::TimePoint now)
 {
-    if (!base::is_due(next_due(), now)) return std::nullopt;
+    const auto due = next_due();
+    if (!base::is_due(due, now)) return std::nullopt;
+    if (!times_.empty() && times_.front() == *due) return pop_sorted();
+    if (heap_.empty() || (!in_turn_.empty() && leaves_after(heap_.front(), in_turn_.front()))) {
+        return in_turn_.pop().datagram;
+    }
     std::pop_heap(heap_.begin(), heap_.end(), leaves_after);
-    std::optional<Datagram> datagram{std::move(heap_.back())};
+    const Datagram datagram = heap_.back().datagram;
     heap_.pop_back();
-    bytes_ -= datagram->bytes.size();
     return datagram;
 }
 
 std::optional<base::TimePoint> DelayLine::next_due() const
 {
-    if (heap_.empty()) return std::nullopt;
-    return heap_.front().due;
+    std::optional<base::TimePoint> due;
+    if (!in_turn_.empty()) due = in_turn_.front().datagram.due;
+    if (!heap_.empty()) due = base::earlier(due, heap_.front().datagram.due);
+    if (!times_.empty()) due = base::earlier(due, times_.front());
+    return due;
 }
 
 } // namespace hapnet::emulator

@@ -2,32 +2,40 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/datagram.hpp"
+#include "emulator/core/ring.hpp"
+#include "emulator/core/slab.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace hapnet::emulator {
 
-/// How much a delay line holds. The defaults are 65 s of a 1 kHz stream, or a second of 64 kHz.
-struct QueueLimits {
-    std::size_t datagrams_max = 65'536;
-    std::size_t bytes_max = 256U << 20;
+/// A datagram on its way through the emulator. What its bytes mean is nobody's business here.
+struct Datagram {
+    Slab::Slot slot = Slab::no_slot;
+    bool is_copy = false;
+    std::uint64_t number = 0; // counts what arrived in its direction, from 0
+    base::TimePoint arrival{};
+    base::TimePoint due{}; // when it is to leave: never before
 };
 
-/// Holds datagrams until they are due. Those due at the same time leave in the order of their
-/// numbers. Storage for its own entries is allocated once, at construction.
+/// Holds datagrams until they are due. Those due at the same time leave in the order in which they
+/// were pushed. Memory is taken once, at construction.
 class DelayLine {
 public:
-    explicit DelayLine(QueueLimits limits = {});
+    explicit DelayLine(std::size_t datagrams_max);
 
-    /// Whether one more datagram of so many bytes keeps within the limits.
-    [[nodiscard]] bool has_room(std::size_t bytes) const;
+    [[nodiscard]] bool is_full() const { return size() >= datagrams_max_; }
 
-    /// Ensures has_room().
-    void push(Datagram datagram);
+    /// Ensures that it is not full.
+    void push(const Datagram& datagram);
+
+    /// The datagram takes the earliest of the times that were pushed here, its own and those of
+    /// others, which is still free when it is its turn: the times are kept and so is the order.
+    void push_sorted(const Datagram& datagram);
 
     /// The earliest datagram that is due at `now`.
     [[nodiscard]] std::optional<Datagram> pop(base::TimePoint now);
@@ -35,12 +43,25 @@ public:
     /// When the earliest datagram is due; nullopt when the line is empty.
     [[nodiscard]] std::optional<base::TimePoint> next_due() const;
 
-    [[nodiscard]] std::size_t size() const { return heap_.size(); }
+    [[nodiscard]] std::size_t size() const
+    {
+        return in_turn_.size() + heap_.size() + sorted_.size();
+    }
 
 private:
-    QueueLimits limits_;
-    std::size_t bytes_ = 0;
-    std::vector<Datagram> heap_;
+    struct Entry {
+        Datagram datagram;
+        std::uint64_t rank = 0; // of its push
+    };
+    static bool leaves_after(const Entry& a, const Entry& b);
+    [[nodiscard]] Datagram pop_sorted();
+
+    std::size_t datagrams_max_;
+    std::uint64_t pushed_ = 0;
+    Ring<Entry> in_turn_;     // due in the order in which they came: a constant delay needs no heap
+    std::vector<Entry> heap_; // the others
+    Ring<Datagram> sorted_;   // these wait for ...
+    std::vector<base::TimePoint> times_; // ... these, a heap
 };
 
 } // namespace hapnet::emulator

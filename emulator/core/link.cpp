@@ -2,61 +2,222 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/link.hpp"
 
+#include "emulator/core/flips.hpp"
+
 #include <algorithm>
-#include <utility>
+#include <chrono>
 
 namespace hapnet::emulator {
 
-Link::Link(Pipeline pipeline, Order order, QueueLimits limits)
-    : pipeline_{std::move(pipeline)}, order_{order}, line_{limits}, buffers_{limits.datagrams_max}
-{}
+namespace {
 
-Verdict Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival)
+/// How long a datagram waits for later ones to overtake it before it leaves anyway.
+constexpr base::Duration displaced_for_max = std::chrono::seconds{1};
+constexpr std::size_t displaced_max = 1024;
+
+} // namespace
+
+Link::Link(const Conditions& conditions, const Setup& setup)
+    : conditions_{conditions},
+      setup_{setup},
+      pipeline_{conditions, setup.seed, setup.direction},
+      slab_{setup.limits},
+      line_{setup.limits.datagrams_max},
+      bottleneck_{conditions.rate, setup.limits.datagrams_max},
+      last_arrival_{setup.start}
 {
-    Verdict verdict = pipeline_.on_packet(statistics_.received);
-    if (std::holds_alternative<Deliver>(verdict) && !line_.has_room(bytes.size())) {
-        verdict = Drop{DropCause::queue_full};
-    }
-    if (const auto* drop = std::get_if<Drop>(&verdict)) {
-        ++statistics_.dropped_by(drop->cause);
-    } else {
-        enqueue(bytes, arrival, std::get<Deliver>(verdict).after);
-    }
+    displaced_.reserve(displaced_max);
+}
+
+Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival)
+{
+    last_arrival_ = std::max(arrival, last_arrival_);
+    advance(last_arrival_);
+    const Packet packet{statistics_.received, bytes.size(), last_arrival_ - setup_.start};
+    Admission admission{packet.number, pipeline_.on_packet(packet), {}};
     ++statistics_.received;
     statistics_.bytes_in += bytes.size();
-    return verdict;
+    if (is_over_rate(packet, admission.fate.verdict)) {
+        admission.fate.verdict = Drop{DropCause::rate_queue_full};
+    }
+    if (const auto* deliver = std::get_if<Deliver>(&admission.fate.verdict)) {
+        if (passes_untouched(*deliver)) {
+            admission.departure = Departure{.bytes = bytes,
+                                            .number = packet.number,
+                                            .arrival = last_arrival_,
+                                            .due = last_arrival_};
+            last_due_ = std::max(last_due_, last_arrival_);
+            ++statistics_.in_flight;
+        } else if (!hold(bytes, packet.number, *deliver)) {
+            admission.fate.verdict = Drop{DropCause::queue_full};
+        }
+    }
+    if (const auto* drop = std::get_if<Drop>(&admission.fate.verdict)) {
+        ++statistics_.dropped_by(drop->cause);
+    }
+    return admission;
 }
 
-void Link::enqueue(std::span<const std::byte> bytes, base::TimePoint arrival, base::Duration after)
+/// Whether the queue of the rate has no room for it. What will be lost behind the bottleneck takes
+/// its time there all the same; what is too large for the path never comes to it.
+bool Link::is_over_rate(const Packet& packet, const Verdict& verdict)
 {
-    base::TimePoint due = arrival + after;
-    if (order_ == Order::keep) due = std::max(due, last_due_);
-    last_due_ = due;
-    line_.push({buffers_.copy_of(bytes), statistics_.received, arrival, due});
-    ++statistics_.in_flight;
+    if (!bottleneck_.is_on() || verdict == Verdict{Drop{DropCause::mtu}}) return false;
+    if (!bottleneck_.has_room(packet.bytes)) return true;
+    if (std::holds_alternative<Drop>(verdict)) {
+        bottleneck_.push({}, packet.bytes, last_arrival_);
+    }
+    return false;
 }
 
-std::optional<Datagram> Link::poll(base::TimePoint now) { return line_.pop(now); }
+bool Link::passes_untouched(const Deliver& deliver) const
+{
+    return deliver.after == base::Duration{0} && !deliver.copy && deliver.flips.count == 0 &&
+           deliver.displacement == Displacement{} && !bottleneck_.is_on() &&
+           bottleneck_.is_idle() && line_.size() == 0;
+}
 
-void Link::on_sent(Datagram&& datagram, base::TimePoint at)
+bool Link::hold(std::span<const std::byte> bytes, std::uint64_t number, const Deliver& deliver)
+{
+    const auto slot = store(bytes);
+    if (!slot) return false;
+    ++statistics_.in_flight;
+    if (deliver.flips.count > 0) {
+        apply(deliver.flips, slab_.bytes(*slot));
+        ++statistics_.corrupted;
+    }
+    const Held held{{*slot, false, number, last_arrival_, {}}, deliver};
+    if (bottleneck_.is_on() || !bottleneck_.is_idle()) {
+        bottleneck_.push(held, bytes.size(), last_arrival_);
+    } else {
+        schedule(held, last_arrival_);
+    }
+    return true;
+}
+
+std::optional<Slab::Slot> Link::store(std::span<const std::byte> bytes)
+{
+    if (slab_.used() >= setup_.limits.datagrams_max) return std::nullopt;
+    return slab_.store(bytes);
+}
+
+/// Finds the time at which a datagram is to leave that was ready for its delay at `ready`.
+void Link::schedule(const Held& held, base::TimePoint ready)
+{
+    const Deliver& deliver = held.deliver;
+    Datagram datagram = held.datagram;
+    datagram.due = ready + deliver.after;
+    if (conditions_.order == Order::keep) datagram.due = std::max(datagram.due, last_due_);
+    last_due_ = std::max(last_due_, datagram.due);
+    const auto due = datagram.due;
+    if (deliver.copy) schedule_copy(datagram, *deliver.copy);
+    if (deliver.displacement.places > 0 && displaced_.size() < displaced_max) {
+        displaced_.push_back({datagram, datagram.number + deliver.displacement.places});
+    } else if (deliver.displacement.time > base::Duration{0}) {
+        datagram.due += deliver.displacement.time;
+        line_.push(datagram);
+    } else if (conditions_.order == Order::sorted) {
+        line_.push_sorted(datagram);
+    } else {
+        line_.push(datagram);
+    }
+    release_displaced(held.datagram.number, due);
+}
+
+void Link::schedule_copy(const Datagram& original, base::Duration after)
+{
+    ++statistics_.duplicated;
+    const auto slot = store(slab_.bytes(original.slot));
+    if (!slot) {
+        ++statistics_.dropped_by(DropCause::queue_full);
+        return;
+    }
+    ++statistics_.in_flight;
+    Datagram copy = original;
+    copy.slot = *slot;
+    copy.is_copy = true;
+    copy.due = original.due + after;
+    line_.push(copy);
+}
+
+/// Lets those follow that waited for the datagram `scheduled`, which leaves at `due`.
+void Link::release_displaced(std::uint64_t scheduled, base::TimePoint due)
+{
+    std::erase_if(displaced_, [&](const Displaced& waiting) {
+        if (waiting.behind > scheduled) return false;
+        Datagram datagram = waiting.datagram;
+        datagram.due = std::max(datagram.due, due);
+        line_.push(datagram);
+        return true;
+    });
+}
+
+std::optional<Departure> Link::poll(base::TimePoint now)
+{
+    advance(now);
+    const auto datagram = line_.pop(now);
+    if (!datagram) return std::nullopt;
+    return Departure{.bytes = slab_.bytes(datagram->slot),
+                     .number = datagram->number,
+                     .arrival = datagram->arrival,
+                     .due = datagram->due,
+                     .slot = datagram->slot,
+                     .is_copy = datagram->is_copy};
+}
+
+/// Moves on what has left the bottleneck by `now`, and what has waited long enough to be overtaken.
+void Link::advance(base::TimePoint now)
+{
+    while (const auto sent = bottleneck_.pop(now)) {
+        if (sent->item.datagram.slot != Slab::no_slot) schedule(sent->item, sent->at);
+    }
+    if (displaced_.empty()) return;
+    std::erase_if(displaced_, [&](const Displaced& waiting) {
+        const auto latest = waiting.datagram.due + displaced_for_max;
+        if (latest > now) return false;
+        Datagram datagram = waiting.datagram;
+        datagram.due = latest;
+        line_.push(datagram);
+        return true;
+    });
+}
+
+std::optional<base::TimePoint> Link::next_deadline() const
+{
+    auto deadline = base::earlier(line_.next_due(), bottleneck_.next_sent());
+    for (const Displaced& waiting : displaced_) {
+        deadline = base::earlier(deadline, waiting.datagram.due + displaced_for_max);
+    }
+    return deadline;
+}
+
+void Link::on_sent(const Departure& departure, base::TimePoint at)
 {
     --statistics_.in_flight;
     ++statistics_.delivered;
-    statistics_.bytes_out += datagram.bytes.size();
-    statistics_.lateness.add(at - datagram.due);
-    if (datagram.number < beyond_highest_delivered_) {
+    statistics_.bytes_out += departure.bytes.size();
+    statistics_.lateness.add(at - departure.due);
+    if (departure.number >= beyond_highest_delivered_) {
+        beyond_highest_delivered_ = departure.number + 1;
+    } else if (!departure.is_copy) {
         ++statistics_.reordered;
-    } else {
-        beyond_highest_delivered_ = datagram.number + 1;
     }
-    buffers_.give_back(std::move(datagram.bytes));
+    if (departure.slot != Slab::no_slot) slab_.release(departure.slot);
 }
 
-void Link::on_failed(Datagram&& datagram, DropCause cause)
+void Link::on_failed(const Departure& departure, DropCause cause)
 {
     --statistics_.in_flight;
     ++statistics_.dropped_by(cause);
-    buffers_.give_back(std::move(datagram.bytes));
+    if (departure.slot != Slab::no_slot) slab_.release(departure.slot);
+}
+
+void Link::change(const Conditions& conditions, base::TimePoint now)
+{
+    advance(now);
+    bottleneck_.change(conditions.rate, now);
+    pipeline_.change(conditions);
+    conditions_ = conditions;
 }
 
 } // namespace hapnet::emulator

@@ -2,55 +2,109 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/buffer_pool.hpp"
+#include "emulator/core/bottleneck.hpp"
 #include "emulator/core/conditions.hpp"
-#include "emulator/core/datagram.hpp"
 #include "emulator/core/delay_line.hpp"
 #include "emulator/core/pipeline.hpp"
+#include "emulator/core/slab.hpp"
 #include "emulator/core/statistics.hpp"
 #include "emulator/core/verdict.hpp"
+#include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace hapnet::emulator {
 
+/// A datagram that is to leave now. It comes back through on_sent() or on_failed(), once; until
+/// then it counts as in flight and its bytes stay where they are.
+struct Departure {
+    std::span<const std::byte> bytes;
+    std::uint64_t number = 0; // of the datagram in its direction; a copy has that of its original
+    base::TimePoint arrival{};
+    base::TimePoint due{};           // never left before
+    Slab::Slot slot = Slab::no_slot; // no_slot: the bytes are the caller's own
+    bool is_copy = false;
+};
+
+/// What became of a datagram on its arrival.
+struct Admission {
+    std::uint64_t number = 0;
+    Fate fate;
+    /// The datagram itself when nothing holds it: no delay, no queue. Send it before the next one
+    /// is taken.
+    std::optional<Departure> departure;
+};
+
 /// One direction of an emulated path. Does no I/O and reads no clock: feed it with on_packet(),
-/// drain it with poll(), and call again by next_deadline(). Every datagram that poll() gives out
-/// comes back through on_sent() or on_failed(); until then it counts as in flight.
+/// drain it with poll(), and call again by next_deadline(). All memory is taken at construction.
 class Link {
 public:
-    explicit Link(Pipeline pipeline, Order order = Order::keep, QueueLimits limits = {});
+    struct Setup {
+        base::Seed seed{1};
+        Direction direction = Direction::up;
+        base::TimePoint start{}; // time 0 of windows and periods
+        QueueLimits limits{};
+    };
+
+    explicit Link(const Conditions& conditions, const Setup& setup);
 
     /// Takes the next datagram of this direction, which arrived at `arrival`, and says what is to
-    /// become of it. With Order::keep a datagram may leave later than Deliver::after says, behind
-    /// the one before it.
-    Verdict on_packet(std::span<const std::byte> bytes, base::TimePoint arrival);
+    /// become of it. A queue or Order::keep may make it leave later than its fate says.
+    Admission on_packet(std::span<const std::byte> bytes, base::TimePoint arrival);
 
     /// A datagram that is due at `now`, the earliest first; nullopt when there is none.
-    [[nodiscard]] std::optional<Datagram> poll(base::TimePoint now);
+    [[nodiscard]] std::optional<Departure> poll(base::TimePoint now);
 
-    /// When the next datagram is due; nullopt when none is in flight.
-    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return line_.next_due(); }
+    /// When poll() is to be called again; nullopt when nothing is in flight.
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
     /// The datagram left at `at`.
-    void on_sent(Datagram&& datagram, base::TimePoint at);
+    void on_sent(const Departure& departure, base::TimePoint at);
 
     /// The datagram could not be sent.
-    void on_failed(Datagram&& datagram, DropCause cause);
+    void on_failed(const Departure& departure, DropCause cause);
 
+    /// Other conditions for what arrives from now on; what is scheduled keeps its time, and what
+    /// is being sent at the old rate goes on at the new one from `now`.
+    void change(const Conditions& conditions, base::TimePoint now);
+
+    [[nodiscard]] const Conditions& conditions() const { return conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
 private:
-    void enqueue(std::span<const std::byte> bytes, base::TimePoint arrival, base::Duration after);
+    struct Held {
+        Datagram datagram; // no_slot: it will be lost, and only takes time
+        Deliver deliver;
+    };
+    /// Waits until a later datagram has been scheduled (Reordering by places).
+    struct Displaced {
+        Datagram datagram;
+        std::uint64_t behind = 0; // the number of that later one
+    };
 
+    [[nodiscard]] bool is_over_rate(const Packet& packet, const Verdict& verdict);
+    [[nodiscard]] bool passes_untouched(const Deliver& deliver) const;
+    [[nodiscard]] bool hold(std::span<const std::byte> bytes, std::uint64_t number,
+                            const Deliver& deliver);
+    [[nodiscard]] std::optional<Slab::Slot> store(std::span<const std::byte> bytes);
+    void schedule(const Held& held, base::TimePoint ready);
+    void schedule_copy(const Datagram& original, base::Duration after);
+    void release_displaced(std::uint64_t scheduled, base::TimePoint due);
+    void advance(base::TimePoint now);
+
+    Conditions conditions_;
+    Setup setup_;
     Pipeline pipeline_;
-    Order order_;
+    Slab slab_;
     DelayLine line_;
-    BufferPool buffers_;
+    Bottleneck<Held> bottleneck_;
+    std::vector<Displaced> displaced_;
+    base::TimePoint last_arrival_;
     base::TimePoint last_due_ = base::TimePoint::min();
     std::uint64_t beyond_highest_delivered_ = 0; // the highest number that left, plus one
     Statistics statistics_;

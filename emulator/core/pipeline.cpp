@@ -2,23 +2,128 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/pipeline.hpp"
 
+#include "proto/base/ensure.hpp"
+
 #include <algorithm>
+#include <spdlog/fmt/fmt.h>
 #include <utility>
 
 namespace hapnet::emulator {
 
-Pipeline::Pipeline(std::vector<Impairment> stages) : stages_{std::move(stages)} {}
+namespace {
 
-Verdict Pipeline::on_packet(std::uint64_t number) const
+base::RandomStream stream_of(base::Seed seed, Direction direction, std::string_view stage)
 {
-    base::Duration after{0};
-    for (const Impairment& stage : stages_) {
-        const Verdict verdict =
-            std::visit([number](const auto& s) { return s.on_packet(number); }, stage);
-        if (std::holds_alternative<Drop>(verdict)) return verdict;
-        after += std::get<Deliver>(verdict).after;
+    return seed.stream(fmt::format("{}/{}", to_text(direction), stage));
+}
+
+/// "loss/random", "loss/random#2": by kind, so that a law of another kind more or less in the list
+/// shifts nothing.
+std::vector<std::string> names_of(const std::vector<LossLaw>& laws)
+{
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+        const auto same =
+            1 + std::count_if(laws.begin(), laws.begin() + static_cast<long>(i),
+                              [&](const LossLaw& law) { return name_of(law) == name_of(laws[i]); });
+        names.push_back(same == 1 ? fmt::format("loss/{}", name_of(laws[i]))
+                                  : fmt::format("loss/{}#{}", name_of(laws[i]), same));
     }
-    return Deliver{std::max(after, base::Duration{0})};
+    return names;
+}
+
+/// Whether a share of all datagrams includes this one. A stage that is absent draws nothing.
+bool is_drawn(base::Probability share, const base::RandomStream& stream, std::uint64_t number)
+{
+    return share.fraction() > 0 && stream.uniform(number) < share.fraction();
+}
+
+} // namespace
+
+Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction direction)
+    : seed_{seed},
+      direction_{direction},
+      mtu_{conditions.mtu},
+      loss_{loss_stages(conditions.loss)},
+      corrupt_{conditions.corrupt},
+      corrupt_stream_{stream_of(seed, direction, "corrupt")},
+      duplicate_{conditions.duplicate},
+      duplicate_stream_{stream_of(seed, direction, "duplicate")},
+      delay_{conditions.delay, stream_of(seed, direction, "delay")},
+      jitter_{conditions.jitter, stream_of(seed, direction, "jitter")},
+      reorder_{conditions.reorder},
+      reorder_stream_{stream_of(seed, direction, "reorder")}
+{}
+
+Fate Pipeline::on_packet(const Packet& packet)
+{
+    Fate fate{draw_delivery(packet), {}};
+    std::optional<DropCause> cause;
+    if (mtu_.bytes_max > 0 && packet.bytes + Mtu::header_bytes > mtu_.bytes_max) {
+        cause = DropCause::mtu;
+    }
+    for (std::size_t i = 0; i < loss_.size(); ++i) {
+        const LossJudgement judgement = loss_[i].process.on_packet(packet);
+        fate.states[i] = judgement.state;
+        if (!cause) cause = judgement.cause;
+    }
+    if (cause) fate.verdict = Drop{*cause};
+    return fate;
+}
+
+Deliver Pipeline::draw_delivery(const Packet& packet)
+{
+    Deliver deliver;
+    const auto number = packet.number;
+    if (is_drawn(corrupt_.share, corrupt_stream_, number)) {
+        deliver.flips.count = corrupt_.bits;
+        for (std::uint32_t i = 0; i < corrupt_.bits; ++i) {
+            deliver.flips.places[i] =
+                static_cast<std::uint32_t>(corrupt_stream_.bits(number, 1 + i) >> 32);
+        }
+    }
+    if (is_drawn(duplicate_.share, duplicate_stream_, number)) {
+        const auto spread = static_cast<double>(duplicate_.spread.count());
+        deliver.copy = base::Duration{
+            static_cast<base::Duration::rep>(duplicate_stream_.uniform(number, 1) * spread)};
+    }
+    const auto after = delay_.on_packet(packet) + jitter_.on_packet(packet);
+    deliver.after = std::max(after, base::Duration{0});
+    if (is_drawn(reorder_.share, reorder_stream_, number)) {
+        deliver.displacement = reorder_.displacement;
+    }
+    return deliver;
+}
+
+void Pipeline::change(const Conditions& conditions)
+{
+    mtu_ = conditions.mtu;
+    corrupt_ = conditions.corrupt;
+    duplicate_ = conditions.duplicate;
+    reorder_ = conditions.reorder;
+    delay_.change(conditions.delay);
+    jitter_.change(conditions.jitter);
+    auto stages = loss_stages(conditions.loss);
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        const auto old = std::find_if(loss_.begin(), loss_.end(), [&](const LossStage& stage) {
+            return stage.name == stages[i].name;
+        });
+        if (old == loss_.end()) continue;
+        stages[i].process = std::move(old->process);
+        stages[i].process.change(conditions.loss[i]);
+    }
+    loss_ = std::move(stages);
+}
+
+std::vector<Pipeline::LossStage> Pipeline::loss_stages(const std::vector<LossLaw>& laws)
+{
+    base::ensure(laws.size() <= loss_laws_max);
+    std::vector<LossStage> stages;
+    const auto names = names_of(laws);
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+        stages.push_back({names[i], {laws[i], stream_of(seed_, direction_, names[i])}});
+    }
+    return stages;
 }
 
 } // namespace hapnet::emulator

@@ -2,25 +2,55 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/impairment.hpp"
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/delay/process.hpp"
+#include "emulator/core/loss/process.hpp"
+#include "emulator/core/packet.hpp"
 #include "emulator/core/verdict.hpp"
+#include "proto/base/random.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace hapnet::emulator {
 
-/// The impairments of one direction, one after another. The first drop is final; delays add up,
-/// and a negative total counts as zero: nothing leaves before it has arrived.
+/// Draws the fates of the datagrams of one direction. Every stage sees every datagram, also one
+/// that another stage has dropped, so that no stage can shift the draws of another; the first
+/// drop is final. Stage S of direction D draws from the stream "D/S" of the seed ("up/jitter",
+/// "down/loss/random", ...) and from no other.
+///
+/// The stages, always in this order: mtu, loss (law after law), corrupt, duplicate, delay, jitter,
+/// reorder. The rate and the order of departure are kept by Link.
 class Pipeline {
 public:
-    /// Impairments act in the order given; none at all forwards at once.
-    explicit Pipeline(std::vector<Impairment> stages = {});
+    Pipeline(const Conditions& conditions, base::Seed seed, Direction direction);
 
-    [[nodiscard]] Verdict on_packet(std::uint64_t number) const;
+    /// Packets are shown in the order of their numbers, none left out.
+    [[nodiscard]] Fate on_packet(const Packet& packet);
+
+    /// Holds from the next packet on; laws that stay go on from their states.
+    void change(const Conditions& conditions);
 
 private:
-    std::vector<Impairment> stages_;
+    struct LossStage {
+        std::string name; // of its stream
+        LossProcess process;
+    };
+
+    [[nodiscard]] std::vector<LossStage> loss_stages(const std::vector<LossLaw>& laws);
+    [[nodiscard]] Deliver draw_delivery(const Packet& packet);
+
+    base::Seed seed_;
+    Direction direction_;
+    Mtu mtu_;
+    std::vector<LossStage> loss_;
+    Corruption corrupt_;
+    base::RandomStream corrupt_stream_;
+    Duplication duplicate_;
+    base::RandomStream duplicate_stream_;
+    DelayProcess delay_;
+    DelayProcess jitter_;
+    Reordering reorder_;
+    base::RandomStream reorder_stream_;
 };
 
 } // namespace hapnet::emulator

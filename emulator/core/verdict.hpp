@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <variant>
 
@@ -13,9 +14,20 @@ namespace hapnet::emulator {
 
 /// Why a datagram that was received did not leave.
 enum class DropCause : std::uint8_t {
-    random_loss,      // the configured loss
-    burst_loss,       // the configured burst loss
-    queue_full,       // the bound of the delay line: too much in flight
+    random_loss,      // the configured losses, by law
+    block_loss,       //
+    periodic_loss,    //
+    burst_loss,       //
+    gilbert_elliott,  //
+    four_state,       //
+    listed_loss,      //
+    pattern_loss,     //
+    trace_loss,       //
+    outage,           //
+    mtu,              // larger than the configured path carries
+    rate_queue_full,  // the drop-tail queue of the configured rate
+    replay_ended,     // more datagrams than the fates that are replayed
+    queue_full,       // our own bound: too much in flight
     no_destination,   // the other side is not known yet
     no_route,         // the system knew no way to the other side
     refused,          // the other side's machine said that nobody listens there
@@ -25,18 +37,56 @@ enum class DropCause : std::uint8_t {
 };
 
 inline constexpr std::array drop_causes{
-    DropCause::random_loss,    DropCause::burst_loss,       DropCause::queue_full,
-    DropCause::no_destination, DropCause::no_route,         DropCause::refused,
-    DropCause::too_big,        DropCause::send_buffer_full, DropCause::send_failed,
+    DropCause::random_loss,
+    DropCause::block_loss,
+    DropCause::periodic_loss,
+    DropCause::burst_loss,
+    DropCause::gilbert_elliott,
+    DropCause::four_state,
+    DropCause::listed_loss,
+    DropCause::pattern_loss,
+    DropCause::trace_loss,
+    DropCause::outage,
+    DropCause::mtu,
+    DropCause::rate_queue_full,
+    DropCause::replay_ended,
+    DropCause::queue_full,
+    DropCause::no_destination,
+    DropCause::no_route,
+    DropCause::refused,
+    DropCause::too_big,
+    DropCause::send_buffer_full,
+    DropCause::send_failed,
 };
 
 /// "random_loss": the key in statistics.
 [[nodiscard]] std::string_view to_text(DropCause cause);
 
-/// To be delivered `after` so long. Of one impairment it may be negative (jitter); the total
-/// of a Pipeline is not.
+/// The bits of a datagram that are inverted: each number, modulo the datagram's bits, is a place.
+/// So a fate does not depend on how long the datagram is.
+struct Flips {
+    static constexpr std::size_t most = 8;
+
+    std::array<std::uint32_t, most> places{};
+    std::uint8_t count = 0;
+
+    friend bool operator==(const Flips&, const Flips&) = default;
+};
+
+/// How far behind its turn a datagram leaves: after so many later ones have left, or so much later.
+struct Displacement {
+    std::uint32_t places = 0;
+    base::Duration time{};
+
+    friend bool operator==(const Displacement&, const Displacement&) = default;
+};
+
+/// To be delivered `after` so long, which is not negative.
 struct Deliver {
     base::Duration after{};
+    std::optional<base::Duration> copy{}; // a copy leaves so much after the original
+    Flips flips{};
+    Displacement displacement{};
 
     friend bool operator==(const Deliver&, const Deliver&) = default;
 };
@@ -50,5 +100,30 @@ struct Drop {
 
 /// What is to become of a datagram.
 using Verdict = std::variant<Deliver, Drop>;
+
+/// In which state a law of loss judged a datagram.
+enum class LossState : std::uint8_t {
+    none, // the law has no states
+    good,
+    bad,
+    received_in_gap, // the four states
+    received_in_burst,
+    lost_in_burst,
+    lost_in_gap,
+};
+[[nodiscard]] std::string_view to_text(LossState state);
+
+/// The most laws of loss that one direction may have.
+inline constexpr std::size_t loss_laws_max = 8;
+
+/// A verdict and how it came about. A pure function of the seed, the direction, the conditions and
+/// the numbers of the datagrams, and for laws that depend on time of the arrivals; what the
+/// queues make of it is not part of it.
+struct Fate {
+    Verdict verdict;
+    std::array<LossState, loss_laws_max> states{}; // of the laws, in the order of their list
+
+    friend bool operator==(const Fate&, const Fate&) = default;
+};
 
 } // namespace hapnet::emulator

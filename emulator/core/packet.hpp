@@ -6,16 +6,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace hapnet::emulator {
 
-/// A datagram on its way through the emulator. What its bytes mean is nobody's business here.
-struct Datagram {
-    std::vector<std::byte> bytes;
+/// What an impairment may know of a datagram.
+struct Packet {
     std::uint64_t number = 0; // counts what arrived in its direction, from 0
-    base::TimePoint arrival{};
-    base::TimePoint due{}; // when it is to leave: never before
+    std::size_t bytes = 0;    // of payload
+    base::Duration at{};      // when it arrived, since the run began; not less than the one before
 };
 
 } // namespace hapnet::emulator

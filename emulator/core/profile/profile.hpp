@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "proto/base/random.hpp"
+#include "proto/base/time.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// A point of the timeline: from `time` since the run began these settings hold. With a ramp they
+/// are approached in a straight line from what held before and reached at time + ramp; only
+/// numbers of the same law can be ramped.
+struct Change {
+    base::Duration time{};
+    base::Duration ramp{};
+    Patch up;
+    Patch down;
+
+    friend bool operator==(const Change&, const Change&) = default;
+};
+
+/// Everything that a profile file says.
+struct Profile {
+    std::string name;
+    std::optional<base::Seed> seed; // nullopt: the file does not say
+    Path path;                      // at the beginning
+    std::vector<Change> timeline;   // ascending in time
+
+    friend bool operator==(const Profile&, const Profile&) = default;
+};
+
+} // namespace hapnet::emulator
