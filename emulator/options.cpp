@@ -167,16 +167,6 @@ public:
     void read_conditions(const std::string& prefix, const ConditionTexts& texts, Conditions& target)
     {
         const std::string dashes = "--" + prefix;
-        const auto constant = [](const std::string& text) {
-            return base::parse_duration(text).map([](base::Duration value) {
-                return Variation{ConstantLaw{value}, {}};
-            });
-        };
-        const auto uniform = [](const std::string& text) {
-            return base::parse_duration(text).map([](base::Duration value) {
-                return Variation{UniformLaw{{}, value}, {}};
-            });
-        };
         const auto random = [](const std::string& text) {
             return base::parse_probability(text).map(
                 [](base::Probability share) { return LossLaw{RandomLoss{share}}; });
