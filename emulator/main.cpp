@@ -148,7 +148,6 @@ base::Result<int> emulate(const Options& options)
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Run run{options, relay, net::request_real_time(40), {}};
     if (const auto shortage = run.real_time.shortage(); !shortage.empty()) say(shortage);
-    if (const auto note = jitter_note(options); !note.empty()) say(note);
     fmt::print("{}", ready_line(options, relay));
     std::fflush(stdout);
 

@@ -11,11 +11,6 @@ namespace hapnet::emulator {
 
 namespace {
 
-Link link_of(const Conditions& conditions, base::Seed seed, Direction direction)
-{
-    return Link{pipeline_of(conditions, seed, direction), conditions.order};
-}
-
 DropCause cause_of(net::SendOutcome outcome)
 {
     switch (outcome) {
@@ -30,36 +25,37 @@ DropCause cause_of(net::SendOutcome outcome)
     return DropCause::send_failed;
 }
 
-int receive_from(Relay::Side& side)
+void send_now(Link& link, Relay::Side& to, const Departure& departure)
+{
+    const auto& destination = to.correspondent.address();
+    if (!destination) return link.on_failed(departure, DropCause::no_destination);
+    const auto outcome = to.socket.send(*destination, departure.bytes);
+    if (outcome == net::SendOutcome::sent) {
+        link.on_sent(departure, net::monotonic_now());
+    } else {
+        link.on_failed(departure, cause_of(outcome));
+    }
+}
+
+int pass(Relay::Side& from, Relay::Side& to)
 {
     int adopted = 0;
-    for (const net::Received& datagram : side.socket.receive()) {
-        const Sender sender = side.correspondent.judge(datagram.from, datagram.at);
+    for (const net::Received& datagram : from.socket.receive()) {
+        const Sender sender = from.correspondent.judge(datagram.from, datagram.at);
         if (sender == Sender::stranger) {
-            ++side.strangers;
+            ++from.strangers;
             continue;
         }
         if (sender == Sender::adopted) ++adopted;
-        side.link.on_packet(datagram.bytes, datagram.at);
+        const Admission admission = from.link.on_packet(datagram.bytes, datagram.at);
+        if (admission.departure) send_now(from.link, to, *admission.departure);
     }
     return adopted;
 }
 
 void send_due(Relay::Side& from, Relay::Side& to, base::TimePoint now)
 {
-    while (auto datagram = from.link.poll(now)) {
-        const auto& destination = to.correspondent.address();
-        if (!destination) {
-            from.link.on_failed(*std::move(datagram), DropCause::no_destination);
-            continue;
-        }
-        const auto outcome = to.socket.send(*destination, datagram->bytes);
-        if (outcome == net::SendOutcome::sent) {
-            from.link.on_sent(*std::move(datagram), net::monotonic_now());
-        } else {
-            from.link.on_failed(*std::move(datagram), cause_of(outcome));
-        }
-    }
+    while (const auto departure = from.link.poll(now)) send_now(from.link, to, *departure);
 }
 
 } // namespace
@@ -70,11 +66,14 @@ Relay::Side::Side(const net::Endpoint& listen, const std::optional<net::Endpoint
 {}
 
 Relay::Relay(const Places& places, const Options& options)
-    : a_{places.listen_a, places.a, link_of(options.up, options.seed, Direction::up)},
-      b_{places.listen_b, places.b, link_of(options.down, options.seed, Direction::down)}
+    : start_{net::monotonic_now()},
+      a_{places.listen_a, places.a,
+         Link{options.path.up, {options.seed, Direction::up, start_, {}}}},
+      b_{places.listen_b, places.b,
+         Link{options.path.down, {options.seed, Direction::down, start_, {}}}}
 {}
 
-int Relay::receive() { return receive_from(a_) + receive_from(b_); }
+int Relay::receive() { return pass(a_, b_) + pass(b_, a_); }
 
 void Relay::release(base::TimePoint now)
 {

@@ -23,7 +23,8 @@ public:
     Relay(const Places& places, const Options& options);
 
     /// Takes what has arrived, at most one batch a side, so that a flood cannot hold up what is
-    /// due. Returns how many senders were adopted by that.
+    /// due, and sends on at once what is not delayed. Returns how many senders were adopted by
+    /// that.
     int receive();
 
     /// Sends what is due at `now`.
@@ -45,6 +46,7 @@ public:
     [[nodiscard]] const Side& b() const { return b_; }
 
 private:
+    base::TimePoint start_;
     Side a_;
     Side b_;
 };

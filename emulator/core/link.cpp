@@ -109,8 +109,7 @@ void Link::schedule(const Held& held, base::TimePoint ready)
     datagram.due = ready + deliver.after;
     if (conditions_.order == Order::keep) datagram.due = std::max(datagram.due, last_due_);
     last_due_ = std::max(last_due_, datagram.due);
-    const auto due = datagram.due;
-    if (deliver.copy) schedule_copy(datagram, *deliver.copy);
+    const Datagram in_turn = datagram;
     if (deliver.displacement.places > 0 && displaced_.size() < displaced_max) {
         displaced_.push_back({datagram, datagram.number + deliver.displacement.places});
     } else if (deliver.displacement.time > base::Duration{0}) {
@@ -121,7 +120,8 @@ void Link::schedule(const Held& held, base::TimePoint ready)
     } else {
         line_.push(datagram);
     }
-    release_displaced(held.datagram.number, due);
+    if (deliver.copy) schedule_copy(in_turn, *deliver.copy);
+    release_displaced(in_turn.number, in_turn.due);
 }
 
 void Link::schedule_copy(const Datagram& original, base::Duration after)
@@ -137,7 +137,11 @@ void Link::schedule_copy(const Datagram& original, base::Duration after)
     copy.slot = *slot;
     copy.is_copy = true;
     copy.due = original.due + after;
-    line_.push(copy);
+    if (conditions_.order == Order::sorted) {
+        line_.push_sorted(copy);
+    } else {
+        line_.push(copy);
+    }
 }
 
 /// Lets those follow that waited for the datagram `scheduled`, which leaves at `due`.
