@@ -125,7 +125,7 @@ void BatchSender::on_error(int descriptor, const Train& train, const Endpoint& t
 {
     const int error = errno;
     const bool is_uncut = train.count > 1 && is_refusal(error);
-    if (is_uncut) refused_bytes_ = vectors_[train.first].iov_len;
+    if (is_uncut) refused_bytes_ = std::min(refused_bytes_, vectors_[train.first].iov_len);
     for (std::size_t i = train.first; i < train.first + train.count; ++i) {
         const iovec& one = vectors_[i];
         outcomes_[i] = is_uncut
