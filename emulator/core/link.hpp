@@ -37,8 +37,8 @@ struct Departure {
 struct Admission {
     std::uint64_t number = 0;
     Fate fate;
-    /// The datagram itself when nothing holds it: no delay, no queue. Send it before the next one
-    /// is taken.
+    /// The datagram itself when nothing holds it: no delay, no queue. Send it before
+    /// anything that is polled from now on.
     std::optional<Departure> departure;
 };
 
