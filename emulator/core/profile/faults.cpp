@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/faults.hpp"
 
-#include "proto/base/text.hpp"
+#include "emulator/core/loss/validated.hpp"
 
-#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::emulator {
@@ -50,98 +49,6 @@ Fault fault(const GammaLaw& law)
 Fault fault(const TableLaw& law) { return unless(law.sd >= zero, negative_width); }
 Fault fault(const TraceLaw&) { return {}; }
 
-Fault fault(const RandomLoss&) { return {}; }
-Fault lost_of(std::uint32_t lost, std::uint32_t of)
-{
-    return unless(lost > 0 && lost <= of,
-                  fmt::format("{} of {} cannot be lost: write 0 < lost <= of", lost, of));
-}
-Fault fault(const BlockLoss& law) { return lost_of(law.lost, law.of); }
-Fault fault(const PeriodicLoss& law)
-{
-    return first_of(unless(law.every > 0, "every has to be more than 0"),
-                    unless(law.phase < law.every, "phase has to be less than every"));
-}
-Fault fault(const Burst& law)
-{
-    return first_of(lost_of(law.lost, law.of), unless(law.phase.value_or(0) < std::max(law.of, 1U),
-                                                      "phase has to be less than of"));
-}
-Fault fault(const TimedBurst& law)
-{
-    const auto phase = law.phase.value_or(zero);
-    const auto* time = std::get_if<base::Duration>(&law.lost);
-    const auto* count = std::get_if<std::uint32_t>(&law.lost);
-    return first_of(first_of(unless(law.every > zero, "every has to be more than 0"),
-                             unless(phase >= zero && phase < std::max(law.every, base::Duration{1}),
-                                    "phase has to be from 0 to less than every")),
-                    first_of(unless(time == nullptr || (*time > zero && *time <= law.every),
-                                    "lost has to be more than 0 and at most every"),
-                             unless(count == nullptr || *count > 0, "lost has to be more than 0")));
-}
-Fault fault(const Gilbert& law)
-{
-    const double share = law.share.fraction();
-    return first_of(
-        unless(law.mean_burst >= 1.0, "mean_burst is counted in datagrams: it is at least 1"),
-        unless(share < 1.0 && law.mean_burst > share / (1.0 - share),
-               fmt::format("so high a share needs longer bursts: mean_burst has to be more than "
-                           "share / (1 - share) = {:.4g}",
-                           share / (1.0 - share))));
-}
-Fault fault(const GilbertElliott&) { return {}; }
-Fault fault(const TimedGilbertElliott& law)
-{
-    return unless(law.mean_good > zero && law.mean_bad > zero,
-                  "mean_good and mean_bad have to be more than 0");
-}
-Fault fault(const FourState& law)
-{
-    const double share = law.share.fraction();
-    const double density = law.density.fraction();
-    const double isolated = law.isolated.fraction();
-    if (!(law.good_run >= 1.0)) return "good_run is counted in datagrams: it is at least 1";
-    if (!(isolated < share && share < density)) {
-        return "what is possible is isolated < share < density";
-    }
-    if (!(law.burst > 0.0)) return "burst has to be more than 0";
-    // Salsano et al. 2012: the transitions that these five numbers stand for.
-    const double p14 = isolated / (1.0 - isolated);
-    const double p23 = 1.0 / law.good_run;
-    const double p32 = p23 * (1.0 - density) / density;
-    const double p31 = 1.0 / (density * law.burst);
-    const double p13 = (share - isolated) / (law.burst * (1.0 - isolated) * (density - share));
-    if (p31 + p32 > 1.0) {
-        return fmt::format("such a burst is too short for its density: p31 + p32 = {:.3g} is more "
-                           "than 1",
-                           p31 + p32);
-    }
-    return unless(p13 + p14 <= 1.0,
-                  fmt::format("so much loss needs longer bursts: p13 + p14 = {:.3g} is more than 1",
-                              p13 + p14));
-}
-Fault fault(const ListedLoss& law)
-{
-    const bool ascends = std::adjacent_find(law.numbers.begin(), law.numbers.end(),
-                                            std::greater_equal<>{}) == law.numbers.end();
-    return unless(ascends, "the numbers have to ascend");
-}
-Fault fault(const PatternLoss& law)
-{
-    return unless(!law.pattern.empty(), "a pattern needs at least one 0 or 1");
-}
-Fault fault(const TraceLoss&) { return {}; }
-Fault fault(const Outage& law)
-{
-    base::Duration last{-1};
-    for (const Window& window : law.windows) {
-        if (window.from >= window.to) return "a window has to end after it begins";
-        if (window.from <= last) return "windows have to ascend and to be apart from each other";
-        last = window.to;
-    }
-    return {};
-}
-
 } // namespace
 
 std::optional<std::string> fault_of(const Variation& variation)
@@ -156,7 +63,8 @@ std::optional<std::string> fault_of(const Variation& variation)
 
 std::optional<std::string> fault_of(const LossLaw& law)
 {
-    return std::visit([](const auto& one) { return fault(one); }, law);
+    const auto checked = validated(law);
+    return checked ? Fault{} : Fault{checked.error().message};
 }
 
 std::optional<std::string> fault_of(const Corruption& corruption)

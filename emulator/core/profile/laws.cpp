@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/laws.hpp"
 
+#include "emulator/core/loss/trace.hpp"
 #include "emulator/core/profile/faults.hpp"
 #include "proto/base/text.hpp"
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -33,9 +35,16 @@ void load(TraceLaw&, Place place, Reading& reading)
 {
     reading.complain(place, "traces are not possible here");
 }
-void load(TraceLoss&, Place place, Reading& reading)
+void load(TraceLoss& law, Place place, Reading& reading)
 {
-    reading.complain(place, "traces are not possible here");
+    const auto text = reading.open(law.file);
+    if (!text) return reading.complain(place, text.error().message);
+    // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
+    const bool is_table = text->find_first_of(",abcdefghijklmnopqrstuvwxyz") <
+                          text->find_first_of("01#");
+    auto trace = is_table ? parse_loss_table(*text) : parse_loss_trace(*text);
+    if (!trace) return reading.complain(place, law.file + ": " + trace.error().message);
+    law.trace = std::make_shared<const LossTrace>(*std::move(trace));
 }
 
 /// The law that { law = "name", ... } names, with its parameters.
@@ -137,11 +146,6 @@ std::string loss_text(const LossLaw& law)
 } // namespace
 
 std::string_view law_name(const DelayLaw& law)
-{
-    return std::visit([](const auto& one) { return Form<std::decay_t<decltype(one)>>::name; }, law);
-}
-
-std::string_view law_name(const LossLaw& law)
 {
     return std::visit([](const auto& one) { return Form<std::decay_t<decltype(one)>>::name; }, law);
 }

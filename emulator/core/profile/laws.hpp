@@ -16,9 +16,8 @@ namespace hapnet::emulator {
 /// -5 ms to 5 ms as a jitter.
 enum class Role { delay, jitter };
 
-/// The name of a law in a profile.
+/// The name of a law in a profile; that of a loss is name_of().
 [[nodiscard]] std::string_view law_name(const DelayLaw& law);
-[[nodiscard]] std::string_view law_name(const LossLaw& law);
 
 /// "160ms", "none" or { law = ..., ..., correlation_time = ... }. What the table says of the order
 /// of departure is put into `order`.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/reading.hpp"
 
+#include "emulator/core/loss/trace.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
@@ -232,12 +233,12 @@ void read_value(const Node& node, std::vector<std::uint64_t>& target, Reading& r
 void read_value(const Node& node, std::vector<bool>& target, Reading& reading)
 {
     const auto* text = std::get_if<std::string>(&node.value);
-    if (text == nullptr || text->find_first_not_of("01") != std::string::npos) {
-        return complain_of(node, "a text of 0 (passes) and 1 (is lost), such as \"0010\",",
-                           reading);
+    if (text == nullptr) {
+        return complain_of(node, "a text of 0 (passes) and 1 (is lost), such as \"0010\",", reading);
     }
-    target.clear();
-    for (const char c : *text) target.push_back(c == '1');
+    auto pattern = parse_pattern(*text);
+    if (!pattern) return reading.complain(node.place, pattern.error().message);
+    target = *std::move(pattern);
 }
 
 void read_value(const Node& node, std::vector<Window>& target, Reading& reading)
@@ -304,12 +305,7 @@ std::string value_text(const std::vector<std::uint64_t>& value)
     return fmt::format("[{}]", fmt::join(value, ", "));
 }
 
-std::string value_text(const std::vector<bool>& value)
-{
-    std::string text;
-    for (const bool is_lost : value) text += is_lost ? '1' : '0';
-    return quoted(text);
-}
+std::string value_text(const std::vector<bool>& value) { return quoted(to_text(value)); }
 
 std::string value_text(const std::vector<Window>& value)
 {
