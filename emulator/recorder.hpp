@@ -128,7 +128,7 @@ private:
 
         void write();
         void take(const Part& part);
-        void append(const Head& head);
+        void append(const Head& complete);
 
         static constexpr std::size_t capacity = 1 << 17; // 1.6 s at 20 000 datagrams/s
         Queue<Part> queue{capacity};

@@ -27,7 +27,8 @@ public:
     /// that.
     int receive();
 
-    /// Sends what is due at `now`.
+    /// Sends what is due at `now`, the two sides in turn; so much at most that what arrives does
+    /// not have to wait long. What is left is still due.
     void release(base::TimePoint now);
 
     /// When the next datagram is due to leave; nullopt when none is in flight.

@@ -34,7 +34,7 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     last_arrival_ = std::max(arrival, last_arrival_);
     advance(last_arrival_);
     const Packet packet{statistics_.received, bytes.size(), last_arrival_ - setup_.start};
-    Admission admission{packet.number, pipeline_.on_packet(packet), {}};
+    Admission admission{packet.number, fate_of(packet), {}};
     ++statistics_.received;
     statistics_.bytes_in += bytes.size();
     if (is_over_rate(packet, admission.fate.verdict)) {
@@ -55,7 +55,13 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     if (const auto* drop = std::get_if<Drop>(&admission.fate.verdict)) {
         ++statistics_.dropped_by(drop->cause);
     }
+    lens_.on_packet(admission.fate);
     return admission;
+}
+
+Fate Link::fate_of(const Packet& packet)
+{
+    return setup_.replay ? setup_.replay->on_packet(packet) : pipeline_.on_packet(packet);
 }
 
 /// Whether the queue of the rate has no room for it. What will be lost behind the bottleneck takes
@@ -201,6 +207,7 @@ void Link::on_sent(const Departure& departure, base::TimePoint at)
     ++statistics_.delivered;
     statistics_.bytes_out += departure.bytes.size();
     statistics_.lateness.add(at - departure.due);
+    lens_.on_sent({departure.number, departure.arrival, at, departure.is_copy});
     if (departure.number >= beyond_highest_delivered_) {
         beyond_highest_delivered_ = departure.number + 1;
     } else if (!departure.is_copy) {
