@@ -80,7 +80,6 @@ private:
 };
 
 constexpr std::size_t v4_header_bytes = 20;
-constexpr std::size_t v6_header_bytes = 40;
 constexpr std::size_t udp_header_bytes = 8;
 constexpr char hop_limit = 64;
 constexpr char udp_protocol = 17;
@@ -164,6 +163,8 @@ void put_v6_header(std::string& bytes, const CapturedPacket& packet)
 void put_ip_packet(std::string& bytes, const CapturedPacket& packet)
 {
     const bool as_v4 = is_v4(packet.from) && is_v4(packet.to);
+    base::ensure(packet.payload.size() + (as_v4 ? v4_header_bytes : 0) <=
+                 CapturedPacket::payload_bytes_max);
     as_v4 ? put_v4_header(bytes, packet) : put_v6_header(bytes, packet);
     const auto addresses_at = bytes.size() - (as_v4 ? 8 : 32);
     const auto udp_at = bytes.size();
@@ -208,7 +209,6 @@ void append_capture_head(std::string& bytes, std::string_view program)
 
 void append_packet(std::string& bytes, const CapturedPacket& packet)
 {
-    base::ensure(packet.payload.size() <= CapturedPacket::payload_bytes_max);
     const Block block{bytes, enhanced_packet};
     put(bytes, static_cast<std::uint32_t>(packet.side));
     const auto time = static_cast<std::uint64_t>(packet.time.count());

@@ -36,7 +36,7 @@ struct CapturedPacket {
     std::span<const std::byte> payload; // at most payload_bytes_max
     std::string_view comment;           // at most 65535 bytes
 
-    static constexpr std::size_t payload_bytes_max = 65'507; // of UDP over IPv4
+    static constexpr std::size_t payload_bytes_max = 65'527; // over IPv6; 20 less over IPv4
 };
 
 /// Appends what a capture begins with: the section header and the two interfaces. `program` is
