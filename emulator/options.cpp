@@ -61,6 +61,9 @@ struct Texts {
     Text budget;
     Text duration;
     Text stats;
+    Text fates;
+    Text replay;
+    Text capture;
 };
 
 constexpr std::array<const char*, 3> prefixes{"", "up.", "down."};
@@ -85,6 +88,22 @@ void add_conditions(CLI::App& app, const std::string& prefix, ConditionTexts& te
     add("loss", texts.loss, "Loss of each datagram on its own (default 0)")->type_name("SHARE");
     add("burst-loss", texts.burst_loss, "40/100: lose 40 in a row of every 100 (default 0)")
         ->type_name("LOST/OF");
+}
+
+void add_records(CLI::App& app, Texts& texts)
+{
+    app.add_option("--fates", texts.fates,
+                   "Write what became of each datagram to FILE (CSV): equal for equal seeds")
+        ->type_name("FILE");
+    app.add_option("--replay", texts.replay,
+                   "Give datagram for datagram the fates in FILE, which --fates wrote, instead of\n"
+                   "drawing them; what comes after the last of them is dropped")
+        ->type_name("FILE");
+    app.add_option(
+           "--pcap", texts.capture,
+           "Write all datagrams of both sides to FILE (pcapng, for Wireshark), each with a\n"
+           "comment: what becomes of it, or how late it left")
+        ->type_name("FILE");
 }
 
 void add_options(CLI::App& app, Texts& texts)
@@ -112,6 +131,7 @@ void add_options(CLI::App& app, Texts& texts)
         ->type_name("TIME");
     app.add_option("--stats", texts.stats, "Write statistics to FILE at the end; - is stdout")
         ->type_name("FILE");
+    add_records(app, texts);
 }
 
 base::Result<Order> parse_order(std::string_view text)
@@ -237,6 +257,9 @@ net::CommandLine<Options> options_from(const Texts& texts)
     reader.read("--budget", texts.budget, options.budget, base::parse_duration);
     reader.read("--duration", texts.duration, options.duration, base::parse_duration);
     options.stats = texts.stats;
+    options.fates = texts.fates;
+    options.replay = texts.replay;
+    options.capture = texts.capture;
     if (reader.error()) return base::fail(*reader.error());
     return options;
 }

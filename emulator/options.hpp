@@ -34,6 +34,9 @@ struct Options {
     base::Duration budget = std::chrono::milliseconds{1};
     std::optional<base::Duration> duration; // nullopt: until SIGINT or SIGTERM
     std::optional<std::string> stats;       // a file, or "-" for stdout
+    std::optional<std::string> fates;       // a file to write
+    std::optional<std::string> replay;      // a file of fates to apply
+    std::optional<std::string> capture;     // a file to write
 };
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
