@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/fates_file.hpp"
 #include "emulator/options.hpp"
 #include "emulator/pacer.hpp"
 #include "emulator/places.hpp"
@@ -99,17 +100,25 @@ base::Result<int> emulate(const Options& options)
 {
     const auto places = look_up(options);
     if (!places) return tl::unexpected{places.error()};
+    std::optional<Fates> replay;
+    if (options.replay) {
+        auto fates = read_fates(*options.replay);
+        if (!fates) return tl::unexpected{fates.error()};
+        replay = *std::move(fates);
+    }
     net::StopSignal stop;
-    Relay relay{*places, options};
+    Recorder recorder{{options.fates, options.capture}};
+    Relay relay{*places, options, recorder, replay};
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
-    Run run{options, relay, net::request_real_time(40), {}};
+    Run run{options, relay, recorder, net::request_real_time(40), {}};
     if (const auto shortage = run.real_time.shortage(); !shortage.empty()) say(shortage);
     fmt::print("{}", ready_line(options, relay));
     std::fflush(stdout);
 
     run.elapsed = relay_until_stopped(relay, run, stop);
     write_statistics(run, file);
+    recorder.finish();
     return 0;
 }
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/capture/pcapng.hpp"
 #include "emulator/core/correspondent.hpp"
+#include "emulator/core/fates/fates.hpp"
 #include "emulator/core/link.hpp"
 #include "emulator/options.hpp"
 #include "emulator/places.hpp"
+#include "emulator/recorder.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/udp_socket.hpp"
@@ -19,8 +22,10 @@ namespace hapnet::emulator {
 /// in Link and Correspondent.
 class Relay {
 public:
-    /// Binds both sockets. Throws std::system_error when it cannot.
-    Relay(const Places& places, const Options& options);
+    /// Binds both sockets. Throws std::system_error when it cannot. The recorder outlives it;
+    /// with `replay` the fates are not drawn but taken from there.
+    Relay(const Places& places, const Options& options, Recorder& recorder,
+          const std::optional<Fates>& replay);
 
     /// Takes what has arrived, at most one batch a side, so that a flood cannot hold up what is
     /// due, and sends on at once what is not delayed. Returns how many senders were adopted by
@@ -36,9 +41,12 @@ public:
 
     /// One side of the relay, and the direction that begins there.
     struct Side {
-        Side(const net::Endpoint& listen, const std::optional<net::Endpoint>& peer, Link direction);
+        Side(CaptureSide which, const net::Endpoint& listen,
+             const std::optional<net::Endpoint>& peer, Link from_here);
 
+        CaptureSide side;
         net::UdpSocket socket;
+        UdpAddress local;
         Correspondent<net::Endpoint> correspondent;
         Link link;
         std::uint64_t strangers = 0; // datagrams from any other address
@@ -47,6 +55,10 @@ public:
     [[nodiscard]] const Side& b() const { return b_; }
 
 private:
+    int pass(Side& from, Side& to);
+    bool send_due(Side& from, Side& to, base::TimePoint now);
+
+    Recorder& recorder_;
     base::TimePoint start_;
     Side a_;
     Side b_;

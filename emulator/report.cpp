@@ -33,6 +33,54 @@ Json json_of(const base::DurationHistogram& lateness)
             {"max", microseconds(lateness.max())}};
 }
 
+Json milliseconds(std::optional<base::Duration> duration)
+{
+    if (!duration) return nullptr;
+    return std::chrono::duration<double, std::milli>{*duration}.count();
+}
+
+Json json_of(const std::optional<Moments>& moments)
+{
+    if (!moments) return nullptr;
+    return {{"mean", milliseconds(moments->mean)}, {"sd", milliseconds(moments->sd)}};
+}
+
+Json json_of(const std::optional<Quantiles>& quantiles)
+{
+    if (!quantiles) return nullptr;
+    return {{"p50", milliseconds(quantiles->p50)},
+            {"p90", milliseconds(quantiles->p90)},
+            {"p99", milliseconds(quantiles->p99)},
+            {"p999", milliseconds(quantiles->p999)},
+            {"max", milliseconds(quantiles->max)}};
+}
+
+Json or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
+
+Json json_of(const LensReport& lens)
+{
+    Json delay = json_of(lens.delay);
+    if (lens.delay_quantiles) delay.update(json_of(lens.delay_quantiles));
+    return {{"requested_delay_ms", json_of(lens.requested_delay)},
+            {"delay_ms", delay},
+            {"delay_variation_ms", json_of(lens.delay_variation)},
+            {"gap_ms", json_of(lens.gap)},
+            {"clumped", or_null(lens.clumped_share)},
+            {"missing_run_updates",
+             {{"count", lens.missing_runs},
+              {"mean", or_null(lens.missing_run_mean)},
+              {"max", lens.missing_run_max}}},
+            {"reorder_extent",
+             {{"count", lens.reordered},
+              {"mean", or_null(lens.reorder_extent_mean)},
+              {"max", lens.reorder_extent_max},
+              {"beyond_look_back", lens.beyond_look_back}}},
+            {"age_ms",
+             {{"mean", milliseconds(lens.age_mean)},
+              {"peak_mean", milliseconds(lens.peak_age_mean)},
+              {"peak_max", milliseconds(lens.peak_age_max)}}}};
+}
+
 Json json_of(const Relay::Side& side, base::Duration budget)
 {
     const Statistics& s = side.link.statistics();
@@ -40,19 +88,48 @@ Json json_of(const Relay::Side& side, base::Duration budget)
     for (const DropCause cause : drop_causes) {
         dropped[std::string{to_text(cause)}] = s.dropped_by(cause);
     }
-    return {{"received", s.received},      {"delivered", s.delivered},
-            {"duplicated", s.duplicated},  {"corrupted", s.corrupted},
-            {"reordered", s.reordered},    {"in_flight", s.in_flight},
-            {"bytes_in", s.bytes_in},      {"bytes_out", s.bytes_out},
-            {"dropped", dropped},          {"lateness_us", json_of(s.lateness)},
-            {"strangers", side.strangers}, {"overflowed", side.socket.overflowed()},
-            {"valid", s.is_valid(budget)}};
+    return {{"received", s.received},
+            {"delivered", s.delivered},
+            {"duplicated", s.duplicated},
+            {"corrupted", s.corrupted},
+            {"reordered", s.reordered},
+            {"in_flight", s.in_flight},
+            {"bytes_in", s.bytes_in},
+            {"bytes_out", s.bytes_out},
+            {"dropped", dropped},
+            {"lateness_us", json_of(s.lateness)},
+            {"strangers", side.strangers},
+            {"overflowed", side.socket.overflowed()},
+            {"over_budget", s.late_beyond(budget)},
+            {"valid", s.is_valid(budget)},
+            {"lens", json_of(side.link.lens().report())}};
 }
 
 Json address_of(const Relay::Side& side)
 {
     const auto& address = side.correspondent.address();
     return address ? Json(address->to_text()) : Json(nullptr);
+}
+
+/// "160.00 ms (sd 2.89)"
+std::string in_words(const Moments& moments)
+{
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    return fmt::format("{:.2f} ms (sd {:.2f})", Milliseconds{moments.mean}.count(),
+                       Milliseconds{moments.sd.value_or(base::Duration{0})}.count());
+}
+
+/// What is missing in the files that were asked for.
+std::string incomplete(const Recorder& recorder)
+{
+    std::string text;
+    if (const auto lost = recorder.fates_lost(); lost > 0) {
+        text += fmt::format("NOT COMPLETE: the fates lack {} datagrams\n", lost);
+    }
+    if (const auto lost = recorder.capture_lost(); lost > 0) {
+        text += fmt::format("NOT COMPLETE: the capture lacks {} packets\n", lost);
+    }
+    return text;
 }
 
 std::string in_words(const char* title, const Relay::Side& side, base::Duration budget)
@@ -75,6 +152,11 @@ std::string in_words(const char* title, const Relay::Side& side, base::Duration 
                             Microseconds{*p99}.count(), Microseconds{*s.lateness.max()}.count());
     }
     if (!s.is_valid(budget)) text += "; NOT VALID: p99 exceeds the budget";
+    const LensReport lens = side.link.lens().report();
+    if (lens.requested_delay && lens.delay) {
+        text += fmt::format("; delay {} as drawn, {} as it came out",
+                            in_words(*lens.requested_delay), in_words(*lens.delay));
+    }
     return text + "\n";
 }
 
@@ -132,6 +214,8 @@ std::string statistics_json(const Run& run)
         {"b", address_of(b)},
         {"strangers", a.strangers + b.strangers},
         {"overflowed", a.socket.overflowed() + b.socket.overflowed()},
+        {"fates_lost", run.recorder.fates_lost()},
+        {"capture_lost", run.recorder.capture_lost()},
         {"valid", valid(a) && valid(b)},
         {"up", json_of(a, options.budget)},
         {"down", json_of(b, options.budget)},
@@ -144,7 +228,7 @@ std::string summary(const Run& run)
     return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(run.elapsed),
                        run.options.seed.value()) +
            in_words("up   (A to B)", run.relay.a(), run.options.budget) +
-           in_words("down (B to A)", run.relay.b(), run.options.budget);
+           in_words("down (B to A)", run.relay.b(), run.options.budget) + incomplete(run.recorder);
 }
 
 std::string status_line(const Run& run)

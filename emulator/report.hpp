@@ -16,6 +16,7 @@ namespace hapnet::emulator {
 struct Run {
     const Options& options;
     const Relay& relay;
+    const Recorder& recorder;
     net::RealTime real_time;
     base::Duration elapsed{}; // since the sockets were bound
 };
