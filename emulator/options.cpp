@@ -84,7 +84,7 @@ struct Texts {
     Text b;
     Text profile;
     Text netem;
-    std::array<std::array<Text, conditions.size()>, prefixes.size()> conditions;
+    std::array<std::array<Text, conditions.size()>, prefixes.size()> by_way;
     Text seed;
     Text replay;
     Text timing;
@@ -101,8 +101,7 @@ void add_conditions(CLI::App& app, Texts& texts)
     for (std::size_t way = 0; way < prefixes.size(); ++way) {
         for (std::size_t i = 0; i < conditions.size(); ++i) {
             const auto& [name, type, help] = conditions[i];
-            app.add_option(fmt::format("--{}{}", prefixes[way], name), texts.conditions[way][i],
-                           help)
+            app.add_option(fmt::format("--{}{}", prefixes[way], name), texts.by_way[way][i], help)
                 ->type_name(type)
                 ->group(way == 0 ? "Conditions, both ways (--up.NAME, --down.NAME: one way)" : "");
         }
@@ -153,9 +152,10 @@ void add_options(CLI::App& app, Texts& texts)
                    "Conditions and their timeline from a TOML file, or the name of a preset\n"
                    "(hapnet-emulator check --list)")
         ->type_name("FILE|NAME");
-    app.add_option("--netem", texts.netem,
-                   "Conditions as tc-netem takes them: \"delay 80ms 5ms loss 1%\"; says where netem\n"
-                   "would not have done what this says")
+    app.add_option(
+           "--netem", texts.netem,
+           "Conditions as tc-netem takes them: \"delay 80ms 5ms loss 1%\"; says where netem\n"
+           "would not have done what this says")
         ->type_name("SENTENCE");
     add_conditions(app, texts);
     add_run_options(app, texts);
@@ -223,8 +223,9 @@ net::CommandLine<Options> options_from(const Texts& texts)
     reader.read("--b", texts.b, options.b, parse_peer);
     for (std::size_t way = 0; way < prefixes.size(); ++way) {
         for (std::size_t i = 0; i < conditions.size(); ++i) {
-            if (const Text& value = texts.conditions[way][i]) {
-                options.settings.push_back({prefixes[way] + std::string{conditions[i].name}, *value});
+            if (const Text& value = texts.by_way[way][i]) {
+                options.settings.push_back(
+                    {prefixes[way] + std::string{conditions[i].name}, *value});
             }
         }
     }

@@ -91,11 +91,15 @@ private:
     std::array<std::span<const std::byte>, net::BatchSender::batch_max> bytes_;
 };
 
-/// The fates of one direction, if they are to be replayed.
-std::optional<Replay> replay_of(const std::optional<Fates>& fates, std::vector<Fate> Fates::*way)
+Link link_of(const Relay::Setup& setup, Direction direction)
 {
-    if (!fates) return std::nullopt;
-    return Replay{std::make_shared<const std::vector<Fate>>((*fates).*way)};
+    const bool is_up = direction == Direction::up;
+    Link::Setup link{setup.seed, direction, setup.start, {}, {}};
+    if (setup.replay) {
+        const auto& fates = is_up ? setup.replay->up : setup.replay->down;
+        link.replay.emplace(std::shared_ptr<const std::vector<Fate>>{setup.replay, &fates});
+    }
+    return Link{is_up ? setup.path.up : setup.path.down, link};
 }
 
 } // namespace
@@ -117,7 +121,7 @@ int Relay::pass(Side& from, Side& to)
         if (recorder_.captures()) {
             recorder_.on_arrival(
                 {from.side, datagram.at, udp_address_of(datagram.from), from.local, datagram.bytes},
-                admission.fate);
+                {admission.verdict, {}});
         }
         if (admission.departure) undelayed.add(*admission.departure);
     }
@@ -150,16 +154,10 @@ Relay::Side::Side(CaptureSide which, const net::Endpoint& listen,
       link{std::move(from_here)}
 {}
 
-Relay::Relay(const Places& places, const Options& options, Recorder& recorder,
-             const std::optional<Fates>& replay)
+Relay::Relay(const Places& places, const Setup& setup, Recorder& recorder)
     : recorder_{recorder},
-      start_{net::monotonic_now()},
-      a_{CaptureSide::a, places.listen_a, places.a,
-         Link{options.path.up,
-              {options.seed, Direction::up, start_, {}, replay_of(replay, &Fates::up)}}},
-      b_{CaptureSide::b, places.listen_b, places.b,
-         Link{options.path.down,
-              {options.seed, Direction::down, start_, {}, replay_of(replay, &Fates::down)}}}
+      a_{CaptureSide::a, places.listen_a, places.a, link_of(setup, Direction::up)},
+      b_{CaptureSide::b, places.listen_b, places.b, link_of(setup, Direction::down)}
 {}
 
 int Relay::receive() { return pass(a_, b_) + pass(b_, a_); }
@@ -172,6 +170,12 @@ void Relay::release(base::TimePoint now)
         if (a_has_more) a_has_more = send_due(a_, b_, now);
         if (b_has_more) b_has_more = send_due(b_, a_, now);
     }
+}
+
+void Relay::change(const Path& path, base::TimePoint now)
+{
+    a_.link.change(path.up, now);
+    b_.link.change(path.down, now);
 }
 
 std::optional<base::TimePoint> Relay::next_deadline() const

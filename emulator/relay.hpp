@@ -3,17 +3,19 @@
 #pragma once
 
 #include "emulator/core/capture/pcapng.hpp"
+#include "emulator/core/conditions.hpp"
 #include "emulator/core/correspondent.hpp"
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/link.hpp"
-#include "emulator/options.hpp"
 #include "emulator/places.hpp"
 #include "emulator/recorder.hpp"
+#include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/udp_socket.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace hapnet::emulator {
@@ -22,10 +24,15 @@ namespace hapnet::emulator {
 /// in Link and Correspondent.
 class Relay {
 public:
-    /// Binds both sockets. Throws std::system_error when it cannot. The recorder outlives it;
-    /// with `replay` the fates are not drawn but taken from there.
-    Relay(const Places& places, const Options& options, Recorder& recorder,
-          const std::optional<Fates>& replay);
+    struct Setup {
+        const Path& path; // the conditions at the beginning
+        base::Seed seed;
+        base::TimePoint start;               // time 0 of all that depends on time
+        std::shared_ptr<const Fates> replay; // null: fates are drawn
+    };
+
+    /// Binds both sockets. Throws std::system_error when it cannot. The recorder outlives it.
+    Relay(const Places& places, const Setup& setup, Recorder& recorder);
 
     /// Takes what has arrived, at most one batch a side, so that a flood cannot hold up what is
     /// due, and sends on at once what is not delayed. Returns how many senders were adopted by
@@ -35,6 +42,9 @@ public:
     /// Sends what is due at `now`, the two sides in turn; so much at most that what arrives does
     /// not have to wait long. What is left is still due.
     void release(base::TimePoint now);
+
+    /// Other conditions for what arrives from now on.
+    void change(const Path& path, base::TimePoint now);
 
     /// When the next datagram is due to leave; nullopt when none is in flight.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
@@ -59,7 +69,6 @@ private:
     bool send_due(Side& from, Side& to, base::TimePoint now);
 
     Recorder& recorder_;
-    base::TimePoint start_;
     Side a_;
     Side b_;
 };

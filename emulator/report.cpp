@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/report.hpp"
 
+#include "emulator/core/profile/settings.hpp"
+#include "emulator/core/profile/text.hpp"
 #include "emulator/core/statistics.hpp"
 #include "proto/base/version.hpp"
 
@@ -55,7 +57,22 @@ Json json_of(const std::optional<Quantiles>& quantiles)
             {"max", milliseconds(quantiles->max)}};
 }
 
-Json or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
+template <typename T>
+Json or_null(const std::optional<T>& value)
+{
+    return value ? Json(*value) : Json(nullptr);
+}
+
+/// What differs from the default, as a profile says it.
+Json json_of(const Conditions& conditions)
+{
+    Json json = Json::object();
+    const auto texts = setting_texts(patch_of(conditions));
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        if (texts[i]) json[std::string{setting_keys[i]}] = *texts[i];
+    }
+    return json;
+}
 
 Json json_of(const LensReport& lens)
 {
@@ -173,11 +190,12 @@ std::string in_short(const char* title, const Relay::Side& side)
 
 } // namespace
 
-std::string ready_line(const Options& options, const Relay& relay)
+std::string ready_line(const Run& run)
 {
-    return fmt::format("ready a={} b={} seed={} timing={}\n", relay.a().socket.local().to_text(),
-                       relay.b().socket.local().to_text(), options.seed.value(),
-                       to_text(options.timing));
+    return fmt::format("ready a={} b={} seed={} timing={}\n",
+                       run.relay.a().socket.local().to_text(),
+                       run.relay.b().socket.local().to_text(), run.scenario.seed.value(),
+                       to_text(run.options.timing));
 }
 
 std::string endpoints_line(const Relay& relay)
@@ -202,7 +220,7 @@ std::string statistics_json(const Run& run)
         {"version", base::version()},
         {"commit", base::commit()},
         {"compiler", base::compiler()},
-        {"seed", options.seed.value()},
+        {"seed", run.scenario.seed.value()},
         {"timing", to_text(options.timing)},
         {"budget_us", microseconds(options.budget)},
         {"duration_s", base::to_seconds(run.elapsed)},
@@ -214,6 +232,14 @@ std::string statistics_json(const Run& run)
         {"b", address_of(b)},
         {"strangers", a.strangers + b.strangers},
         {"overflowed", a.socket.overflowed() + b.socket.overflowed()},
+        {"generation", run.director.generation()},
+        {"configuration",
+         {{"up", json_of(run.scenario.profile.path.up)},
+          {"down", json_of(run.scenario.profile.path.down)}}},
+        {"profile", to_text(run.scenario.profile)},
+        {"fates", or_null(options.fates)},
+        {"replay", or_null(options.replay)},
+        {"capture", or_null(options.capture)},
         {"fates_lost", run.recorder.fates_lost()},
         {"capture_lost", run.recorder.capture_lost()},
         {"valid", valid(a) && valid(b)},
@@ -226,7 +252,7 @@ std::string statistics_json(const Run& run)
 std::string summary(const Run& run)
 {
     return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(run.elapsed),
-                       run.options.seed.value()) +
+                       run.scenario.seed.value()) +
            in_words("up   (A to B)", run.relay.a(), run.options.budget) +
            in_words("down (B to A)", run.relay.b(), run.options.budget) + incomplete(run.recorder);
 }

@@ -4,6 +4,7 @@
 
 #include "emulator/core/profile/netem.hpp"
 #include "emulator/core/profile/text.hpp"
+#include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -42,15 +43,6 @@ base::Result<Path> with_typed(const Path& path, const std::vector<TypedSetting>&
     return with_settings(path, settings);
 }
 
-base::Result<std::shared_ptr<const Fates>> fates_of(const std::string& file)
-{
-    const auto text = text_of_file(file);
-    if (!text) return base::fail(fmt::format("--replay: {}", text.error().message));
-    auto fates = parse_fates(*text);
-    if (!fates) return base::fail(fmt::format("{}:{}", file, fates.error().message));
-    return std::make_shared<const Fates>(*std::move(fates));
-}
-
 } // namespace
 
 base::Result<Scenario> scenario_of(const Options& options)
@@ -65,9 +57,12 @@ base::Result<Scenario> scenario_of(const Options& options)
     scenario.seed = options.seed.value_or(scenario.profile.seed.value_or(base::Seed{1}));
     scenario.profile.seed = scenario.seed;
     if (options.replay) {
-        auto fates = fates_of(*options.replay);
+        auto fates = read_fates(*options.replay);
         if (!fates) return tl::unexpected{fates.error()};
-        scenario.replay = *std::move(fates);
+        scenario.replay = std::make_shared<const Fates>(*std::move(fates));
+        scenario.warnings.emplace_back("--replay gives the fates: mtu, loss, corruption, copies, "
+                                       "delay and jitter of the conditions are not drawn; rate "
+                                       "and order hold");
     }
     return scenario;
 }
