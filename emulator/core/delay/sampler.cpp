@@ -80,7 +80,8 @@ base::Duration ConstantSampler::quantile(double) const { return value; }
 
 base::Duration UniformSampler::quantile(double u) const
 {
-    return mean + base::Duration{std::llround((2.0 * u - 1.0) * half_width)};
+    const auto value = mean + base::Duration{std::llround((2.0 * u - 1.0) * half_width)};
+    return std::clamp(value, -longest_delay, longest_delay);
 }
 
 base::Duration NormalSampler::quantile(double u) const
