@@ -111,6 +111,13 @@ struct Variation {
     friend bool operator==(const Variation&, const Variation&) = default;
 };
 
+[[nodiscard]] inline Variation constant(base::Duration value) { return {ConstantLaw{value}, {}}; }
+/// Around zero.
+[[nodiscard]] inline Variation uniform(base::Duration half_width)
+{
+    return {UniformLaw{{}, half_width}, {}};
+}
+
 /// What is wrong with it, in words that follow the name of the setting ("sd must be more than
 /// 0"); nullopt when it can be drawn. Whoever makes a law from what a person typed asks here.
 [[nodiscard]] std::optional<std::string> objection(const Variation& variation);
