@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/laws.hpp"
 
+#include "emulator/core/delay/table.hpp"
+#include "emulator/core/delay/trace.hpp"
 #include "emulator/core/loss/trace.hpp"
 #include "emulator/core/profile/faults.hpp"
 #include "proto/base/text.hpp"
@@ -10,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <spdlog/fmt/fmt.h>
+#include <type_traits>
 #include <utility>
 
 namespace hapnet::emulator {
@@ -27,21 +30,37 @@ template <typename Law>
 void load(Law&, Place, Reading&)
 {}
 
-void load(TableLaw&, Place place, Reading& reading)
+/// The text of the file that `law` names, as `parse` reads it.
+template <typename Law, typename Parse>
+auto load_by(const Parse& parse, const Law& law, Place place, Reading& reading)
+    -> std::decay_t<decltype(parse(std::string_view{}).value())>
 {
-    reading.complain(place, "tables are not possible here");
+    const auto text = reading.open(law.file);
+    if (!text) {
+        reading.complain(place, text.error().message);
+        return {};
+    }
+    auto parsed = parse(*text);
+    if (parsed) return *parsed;
+    reading.complain(place, law.file + ": " + parsed.error().message);
+    return {};
 }
-void load(TraceLaw&, Place place, Reading& reading)
+void load(TableLaw& law, Place place, Reading& reading)
 {
-    reading.complain(place, "traces are not possible here");
+    const bool is_dist = std::string_view{law.file}.ends_with(".dist");
+    law.table = load_by(is_dist ? parse_dist : parse_samples, law, place, reading);
+}
+void load(TraceLaw& law, Place place, Reading& reading)
+{
+    law.trace = load_by(parse_delay_trace, law, place, reading);
 }
 void load(TraceLoss& law, Place place, Reading& reading)
 {
     const auto text = reading.open(law.file);
     if (!text) return reading.complain(place, text.error().message);
     // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
-    const bool is_table = text->find_first_of(",abcdefghijklmnopqrstuvwxyz") <
-                          text->find_first_of("01#");
+    const bool is_table =
+        text->find_first_of(",abcdefghijklmnopqrstuvwxyz") < text->find_first_of("01#");
     auto trace = is_table ? parse_loss_table(*text) : parse_loss_trace(*text);
     if (!trace) return reading.complain(place, law.file + ": " + trace.error().message);
     law.trace = std::make_shared<const LossTrace>(*std::move(trace));

@@ -108,6 +108,14 @@ std::optional<FourState> between_fields(const FourState& a, const FourState& b, 
     return only_equal(a, b);
 }
 
+/// Delays taken as they were measured have no mean and sd to go from or to.
+std::optional<TableLaw> between_fields(const TableLaw& a, const TableLaw& b, double progress)
+{
+    const base::Duration as_measured{0};
+    if ((a.sd == as_measured) != (b.sd == as_measured)) return std::nullopt;
+    return between_fields<TableLaw>(a, b, progress);
+}
+
 template <typename Law>
 std::optional<Law> between_laws(const Law& a, const Law& b, double progress)
 {

@@ -111,7 +111,7 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
     EXPECT_EQ(refusal("[up]\njitter = { law = \"unifrom\" }\n"),
               "test.toml:2:18: \"unifrom\" is not a law: did you mean 'uniform'?");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"normal\", sd = \"-1ms\" }\n"),
-              "test.toml:2:10: a width or deviation is not negative");
+              "test.toml:2:10: sd must not be negative");
     EXPECT_EQ(refusal("[up]\norder = \"keep\"\njitter = { law = \"normal\", sd = \"1ms\", order = "
                       "\"free\" }\n"),
               "test.toml:2:9: jitter says another order than the key order");
@@ -148,7 +148,9 @@ TEST(ProfileText, NestingHasABound)
     std::string keys = "a";
     for (int i = 0; i < 100'000; ++i) keys += ".a";
     EXPECT_EQ(refusal(keys + " = 1"), "test.toml:1:514: more than 256 dots in a line");
-    EXPECT_NE(refusal("a = " + std::string(100'000, '[')).find("nested"), std::string::npos);
+    std::string lists = "a = ";
+    lists.append(100'000, '[');
+    EXPECT_NE(refusal(lists).find("nested"), std::string::npos);
     EXPECT_EQ(refusal("\"\".'='.\"\"\"x"),
               "test.toml:1:10: a string over several lines has no place here");
 }
