@@ -19,16 +19,15 @@ Fault unless(bool is_possible, std::string_view what)
     return is_possible ? Fault{} : Fault{what};
 }
 
-Fault first_of(Fault a, Fault b) { return a ? std::move(a) : std::move(b); }
-
 } // namespace
 
 std::optional<std::string> fault_of(const Variation& variation)
 {
     const auto* constant = std::get_if<ConstantLaw>(&variation.law);
-    return first_of(unless(constant == nullptr || constant->value >= zero,
-                           "a delay is not negative: nothing leaves before it came"),
-                    objection(variation));
+    if (constant != nullptr && constant->value < zero) {
+        return "a delay is not negative: nothing leaves before it came";
+    }
+    return objection(variation);
 }
 
 std::optional<std::string> fault_of(const LossLaw& law)
@@ -51,10 +50,9 @@ std::optional<std::string> fault_of(const Duplication& duplication)
 std::optional<std::string> fault_of(const Reordering& reordering)
 {
     const Displacement& displacement = reordering.displacement;
-    return first_of(unless(displacement.time >= zero, "displacement is not negative"),
-                    unless(reordering.share == base::Probability{} || displacement.places > 0 ||
-                               displacement.time > zero,
-                           "displacement has to be more than 0"));
+    if (displacement.time < zero) return "displacement is not negative";
+    return unless(reordering.share == base::Probability{} || displacement != Displacement{},
+                  "displacement has to be more than 0");
 }
 
 std::optional<std::string> fault_of(const Mtu& mtu)
