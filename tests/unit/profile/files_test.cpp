@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/delay/table.hpp"
 #include "emulator/core/delay/trace.hpp"
+#include "emulator/core/profile/ramp.hpp"
 #include "emulator/core/profile/text.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,23 @@ TEST(ProfileFiles, TablesAndTracesAreReadFromTheFilesTheyName)
               "test.toml:2:10: sd must be more than 0");
     EXPECT_EQ(refused("law = \"trace\", file = \"no.csv\""),
               "test.toml:2:10: there is no file no.csv");
+}
+
+TEST(ProfileFiles, BetweenDelaysAsMeasuredAndATableWithMeanAndSdThereIsNoRamp)
+{
+    const auto table = std::make_shared<const QuantileTable>(std::vector<double>{1e6, 2e6},
+                                                             QuantileTable::Unit::nanoseconds);
+    const auto with = [&](base::Duration mean, base::Duration sd) {
+        return Variation{TableLaw{"lte.csv", mean, sd, table}, 0ms};
+    };
+    Conditions from;
+    Patch to;
+    to.delay = with(50ms, 5ms);
+    from.delay = with(0ms, 0ms);
+    EXPECT_TRUE(ramp_fault(from, to));
+    from.delay = with(20ms, 1ms);
+    EXPECT_FALSE(ramp_fault(from, to));
+    EXPECT_EQ(ramped(from, from, to, 0.5).delay, with(35ms, 3ms));
 }
 
 } // namespace
