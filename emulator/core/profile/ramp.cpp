@@ -42,7 +42,7 @@ std::optional<base::Probability> between(base::Probability a, base::Probability 
 template <typename Whole>
 requires std::is_unsigned_v<Whole> std::optional<Whole> between(Whole a, Whole b, double progress)
 {
-    const double from = static_cast<double>(a);
+    const auto from = static_cast<double>(a);
     return static_cast<Whole>(std::llround(from + (static_cast<double>(b) - from) * progress));
 }
 
