@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/options.hpp"
+#include "emulator/pacer.hpp"
 #include "emulator/places.hpp"
 #include "emulator/relay.hpp"
 #include "emulator/report.hpp"
@@ -9,7 +10,6 @@
 #include "proto/net/real_time.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
-#include "proto/net/wait.hpp"
 
 #include <array>
 #include <chrono>
@@ -30,49 +30,6 @@ using namespace std::chrono_literals;
 constexpr std::string_view program = "hapnet-emulator";
 
 void say(std::string_view text) { net::say(program, text); }
-
-/// How long before a deadline sleeping ends and watching the clock begins. 60 us is what a wake-up
-/// costs, above it the median and p99 gain nothing (measured 2026, 2 virtual CPUs, Linux 6.18).
-base::Duration margin_of(Timing timing)
-{
-    switch (timing) {
-    case Timing::eco: return 0us;
-    case Timing::precise: return 60us;
-    case Timing::spin: return 200us;
-    }
-    return 0us;
-}
-
-/// Waits for datagrams and deadlines, and sees to it that a busy relay sleeps at times: a
-/// SCHED_FIFO thread that never sleeps keeps the kernel from receiving (ksoftirqd).
-class Pacer {
-public:
-    Pacer(base::Duration margin, base::TimePoint now) : margin_{margin}, slept_{now} {}
-
-    /// Returns at once within the margin of `deadline`: the caller watches the clock.
-    void wait(std::span<const int> descriptors, std::optional<base::TimePoint> deadline)
-    {
-        const auto before = net::monotonic_now();
-        if (before - slept_ > awake_max) {
-            net::sleep_until(before + rest);
-        } else if (!deadline) {
-            net::wait_readable(descriptors, std::nullopt);
-        } else if (*deadline - before > margin_) {
-            net::wait_readable(descriptors, *deadline - margin_);
-        } else {
-            return;
-        }
-        const auto after = net::monotonic_now();
-        if (after - before >= rest / 2) slept_ = after;
-    }
-
-private:
-    static constexpr base::Duration awake_max = 10ms;
-    static constexpr base::Duration rest = 50us; // half a per cent of awake_max
-
-    base::Duration margin_;
-    base::TimePoint slept_;
-};
 
 /// The status line of a terminal; nothing elsewhere.
 class Status {
@@ -108,7 +65,7 @@ base::Duration relay_until_stopped(Relay& relay, Run run, net::StopSignal& stop)
     if (run.options.duration) end = start + *run.options.duration;
     const std::array descriptors{relay.a().socket.descriptor(), relay.b().socket.descriptor(),
                                  stop.descriptor()};
-    Pacer pacer{margin_of(run.options.timing), start};
+    Pacer pacer{run.options.timing, start};
     Status status{start};
     auto now = start;
     while (!stop.requested() && !base::is_due(end, now)) {
@@ -148,7 +105,6 @@ base::Result<int> emulate(const Options& options)
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Run run{options, relay, net::request_real_time(40), {}};
     if (const auto shortage = run.real_time.shortage(); !shortage.empty()) say(shortage);
-    if (const auto note = jitter_note(options); !note.empty()) say(note);
     fmt::print("{}", ready_line(options, relay));
     std::fflush(stdout);
 

@@ -114,6 +114,41 @@ void add_options(CLI::App& app, Texts& texts)
         ->type_name("FILE");
 }
 
+base::Result<Order> parse_order(std::string_view text)
+{
+    for (const Order order : {Order::keep, Order::free, Order::sorted}) {
+        if (text == to_text(order)) return order;
+    }
+    return base::fail(fmt::format("'{}' is not an order: write keep, free or sorted", text));
+}
+
+base::Result<LossLaw> parse_burst(std::string_view text)
+{
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    const auto slash = text.find('/');
+    if (slash != std::string_view::npos) {
+        const auto lost = base::parse_count(text.substr(0, slash), most);
+        const auto of = base::parse_count(text.substr(slash + 1), most);
+        if (lost && of && 0 < *lost && *lost <= *of) {
+            return LossLaw{
+                Burst{static_cast<std::uint32_t>(*lost), static_cast<std::uint32_t>(*of), {}}};
+        }
+    }
+    return base::fail(fmt::format("'{}' is not a burst: write LOST/OF, such as 40/100 for 40 in a "
+                                  "row of every 100",
+                                  text));
+}
+
+base::Result<Variation> parse_constant(const std::string& text)
+{
+    return base::parse_duration(text).map([](base::Duration value) { return constant(value); });
+}
+
+base::Result<Variation> parse_uniform(const std::string& text)
+{
+    return base::parse_duration(text).map([](base::Duration value) { return uniform(value); });
+}
+
 /// Puts parsed texts in their places; the first error wins and names its option.
 class Reader {
 public:
@@ -132,11 +167,19 @@ public:
     void read_conditions(const std::string& prefix, const ConditionTexts& texts, Conditions& target)
     {
         const std::string dashes = "--" + prefix;
-        read(dashes + "delay", texts.delay, target.delay, base::parse_duration);
-        read(dashes + "jitter", texts.jitter, target.jitter, base::parse_duration);
+        const auto random = [](const std::string& text) {
+            return base::parse_probability(text).map(
+                [](base::Probability share) { return LossLaw{RandomLoss{share}}; });
+        };
+        read(dashes + "delay", texts.delay, target.delay, parse_constant);
+        read(dashes + "jitter", texts.jitter, target.jitter, parse_uniform);
         read(dashes + "order", texts.order, target.order, parse_order);
-        read(dashes + "loss", texts.loss, target.loss, base::parse_probability);
-        read(dashes + "burst-loss", texts.burst_loss, target.burst_loss, parse_burst);
+        std::optional<LossLaw> loss;
+        std::optional<LossLaw> burst;
+        read(dashes + "loss", texts.loss, loss, random);
+        read(dashes + "burst-loss", texts.burst_loss, burst, parse_burst);
+        if (loss) target.loss.push_back(*loss);
+        if (burst) target.loss.push_back(*burst);
     }
 
     /// Not left to CLI11, which would speak of it before it speaks of a mistyped option.
@@ -184,11 +227,11 @@ net::CommandLine<Options> options_from(const Texts& texts)
     reader.read("--listen-b", texts.listen_b, options.listen_b, net::parse_host_port);
     reader.read("--a", texts.a, options.a, parse_peer);
     reader.read("--b", texts.b, options.b, parse_peer);
-    for (Conditions* conditions : {&options.up, &options.down}) {
+    for (Conditions* conditions : {&options.path.up, &options.path.down}) {
         reader.read_conditions(prefixes[0], texts.conditions[0], *conditions);
     }
-    reader.read_conditions(prefixes[1], texts.conditions[1], options.up);
-    reader.read_conditions(prefixes[2], texts.conditions[2], options.down);
+    reader.read_conditions(prefixes[1], texts.conditions[1], options.path.up);
+    reader.read_conditions(prefixes[2], texts.conditions[2], options.path.down);
     reader.read("--seed", texts.seed, options.seed, parse_seed);
     reader.read("--timing", texts.timing, options.timing, parse_timing);
     reader.read("--budget", texts.budget, options.budget, base::parse_duration);

@@ -28,8 +28,7 @@ struct Options {
     net::HostPort listen_b;
     std::optional<net::HostPort> a; // nullopt: adopt the first sender
     std::optional<net::HostPort> b;
-    Conditions up;
-    Conditions down;
+    Path path;
     base::Seed seed{1};
     Timing timing = Timing::precise;
     base::Duration budget = std::chrono::milliseconds{1};

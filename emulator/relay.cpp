@@ -5,16 +5,14 @@
 #include "proto/base/ensure.hpp"
 #include "proto/net/clock.hpp"
 
+#include <array>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 namespace hapnet::emulator {
 
 namespace {
-
-Link link_of(const Conditions& conditions, base::Seed seed, Direction direction)
-{
-    return Link{pipeline_of(conditions, seed, direction), conditions.order};
-}
 
 DropCause cause_of(net::SendOutcome outcome)
 {
@@ -30,56 +28,116 @@ DropCause cause_of(net::SendOutcome outcome)
     return DropCause::send_failed;
 }
 
-int receive_from(Relay::Side& side)
+/// Batches of each direction that one release() sends at most. More than one receive() takes, so
+/// that a flood cannot fill the queue by being taken faster than it is sent.
+constexpr int release_rounds_max = 16;
+
+/// What leaves in one direction: gathered and sent together. Flush it before the bytes go.
+class Batch {
+public:
+    Batch(Link& link, Relay::Side& to) : link_{link}, to_{to} {}
+
+    void add(const Departure& departure)
+    {
+        departures_[count_] = departure;
+        bytes_[count_] = departure.bytes;
+        ++count_;
+        if (is_full()) flush();
+    }
+
+    void flush()
+    {
+        const auto& destination = to_.correspondent.address();
+        if (count_ > 0 && destination) {
+            const auto outcomes = to_.socket.send_batch(*destination, {bytes_.data(), count_});
+            const auto at = net::monotonic_now();
+            for (std::size_t i = 0; i < count_; ++i) note(departures_[i], outcomes[i], at);
+        } else {
+            for (std::size_t i = 0; i < count_; ++i) {
+                link_.on_failed(departures_[i], DropCause::no_destination);
+            }
+        }
+        count_ = 0;
+    }
+
+private:
+    [[nodiscard]] bool is_full() const { return count_ == departures_.size(); }
+
+    void note(const Departure& departure, net::SendOutcome outcome, base::TimePoint at)
+    {
+        if (outcome == net::SendOutcome::sent) {
+            link_.on_sent(departure, at);
+        } else {
+            link_.on_failed(departure, cause_of(outcome));
+        }
+    }
+
+    Link& link_;
+    Relay::Side& to_;
+    std::size_t count_ = 0;
+    std::array<Departure, net::BatchSender::batch_max> departures_;
+    std::array<std::span<const std::byte>, net::BatchSender::batch_max> bytes_;
+};
+
+int pass(Relay::Side& from, Relay::Side& to)
 {
     int adopted = 0;
-    for (const net::Received& datagram : side.socket.receive()) {
-        const Sender sender = side.correspondent.judge(datagram.from, datagram.at);
+    Batch undelayed{from.link, to};
+    for (const net::Received& datagram : from.socket.receive()) {
+        const Sender sender = from.correspondent.judge(datagram.from, datagram.at);
         if (sender == Sender::stranger) {
-            ++side.strangers;
+            ++from.strangers;
             continue;
         }
         if (sender == Sender::adopted) ++adopted;
-        side.link.on_packet(datagram.bytes, datagram.at);
+        const Admission admission = from.link.on_packet(datagram.bytes, datagram.at);
+        if (admission.departure) undelayed.add(*admission.departure);
     }
+    undelayed.flush();
     return adopted;
 }
 
-void send_due(Relay::Side& from, Relay::Side& to, base::TimePoint now)
+/// Sends at most one batch of what is due; returns whether it was a whole one.
+bool send_due(Relay::Side& from, Relay::Side& to, base::TimePoint now)
 {
-    while (auto datagram = from.link.poll(now)) {
-        const auto& destination = to.correspondent.address();
-        if (!destination) {
-            from.link.on_failed(*std::move(datagram), DropCause::no_destination);
-            continue;
+    if (!base::is_due(from.link.next_deadline(), now)) return false;
+    Batch due{from.link, to};
+    for (std::size_t i = 0; i < net::BatchSender::batch_max; ++i) {
+        const auto departure = from.link.poll(now);
+        if (!departure) {
+            due.flush();
+            return false;
         }
-        const auto outcome = to.socket.send(*destination, datagram->bytes);
-        if (outcome == net::SendOutcome::sent) {
-            from.link.on_sent(*std::move(datagram), net::monotonic_now());
-        } else {
-            from.link.on_failed(*std::move(datagram), cause_of(outcome));
-        }
+        due.add(*departure);
     }
+    return true;
 }
 
 } // namespace
 
 Relay::Side::Side(const net::Endpoint& listen, const std::optional<net::Endpoint>& peer,
                   Link direction)
-    : socket{listen}, correspondent{peer}, link{std::move(direction)}
+    : socket{listen, net::Load::bulk}, correspondent{peer}, link{std::move(direction)}
 {}
 
 Relay::Relay(const Places& places, const Options& options)
-    : a_{places.listen_a, places.a, link_of(options.up, options.seed, Direction::up)},
-      b_{places.listen_b, places.b, link_of(options.down, options.seed, Direction::down)}
+    : start_{net::monotonic_now()},
+      a_{places.listen_a, places.a,
+         Link{options.path.up, {options.seed, Direction::up, start_, {}}}},
+      b_{places.listen_b, places.b,
+         Link{options.path.down, {options.seed, Direction::down, start_, {}}}}
 {}
 
-int Relay::receive() { return receive_from(a_) + receive_from(b_); }
+int Relay::receive() { return pass(a_, b_) + pass(b_, a_); }
 
 void Relay::release(base::TimePoint now)
 {
-    send_due(a_, b_, now);
-    send_due(b_, a_, now);
+    bool a_has_more = true;
+    bool b_has_more = true;
+    for (int round = 0; round < release_rounds_max && (a_has_more || b_has_more); ++round) {
+        if (a_has_more) a_has_more = send_due(a_, b_, now);
+        if (b_has_more) b_has_more = send_due(b_, a_, now);
+    }
 }
 
 std::optional<base::TimePoint> Relay::next_deadline() const

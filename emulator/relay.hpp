@@ -23,10 +23,12 @@ public:
     Relay(const Places& places, const Options& options);
 
     /// Takes what has arrived, at most one batch a side, so that a flood cannot hold up what is
-    /// due. Returns how many senders were adopted by that.
+    /// due, and sends on at once what is not delayed. Returns how many senders were adopted by
+    /// that.
     int receive();
 
-    /// Sends what is due at `now`.
+    /// Sends what is due at `now`, the two sides in turn; so much at most that what arrives does
+    /// not have to wait long. What is left is still due.
     void release(base::TimePoint now);
 
     /// When the next datagram is due to leave; nullopt when none is in flight.
@@ -45,6 +47,7 @@ public:
     [[nodiscard]] const Side& b() const { return b_; }
 
 private:
+    base::TimePoint start_;
     Side a_;
     Side b_;
 };

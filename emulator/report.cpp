@@ -16,7 +16,6 @@ namespace hapnet::emulator {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Milliseconds = std::chrono::duration<double, std::milli>;
 using Microseconds = std::chrono::duration<double, std::micro>;
 
 Json microseconds(std::optional<base::Duration> duration)
@@ -48,17 +47,6 @@ Json json_of(const Relay::Side& side, base::Duration budget)
             {"dropped", dropped},          {"lateness_us", json_of(s.lateness)},
             {"strangers", side.strangers}, {"overflowed", side.socket.overflowed()},
             {"valid", s.is_valid(budget)}};
-}
-
-Json json_of(const Conditions& conditions)
-{
-    Json burst = nullptr;
-    if (conditions.burst_loss) burst = to_text(*conditions.burst_loss);
-    return {{"delay_ms", Milliseconds{conditions.delay}.count()},
-            {"jitter_ms", Milliseconds{conditions.jitter}.count()},
-            {"order", to_text(conditions.order)},
-            {"loss", conditions.loss.fraction()},
-            {"burst_loss", burst}};
 }
 
 Json address_of(const Relay::Side& side)
@@ -119,17 +107,6 @@ std::string endpoints_line(const Relay& relay)
     return fmt::format("a is {}, b is {}", in_words(relay.a()), in_words(relay.b()));
 }
 
-std::string jitter_note(const Options& options)
-{
-    for (const Conditions* way : {&options.up, &options.down}) {
-        if (way->order == Order::free || way->jitter == base::Duration{0}) continue;
-        return "jitter with --order keep lengthens the mean delay and narrows the spread where "
-               "datagrams are close together (15ms at 1000 per second: +9 ms); --order free does "
-               "neither, and reorders";
-    }
-    return "";
-}
-
 std::string statistics_json(const Run& run)
 {
     const Options& options = run.options;
@@ -153,7 +130,6 @@ std::string statistics_json(const Run& run)
         {"listen_b", b.socket.local().to_text()},
         {"a", address_of(a)},
         {"b", address_of(b)},
-        {"configuration", {{"up", json_of(options.up)}, {"down", json_of(options.down)}}},
         {"strangers", a.strangers + b.strangers},
         {"overflowed", a.socket.overflowed() + b.socket.overflowed()},
         {"valid", valid(a) && valid(b)},

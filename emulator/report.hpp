@@ -26,9 +26,6 @@ struct Run {
 /// Who is on each side: "a is 127.0.0.1:5000, b is not known yet".
 [[nodiscard]] std::string endpoints_line(const Relay& relay);
 
-/// A warning when the options ask for jitter that does something else than it seems to; or "".
-[[nodiscard]] std::string jitter_note(const Options& options);
-
 /// What --stats writes: one JSON object.
 [[nodiscard]] std::string statistics_json(const Run& run);
 

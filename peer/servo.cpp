@@ -12,7 +12,7 @@ namespace {
 
 constexpr int servo_priority = 45; // above the emulator's, below the kernel's own threads
 constexpr int zero_force_repeats = 3;
-constexpr int receive_rounds_max = 16; // of up to 32 datagrams
+constexpr int receive_rounds_max = 8; // of up to 64 datagrams
 constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 
 record::Phase phase_of(Phase phase, bool alone)

@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <netinet/udp.h>
+#include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
 #include <unistd.h>
@@ -45,30 +47,103 @@ base::Duration monotonic_minus_real()
     return offset;
 }
 
-void set_option(int descriptor, int name, int value)
+void set_option(int descriptor, int level, int name, int value)
 {
-    setsockopt(descriptor, SOL_SOCKET, name, &value, sizeof value);
+    setsockopt(descriptor, level, name, &value, sizeof value);
+}
+
+/// Up to `bytes`; SO_RCVBUF alone stops at net.core.rmem_max.
+void set_receive_buffer(int descriptor, int bytes)
+{
+    const bool is_forced =
+        setsockopt(descriptor, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) == 0;
+    if (!is_forced) set_option(descriptor, SOL_SOCKET, SO_RCVBUF, bytes);
+}
+
+/// What the kernel says of a message besides its bytes.
+struct Label {
+    std::optional<base::Duration> stamp; // CLOCK_REALTIME
+    std::optional<std::uint32_t> overflowed;
+    std::size_t segment_bytes = 0; // 0: one datagram
+};
+
+template <typename T>
+T value_of(const cmsghdr& control)
+{
+    T value{};
+    std::memcpy(&value, CMSG_DATA(&control), sizeof value);
+    return value;
+}
+
+Label label_of(msghdr& header)
+{
+    Label label;
+    for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
+        if (c->cmsg_level == SOL_SOCKET && c->cmsg_type == SO_TIMESTAMPNS) {
+            label.stamp = to_duration(value_of<timespec>(*c));
+        } else if (c->cmsg_level == SOL_SOCKET && c->cmsg_type == SO_RXQ_OVFL) {
+            label.overflowed = value_of<std::uint32_t>(*c);
+        } else if (c->cmsg_level == SOL_UDP && c->cmsg_type == UDP_GRO) {
+            label.segment_bytes = static_cast<std::size_t>(value_of<int>(*c));
+        }
+    }
+    return label;
 }
 
 } // namespace
 
-struct UdpSocket::Buffers {
+struct UdpSocket::Inbox {
     static constexpr std::size_t control_bytes = 128;
+    /// UDP_MAX_SEGMENTS of Linux 6.9 and later; it was 64 before.
+    static constexpr std::size_t segments_max = 128;
+    /// About as many datagrams are taken at a time when messages hold many: a third of a
+    /// millisecond of a relay's work.
+    static constexpr std::size_t datagrams_wanted = 512;
 
-    Buffers()
+    explicit Inbox(Load load)
     {
         for (std::size_t i = 0; i < batch_max; ++i) {
             vectors[i] = {.iov_base = payload.data() + i * payload_bytes_max,
                           .iov_len = payload_bytes_max};
-            received.push_back({{}, nowhere(), {}});
+            msghdr& header = headers[i].msg_hdr;
+            header.msg_name = &senders[i];
+            header.msg_iov = &vectors[i];
+            header.msg_iovlen = 1;
+            header.msg_control = controls[i].bytes.data();
+        }
+        make_ready(batch_max);
+        received.reserve(load == Load::bulk ? batch_max * segments_max : batch_max);
+    }
+
+    /// The kernel overwrites the lengths of the messages that it fills.
+    void make_ready(std::size_t count)
+    {
+        for (std::size_t i = 0; i < count; ++i) {
+            headers[i].msg_hdr.msg_namelen = sizeof(sockaddr_storage);
+            headers[i].msg_hdr.msg_controllen = control_bytes;
         }
     }
 
-    static Endpoint nowhere()
+    /// Cuts a message into its datagrams.
+    void put(std::size_t index, std::size_t segment_bytes, base::TimePoint at)
     {
-        sockaddr_storage none{};
-        none.ss_family = AF_INET;
-        return Endpoint{none, sizeof(sockaddr_storage)};
+        const std::span<const std::byte> bytes{payload.data() + index * payload_bytes_max,
+                                               headers[index].msg_len};
+        const Endpoint from{senders[index], headers[index].msg_hdr.msg_namelen};
+        const std::size_t step = segment_bytes == 0 ? payload_bytes_max : segment_bytes;
+        std::size_t begin = 0;
+        do {
+            base::ensure(received.size() < received.capacity());
+            received.push_back(
+                {bytes.subspan(begin, std::min(step, bytes.size() - begin)), from, at});
+            begin += step;
+        } while (begin < bytes.size());
+    }
+
+    void count_overflow(std::uint32_t total)
+    {
+        overflowed += static_cast<std::uint32_t>(total - overflowed_last);
+        overflowed_last = total;
     }
 
     std::vector<std::byte> payload = std::vector<std::byte>(batch_max * payload_bytes_max);
@@ -79,21 +154,27 @@ struct UdpSocket::Buffers {
         std::array<std::byte, control_bytes> bytes;
     };
     std::array<Control, batch_max> controls{};
-    std::vector<Received> received;
+    std::vector<Received> received; // of the last batch
+    std::size_t messages_next = batch_max;
     std::uint32_t overflowed_last = 0; // as the kernel says it: 32 bits, wrapping
     std::uint64_t overflowed = 0;
 };
 
-UdpSocket::UdpSocket(const Endpoint& local)
+UdpSocket::UdpSocket(const Endpoint& local, Load load)
     : descriptor_{socket(local.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)},
-      buffers_{std::make_unique<Buffers>()}
+      inbox_{std::make_unique<Inbox>(load)},
+      sender_{std::make_unique<BatchSender>()}
 {
     if (descriptor_ < 0) throw std::system_error{errno, std::generic_category(), "socket"};
-    set_option(descriptor_, SO_TIMESTAMPNS, 1);
-    set_option(descriptor_, SO_RXQ_OVFL, 1);
-    // About 4 MB where the system allows it: a second of a busy link while we are not running.
-    set_option(descriptor_, SO_RCVBUF, 4 << 20);
-    set_option(descriptor_, SO_SNDBUF, 4 << 20);
+    set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, 1);
+    set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, 1);
+    // 4 MB is a second of a busy link while we are not running.
+    set_option(descriptor_, SOL_SOCKET, SO_RCVBUF, 4 << 20);
+    set_option(descriptor_, SOL_SOCKET, SO_SNDBUF, 4 << 20);
+    if (load == Load::bulk) {
+        set_receive_buffer(descriptor_, 8 << 20);
+        set_option(descriptor_, SOL_UDP, UDP_GRO, 1);
+    }
     if (bind(descriptor_, local.address(), local.length()) != 0) {
         const int error = errno;
         close(descriptor_);
@@ -108,63 +189,44 @@ UdpSocket::~UdpSocket()
 }
 
 UdpSocket::UdpSocket(UdpSocket&& other) noexcept
-    : descriptor_{std::exchange(other.descriptor_, -1)}, buffers_{std::move(other.buffers_)}
+    : descriptor_{std::exchange(other.descriptor_, -1)},
+      inbox_{std::move(other.inbox_)},
+      sender_{std::move(other.sender_)}
 {}
 
 std::span<const Received> UdpSocket::receive()
 {
-    Buffers& b = *buffers_;
-    for (std::size_t i = 0; i < batch_max; ++i) {
-        msghdr& header = b.headers[i].msg_hdr;
-        header = {};
-        header.msg_name = &b.senders[i];
-        header.msg_namelen = sizeof(sockaddr_storage);
-        header.msg_iov = &b.vectors[i];
-        header.msg_iovlen = 1;
-        header.msg_control = b.controls[i].bytes.data();
-        header.msg_controllen = Buffers::control_bytes;
-    }
-    const int count = recvmmsg(descriptor_, b.headers.data(), batch_max, 0, nullptr);
+    Inbox& inbox = *inbox_;
+    const int count = recvmmsg(descriptor_, inbox.headers.data(),
+                               static_cast<unsigned int>(inbox.messages_next), 0, nullptr);
     if (count <= 0) return {}; // nothing there, or an error report that is of no use to us
     const auto to_monotonic = monotonic_minus_real();
     const auto now = monotonic_now();
     const auto taken = static_cast<std::size_t>(count);
+    inbox.received.clear();
     for (std::size_t i = 0; i < taken; ++i) {
-        msghdr& header = b.headers[i].msg_hdr;
-        auto at = now;
-        for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
-            if (c->cmsg_level != SOL_SOCKET) continue;
-            if (c->cmsg_type == SO_TIMESTAMPNS) {
-                timespec stamp{};
-                std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
-                at = std::min(now, base::TimePoint{to_duration(stamp) + to_monotonic});
-            } else if (c->cmsg_type == SO_RXQ_OVFL) {
-                std::uint32_t total = 0;
-                std::memcpy(&total, CMSG_DATA(c), sizeof total);
-                b.overflowed += static_cast<std::uint32_t>(total - b.overflowed_last);
-                b.overflowed_last = total;
-            }
-        }
-        b.received[i] = {{b.payload.data() + i * payload_bytes_max, b.headers[i].msg_len},
-                         Endpoint{b.senders[i], header.msg_namelen},
-                         at};
+        const Label label = label_of(inbox.headers[i].msg_hdr);
+        if (label.overflowed) inbox.count_overflow(*label.overflowed);
+        const auto at =
+            label.stamp ? std::min(now, base::TimePoint{*label.stamp + to_monotonic}) : now;
+        inbox.put(i, label.segment_bytes, at);
     }
-    return {b.received.data(), taken};
+    inbox.make_ready(taken);
+    const auto per_message = inbox.received.size() / taken;
+    inbox.messages_next =
+        std::clamp<std::size_t>(Inbox::datagrams_wanted / per_message, 1, batch_max);
+    return inbox.received;
 }
 
 SendOutcome UdpSocket::send(const Endpoint& to, std::span<const std::byte> bytes)
 {
-    const auto sent = sendto(descriptor_, bytes.data(), bytes.size(), 0, to.address(), to.length());
-    if (sent >= 0) return SendOutcome::sent;
-    switch (errno) {
-    case EAGAIN:
-    case ENOBUFS: return SendOutcome::buffer_full;
-    case ENETUNREACH:
-    case EHOSTUNREACH: return SendOutcome::no_route;
-    case EMSGSIZE: return SendOutcome::too_big;
-    case ECONNREFUSED: return SendOutcome::refused;
-    default: return SendOutcome::failed;
-    }
+    return send_one(descriptor_, to, bytes);
+}
+
+std::span<const SendOutcome>
+UdpSocket::send_batch(const Endpoint& to, std::span<const std::span<const std::byte>> datagrams)
+{
+    return sender_->send(descriptor_, to, datagrams);
 }
 
 Endpoint UdpSocket::local() const
@@ -175,6 +237,6 @@ Endpoint UdpSocket::local() const
     return Endpoint{address, length};
 }
 
-std::uint64_t UdpSocket::overflowed() const { return buffers_->overflowed; }
+std::uint64_t UdpSocket::overflowed() const { return inbox_->overflowed; }
 
 } // namespace hapnet::net

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "proto/base/time.hpp"
+#include "proto/net/batch_sender.hpp"
 #include "proto/net/endpoint.hpp"
 
 #include <cstddef>
@@ -19,31 +20,43 @@ struct Received {
     base::TimePoint at; // the kernel's receive stamp, on CLOCK_MONOTONIC
 };
 
-enum class SendOutcome : std::uint8_t { sent, buffer_full, no_route, too_big, refused, failed };
+/// What a socket is for.
+enum class Load : std::uint8_t {
+    stream, // one sender at a few thousand datagrams a second
+    bulk,   // as many as it can take: the kernel may hand over neighbours of one size together
+            // (UDP_GRO), and the receive buffer is as large as the system allows
+};
 
 /// A bound, non-blocking UDP socket with kernel receive stamps. Sends and receives; decides
 /// nothing.
 class UdpSocket {
 public:
-    static constexpr std::size_t batch_max = 32; // datagrams per receive()
+    /// Messages per receive(). With Load::stream each is a datagram; with Load::bulk one may hold
+    /// many, and receive() then asks for fewer.
+    static constexpr std::size_t batch_max = 64;
     static constexpr std::size_t payload_bytes_max = 65535;
 
     /// Binds to `local` (port 0: any free port). Throws std::system_error naming the address.
-    explicit UdpSocket(const Endpoint& local);
+    explicit UdpSocket(const Endpoint& local, Load load = Load::stream);
     ~UdpSocket();
     UdpSocket(UdpSocket&& other) noexcept;
     UdpSocket& operator=(UdpSocket&&) = delete;
     UdpSocket(const UdpSocket&) = delete;
     UdpSocket& operator=(const UdpSocket&) = delete;
 
-    /// Up to batch_max waiting datagrams, oldest first; empty when there are none. Never blocks,
-    /// never allocates. Stamps are converted from the kernel's real-time clock with an offset
-    /// read at each call, so a step of the wall clock hurts one batch at most, and never lie in the
-    /// future.
+    /// A batch of waiting datagrams, oldest first; empty when there are none. Never blocks, never
+    /// allocates. Stamps are converted from the kernel's real-time clock with an offset read at
+    /// each call, so a step of the wall clock hurts one batch at most, and never lie in the future.
+    /// Datagrams that were handed over together have one stamp.
     [[nodiscard]] std::span<const Received> receive();
 
     /// Sends one datagram. Never blocks.
     SendOutcome send(const Endpoint& to, std::span<const std::byte> bytes);
+
+    /// Sends up to BatchSender::batch_max datagrams, merged for the kernel where it can take them
+    /// so. What became of each, in their order; valid until the next call. Never blocks.
+    std::span<const SendOutcome> send_batch(const Endpoint& to,
+                                            std::span<const std::span<const std::byte>> datagrams);
 
     [[nodiscard]] Endpoint local() const;
     [[nodiscard]] int descriptor() const { return descriptor_; }
@@ -52,10 +65,11 @@ public:
     [[nodiscard]] std::uint64_t overflowed() const;
 
 private:
-    struct Buffers;
+    struct Inbox;
 
     int descriptor_ = -1;
-    std::unique_ptr<Buffers> buffers_;
+    std::unique_ptr<Inbox> inbox_;
+    std::unique_ptr<BatchSender> sender_;
 };
 
 } // namespace hapnet::net

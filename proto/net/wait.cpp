@@ -12,7 +12,7 @@
 
 namespace hapnet::net {
 
-void wait_readable(std::span<const int> descriptors, std::optional<base::TimePoint> deadline)
+bool wait_readable(std::span<const int> descriptors, std::optional<base::TimePoint> deadline)
 {
     std::array<pollfd, 8> polled{};
     base::ensure(descriptors.size() <= polled.size());
@@ -26,7 +26,7 @@ void wait_readable(std::span<const int> descriptors, std::optional<base::TimePoi
         timeout.tv_sec = seconds.count();
         timeout.tv_nsec = (left - seconds).count();
     }
-    ppoll(polled.data(), descriptors.size(), deadline ? &timeout : nullptr, nullptr);
+    return ppoll(polled.data(), descriptors.size(), deadline ? &timeout : nullptr, nullptr) > 0;
 }
 
 } // namespace hapnet::net

@@ -10,7 +10,8 @@
 namespace hapnet::net {
 
 /// Sleeps until one of the descriptors is readable or `deadline` has come, whichever is first;
-/// nullopt waits for the descriptors alone. A signal may end it early.
-void wait_readable(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
+/// nullopt waits for the descriptors alone. A signal may end it early. Returns whether one is
+/// readable.
+bool wait_readable(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
 
 } // namespace hapnet::net

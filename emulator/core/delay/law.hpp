@@ -105,6 +105,13 @@ struct Variation {
     friend bool operator==(const Variation&, const Variation&) = default;
 };
 
+[[nodiscard]] inline Variation constant(base::Duration value) { return {ConstantLaw{value}, {}}; }
+/// Around zero.
+[[nodiscard]] inline Variation uniform(base::Duration half_width)
+{
+    return {UniformLaw{{}, half_width}, {}};
+}
+
 /// Whether it adds nothing to any datagram.
 [[nodiscard]] bool is_nothing(const Variation& variation);
 

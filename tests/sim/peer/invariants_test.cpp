@@ -18,14 +18,17 @@ constexpr base::Duration length = 10s; // 7 s hands on
 emulator::Conditions conditions_of(const base::RandomStream& draw, std::uint32_t way)
 {
     emulator::Conditions c;
-    c.delay = base::from_seconds(0.3 * draw.uniform(0, way));
-    c.jitter = base::from_seconds(base::to_seconds(c.delay) * draw.uniform(1, way));
+    const double delay = 0.3 * draw.uniform(0, way);
+    c.delay.law = emulator::ConstantLaw{base::from_seconds(delay)};
+    c.jitter.law = emulator::UniformLaw{{}, base::from_seconds(delay * draw.uniform(1, way))};
     c.order = draw.below(2, 2, way) == 0 ? emulator::Order::keep : emulator::Order::free;
     if (draw.below(3, 3, way) != 0) {
-        c.loss = base::Probability::from_fraction(0.9 * draw.uniform(4, way)).value();
+        const auto share = base::Probability::from_fraction(0.9 * draw.uniform(4, way)).value();
+        c.loss.emplace_back(emulator::RandomLoss{share});
     }
     if (draw.below(3, 5, way) == 0) {
-        c.burst_loss = emulator::Burst{static_cast<std::uint32_t>(draw.below(60, 6, way) + 1), 100};
+        const auto lost = static_cast<std::uint32_t>(draw.below(60, 6, way) + 1);
+        c.loss.emplace_back(emulator::Burst{lost, 100, {}});
     }
     return c;
 }
@@ -44,9 +47,10 @@ Setting setting_of(std::uint64_t seed)
 
 std::string words_for(const emulator::Conditions& c)
 {
-    return fmt::format("delay {} ms, jitter {} ms {}, loss {} %, burst {}",
-                       base::to_seconds(c.delay) * 1e3, base::to_seconds(c.jitter) * 1e3,
-                       to_text(c.order), c.loss.percent(), c.burst_loss ? c.burst_loss->lost : 0);
+    return fmt::format("delay {} ns, jitter {} ns {}, {} laws of loss",
+                       std::get<emulator::ConstantLaw>(c.delay.law).value.count(),
+                       std::get<emulator::UniformLaw>(c.jitter.law).half_width.count(),
+                       to_text(c.order), c.loss.size());
 }
 
 std::string words_for(const Setting& s)
@@ -143,7 +147,8 @@ TEST(Conditions, WhereOneOf100MessagesArrivesStillEndWithEqualCopies)
 {
     Setting setting = under(device::Task::t3, {});
     setting.length = 60s;
-    setting.up.loss = setting.down.loss = base::Probability::from_fraction(0.99).value();
+    setting.up.loss =
+        setting.down.loss = {emulator::RandomLoss{base::Probability::from_fraction(0.99).value()}};
     World world{setting};
     for (int ms = 0; ms < 120'000 && !world.side(1).peer->session(); ++ms) {
         world.step();

@@ -25,7 +25,7 @@ bool told(const Side& side, Event event)
 /// A squeeze under way, with both hands feeling it.
 World squeezing()
 {
-    World world{under(Task::t3, {.delay = delay})};
+    World world{under(Task::t3, {.delay = emulator::constant(delay)})};
     world.run_until_started();
     world.run_for(3s);
     for (const std::size_t i : {0U, 1U}) {
@@ -123,7 +123,7 @@ TEST(Cut, FadesBothForcesToZeroAndHeals)
 
 TEST(Cut, BeforeTheStartOnlyDelaysIt)
 {
-    World world{under(Task::t3, {.delay = delay})};
+    World world{under(Task::t3, {.delay = emulator::constant(delay)})};
     world.cut(true);
     world.run_for(5s);
     EXPECT_EQ(world.side(0).last.phase, Phase::waiting);

@@ -27,10 +27,8 @@ Side::Side(const Setting& setting, std::uint16_t id_of_side, std::uint32_t nonce
 
 World::World(const Setting& setting)
     : setting_{setting},
-      links_{emulator::Link{pipeline_of(setting.up, setting.seed, emulator::Direction::up),
-                            setting.up.order},
-             emulator::Link{pipeline_of(setting.down, setting.seed, emulator::Direction::down),
-                            setting.down.order}}
+      links_{emulator::Link{setting.up, {setting.seed, emulator::Direction::up, now_, {}}},
+             emulator::Link{setting.down, {setting.seed, emulator::Direction::down, now_, {}}}}
 {
     revive(0);
     revive(1);
@@ -52,12 +50,18 @@ double World::discrepancy_x() const
 void World::deliver(std::size_t from)
 {
     auto& receiver = sides_[1 - from];
-    while (auto datagram = links_[from].poll(now_)) {
+    const auto hand_over = [&](const emulator::Departure& departure) {
         if (receiver) {
-            receiver->peer->on_datagram(datagram->bytes, datagram->due + receiver->clock_ahead);
+            receiver->peer->on_datagram(departure.bytes, departure.due + receiver->clock_ahead);
         }
-        links_[from].on_sent(std::move(*datagram), now_);
+        links_[from].on_sent(departure, now_);
+    };
+    for (auto& passing : undelayed_[from]) {
+        passing.departure.bytes = passing.bytes;
+        hand_over(passing.departure);
     }
+    undelayed_[from].clear();
+    while (const auto departure = links_[from].poll(now_)) hand_over(*departure);
 }
 
 void World::turn(std::size_t index)
@@ -70,7 +74,11 @@ void World::turn(std::size_t index)
     side.applied = side.governor.limit(side.last.force, side.last.permitted, now);
     side.omni->apply(side.applied);
     while (const auto datagram = side.peer->poll()) {
-        if (!cut_) std::ignore = links_[index].on_packet(datagram->bytes(), now_);
+        if (cut_) continue;
+        const auto admission = links_[index].on_packet(datagram->bytes(), now_);
+        if (!admission.departure) continue;
+        const auto bytes = admission.departure->bytes;
+        undelayed_[index].push_back({*admission.departure, {bytes.begin(), bytes.end()}});
     }
     while (const auto event = side.peer->event()) side.events.push_back(*event);
     const auto& session = side.peer->session();

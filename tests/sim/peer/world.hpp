@@ -66,6 +66,12 @@ public:
     void cut(bool is_cut) { cut_ = is_cut; }
 
 private:
+    /// Undelayed: it arrives in the next millisecond all the same.
+    struct Passing {
+        emulator::Departure departure;
+        std::vector<std::byte> bytes;
+    };
+
     void deliver(std::size_t from);
     void turn(std::size_t index);
 
@@ -73,6 +79,7 @@ private:
     base::TimePoint now_{std::chrono::seconds{1000}};
     std::array<std::optional<Side>, 2> sides_;
     std::array<emulator::Link, 2> links_;
+    std::array<std::vector<Passing>, 2> undelayed_;
     std::uint32_t next_nonce_ = 100;
     bool cut_ = false;
 };

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/clock.hpp"
 #include "proto/net/udp_socket.hpp"
-#include "proto/net/wait.hpp"
+#include "tests/unit/net/datagrams.hpp"
 
-#include <algorithm>
-#include <array>
 #include <gtest/gtest.h>
 #include <system_error>
 #include <utility>
@@ -16,38 +14,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Long enough for any machine; a test that passes never waits for it.
-constexpr auto patience = 10s;
 /// CLOCK_REALTIME is slewed against CLOCK_MONOTONIC by at most 500 ppm, and the two are read one
 /// after the other: what a stamp may be off by within one test.
 constexpr auto stamp_tolerance = 1ms;
-
-Endpoint endpoint(std::string_view text) { return resolve(parse_host_port(text).value()); }
-
-/// A copy of what `receive` hands out only until the next call.
-struct Arrived {
-    std::vector<std::byte> bytes;
-    Endpoint from;
-    base::TimePoint at;
-};
-
-std::vector<Arrived> receive(UdpSocket& socket, std::size_t count)
-{
-    std::vector<Arrived> all;
-    const auto deadline = monotonic_now() + patience;
-    while (all.size() < count && monotonic_now() < deadline) {
-        wait_readable(std::array{socket.descriptor()}, deadline);
-        for (const Received& one : socket.receive()) {
-            all.push_back({{one.bytes.begin(), one.bytes.end()}, one.from, one.at});
-        }
-    }
-    return all;
-}
-
-std::vector<std::byte> datagram(std::size_t size, int fill)
-{
-    return std::vector<std::byte>(size, static_cast<std::byte>(fill));
-}
 
 class UdpSocketOn : public testing::TestWithParam<const char*> {
 protected:

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/pacer.hpp"
+
+#include "proto/net/clock.hpp"
+#include "proto/net/wait.hpp"
+
+#include <chrono>
+#include <variant>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+Rhythm::Margin margin_of(Timing timing)
+{
+    switch (timing) {
+    case Timing::eco: return {0us, 0us};
+    case Timing::precise: return {10us, 100us};
+    case Timing::spin: return {200us, 200us};
+    }
+    return {};
+}
+
+} // namespace
+
+Pacer::Pacer(Timing timing, base::TimePoint now) : rhythm_{margin_of(timing), now} {}
+
+void Pacer::wait(std::span<const int> descriptors, std::optional<base::TimePoint> deadline)
+{
+    const auto before = net::monotonic_now();
+    const auto plan = rhythm_.plan(deadline, before);
+    if (std::holds_alternative<Rhythm::Watch>(plan)) return;
+    bool by_datagram = false;
+    if (const auto* rest = std::get_if<Rhythm::Rest>(&plan)) {
+        net::sleep_until(rest->until);
+    } else {
+        by_datagram = net::wait_readable(descriptors, std::get<Rhythm::Sleep>(plan).until);
+    }
+    rhythm_.on_wake_up(plan, {before, net::monotonic_now(), by_datagram});
+}
+
+} // namespace hapnet::emulator

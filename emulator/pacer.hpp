@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/rhythm.hpp"
+#include "emulator/options.hpp"
+#include "proto/base/time.hpp"
+
+#include <optional>
+#include <span>
+
+namespace hapnet::emulator {
+
+/// Waits for datagrams and deadlines as Rhythm decides.
+class Pacer {
+public:
+    Pacer(Timing timing, base::TimePoint now);
+
+    /// Returns at once shortly before `deadline`: the caller watches the clock.
+    void wait(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
+
+private:
+    Rhythm rhythm_;
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/net/endpoint.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <netinet/in.h>
+#include <span>
+#include <sys/socket.h>
+#include <sys/uio.h>
+
+namespace hapnet::net {
+
+enum class SendOutcome : std::uint8_t { sent, buffer_full, no_route, too_big, refused, failed };
+
+/// Sends one datagram. Never blocks.
+[[nodiscard]] SendOutcome send_one(int descriptor, const Endpoint& to,
+                                   std::span<const std::byte> bytes);
+
+/// Sends many datagrams to one place with few system calls. Neighbours of one size (the last may
+/// be shorter) are handed to the kernel as one message that it cuts again (UDP_SEGMENT): that is
+/// the only thing that makes loopback and most network cards faster, a system call more or less
+/// hardly matters. What arrives is the same. Never allocates after construction.
+class BatchSender {
+public:
+    static constexpr std::size_t batch_max = 64; // datagrams per send(); segments per message
+
+    BatchSender();
+    BatchSender(const BatchSender&) = delete;
+    BatchSender& operator=(const BatchSender&) = delete;
+
+    /// What became of each, in their order; valid until the next send(). Ensures that there are at
+    /// most batch_max. Never blocks.
+    std::span<const SendOutcome> send(int descriptor, const Endpoint& to,
+                                      std::span<const std::span<const std::byte>> datagrams);
+
+private:
+    /// Neighbours that leave as one message.
+    struct Train {
+        std::size_t first = 0;
+        std::size_t count = 0;
+    };
+    struct alignas(cmsghdr) Control {
+        std::array<std::byte, CMSG_SPACE(sizeof(std::uint16_t))> bytes{};
+    };
+
+    [[nodiscard]] std::size_t
+    train_length(std::span<const std::span<const std::byte>> neighbours) const;
+    void write_message(std::size_t index, const Train& train, const Endpoint& to);
+    void on_error(int descriptor, const Train& train, const Endpoint& to);
+
+    /// The kernel refused to cut segments of this size (the device's MTU is smaller, or it cannot
+    /// do it at all): those and larger ones leave one by one from then on.
+    std::size_t refused_bytes_ = 65'536;
+    std::array<iovec, batch_max> vectors_{};
+    std::array<Train, batch_max> trains_{};
+    std::array<mmsghdr, batch_max> headers_{};
+    std::array<Control, batch_max> controls_{};
+    std::array<SendOutcome, batch_max> outcomes_{};
+};
+
+} // namespace hapnet::net
