@@ -19,7 +19,7 @@ if build/fuzz/bin/fuzz_canary -max_total_time=60 -artifact_prefix=build/fuzz/ \
     exit 1
 fi
 
-for target in wire_message record_row text fates; do
+for target in wire_message record_row text fates loss_trace delay_tables; do
     echo "$target: $seconds s"
     mkdir -p "build/fuzz/corpus/$target"
     "build/fuzz/bin/fuzz_$target" -max_total_time="$seconds" -max_len=512 -print_final_stats=1 \
