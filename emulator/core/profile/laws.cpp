@@ -40,8 +40,8 @@ void load(TraceLoss& law, Place place, Reading& reading)
     const auto text = reading.open(law.file);
     if (!text) return reading.complain(place, text.error().message);
     // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
-    const bool is_table = text->find_first_of(",abcdefghijklmnopqrstuvwxyz") <
-                          text->find_first_of("01#");
+    const bool is_table =
+        text->find_first_of(",abcdefghijklmnopqrstuvwxyz") < text->find_first_of("01#");
     auto trace = is_table ? parse_loss_table(*text) : parse_loss_trace(*text);
     if (!trace) return reading.complain(place, law.file + ": " + trace.error().message);
     law.trace = std::make_shared<const LossTrace>(*std::move(trace));

@@ -234,7 +234,8 @@ void read_value(const Node& node, std::vector<bool>& target, Reading& reading)
 {
     const auto* text = std::get_if<std::string>(&node.value);
     if (text == nullptr) {
-        return complain_of(node, "a text of 0 (passes) and 1 (is lost), such as \"0010\",", reading);
+        return complain_of(node, "a text of 0 (passes) and 1 (is lost), such as \"0010\",",
+                           reading);
     }
     auto pattern = parse_pattern(*text);
     if (!pattern) return reading.complain(node.place, pattern.error().message);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/core/loss/trace.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "proto/base/text.hpp"
 
@@ -105,7 +106,7 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
               "belongs");
     EXPECT_EQ(refusal("[up]\nloss = \"150%\"\n"), "test.toml:2:8: '150%' is more than 100%");
     EXPECT_EQ(refusal("[up]\nloss = \"101/100\"\n"),
-              "test.toml:2:8: 101 of 100 cannot be lost: write 0 < lost <= of");
+              "test.toml:2:8: loses 101 of 100: at least 1 is lost, and at most all");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"uniform\" }\n"),
               "test.toml:2:10: 'half_width' is missing here");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"unifrom\" }\n"),
@@ -124,8 +125,24 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
 TEST(ProfileText, AGilbertLawThatCannotBeIsRefusedWithTheNumberThatWouldDo)
 {
     EXPECT_EQ(refusal("[up]\nloss = { law = \"gilbert\", share = \"93%\", mean_burst = 10 }\n"),
-              "test.toml:2:8: so high a share needs longer bursts: mean_burst has to be more than "
-              "share / (1 - share) = 13.29");
+              "test.toml:2:8: at a share of 93% the mean burst is more than share / (1 - share) = "
+              "13.29 datagrams, or the good runs between bursts would be shorter than one");
+}
+
+TEST(ProfileText, ATraceOfLossesIsReadFromItsFile)
+{
+    const auto open = [](const std::string& name) -> base::Result<std::string> {
+        if (name == "losses.txt") return "# of a run\n0010\n";
+        if (name == "fates.csv") return "number,lost\n0,1\n1,0\n";
+        return base::fail("cannot open " + name);
+    };
+    const auto read = [&](const std::string& file) {
+        return parse_profile("[up]\nloss = { law = \"trace\", file = \"" + file + "\" }\n", "f",
+                             open);
+    };
+    EXPECT_EQ(std::get<TraceLoss>(read("losses.txt")->path.up.loss[0]).trace->size(), 4U);
+    EXPECT_EQ(std::get<TraceLoss>(read("fates.csv")->path.up.loss[0]).trace->losses(), 1U);
+    EXPECT_EQ(read("no.txt").error().message, "f:2:8: cannot open no.txt");
 }
 
 TEST(ProfileText, MoreThanEightLawsOfLossAreRefused)
@@ -148,7 +165,9 @@ TEST(ProfileText, NestingHasABound)
     std::string keys = "a";
     for (int i = 0; i < 100'000; ++i) keys += ".a";
     EXPECT_EQ(refusal(keys + " = 1"), "test.toml:1:514: more than 256 dots in a line");
-    EXPECT_NE(refusal("a = " + std::string(100'000, '[')).find("nested"), std::string::npos);
+    std::string brackets = "a = ";
+    brackets.append(100'000, '[');
+    EXPECT_NE(refusal(brackets).find("nested"), std::string::npos);
     EXPECT_EQ(refusal("\"\".'='.\"\"\"x"),
               "test.toml:1:10: a string over several lines has no place here");
 }
