@@ -132,6 +132,8 @@ public:
         return otherwise;
     }
 
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
     /// The request, if nothing was wrong and nothing is left over.
     base::Result<Request> finish(Request request)
     {
@@ -196,6 +198,7 @@ base::Result<Request> parse_request(std::string_view line)
     if (!json) return tl::unexpected{json.error()};
     Members members{*json};
     const std::string command = members.text("command");
+    if (members.error()) return base::fail(*members.error());
     if (std::find(commands.begin(), commands.end(), command) == commands.end()) {
         return base::fail(fmt::format("\"command\" must be one of {}", fmt::join(commands, ", ")));
     }

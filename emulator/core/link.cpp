@@ -34,13 +34,14 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     last_arrival_ = std::max(arrival, last_arrival_);
     advance(last_arrival_);
     const Packet packet{statistics_.received, bytes.size(), last_arrival_ - setup_.start};
-    Admission admission{packet.number, fate_of(packet), {}};
+    const Fate fate = fate_of(packet);
+    Admission admission{packet.number, fate, fate.verdict, {}};
     ++statistics_.received;
     statistics_.bytes_in += bytes.size();
-    if (is_over_rate(packet, admission.fate.verdict)) {
-        admission.fate.verdict = Drop{DropCause::rate_queue_full};
+    if (is_over_rate(packet, admission.verdict)) {
+        admission.verdict = Drop{DropCause::rate_queue_full};
     }
-    if (const auto* deliver = std::get_if<Deliver>(&admission.fate.verdict)) {
+    if (const auto* deliver = std::get_if<Deliver>(&admission.verdict)) {
         if (passes_untouched(*deliver)) {
             admission.departure = Departure{.bytes = bytes,
                                             .number = packet.number,
@@ -49,13 +50,13 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
             last_due_ = std::max(last_due_, last_arrival_);
             ++statistics_.in_flight;
         } else if (!hold(bytes, packet.number, *deliver)) {
-            admission.fate.verdict = Drop{DropCause::queue_full};
+            admission.verdict = Drop{DropCause::queue_full};
         }
     }
-    if (const auto* drop = std::get_if<Drop>(&admission.fate.verdict)) {
+    if (const auto* drop = std::get_if<Drop>(&admission.verdict)) {
         ++statistics_.dropped_by(drop->cause);
     }
-    lens_.on_packet(admission.fate);
+    lens_.on_packet(fate);
     return admission;
 }
 

@@ -36,7 +36,8 @@ struct Departure {
 /// What became of a datagram on its arrival.
 struct Admission {
     std::uint64_t number = 0;
-    Fate fate;
+    Fate fate;       // as it was drawn, or replayed
+    Verdict verdict; // the fate's, or Drop because a queue was full
     /// The datagram itself when nothing holds it: no delay, no queue. Send it before
     /// anything that is polled from now on.
     std::optional<Departure> departure;

@@ -70,7 +70,8 @@ std::string shown(const Json& reply)
     }
     text += "\n";
     for (const Json& one : at(reply, "/live")) {
-        for (const auto& [key, value] : at(one, "/settings").items()) {
+        const Json settings = at(one, "/settings");
+        for (const auto& [key, value] : settings.items()) {
             text += fmt::format("# set by hand: {} = {}", key, text_of(value));
             if (const auto left = at(one, "/remaining_s"); left.is_number()) {
                 text += fmt::format(", for {} s more", text_of(left));

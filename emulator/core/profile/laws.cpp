@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/laws.hpp"
 
+#include "emulator/core/delay/table.hpp"
+#include "emulator/core/delay/trace.hpp"
 #include "emulator/core/loss/trace.hpp"
 #include "emulator/core/profile/faults.hpp"
 #include "proto/base/text.hpp"
@@ -27,24 +29,42 @@ template <typename Law>
 void load(Law&, Place, Reading&)
 {}
 
-void load(TableLaw&, Place place, Reading& reading)
+/// The text of the file of a law as `parse` reads it; nullptr: complained of.
+template <typename Parse>
+auto loaded(const std::string& file, Place place, Reading& reading, Parse parse)
 {
-    reading.complain(place, "tables are not possible here");
+    using Loaded = std::decay_t<decltype(*parse(std::string_view{}))>;
+    const auto text = reading.open(file);
+    if (!text) {
+        reading.complain(place, text.error().message);
+        return Loaded{};
+    }
+    auto value = parse(std::string_view{*text});
+    if (!value) reading.complain(place, fmt::format("{}: {}", file, value.error().message));
+    return value.value_or(Loaded{});
 }
-void load(TraceLaw&, Place place, Reading& reading)
+
+void load(TableLaw& law, Place place, Reading& reading)
 {
-    reading.complain(place, "traces are not possible here");
+    const bool is_dist = law.file.ends_with(".dist");
+    law.table = loaded(law.file, place, reading, is_dist ? parse_dist : parse_samples);
 }
+
+void load(TraceLaw& law, Place place, Reading& reading)
+{
+    law.trace = loaded(law.file, place, reading, parse_delay_trace);
+}
+
 void load(TraceLoss& law, Place place, Reading& reading)
 {
-    const auto text = reading.open(law.file);
-    if (!text) return reading.complain(place, text.error().message);
-    // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
-    const bool is_table =
-        text->find_first_of(",abcdefghijklmnopqrstuvwxyz") < text->find_first_of("01#");
-    auto trace = is_table ? parse_loss_table(*text) : parse_loss_trace(*text);
-    if (!trace) return reading.complain(place, law.file + ": " + trace.error().message);
-    law.trace = std::make_shared<const LossTrace>(*std::move(trace));
+    law.trace = loaded(law.file, place, reading, [](std::string_view text) {
+        // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
+        const bool is_table =
+            text.find_first_of(",abcdefghijklmnopqrstuvwxyz") < text.find_first_of("01#");
+        auto trace = is_table ? parse_loss_table(text) : parse_loss_trace(text);
+        return trace.map(
+            [](LossTrace& read) { return std::make_shared<const LossTrace>(std::move(read)); });
+    });
 }
 
 /// The law that { law = "name", ... } names, with its parameters.

@@ -130,7 +130,7 @@ TEST(Link, DropsAndCountsWhatExceedsItsBound)
     Link link = link_of({.delay = constant(1s)}, {.datagrams_max = 2});
     link.on_packet(payload, start);
     link.on_packet(payload, start);
-    EXPECT_EQ(link.on_packet(payload, start).fate.verdict, Verdict{Drop{DropCause::queue_full}});
+    EXPECT_EQ(link.on_packet(payload, start).verdict, Verdict{Drop{DropCause::queue_full}});
     EXPECT_EQ(link.statistics().dropped_by(DropCause::queue_full), 1U);
     EXPECT_EQ(link.statistics().in_flight, 2U);
 }

@@ -112,7 +112,7 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
     EXPECT_EQ(refusal("[up]\njitter = { law = \"unifrom\" }\n"),
               "test.toml:2:18: \"unifrom\" is not a law: did you mean 'uniform'?");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"normal\", sd = \"-1ms\" }\n"),
-              "test.toml:2:10: a width or deviation is not negative");
+              "test.toml:2:10: sd must not be negative");
     EXPECT_EQ(refusal("[up]\norder = \"keep\"\njitter = { law = \"normal\", sd = \"1ms\", order = "
                       "\"free\" }\n"),
               "test.toml:2:9: jitter says another order than the key order");
