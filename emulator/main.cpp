@@ -5,6 +5,7 @@
 #include "emulator/places.hpp"
 #include "emulator/relay.hpp"
 #include "emulator/report.hpp"
+#include "emulator/verify_command.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
@@ -117,6 +118,9 @@ base::Result<int> emulate(const Options& options)
 
 int main_program(std::span<char*> words)
 {
+    if (words.size() > 1 && std::string_view{words[1]} == "verify") {
+        return verify_program(words.subspan(1));
+    }
     return net::run_program(program, parse_options(words), emulate);
 }
 
