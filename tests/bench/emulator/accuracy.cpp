@@ -126,7 +126,10 @@ public:
 private:
     [[nodiscard]] std::vector<Subject> subjects() const
     {
-        if (case_.standing == Standing::ordinary) return {precise, poll_relay, timerfd_relay};
+        const bool is_short = plan_.quick && case_.delay != 10ms;
+        if (is_short || case_.standing == Standing::ordinary) {
+            return {precise, poll_relay, timerfd_relay};
+        }
         return {eco, precise, spin, poll_relay, timerfd_relay};
     }
 

@@ -46,9 +46,9 @@ bool set_fifo(int priority)
 /// What root may do and an ordinary user may not, as far as timing goes.
 void give_up_privileges()
 {
-    for (const int capability :
-         {CAP_SYS_NICE, CAP_IPC_LOCK, CAP_NET_ADMIN, CAP_SYS_RESOURCE}) {
-        prctl(PR_CAPBSET_DROP, static_cast<unsigned long>(capability), 0, 0, 0); // takes effect with exec
+    for (const int capability : {CAP_SYS_NICE, CAP_IPC_LOCK, CAP_NET_ADMIN, CAP_SYS_RESOURCE}) {
+        prctl(PR_CAPBSET_DROP, static_cast<unsigned long>(capability), 0, 0,
+              0); // takes effect with exec
     }
     const rlimit none{0, 0};
     setrlimit(RLIMIT_RTPRIO, &none);

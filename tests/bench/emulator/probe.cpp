@@ -10,7 +10,10 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <linux/filter.h>
+#include <linux/sock_diag.h>
 #include <sys/socket.h>
+#include <tuple>
 
 namespace hapnet::bench {
 
@@ -23,15 +26,27 @@ constexpr std::size_t burst_max = net::BatchSender::batch_max;
 /// How long the path may be silent before what is missing counts as lost.
 constexpr base::Duration quiet = 60ms;
 
+/// How late a datagram may be for a rate to be kept up.
+constexpr base::Duration grace = 10ms;
+
 /// A SCHED_FIFO thread must sleep at times, or the kernel's own threads do not run.
 constexpr base::Duration awake_max = 10ms;
 constexpr base::Duration rest = 50us;
 
 net::Endpoint any_port() { return net::resolve({"127.0.0.1", 0}); }
 
+/// The datagrams that the kernel has dropped at this socket.
+std::uint32_t drops(int descriptor)
+{
+    std::array<std::uint32_t, SK_MEMINFO_VARS> numbers{};
+    socklen_t length = sizeof numbers;
+    std::ignore = getsockopt(descriptor, SOL_SOCKET, SO_MEMINFO, numbers.data(), &length);
+    return numbers[SK_MEMINFO_DROPS];
+}
+
 } // namespace
 
-double Tally::loss() const
+double Tally::missing() const
 {
     if (sent == 0) return 0.0;
     return static_cast<double>(sent - std::min(received, sent)) / static_cast<double>(sent);
@@ -49,6 +64,7 @@ void Prober::begin()
     first_number_ = next_number_;
     highest_ = next_number_;
     overflowed_ = b_.overflowed();
+    sunk_ = drops(b_.descriptor());
     tally_ = {};
     errors_.clear();
 }
@@ -76,6 +92,8 @@ TimingTrial Prober::measure_timing(const Load& load)
 
 RateTrial Prober::measure_rate(const Load& load)
 {
+    if (sending_ == Sending::ordinary && !is_sink_) make_sink();
+    std::ignore = connect(a_.descriptor(), load.to.address(), load.to.length());
     begin();
     const auto start = net::monotonic_now();
     auto now = start;
@@ -87,9 +105,19 @@ RateTrial Prober::measure_rate(const Load& load)
         now = net::monotonic_now();
         if (now - slept > awake_max) net::sleep_until(slept = now + rest);
     }
-    const double took = base::to_seconds(now - start);
+    receive_until(load, now + load.delay + grace);
+    const double missing = tally_.missing();
     receive_rest(load);
-    return {tally_, static_cast<double>(tally_.sent) / took};
+    const double took = base::to_seconds(now - start);
+    return {tally_, static_cast<double>(tally_.sent) / took, missing};
+}
+
+void Prober::make_sink()
+{
+    sock_filter drop_all{BPF_RET | BPF_K, 0, 0, 0};
+    const sock_fprog program{1, &drop_all};
+    is_sink_ =
+        setsockopt(b_.descriptor(), SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program) == 0;
 }
 
 void Prober::send_burst(const net::Endpoint& to)
@@ -104,8 +132,6 @@ void Prober::send_burst(const net::Endpoint& to)
         std::memcpy(place, &note, sizeof note);
         datagrams[i] = {place, payload_bytes};
         vectors[i] = {place, payload_bytes};
-        headers[i].msg_hdr.msg_name = const_cast<sockaddr*>(to.address());
-        headers[i].msg_hdr.msg_namelen = to.length();
         headers[i].msg_hdr.msg_iov = &vectors[i];
         headers[i].msg_hdr.msg_iovlen = 1;
     }
@@ -122,6 +148,12 @@ void Prober::send_burst(const net::Endpoint& to)
 /// Takes what has arrived. What our own socket had no room for has come through the path.
 void Prober::receive(const Load& load)
 {
+    if (is_sink_) {
+        const auto sunk = drops(b_.descriptor());
+        tally_.received += static_cast<std::uint32_t>(sunk - sunk_);
+        sunk_ = sunk;
+        return;
+    }
     for (const net::Received& datagram : b_.receive()) {
         Note note;
         if (datagram.bytes.size() != payload_bytes) continue;
@@ -136,6 +168,14 @@ void Prober::receive(const Load& load)
     }
     tally_.received += b_.overflowed() - overflowed_;
     overflowed_ = b_.overflowed();
+}
+
+void Prober::receive_until(const Load& load, base::TimePoint end)
+{
+    while (tally_.received < tally_.sent && net::monotonic_now() < end) {
+        net::wait_readable(std::array{b_.descriptor()}, net::monotonic_now() + 1ms);
+        receive(load);
+    }
 }
 
 void Prober::receive_rest(const Load& load)

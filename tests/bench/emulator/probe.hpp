@@ -24,7 +24,8 @@ struct Tally {
     std::uint64_t sent = 0;
     std::uint64_t received = 0;
     std::uint64_t reordered = 0; // came after one that was sent later
-    [[nodiscard]] double loss() const;
+    /// The share of what was sent that has not come yet.
+    [[nodiscard]] double missing() const;
 };
 
 struct TimingTrial {
@@ -36,6 +37,9 @@ struct TimingTrial {
 struct RateTrial {
     Tally tally;
     double rate = 0.0; // datagrams per second, as they were sent
+    /// The share that was lost, or still queued 10 ms after the last was due: a rate that only fits
+    /// into the buffers for as long as a trial lasts is not kept up.
+    double missing = 0.0;
 };
 
 /// Both ends of the path that is measured, on one thread: sends numbered and stamped datagrams,
@@ -59,7 +63,9 @@ public:
     /// equal ones, departures would meet arrivals at the same phase again and again.
     TimingTrial measure_timing(const Load& load);
 
-    /// Bursts of 64, back to back when the rate is above what this thread can send.
+    /// Bursts of 64, back to back when the rate is above what this thread can send. An ordinary
+    /// receiver would take more of this processor than the sender: with Sending::ordinary the
+    /// kernel counts what arrives at an ordinary socket and drops it, after all of the path's work.
     RateTrial measure_rate(const Load& load);
 
 private:
@@ -70,7 +76,9 @@ private:
 
     void send_burst(const net::Endpoint& to);
     void receive(const Load& load);
+    void make_sink();
     void receive_rest(const Load& load);
+    void receive_until(const Load& load, base::TimePoint end);
     void begin();
 
     Sending sending_;
@@ -81,6 +89,8 @@ private:
     std::uint64_t first_number_ = 0;
     std::uint64_t highest_ = 0;
     std::uint64_t overflowed_ = 0;
+    bool is_sink_ = false;
+    std::uint32_t sunk_ = 0; // as the kernel counts them: 32 bits, wrapping
     Tally tally_;
     std::vector<base::Duration> errors_;
 };
