@@ -19,10 +19,12 @@ if build/fuzz/bin/fuzz_canary -max_total_time=60 -artifact_prefix=build/fuzz/ \
     exit 1
 fi
 
-for target in wire_message record_row text; do
+for binary in build/fuzz/bin/fuzz_*; do
+    target=${binary#build/fuzz/bin/fuzz_}
+    [[ $target != canary ]] || continue
     echo "$target: $seconds s"
     mkdir -p "build/fuzz/corpus/$target"
-    "build/fuzz/bin/fuzz_$target" -max_total_time="$seconds" -max_len=512 -print_final_stats=1 \
+    "$binary" -max_total_time="$seconds" -max_len=512 -print_final_stats=1 \
         -artifact_prefix="build/fuzz/$target-" \
         "build/fuzz/corpus/$target" "tests/fuzz/corpus/$target" 2>&1 |
         tee "build/fuzz/$target.log" | grep -E 'stat::number_of_executed|ERROR|SUMMARY' || true

@@ -34,13 +34,14 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     last_arrival_ = std::max(arrival, last_arrival_);
     advance(last_arrival_);
     const Packet packet{statistics_.received, bytes.size(), last_arrival_ - setup_.start};
-    Admission admission{packet.number, pipeline_.on_packet(packet), {}};
+    const Fate fate = fate_of(packet);
+    Admission admission{packet.number, fate, fate.verdict, {}};
     ++statistics_.received;
     statistics_.bytes_in += bytes.size();
-    if (is_over_rate(packet, admission.fate.verdict)) {
-        admission.fate.verdict = Drop{DropCause::rate_queue_full};
+    if (is_over_rate(packet, admission.verdict)) {
+        admission.verdict = Drop{DropCause::rate_queue_full};
     }
-    if (const auto* deliver = std::get_if<Deliver>(&admission.fate.verdict)) {
+    if (const auto* deliver = std::get_if<Deliver>(&admission.verdict)) {
         if (passes_untouched(*deliver)) {
             admission.departure = Departure{.bytes = bytes,
                                             .number = packet.number,
@@ -49,13 +50,19 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
             last_due_ = std::max(last_due_, last_arrival_);
             ++statistics_.in_flight;
         } else if (!hold(bytes, packet.number, *deliver)) {
-            admission.fate.verdict = Drop{DropCause::queue_full};
+            admission.verdict = Drop{DropCause::queue_full};
         }
     }
-    if (const auto* drop = std::get_if<Drop>(&admission.fate.verdict)) {
+    if (const auto* drop = std::get_if<Drop>(&admission.verdict)) {
         ++statistics_.dropped_by(drop->cause);
     }
+    lens_.on_packet(fate);
     return admission;
+}
+
+Fate Link::fate_of(const Packet& packet)
+{
+    return setup_.replay ? setup_.replay->on_packet(packet) : pipeline_.on_packet(packet);
 }
 
 /// Whether the queue of the rate has no room for it. What will be lost behind the bottleneck takes
@@ -109,8 +116,7 @@ void Link::schedule(const Held& held, base::TimePoint ready)
     datagram.due = ready + deliver.after;
     if (conditions_.order == Order::keep) datagram.due = std::max(datagram.due, last_due_);
     last_due_ = std::max(last_due_, datagram.due);
-    const auto due = datagram.due;
-    if (deliver.copy) schedule_copy(datagram, *deliver.copy);
+    const Datagram in_turn = datagram;
     if (deliver.displacement.places > 0 && displaced_.size() < displaced_max) {
         displaced_.push_back({datagram, datagram.number + deliver.displacement.places});
     } else if (deliver.displacement.time > base::Duration{0}) {
@@ -121,7 +127,8 @@ void Link::schedule(const Held& held, base::TimePoint ready)
     } else {
         line_.push(datagram);
     }
-    release_displaced(held.datagram.number, due);
+    if (deliver.copy) schedule_copy(in_turn, *deliver.copy);
+    release_displaced(in_turn.number, in_turn.due);
 }
 
 void Link::schedule_copy(const Datagram& original, base::Duration after)
@@ -137,7 +144,11 @@ void Link::schedule_copy(const Datagram& original, base::Duration after)
     copy.slot = *slot;
     copy.is_copy = true;
     copy.due = original.due + after;
-    line_.push(copy);
+    if (conditions_.order == Order::sorted) {
+        line_.push_sorted(copy);
+    } else {
+        line_.push(copy);
+    }
 }
 
 /// Lets those follow that waited for the datagram `scheduled`, which leaves at `due`.
@@ -197,6 +208,7 @@ void Link::on_sent(const Departure& departure, base::TimePoint at)
     ++statistics_.delivered;
     statistics_.bytes_out += departure.bytes.size();
     statistics_.lateness.add(at - departure.due);
+    lens_.on_sent({departure.number, departure.arrival, at, departure.is_copy});
     if (departure.number >= beyond_highest_delivered_) {
         beyond_highest_delivered_ = departure.number + 1;
     } else if (!departure.is_copy) {

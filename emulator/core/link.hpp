@@ -5,6 +5,8 @@
 #include "emulator/core/bottleneck.hpp"
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/delay_line.hpp"
+#include "emulator/core/fates/replay.hpp"
+#include "emulator/core/lens.hpp"
 #include "emulator/core/pipeline.hpp"
 #include "emulator/core/slab.hpp"
 #include "emulator/core/statistics.hpp"
@@ -34,7 +36,8 @@ struct Departure {
 /// What became of a datagram on its arrival.
 struct Admission {
     std::uint64_t number = 0;
-    Fate fate;
+    Fate fate;       // as it was drawn, or replayed
+    Verdict verdict; // the fate's, or Drop because a queue was full
     /// The datagram itself when nothing holds it: no delay, no queue. Send it before
     /// anything that is polled from now on.
     std::optional<Departure> departure;
@@ -49,6 +52,7 @@ public:
         Direction direction = Direction::up;
         base::TimePoint start{}; // time 0 of windows and periods
         QueueLimits limits{};
+        std::optional<Replay> replay{}; // gives the fates instead of the conditions
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
@@ -75,6 +79,7 @@ public:
 
     [[nodiscard]] const Conditions& conditions() const { return conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
+    [[nodiscard]] const Lens& lens() const { return lens_; }
 
 private:
     struct Held {
@@ -87,6 +92,7 @@ private:
         std::uint64_t behind = 0; // the number of that later one
     };
 
+    [[nodiscard]] Fate fate_of(const Packet& packet);
     [[nodiscard]] bool is_over_rate(const Packet& packet, const Verdict& verdict);
     [[nodiscard]] bool passes_untouched(const Deliver& deliver) const;
     [[nodiscard]] bool hold(std::span<const std::byte> bytes, std::uint64_t number,
@@ -108,6 +114,7 @@ private:
     base::TimePoint last_due_ = base::TimePoint::min();
     std::uint64_t beyond_highest_delivered_ = 0; // the highest number that left, plus one
     Statistics statistics_;
+    Lens lens_;
 };
 
 } // namespace hapnet::emulator

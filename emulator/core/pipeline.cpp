@@ -17,21 +17,6 @@ base::RandomStream stream_of(base::Seed seed, Direction direction, std::string_v
     return seed.stream(fmt::format("{}/{}", to_text(direction), stage));
 }
 
-/// "loss/random", "loss/random#2": by kind, so that a law of another kind more or less in the list
-/// shifts nothing.
-std::vector<std::string> names_of(const std::vector<LossLaw>& laws)
-{
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < laws.size(); ++i) {
-        const auto same =
-            1 + std::count_if(laws.begin(), laws.begin() + static_cast<long>(i),
-                              [&](const LossLaw& law) { return name_of(law) == name_of(laws[i]); });
-        names.push_back(same == 1 ? fmt::format("loss/{}", name_of(laws[i]))
-                                  : fmt::format("loss/{}#{}", name_of(laws[i]), same));
-    }
-    return names;
-}
-
 /// Whether a share of all datagrams includes this one. A stage that is absent draws nothing.
 bool is_drawn(base::Probability share, const base::RandomStream& stream, std::uint64_t number)
 {
@@ -44,7 +29,7 @@ Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction dire
     : seed_{seed},
       direction_{direction},
       mtu_{conditions.mtu},
-      loss_{loss_stages(conditions.loss)},
+
       corrupt_{conditions.corrupt},
       corrupt_stream_{stream_of(seed, direction, "corrupt")},
       duplicate_{conditions.duplicate},
@@ -53,7 +38,9 @@ Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction dire
       jitter_{conditions.jitter, stream_of(seed, direction, "jitter")},
       reorder_{conditions.reorder},
       reorder_stream_{stream_of(seed, direction, "reorder")}
-{}
+{
+    change_losses(conditions.loss);
+}
 
 Fate Pipeline::on_packet(const Packet& packet)
 {
@@ -103,27 +90,45 @@ void Pipeline::change(const Conditions& conditions)
     reorder_ = conditions.reorder;
     delay_.change(conditions.delay);
     jitter_.change(conditions.jitter);
-    auto stages = loss_stages(conditions.loss);
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-        const auto old = std::find_if(loss_.begin(), loss_.end(), [&](const LossStage& stage) {
-            return stage.name == stages[i].name;
-        });
-        if (old == loss_.end()) continue;
-        stages[i].process = std::move(old->process);
-        stages[i].process.change(conditions.loss[i]);
-    }
-    loss_ = std::move(stages);
+    change_losses(conditions.loss);
 }
 
-std::vector<Pipeline::LossStage> Pipeline::loss_stages(const std::vector<LossLaw>& laws)
+Pipeline::Place Pipeline::place_of(const std::vector<LossLaw>& laws, std::size_t index)
+{
+    const auto end = laws.begin() + static_cast<std::ptrdiff_t>(index);
+    const auto before = std::count_if(
+        laws.begin(), end, [&](const LossLaw& law) { return law.index() == laws[index].index(); });
+    return {laws[index].index(), static_cast<std::size_t>(before) + 1};
+}
+
+/// Its stream is "loss/random", "loss/random#2", ...: by kind, so that a law of another kind more
+/// or less in the list shifts nothing.
+Pipeline::LossStage Pipeline::loss_stage(const std::vector<LossLaw>& laws, std::size_t index) const
+{
+    const Place place = place_of(laws, index);
+    auto name = fmt::format("loss/{}", name_of(laws[index]));
+    if (place.occurrence > 1) name += fmt::format("#{}", place.occurrence);
+    return {place, {laws[index], stream_of(seed_, direction_, name)}};
+}
+
+void Pipeline::change_losses(const std::vector<LossLaw>& laws)
 {
     base::ensure(laws.size() <= loss_laws_max);
-    std::vector<LossStage> stages;
-    const auto names = names_of(laws);
-    for (std::size_t i = 0; i < laws.size(); ++i) {
-        stages.push_back({names[i], {laws[i], stream_of(seed_, direction_, names[i])}});
+    bool is_same = laws.size() == loss_.size();
+    for (std::size_t i = 0; i < laws.size() && is_same; ++i) {
+        is_same = loss_[i].place == place_of(laws, i);
     }
-    return stages;
+    if (!is_same) {
+        std::vector<LossStage> stages;
+        for (std::size_t i = 0; i < laws.size(); ++i) {
+            const auto old = std::find_if(loss_.begin(), loss_.end(), [&](const LossStage& stage) {
+                return stage.place == place_of(laws, i);
+            });
+            stages.push_back(old == loss_.end() ? loss_stage(laws, i) : *old);
+        }
+        loss_ = std::move(stages);
+    }
+    for (std::size_t i = 0; i < laws.size(); ++i) loss_[i].process.change(laws[i]);
 }
 
 } // namespace hapnet::emulator

@@ -31,12 +31,21 @@ public:
     void change(const Conditions& conditions);
 
 private:
+    /// A law by its kind: the first random loss, the second one, the first burst, ...
+    struct Place {
+        std::size_t kind = 0;
+        std::size_t occurrence = 1;
+
+        friend bool operator==(const Place&, const Place&) = default;
+    };
     struct LossStage {
-        std::string name; // of its stream
+        Place place;
         LossProcess process;
     };
 
-    [[nodiscard]] std::vector<LossStage> loss_stages(const std::vector<LossLaw>& laws);
+    static Place place_of(const std::vector<LossLaw>& laws, std::size_t index);
+    [[nodiscard]] LossStage loss_stage(const std::vector<LossLaw>& laws, std::size_t index) const;
+    void change_losses(const std::vector<LossLaw>& laws);
     [[nodiscard]] Deliver draw_delivery(const Packet& packet);
 
     base::Seed seed_;

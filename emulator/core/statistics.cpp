@@ -28,4 +28,9 @@ bool Statistics::is_valid(base::Duration budget) const
     return !p99 || *p99 <= budget;
 }
 
+std::uint64_t Statistics::late_beyond(base::Duration budget) const
+{
+    return lateness.count_above(budget);
+}
+
 } // namespace hapnet::emulator

@@ -59,4 +59,15 @@ std::optional<Duration> DurationHistogram::max() const
     return Duration{static_cast<Duration::rep>(max_)};
 }
 
+std::uint64_t DurationHistogram::count_above(Duration limit) const
+{
+    if (limit < Duration{0}) return count_;
+    const auto most = static_cast<std::uint64_t>(limit.count());
+    std::uint64_t above = 0;
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        if (std::min(upper_edge(bin), max_) > most) above += counts_[bin];
+    }
+    return above;
+}
+
 } // namespace hapnet::base

@@ -26,6 +26,9 @@ public:
 
     [[nodiscard]] std::optional<Duration> max() const;
 
+    /// How many are longer than `limit`, by whole bins: those for which a quantile would say so.
+    [[nodiscard]] std::uint64_t count_above(Duration limit) const;
+
 private:
     static constexpr int sub_bits = 6; // 64 bins to an octave
     static constexpr std::size_t bins = (43U - sub_bits) << sub_bits;

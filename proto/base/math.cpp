@@ -113,4 +113,47 @@ double exp(double x)
     return fraction * std::bit_cast<double>(exponent << 52);
 }
 
+double log(double x)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!(x > 0.0)) return x == 0.0 ? -infinity : not_a_number;
+    if (x == infinity) return infinity;
+    std::int64_t exponent = 0;
+    if (x < 0x1p-1022) { // subnormal
+        x *= 0x1p54;
+        exponent = -54;
+    }
+    // x = 2^exponent (1 + f), sqrt(1/2) < 1 + f < sqrt(2), then fdlibm e_log.c.
+    constexpr std::uint64_t sqrt_half = 0x3fe6a09e667f3bcd;
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) - sqrt_half;
+    const std::int64_t octaves = static_cast<std::int64_t>(bits) >> 52;
+    exponent += octaves;
+    const double f = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) -
+                                           (static_cast<std::uint64_t>(octaves) << 52)) -
+                     1.0;
+    constexpr double ln2_high = 6.93147180369123816490e-01;
+    constexpr double ln2_low = 1.90821492927058770002e-10;
+    const double s = f / (2.0 + f);
+    const double z = s * s;
+    const double w = z * z;
+    const double even = w * (3.999999999940941908e-01 +
+                             w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01));
+    const double odd = z * (6.666666666666735130e-01 +
+                            w * (2.857142874366239149e-01 +
+                                 w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)));
+    const double half_square = 0.5 * f * f;
+    const auto n = static_cast<double>(exponent);
+    return n * ln2_high - ((half_square - (s * (half_square + even + odd) + n * ln2_low)) - f);
+}
+
+double log1p(double x)
+{
+    // What 1 + x loses of x is given back as a factor (Hewlett-Packard, HP-15C Advanced Functions
+    // Handbook, 1982).
+    const double sum = 1.0 + x;
+    if (sum == 1.0) return x;
+    if (!(sum > 0.0) || sum == std::numeric_limits<double>::infinity()) return log(sum);
+    return log(sum) * (x / (sum - 1.0));
+}
+
 } // namespace hapnet::base

@@ -6,7 +6,7 @@ namespace hapnet::base {
 
 inline constexpr double two_pi = 6.283185307179586476925;
 
-// sin, cos and exp from + - * / alone, so that a stepped loop gives the same bits with every
+// sin, cos, exp and log from + - * / alone, so that a stepped loop gives the same bits with every
 // compiler and C library. Within 2 units in the last place of the true value over the stated
 // range; polynomials and reduction after fdlibm (Sun Microsystems, 1993).
 
@@ -18,5 +18,12 @@ inline constexpr double two_pi = 6.283185307179586476925;
 
 /// e to the power of x for -700 <= x <= 700; beyond: 0 or infinity.
 [[nodiscard]] double exp(double x);
+
+/// The natural logarithm of x > 0. Of 0: -infinity; below: NaN; of infinity: infinity.
+[[nodiscard]] double log(double x);
+
+/// log(1 + x) for x > -1, also where x is too small to show in 1 + x. Of -1: -infinity; below: NaN.
+/// Within 4 units in the last place.
+[[nodiscard]] double log1p(double x);
 
 } // namespace hapnet::base

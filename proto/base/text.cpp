@@ -20,12 +20,39 @@ struct Unit {
     double nanoseconds;
 };
 
+/// A unit of things that come in whole numbers.
+struct WholeUnit {
+    std::string_view name;
+    std::uint64_t size;
+};
+
 constexpr std::array<Unit, 5> units{{
     {"ns", 1.0},
     {"us", 1e3},
     {"ms", 1e6},
     {"s", 1e9},
     {"min", 60e9},
+}};
+
+constexpr std::uint64_t most_bits_per_second = 1'000'000'000'000;
+constexpr std::array<WholeUnit, 5> rate_units{{
+    {"Tbit", 1'000'000'000'000},
+    {"Gbit", 1'000'000'000},
+    {"Mbit", 1'000'000},
+    {"kbit", 1'000},
+    {"bit", 1},
+}};
+
+constexpr std::uint64_t most_bytes = 1ULL << 40;
+constexpr std::array<WholeUnit, 8> size_units{{
+    {"TiB", 1ULL << 40},
+    {"GiB", 1ULL << 30},
+    {"MiB", 1ULL << 20},
+    {"KiB", 1ULL << 10},
+    {"GB", 1'000'000'000},
+    {"MB", 1'000'000},
+    {"kB", 1'000},
+    {"B", 1},
 }};
 
 struct Quantity {
@@ -51,6 +78,39 @@ std::optional<double> number(std::string_view digits, int exponent = 0)
     return value;
 }
 
+/// The whole number of the smallest unit that `digits` of `unit` are; nullopt: not whole, or not
+/// one of the units.
+template <std::size_t N>
+std::optional<std::uint64_t> whole(const Quantity& quantity,
+                                   const std::array<WholeUnit, N>& whole_units)
+{
+    const auto count = number(quantity.digits);
+    if (!count) return std::nullopt;
+    if (quantity.unit.empty() && *count == 0.0) return 0;
+    for (const WholeUnit& unit : whole_units) {
+        if (unit.name != quantity.unit) continue;
+        constexpr double exact_max = 9e15; // every whole number below is a double
+        const double value = std::round(*count * static_cast<double>(unit.size));
+        const bool is_whole = std::abs(value - *count * static_cast<double>(unit.size)) < 1e-3;
+        if (!is_whole || value > exact_max) return std::nullopt;
+        return static_cast<std::uint64_t>(value);
+    }
+    return std::nullopt;
+}
+
+/// In the largest unit of which it is a whole number.
+template <std::size_t N>
+std::string whole_text(std::uint64_t value, const std::array<WholeUnit, N>& whole_units)
+{
+    for (const WholeUnit& unit : whole_units) {
+        if (value > 0 && value % unit.size != 0) continue;
+        if (value == 0 && unit.size > 1) continue;
+        return fmt::format("{}{}", value / unit.size, unit.name);
+    }
+    ensure(false);
+    return {};
+}
+
 } // namespace
 
 Result<Duration> parse_duration(std::string_view text)
@@ -71,6 +131,14 @@ Result<Duration> parse_duration(std::string_view text)
         return Duration{std::llround(nanoseconds)};
     }
     return expected();
+}
+
+Result<Duration> parse_signed_duration(std::string_view text)
+{
+    const bool is_negative = text.starts_with('-');
+    const auto size = parse_duration(is_negative || text.starts_with('+') ? text.substr(1) : text);
+    if (!size) return size;
+    return is_negative ? -*size : *size;
 }
 
 std::string to_text(Duration duration)
@@ -109,6 +177,38 @@ std::string to_text(Probability probability)
     ensure(false);
     return {};
 }
+
+Result<std::uint64_t> parse_bit_rate(std::string_view text)
+{
+    auto quantity = split(text);
+    if (quantity.unit.ends_with("/s")) quantity.unit.remove_suffix(2);
+    const auto rate = whole(quantity, rate_units);
+    if (!rate) {
+        return fail(fmt::format("'{}' is not a rate: write a number and its unit, such as "
+                                "10Mbit/s, 64kbit/s or 500bit/s",
+                                text));
+    }
+    if (*rate > most_bits_per_second) return fail(fmt::format("'{}' is more than 1Tbit/s", text));
+    return *rate;
+}
+
+std::string bit_rate_text(std::uint64_t bits_per_second)
+{
+    return whole_text(bits_per_second, rate_units) + "/s";
+}
+
+Result<std::uint64_t> parse_size(std::string_view text)
+{
+    const auto size = whole(split(text), size_units);
+    if (!size) {
+        return fail(fmt::format(
+            "'{}' is not a size: write a number and its unit, such as 1500B, 64KiB or 1MB", text));
+    }
+    if (*size > most_bytes) return fail(fmt::format("'{}' is more than 1TiB", text));
+    return *size;
+}
+
+std::string size_text(std::uint64_t bytes) { return whole_text(bytes, size_units); }
 
 Result<std::uint64_t> parse_count(std::string_view text, std::uint64_t most)
 {

@@ -19,9 +19,20 @@ namespace hapnet::base {
 [[nodiscard]] Result<Duration> parse_duration(std::string_view text);
 [[nodiscard]] std::string to_text(Duration duration);
 
+/// The same with an optional sign: "-5ms".
+[[nodiscard]] Result<Duration> parse_signed_duration(std::string_view text);
+
 /// "93%", "0.5%"; from 0% to 100%.
 [[nodiscard]] Result<Probability> parse_probability(std::string_view text);
 [[nodiscard]] std::string to_text(Probability probability);
+
+/// Bits per second: "10Mbit/s", "64kbit/s", also "10Mbit"; whole bits, at most 1Tbit/s.
+[[nodiscard]] Result<std::uint64_t> parse_bit_rate(std::string_view text);
+[[nodiscard]] std::string bit_rate_text(std::uint64_t bits_per_second);
+
+/// Bytes: "1500B", "64KiB", "1.5MB"; whole bytes, at most 1TiB.
+[[nodiscard]] Result<std::uint64_t> parse_size(std::string_view text);
+[[nodiscard]] std::string size_text(std::uint64_t bytes);
 
 /// A whole number from 0 to `most`, decimal digits only.
 [[nodiscard]] Result<std::uint64_t> parse_count(std::string_view text, std::uint64_t most);

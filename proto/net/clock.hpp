@@ -12,7 +12,7 @@ namespace hapnet::net {
 /// CLOCK_MONOTONIC. The only clock of the project; called once per wake-up by a shell.
 [[nodiscard]] base::TimePoint monotonic_now();
 
-/// The time of day in seconds since 1970, for manifests and file names only.
+/// The time of day in seconds since 1970, for manifests, file names and captures only.
 [[nodiscard]] double wall_clock_seconds();
 
 /// Sleeps until `when` on CLOCK_MONOTONIC; returns at once when it has passed.

@@ -18,7 +18,10 @@ std::string_view cure_of(const std::error_code& error)
     }
     switch (error.value()) {
     case EADDRINUSE:
-        return "another program has that port: stop it, choose another port, or 0 for any free one";
+        return "another program has it: stop that, or choose another port (0: any free one) or "
+               "path";
+    case EEXIST:
+    case ENAMETOOLONG: return "choose another path";
     case EADDRNOTAVAIL:
         return "this machine has no such address: 'ip address' lists them, 0.0.0.0 is all of them";
     case EACCES:

@@ -49,13 +49,18 @@ ResultFile::~ResultFile()
     if (!temporary_.empty()) unlink(temporary_.c_str());
 }
 
-void ResultFile::commit(std::string_view text)
+void ResultFile::append(std::string_view text)
 {
     while (!text.empty()) {
         const auto count = write(descriptor_, text.data(), text.size());
         if (count < 0 && errno != EINTR) refuse(errno, path_);
         if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
     }
+}
+
+void ResultFile::commit(std::string_view text)
+{
+    append(text);
     const bool moves = !temporary_.empty();
     if (moves && std::rename(temporary_.c_str(), path_.c_str()) != 0) refuse(errno, path_);
     close(std::exchange(descriptor_, -1));

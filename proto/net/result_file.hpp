@@ -20,7 +20,11 @@ public:
     ResultFile(const ResultFile&) = delete;
     ResultFile& operator=(const ResultFile&) = delete;
 
-    /// Writes the text and moves the file to its place. Throws std::system_error.
+    /// Writes text that the file goes on with. Throws std::system_error.
+    void append(std::string_view text);
+
+    /// Writes the text that it ends with and moves the file to its place. Throws
+    /// std::system_error.
     void commit(std::string_view text);
 
 private:

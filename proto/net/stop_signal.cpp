@@ -7,10 +7,11 @@
 #include <sys/signalfd.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace hapnet::net {
 
-StopSignal::StopSignal()
+StopSignal::StopSignal(Hangup hangup) : hangup_{hangup}
 {
     std::signal(SIGPIPE, SIG_IGN);
     sigset_t signals{};
@@ -27,11 +28,23 @@ StopSignal::~StopSignal() { close(descriptor_); }
 
 bool StopSignal::requested()
 {
-    signalfd_siginfo info{};
-    if (read(descriptor_, &info, sizeof info) == static_cast<ssize_t>(sizeof info)) {
-        requested_ = true;
-    }
+    take();
     return requested_;
+}
+
+bool StopSignal::reload_requested()
+{
+    take();
+    return std::exchange(reload_requested_, false);
+}
+
+void StopSignal::take()
+{
+    signalfd_siginfo info{};
+    while (read(descriptor_, &info, sizeof info) == static_cast<ssize_t>(sizeof info)) {
+        const bool is_hangup = info.ssi_signo == static_cast<std::uint32_t>(SIGHUP);
+        (is_hangup && hangup_ == Hangup::reload ? reload_requested_ : requested_) = true;
+    }
 }
 
 } // namespace hapnet::net

@@ -4,7 +4,9 @@
 
 #include "proto/base/time.hpp"
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -12,6 +14,9 @@ namespace hapnet::emulator {
 
 class QuantileTable;
 class DelayTrace;
+
+/// No delay is longer: what a law draws beyond ends here.
+inline constexpr base::Duration longest_delay = std::chrono::seconds{1'000'000};
 
 // The laws that a delay or a jitter may follow, as a person states them. Each parameter is called
 // what it is: no law has a bare "jitter". `mean` may be zero (a jitter around the delay) or
@@ -55,8 +60,8 @@ struct ExponentialLaw {
     friend bool operator==(const ExponentialLaw&, const ExponentialLaw&) = default;
 };
 
-/// Pareto on [mean (shape - 1) / shape, infinity); shape > 1. Its standard deviation is infinite
-/// for shape <= 2.
+/// Pareto (of the first kind) on [mean (shape - 1) / shape, infinity); shape > 1. Its standard
+/// deviation is infinite for shape <= 2.
 struct ParetoLaw {
     base::Duration mean{};
     double shape = 3.0;
@@ -64,7 +69,7 @@ struct ParetoLaw {
     friend bool operator==(const ParetoLaw&, const ParetoLaw&) = default;
 };
 
-/// Gamma on [0, infinity); mean > 0, sd > 0.
+/// Gamma on [0, infinity); mean > 0, 0 < sd <= 10 mean.
 struct GammaLaw {
     base::Duration mean{};
     base::Duration sd{};
@@ -72,8 +77,9 @@ struct GammaLaw {
     friend bool operator==(const GammaLaw&, const GammaLaw&) = default;
 };
 
-/// Drawn from a table of measured values: a netem .dist file, which is in units of its own and is
-/// scaled to `mean` and `sd`, or a file of delays, which is taken as it is.
+/// Drawn from a table: a netem .dist file, which is in units of its own, or a file of measured
+/// delays. Stretched and moved until its mean and sd are exactly these; measured delays are taken
+/// as they are when both are zero.
 struct TableLaw {
     std::string file;
     base::Duration mean{};
@@ -111,6 +117,10 @@ struct Variation {
 {
     return {UniformLaw{{}, half_width}, {}};
 }
+
+/// What is wrong with it, in words that follow the name of the setting ("sd must be more than
+/// 0"); nullopt when it can be drawn. Whoever makes a law from what a person typed asks here.
+[[nodiscard]] std::optional<std::string> objection(const Variation& variation);
 
 /// Whether it adds nothing to any datagram.
 [[nodiscard]] bool is_nothing(const Variation& variation);

@@ -26,7 +26,8 @@ struct RandomLoss {
     friend bool operator==(const RandomLoss&, const RandomLoss&) = default;
 };
 
-/// Exactly `lost` of every `of` in a row, at random places in each such block. 0 < lost <= of.
+/// Exactly `lost` of every `of` in a row, at random places in each such block. Blocks follow each
+/// other from the first datagram under this law. 0 < lost <= of.
 struct BlockLoss {
     std::uint32_t lost = 0;
     std::uint32_t of = 0;
@@ -42,8 +43,8 @@ struct PeriodicLoss {
     friend bool operator==(const PeriodicLoss&, const PeriodicLoss&) = default;
 };
 
-/// `lost` in a row of every `of`; 0 < lost <= of. Where in the period the burst begins is drawn
-/// once, unless `phase` (< of) says it.
+/// `lost` in a row of every `of`; 0 < lost <= of. It begins at the numbers n with n mod of = phase
+/// (< of), or where a draw at the beginning says.
 struct Burst {
     std::uint32_t lost = 0;
     std::uint32_t of = 0;
@@ -53,8 +54,8 @@ struct Burst {
 };
 
 /// A burst in every period of time: what arrives within `lost` of its beginning, or the first
-/// `lost` datagrams after it. Where in the first period it begins is drawn once, unless `phase`
-/// (< every) says it.
+/// `lost` datagrams after it. It begins at the times t with t mod every = phase (< every), or where
+/// a draw at the beginning says.
 struct TimedBurst {
     std::variant<base::Duration, std::uint32_t> lost{};
     base::Duration every{};

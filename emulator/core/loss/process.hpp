@@ -2,26 +2,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/loss/bursts.hpp"
+#include "emulator/core/loss/chains.hpp"
+#include "emulator/core/loss/counted.hpp"
+#include "emulator/core/loss/judgement.hpp"
 #include "emulator/core/loss/law.hpp"
+#include "emulator/core/loss/recorded.hpp"
 #include "emulator/core/packet.hpp"
-#include "emulator/core/verdict.hpp"
 #include "proto/base/random.hpp"
 
-#include <optional>
 #include <string_view>
+#include <variant>
 
 namespace hapnet::emulator {
 
-/// "random": the name of a law in profiles and in the name of its stream.
+/// "random", "k-of-n", ...: the name of a law in profiles and in the name of its stream.
 [[nodiscard]] std::string_view name_of(const LossLaw& law);
 
-/// What a law of loss says of one datagram.
-struct LossJudgement {
-    std::optional<DropCause> cause; // nullopt: it passes
-    LossState state = LossState::none;
-};
-
-/// Judges one datagram after the other by one law of loss.
+/// Judges one datagram after the other by one law of loss. What it says of datagram n is a function
+/// of the stream, of n, and for laws with a state or in time of the datagrams before. Judging
+/// allocates nothing. The law has to be one that validated() accepts.
 class LossProcess {
 public:
     LossProcess(const LossLaw& law, const base::RandomStream& stream);
@@ -33,8 +33,13 @@ public:
     void change(const LossLaw& law);
 
 private:
-    LossLaw law_;
+    using Judge = std::variant<RandomJudge, BlockJudge, PeriodicJudge, BurstJudge, TimedBurstJudge,
+                               TwoStateJudge, TimedTwoStateJudge, FourStateJudge, ListJudge,
+                               PatternJudge, TraceJudge, OutageJudge>;
+    [[nodiscard]] static Judge judge_of(const LossLaw& law, const base::RandomStream& stream);
+
     base::RandomStream stream_;
+    Judge judge_;
 };
 
 } // namespace hapnet::emulator

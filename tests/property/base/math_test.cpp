@@ -34,6 +34,8 @@ double worst_ulps(const std::function<double(double)>& ours,
 long double true_sin(long double x) { return std::sin(x); }
 long double true_cos(long double x) { return std::cos(x); }
 long double true_exp(long double x) { return std::exp(x); }
+long double true_log(long double x) { return std::log(x); }
+long double true_log1p(long double x) { return std::log1p(x); }
 
 TEST(Math, SineAndCosineErrByAtMostTwoUnitsInTheLastPlaceOverTheirWholeRange)
 {
@@ -58,6 +60,31 @@ TEST(Math, ExpErrsByAtMostTwoUnitsInTheLastPlace)
 {
     for (const double range : {1e-6, 0.5, 10.0, 100.0, 700.0}) {
         EXPECT_LE(worst_ulps(exp, true_exp, -range, range), 2.0) << range;
+    }
+}
+
+TEST(Math, LogErrsByAtMostTwoUnitsInTheLastPlace)
+{
+    for (const double scale : {1e-300, 1e-9, 0.5, 1.0, 2.0, 10.0, 1e9, 1e300}) {
+        EXPECT_LE(worst_ulps(log, true_log, 0.5 * scale, 2.0 * scale), 2.0) << scale;
+    }
+    EXPECT_LE(worst_ulps(log, true_log, 1.0 - 1e-6, 1.0 + 1e-6), 2.0);
+}
+
+TEST(Math, Log1pErrsByAtMostFourUnitsInTheLastPlaceAlsoWhereOnePlusXLosesX)
+{
+    for (const double range : {1e-18, 1e-12, 1e-6, 1e-3, 0.4, 0.999}) {
+        EXPECT_LE(worst_ulps(log1p, true_log1p, -range, range), 4.0) << range;
+    }
+    EXPECT_LE(worst_ulps(log1p, true_log1p, 1.0, 1e6), 4.0);
+}
+
+TEST(Math, LogUndoesExp)
+{
+    const RandomStream stream = Seed{4}.stream("points");
+    for (std::uint64_t i = 0; i < points; ++i) {
+        const double x = 1380.0 * (stream.uniform(i) - 0.5);
+        EXPECT_NEAR(log(exp(x)), x, 1e-15 * (1.0 + std::abs(x))) << x;
     }
 }
 

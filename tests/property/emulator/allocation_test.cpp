@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 #include <new>
 #include <span>
-#include <utility>
 
 namespace {
 
@@ -45,30 +44,32 @@ constexpr base::TimePoint start{1h};
 
 } // namespace
 
-TEST(Link, AllocatesNothingOnceItHasSeenItsTraffic)
+TEST(Link, AllocatesNothingOnceItIsMade)
 {
-    const Conditions conditions{.loss = base::Probability::from_fraction(0.3).value(),
-                                .burst_loss = Burst{4, 100},
-                                .delay = 160ms,
-                                .jitter = 15ms,
-                                .order = Order::free};
-    Link link{pipeline_of(conditions, base::Seed{42}, Direction::up), conditions.order};
+    using base::literals::operator""_percent;
+    const Conditions conditions{.mtu = {1500},
+                                .rate = {100'000'000, 28, 64 << 10},
+                                .loss = {RandomLoss{10_percent}, Burst{4, 100, {}}},
+                                .corrupt = {10_percent, 2},
+                                .duplicate = {10_percent, 3ms},
+                                .delay = constant(160ms),
+                                .jitter = uniform(15ms),
+                                .order = Order::free,
+                                .reorder = {1_percent, {2, {}}}};
+    Link link{conditions, {base::Seed{42}, Direction::up, start, {}}};
     const std::array<std::byte, 1400> bytes{};
-    const auto drain = [&](base::TimePoint now) {
-        while (auto datagram = link.poll(now)) link.on_sent(*std::move(datagram), now);
-    };
-    // More at once, and larger, than what comes later.
-    for (int i = 0; i < 1000; ++i) link.on_packet(bytes, start);
-    drain(start + 1s);
 
     const auto before = allocations;
     EXPECT_GT(before, 0U); // the counter is in place
     for (int i = 0; i < 100'000; ++i) {
-        const auto now = start + 1s + i * 1ms;
+        const auto now = start + i * 100us;
+        if (i == 50'000) link.change(conditions, now); // as a ramp does, again and again
         link.on_packet(std::span{bytes}.first(static_cast<std::size_t>(i) % bytes.size()), now);
-        drain(now);
+        while (const auto departure = link.poll(now)) link.on_sent(*departure, now);
     }
     EXPECT_EQ(allocations - before, 0U);
+    EXPECT_GT(link.statistics().duplicated, 1000U);
+    EXPECT_GT(link.statistics().reordered, 1000U);
 }
 
 } // namespace hapnet::emulator

@@ -35,6 +35,18 @@ TEST(Histogram, KeepsTheLargestValueExactly)
     EXPECT_EQ(histogram.quantile(0.001), 1234567ns);
 }
 
+TEST(Histogram, CountsWhatIsLongerThanALimit)
+{
+    DurationHistogram histogram;
+    for (const auto value : {0ns, 100ns, 999'999ns, 1'000'000ns, 5'000'000ns}) histogram.add(value);
+    EXPECT_EQ(histogram.count_above(-1ns), 5U);
+    EXPECT_EQ(histogram.count_above(0ns), 4U);
+    EXPECT_EQ(histogram.count_above(99ns), 4U);
+    EXPECT_EQ(histogram.count_above(100ns), 3U);
+    EXPECT_EQ(histogram.count_above(4'999'999ns), 1U);
+    EXPECT_EQ(histogram.count_above(5'000'000ns), 0U);
+}
+
 TEST(Histogram, CountsNegativeDurationsAsZero)
 {
     DurationHistogram histogram;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "proto/base/math.hpp"
+#include "proto/base/normal.hpp"
 
 #include <bit>
 #include <cmath>
@@ -44,6 +45,18 @@ TEST(Math, ExpBeyondItsRangeIsZeroOrInfinity)
     EXPECT_GT(exp(-700.0), 0.0);
 }
 
+TEST(Math, LogOfWhatHasNoneIsInfiniteOrNotANumber)
+{
+    EXPECT_EQ(log(1.0), 0.0);
+    EXPECT_EQ(log(0.0), -infinity);
+    EXPECT_EQ(log(infinity), infinity);
+    EXPECT_EQ(log1p(-1.0), -infinity);
+    EXPECT_EQ(log1p(infinity), infinity);
+    for (const double x : {-1e-300, -1.0, -infinity, nan}) EXPECT_TRUE(std::isnan(log(x))) << x;
+    EXPECT_TRUE(std::isnan(log1p(-1.5)));
+    EXPECT_NEAR(log(5e-324), -744.4400719213812, 1e-12);
+}
+
 TEST(Math, HasTheSameBitsWithEveryCompilerAtEveryOptimisationLevel)
 {
     // FNV-1a over the bits of all results: changes when one bit of one of them does. The release,
@@ -59,6 +72,35 @@ TEST(Math, HasTheSameBitsWithEveryCompilerAtEveryOptimisationLevel)
         add(exp(i * 0.0349));
     }
     EXPECT_EQ(hash, 8921497925586332548U);
+}
+
+TEST(Math, LogarithmAndNormalDistributionHaveTheSameBitsWithEveryCompilerToo)
+{
+    std::uint64_t hash = 0xcbf29ce484222325;
+    const auto add = [&hash](double value) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3;
+    };
+    for (int i = 1; i <= 20'000; ++i) {
+        add(log(i * 0.000731));
+        add(log1p(i * 0.0000731 - 0.73));
+        add(normal_cdf(i * 0.001731 - 30.0));
+        add(normal_quantile(i * 0.000049999));
+        add(normal_quantile(0x1p-60 * i));
+    }
+    EXPECT_EQ(hash, 15053827966772600584U);
+}
+
+TEST(Math, TheNormalDistributionEndsWhereItsProbabilitiesDo)
+{
+    EXPECT_EQ(normal_cdf(0.0), 0.5);
+    EXPECT_EQ(normal_cdf(-infinity), 0.0);
+    EXPECT_EQ(normal_cdf(infinity), 1.0);
+    EXPECT_TRUE(std::isnan(normal_cdf(nan)));
+    EXPECT_EQ(normal_quantile(0.5), 0.0);
+    EXPECT_EQ(normal_quantile(0.0), -infinity);
+    EXPECT_EQ(normal_quantile(1.0), infinity);
+    for (const double p : {-0.1, 1.1, nan}) EXPECT_TRUE(std::isnan(normal_quantile(p))) << p;
+    EXPECT_GT(normal_quantile(1.0 - 0x1p-53), 8.2);
 }
 
 } // namespace

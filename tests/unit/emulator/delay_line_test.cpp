@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/delay_line.hpp"
 
-#include "emulator/core/buffer_pool.hpp"
+#include "emulator/core/slab.hpp"
+#include "proto/base/random.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
-#include <utility>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -20,75 +21,120 @@ using namespace std::chrono_literals;
 
 constexpr base::TimePoint start{1h};
 
-Datagram due_at(base::TimePoint due, std::uint64_t number, std::size_t bytes = 10)
+Datagram due_at(base::TimePoint due, std::uint64_t number)
 {
-    return {std::vector<std::byte>(bytes), number, start, due};
+    return {.number = number, .arrival = start, .due = due};
 }
 
 } // namespace
 
 TEST(DelayLine, GivesTheEarliestFirst)
 {
-    DelayLine line;
+    DelayLine line{8};
     line.push(due_at(start + 3ms, 0));
     line.push(due_at(start + 1ms, 1));
     line.push(due_at(start + 2ms, 2));
+    line.push(due_at(start + 4ms, 3));
     EXPECT_EQ(line.next_due(), start + 1ms);
-    EXPECT_EQ(line.pop(start + 1h)->number, 1U);
-    EXPECT_EQ(line.pop(start + 1h)->number, 2U);
-    EXPECT_EQ(line.pop(start + 1h)->number, 0U);
+    for (const std::uint64_t number : {1U, 2U, 0U, 3U}) {
+        EXPECT_EQ(line.pop(start + 1h)->number, number);
+    }
     EXPECT_FALSE(line.pop(start + 1h));
     EXPECT_FALSE(line.next_due());
 }
 
 TEST(DelayLine, GivesNothingThatIsNotDue)
 {
-    DelayLine line;
+    DelayLine line{8};
     line.push(due_at(start + 1ms, 0));
     EXPECT_FALSE(line.pop(start + 1ms - 1ns));
     EXPECT_EQ(line.size(), 1U);
 }
 
-TEST(DelayLine, HasRoomUntilEitherLimitIsReached)
+TEST(DelayLine, LetsEqualTimesLeaveInTheOrderInWhichTheyCame)
 {
-    DelayLine few{{.datagrams_max = 1}};
-    EXPECT_TRUE(few.has_room(65'507));
-    few.push(due_at(start, 0));
-    EXPECT_FALSE(few.has_room(0));
-
-    DelayLine small{{.datagrams_max = 10, .bytes_max = 100}};
-    EXPECT_FALSE(small.has_room(101));
-    small.push(due_at(start, 0, 60));
-    EXPECT_TRUE(small.has_room(40));
-    EXPECT_FALSE(small.has_room(41));
-}
-
-TEST(DelayLine, HasRoomAgainWhenADatagramHasLeft)
-{
-    DelayLine line{{.datagrams_max = 1, .bytes_max = 100}};
-    for (std::uint64_t number = 0; number < 50; ++number) {
-        line.push(due_at(start, number, 100));
-        EXPECT_FALSE(line.has_room(0));
-        EXPECT_TRUE(line.pop(start));
+    DelayLine line{8};
+    line.push(due_at(start + 2ms, 0));
+    line.push(due_at(start + 1ms, 1)); // into the heap
+    line.push(due_at(start + 1ms, 2));
+    line.push(due_at(start + 2ms, 3));
+    for (const std::uint64_t number : {1U, 2U, 0U, 3U}) {
+        EXPECT_EQ(line.pop(start + 1h)->number, number);
     }
 }
 
-TEST(BufferPool, UsesABufferAgain)
+TEST(DelayLine, GivesSortedDatagramsInOrderAtTheTimesOfAllOfThem)
 {
-    BufferPool pool{4};
-    const std::array<std::byte, 100> bytes{};
-    auto buffer = pool.copy_of(bytes);
-    const auto* place = buffer.data();
-    pool.give_back(std::move(buffer));
-    EXPECT_EQ(pool.copy_of(bytes).data(), place);
+    DelayLine line{8};
+    line.push_sorted(due_at(start + 3ms, 0));
+    line.push_sorted(due_at(start + 1ms, 1));
+    line.push_sorted(due_at(start + 2ms, 2));
+    for (const std::uint64_t number : {0U, 1U, 2U}) {
+        const auto datagram = line.pop(start + 1h);
+        EXPECT_EQ(datagram->number, number);
+        EXPECT_EQ(datagram->due, start + 1ms * (number + 1));
+    }
+    EXPECT_EQ(line.size(), 0U);
 }
 
-TEST(BufferPool, DoesNotKeepTheMemoryOfHugeDatagrams)
+TEST(DelayLine, IsFullAtItsBoundHoweverTheDatagramsCameIn)
 {
-    BufferPool pool{4};
-    std::vector<std::byte> huge(BufferPool::kept_bytes_max + 1);
-    pool.give_back(std::move(huge));
-    EXPECT_EQ(pool.copy_of({}).capacity(), 0U);
+    DelayLine line{3};
+    line.push(due_at(start + 2ms, 0));
+    line.push(due_at(start + 1ms, 1));
+    EXPECT_FALSE(line.is_full());
+    line.push_sorted(due_at(start + 3ms, 2));
+    EXPECT_TRUE(line.is_full());
+    EXPECT_TRUE(line.pop(start + 1h));
+    EXPECT_FALSE(line.is_full());
+}
+
+TEST(DelayLine, GivesWhatAPlainSortGivesForAnyTimes)
+{
+    const auto chance = base::Seed{1}.stream("times");
+    DelayLine line{64};
+    std::vector<Datagram> expected;
+    for (std::uint64_t number = 0; number < 64; ++number) {
+        expected.push_back(due_at(start + 1ms * chance.below(20, number), number));
+        line.push(expected.back());
+    }
+    std::stable_sort(expected.begin(), expected.end(),
+                     [](const Datagram& a, const Datagram& b) { return a.due < b.due; });
+    for (const Datagram& datagram : expected) {
+        EXPECT_EQ(line.pop(start + 1h)->number, datagram.number);
+    }
+}
+
+TEST(Slab, KeepsBytesUntilTheyAreReleased)
+{
+    Slab slab{{.datagrams_max = 4}};
+    const std::array<std::byte, 3> bytes{std::byte{1}, std::byte{2}, std::byte{3}};
+    const auto slot = slab.store(bytes);
+    ASSERT_TRUE(slot);
+    EXPECT_TRUE(std::ranges::equal(slab.bytes(*slot), bytes));
+    EXPECT_EQ(slab.used(), 1U);
+    slab.release(*slot);
+    EXPECT_EQ(slab.used(), 0U);
+}
+
+TEST(Slab, TakesALargerSlotWhenTheSmallOnesAreUsedUpAndNoneWhenAllAre)
+{
+    Slab slab{{.datagrams_max = 4}}; // 4 small, 1 medium, 4 large
+    const std::vector<std::byte> small(256);
+    for (int i = 0; i < 9; ++i) EXPECT_TRUE(slab.store(small)) << i;
+    EXPECT_FALSE(slab.store(small));
+}
+
+TEST(Slab, HoldsTheLargestDatagramAndTheEmptyOne)
+{
+    Slab slab{{.datagrams_max = 2}};
+    const std::vector<std::byte> largest(65'535, std::byte{7});
+    const auto slot = slab.store(largest);
+    ASSERT_TRUE(slot);
+    EXPECT_TRUE(std::ranges::equal(slab.bytes(*slot), largest));
+    const auto empty = slab.store({});
+    ASSERT_TRUE(empty);
+    EXPECT_TRUE(slab.bytes(*empty).empty());
 }
 
 } // namespace hapnet::emulator

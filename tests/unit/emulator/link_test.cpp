@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <optional>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -23,181 +23,299 @@ using namespace base::literals; // NOLINT(google-build-using-namespace): literal
 constexpr base::TimePoint start{1h};
 constexpr std::array<std::byte, 96> payload{};
 
-/// The numbers of datagrams that arrived 1 ms apart, in the order in which they leave.
-std::vector<std::uint64_t> numbers_that_leave(Order order, base::Duration jitter, int count)
+Link link_of(const Conditions& conditions, QueueLimits limits = {.datagrams_max = 1024})
 {
-    const base::Seed seed{7};
-    Link link{Pipeline{{ConstantDelay{10ms}, UniformJitter{jitter, seed.stream("up/jitter")}}},
-              order};
-    for (int i = 0; i < count; ++i) link.on_packet(payload, start + i * 1ms);
-    std::vector<std::uint64_t> numbers;
-    while (auto datagram = link.poll(start + 1h)) {
-        numbers.push_back(datagram->number);
-        link.on_sent(*std::move(datagram), start + 1h);
+    return Link{conditions, {base::Seed{7}, Direction::up, start, limits}};
+}
+
+/// What leaves until an hour has passed, in its order.
+std::vector<Departure> all_of(Link& link)
+{
+    std::vector<Departure> departures;
+    while (const auto departure = link.poll(start + 1h)) {
+        departures.push_back(*departure);
+        link.on_sent(*departure, departure->due);
     }
+    return departures;
+}
+
+std::vector<std::uint64_t> numbers_of(const std::vector<Departure>& departures)
+{
+    std::vector<std::uint64_t> numbers;
+    for (const Departure& departure : departures) numbers.push_back(departure.number);
     return numbers;
+}
+
+/// The numbers of datagrams that arrived 1 ms apart, in the order in which they leave.
+std::vector<std::uint64_t> numbers_that_leave(const Conditions& conditions, int count)
+{
+    Link link = link_of(conditions);
+    for (int i = 0; i < count; ++i) link.on_packet(payload, start + i * 1ms);
+    return numbers_of(all_of(link));
 }
 
 } // namespace
 
 TEST(Link, HoldsADatagramUntilItsDelayHasPassedAndNotANanosecondLonger)
 {
-    Link link{Pipeline{{ConstantDelay{160ms}}}};
-    EXPECT_EQ(link.on_packet(payload, start), Verdict{Deliver{160ms}});
+    Link link = link_of({.delay = constant(160ms)});
+    const Admission admission = link.on_packet(payload, start);
+    EXPECT_EQ(admission.fate.verdict, Verdict{Deliver{.after = 160ms}});
+    EXPECT_FALSE(admission.departure);
     EXPECT_EQ(link.next_deadline(), start + 160ms);
     EXPECT_FALSE(link.poll(start + 160ms - 1ns));
     EXPECT_TRUE(link.poll(start + 160ms));
     EXPECT_FALSE(link.next_deadline());
 }
 
-TEST(Link, ForwardsAtOnceWhenNothingIsAskedOfIt)
+TEST(Link, HandsBackAtOnceWhatNothingHolds)
 {
-    Link link{Pipeline{}};
-    EXPECT_EQ(link.on_packet(payload, start), Verdict{Deliver{0ns}});
-    EXPECT_TRUE(link.poll(start));
+    Link link = link_of({});
+    const Admission admission = link.on_packet(payload, start);
+    ASSERT_TRUE(admission.departure);
+    EXPECT_EQ(admission.departure->bytes.data(), payload.data()); // not a copy
+    EXPECT_EQ(admission.departure->due, start);
+    EXPECT_EQ(link.statistics().in_flight, 1U);
+    EXPECT_FALSE(link.poll(start + 1h));
+    link.on_sent(*admission.departure, start + 3us);
+    EXPECT_EQ(link.statistics().in_flight, 0U);
+    EXPECT_EQ(link.statistics().delivered, 1U);
+    EXPECT_EQ(link.statistics().lateness.max(), 3us);
+}
+
+TEST(Link, LetsNothingPassThatWhichStillWaits)
+{
+    Link link = link_of({.delay = constant(5ms)});
+    link.on_packet(payload, start);
+    link.change({}, start + 1ms);
+    EXPECT_FALSE(link.on_packet(payload, start + 1ms).departure);
+    EXPECT_EQ(numbers_of(all_of(link)), (std::vector<std::uint64_t>{0, 1}));
+    EXPECT_TRUE(link.on_packet(payload, start + 9ms).departure);
 }
 
 TEST(Link, GivesBackTheBytesItWasGiven)
 {
-    Link link{Pipeline{}};
-    for (const int value : {1, 2, 3}) {
+    Link link = link_of({.delay = constant(1ms)});
+    for (const int value : {1, 2, 300}) {
         const std::vector<std::byte> bytes(static_cast<std::size_t>(value),
                                            static_cast<std::byte>(value));
         link.on_packet(bytes, start);
-        auto datagram = link.poll(start);
-        ASSERT_TRUE(datagram);
-        EXPECT_EQ(datagram->bytes, bytes);
-        link.on_sent(*std::move(datagram), start);
+        const auto departure = link.poll(start + 1ms);
+        ASSERT_TRUE(departure);
+        EXPECT_TRUE(std::ranges::equal(departure->bytes, bytes));
+        link.on_sent(*departure, start + 1ms);
     }
 }
 
 TEST(Link, CarriesAnEmptyDatagram)
 {
-    Link link{Pipeline{}};
+    Link link = link_of({.delay = constant(1ms)});
     link.on_packet({}, start);
-    const auto datagram = link.poll(start);
-    ASSERT_TRUE(datagram);
-    EXPECT_TRUE(datagram->bytes.empty());
-}
-
-TEST(Link, CountsADatagramAsInFlightUntilItIsKnownToHaveLeft)
-{
-    Link link{Pipeline{}};
-    link.on_packet(payload, start);
-    auto datagram = link.poll(start);
-    EXPECT_EQ(link.statistics().in_flight, 1U);
-    link.on_sent(*std::move(datagram), start + 3us);
-    EXPECT_EQ(link.statistics().in_flight, 0U);
-    EXPECT_EQ(link.statistics().delivered, 1U);
-    EXPECT_EQ(link.statistics().bytes_in, 96U);
-    EXPECT_EQ(link.statistics().bytes_out, 96U);
-    EXPECT_EQ(link.statistics().lateness.max(), 3us);
+    EXPECT_TRUE(link.poll(start + 1ms)->bytes.empty());
 }
 
 TEST(Link, CountsAFailedSendUnderItsCause)
 {
-    Link link{Pipeline{}};
+    Link link = link_of({.delay = constant(1ms)});
     link.on_packet(payload, start);
-    link.on_failed(*link.poll(start), DropCause::no_route);
+    link.on_failed(*link.poll(start + 1ms), DropCause::no_route);
     EXPECT_EQ(link.statistics().dropped_by(DropCause::no_route), 1U);
     EXPECT_EQ(link.statistics().delivered, 0U);
     EXPECT_EQ(link.statistics().in_flight, 0U);
     EXPECT_EQ(link.statistics().bytes_out, 0U);
 }
 
-TEST(Link, DropsAndCountsWhatExceedsTheBoundOfItsQueue)
+TEST(Link, DropsAndCountsWhatExceedsItsBound)
 {
-    Link link{Pipeline{{ConstantDelay{1s}}}, Order::keep, {.datagrams_max = 2}};
+    Link link = link_of({.delay = constant(1s)}, {.datagrams_max = 2});
     link.on_packet(payload, start);
     link.on_packet(payload, start);
-    EXPECT_EQ(link.on_packet(payload, start), Verdict{Drop{DropCause::queue_full}});
+    EXPECT_EQ(link.on_packet(payload, start).verdict, Verdict{Drop{DropCause::queue_full}});
     EXPECT_EQ(link.statistics().dropped_by(DropCause::queue_full), 1U);
     EXPECT_EQ(link.statistics().in_flight, 2U);
 }
 
-TEST(Link, DropsAndCountsWhatExceedsTheBytesOfItsQueue)
-{
-    Link link{Pipeline{{ConstantDelay{1s}}}, Order::keep, {.datagrams_max = 9, .bytes_max = 191}};
-    EXPECT_EQ(link.on_packet(payload, start), Verdict{Deliver{1s}});
-    EXPECT_EQ(link.on_packet(payload, start), Verdict{Drop{DropCause::queue_full}});
-    std::ignore = link.poll(start + 1s);
-    EXPECT_EQ(link.on_packet(payload, start), Verdict{Deliver{1s}});
-}
-
 TEST(Link, DoesNotHoldUpTheNextDatagramBehindOneThatDidNotFit)
 {
-    const base::Seed seed{1};
-    Link link{Pipeline{{ConstantDelay{1s}, UniformJitter{1s, seed.stream("up/jitter")}}},
-              Order::keep,
-              {.datagrams_max = 1}};
+    Link link = link_of({.delay = constant(1s), .jitter = uniform(1s)}, {.datagrams_max = 1});
     link.on_packet(payload, start);
     const auto due = link.next_deadline();
     for (int i = 0; i < 100; ++i) link.on_packet(payload, start);
-    std::ignore = link.poll(*due);
+    link.on_sent(*link.poll(*due), *due);
     link.on_packet(payload, start);
     EXPECT_LE(*link.next_deadline(), std::max(*due, start + 2s));
 }
 
-TEST(Link, NeverReordersUnderJitterWhenOrderIsKept)
+TEST(Link, NeverReordersUnderJitterWhenOrderIsKeptOrSorted)
 {
-    const auto numbers = numbers_that_leave(Order::keep, 10ms, 200);
-    EXPECT_EQ(numbers.size(), 200U);
-    EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
+    for (const Order order : {Order::keep, Order::sorted}) {
+        const auto numbers = numbers_that_leave(
+            {.delay = constant(10ms), .jitter = uniform(10ms), .order = order}, 200);
+        EXPECT_EQ(numbers.size(), 200U);
+        EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
+    }
 }
 
 TEST(Link, ReordersUnderWideJitterWhenOrderIsFree)
 {
-    const auto numbers = numbers_that_leave(Order::free, 10ms, 200);
+    const auto numbers = numbers_that_leave(
+        {.delay = constant(10ms), .jitter = uniform(10ms), .order = Order::free}, 200);
     EXPECT_EQ(numbers.size(), 200U);
     EXPECT_FALSE(std::is_sorted(numbers.begin(), numbers.end()));
 }
 
-TEST(Link, KeepsOrderByTheLaterOfOwnDelayAndPredecessor)
+TEST(Link, SortedLeavesAtTheTimesOfFree)
 {
-    const base::Seed seed{3};
-    const UniformJitter jitter{5ms, seed.stream("up/jitter")};
-    Link link{Pipeline{{ConstantDelay{5ms}, jitter}}, Order::keep};
-    auto previous = base::TimePoint::min();
-    for (std::uint64_t number = 0; number < 50; ++number) {
-        const auto arrival = start + static_cast<int>(number) * 1ms;
-        link.on_packet(payload, arrival);
-        const auto own = 5ms + std::get<Deliver>(jitter.on_packet(number)).after;
-        previous = std::max(previous, arrival + own);
-        auto datagram = link.poll(start + 1h);
-        ASSERT_TRUE(datagram);
-        EXPECT_EQ(datagram->due, previous);
-        link.on_sent(*std::move(datagram), previous);
-    }
+    const auto times = [](Order order) {
+        Link link = link_of({.delay = constant(10ms), .jitter = uniform(10ms), .order = order});
+        for (int i = 0; i < 200; ++i) link.on_packet(payload, start + i * 1ms);
+        std::vector<base::TimePoint> dues;
+        for (const Departure& departure : all_of(link)) dues.push_back(departure.due);
+        return dues;
+    };
+    EXPECT_EQ(times(Order::sorted), times(Order::free));
 }
 
-TEST(Link, LetsEqualDueTimesLeaveInTheOrderOfArrival)
+TEST(Link, KeepsOrderByTheLaterOfOwnDelayAndPredecessor)
 {
-    Link link{Pipeline{{ConstantDelay{1ms}}}, Order::free};
-    for (int i = 0; i < 5; ++i) link.on_packet(payload, start);
-    for (std::uint64_t i = 0; i < 5; ++i) EXPECT_EQ(link.poll(start + 1ms)->number, i);
+    Link link = link_of({.delay = constant(5ms), .jitter = uniform(5ms)});
+    auto previous = base::TimePoint::min();
+    for (int i = 0; i < 50; ++i) {
+        const auto arrival = start + i * 1ms;
+        const auto admission = link.on_packet(payload, arrival);
+        const auto own = std::get<Deliver>(admission.fate.verdict).after;
+        previous = std::max(previous, arrival + own);
+        const auto departure = link.poll(start + 1h);
+        ASSERT_TRUE(departure);
+        EXPECT_EQ(departure->due, previous);
+        link.on_sent(*departure, previous);
+    }
 }
 
 TEST(Link, CountsAsReorderedWhatLeavesAfterAHigherNumber)
 {
-    Link link{Pipeline{}};
-    for (int i = 0; i < 4; ++i) link.on_packet(payload, start);
-    std::array<std::optional<Datagram>, 4> taken;
-    for (auto& datagram : taken) datagram = link.poll(start);
-    for (const std::size_t number : {1U, 0U, 3U, 2U}) {
-        link.on_sent(*std::move(taken[number]), start);
-    }
+    Link link = link_of({});
+    std::array<Departure, 4> taken;
+    for (Departure& departure : taken) departure = *link.on_packet(payload, start).departure;
+    for (const std::size_t number : {1U, 0U, 3U, 2U}) link.on_sent(taken[number], start);
     EXPECT_EQ(link.statistics().reordered, 2U); // 0 after 1, 2 after 3 (RFC 4737)
 }
 
 TEST(Link, NumbersWhatItLosesToo)
 {
-    Link link{Pipeline{{RandomLoss{100_percent, base::Seed{1}.stream("up/random-loss")}}}};
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_EQ(link.on_packet(payload, start), Verdict{Drop{DropCause::random_loss}});
+    Link link = link_of({.loss = {RandomLoss{100_percent}}});
+    for (std::uint64_t number = 0; number < 3; ++number) {
+        const Admission admission = link.on_packet(payload, start);
+        EXPECT_EQ(admission.number, number);
+        EXPECT_EQ(admission.fate.verdict, Verdict{Drop{DropCause::random_loss}});
     }
     EXPECT_EQ(link.statistics().received, 3U);
     EXPECT_EQ(link.statistics().bytes_in, 3U * 96U);
     EXPECT_FALSE(link.next_deadline());
+}
+
+TEST(Link, SendsCopiesAfterTheirOriginalsAndCountsThemApart)
+{
+    Link link = link_of({.duplicate = {100_percent, 2ms}, .delay = constant(1ms)});
+    for (int i = 0; i < 100; ++i) link.on_packet(payload, start + i * 10ms);
+    const auto departures = all_of(link);
+    ASSERT_EQ(departures.size(), 200U);
+    for (std::size_t i = 0; i < 200; i += 2) {
+        EXPECT_FALSE(departures[i].is_copy);
+        EXPECT_TRUE(departures[i + 1].is_copy);
+        EXPECT_EQ(departures[i].number, departures[i + 1].number);
+        EXPECT_LT(departures[i + 1].due - departures[i].due, 2ms);
+    }
+    EXPECT_EQ(link.statistics().duplicated, 100U);
+    EXPECT_EQ(link.statistics().delivered, 200U);
+    EXPECT_EQ(link.statistics().reordered, 0U);
+}
+
+TEST(Link, InvertsAsManyBitsAsItIsTold)
+{
+    Link link = link_of({.corrupt = {100_percent, 3}});
+    int flipped = 0;
+    for (int i = 0; i < 100; ++i) {
+        link.on_packet(payload, start);
+        const auto departure = link.poll(start);
+        ASSERT_TRUE(departure);
+        for (const std::byte byte : departure->bytes) {
+            flipped += std::popcount(static_cast<unsigned>(byte));
+        }
+        link.on_sent(*departure, start);
+    }
+    EXPECT_EQ(link.statistics().corrupted, 100U);
+    EXPECT_GT(flipped, 290); // two flips of one place undo each other: 1 in 256
+    EXPECT_LE(flipped, 300);
+}
+
+TEST(Link, LetsADisplacedDatagramBeOvertakenByAsManyAsItIsTold)
+{
+    Link link = link_of({.delay = constant(1ms), .reorder = {100_percent, {2, {}}}});
+    link.on_packet(payload, start);
+    link.change({.delay = constant(1ms)}, start);
+    for (int i = 1; i < 5; ++i) link.on_packet(payload, start + i * 1ms);
+    EXPECT_EQ(numbers_of(all_of(link)), (std::vector<std::uint64_t>{1, 2, 0, 3, 4}));
+    EXPECT_EQ(link.statistics().reordered, 1U);
+}
+
+TEST(Link, LetsADisplacedDatagramGoWhenNothingFollows)
+{
+    Link link = link_of({.delay = constant(1ms), .reorder = {100_percent, {2, {}}}});
+    link.on_packet(payload, start);
+    EXPECT_EQ(link.next_deadline(), start + 1001ms);
+    EXPECT_FALSE(link.poll(start + 1001ms - 1ns));
+    EXPECT_TRUE(link.poll(start + 1001ms));
+}
+
+TEST(Link, HoldsADisplacedDatagramBackForItsTimeEvenWhereOrderIsKept)
+{
+    Link link = link_of({.delay = constant(1ms), .reorder = {100_percent, {0, 3ms}}});
+    link.on_packet(payload, start);
+    link.change({.delay = constant(1ms)}, start);
+    for (int i = 1; i < 6; ++i) link.on_packet(payload, start + i * 1ms);
+    EXPECT_EQ(numbers_of(all_of(link)), (std::vector<std::uint64_t>{1, 2, 0, 3, 4, 5}));
+}
+
+TEST(Link, SendsAtItsRateAndDropsWhatItsQueueDoesNotHold)
+{
+    // 100 bytes with their overhead of 4 at 800 kbit/s: 1 ms each, and a queue of three of them.
+    Link link = link_of({.rate = {800'000, 4, 300}, .delay = constant(10ms)});
+    for (int i = 0; i < 6; ++i) link.on_packet(payload, start);
+    EXPECT_EQ(link.statistics().dropped_by(DropCause::rate_queue_full), 2U);
+    const auto departures = all_of(link);
+    ASSERT_EQ(departures.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(departures[i].due, start + 11ms + 1ms * i);
+}
+
+TEST(Link, LetsWhatIsLostBehindTheBottleneckTakeItsTimeThere)
+{
+    Link link = link_of({.rate = {800'000, 4, 300}, .loss = {PatternLoss{{true, false}}}});
+    link.on_packet(payload, start);
+    link.on_packet(payload, start);
+    const auto departures = all_of(link);
+    ASSERT_EQ(departures.size(), 1U);
+    EXPECT_EQ(departures[0].due, start + 2ms);
+    EXPECT_EQ(link.statistics().in_flight, 0U);
+}
+
+TEST(Link, KeepsTheTimesOfWhatIsScheduledWhenConditionsChange)
+{
+    Link link = link_of({.delay = constant(10ms)});
+    link.on_packet(payload, start);
+    link.change({.delay = constant(20ms)}, start + 1ms);
+    link.on_packet(payload, start + 1ms);
+    const auto departures = all_of(link);
+    EXPECT_EQ(departures[0].due, start + 10ms);
+    EXPECT_EQ(departures[1].due, start + 21ms);
+}
+
+TEST(Link, TakesAnArrivalThatIsStampedBeforeTheLastAsArrivedTogether)
+{
+    Link link = link_of({.delay = constant(1ms), .order = Order::free});
+    link.on_packet(payload, start + 5us);
+    link.on_packet(payload, start);
+    EXPECT_EQ(numbers_of(all_of(link)), (std::vector<std::uint64_t>{0, 1}));
 }
 
 } // namespace hapnet::emulator

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/pipeline.hpp"
 
-#include "emulator/core/conditions.hpp"
-
 #include <chrono>
 #include <gtest/gtest.h>
 
@@ -14,105 +12,114 @@ namespace {
 using namespace std::chrono_literals;
 using namespace base::literals; // NOLINT(google-build-using-namespace): literals only
 
-const base::Seed seed{42};
+constexpr base::Seed seed{42};
+
+Verdict first_verdict(const Conditions& conditions, std::size_t bytes = 100)
+{
+    return Pipeline{conditions, seed, Direction::up}.on_packet({0, bytes, 0ns}).verdict;
+}
 
 } // namespace
 
-TEST(Pipeline, ForwardsAtOnceWhenEmpty)
+TEST(Pipeline, ForwardsAtOnceWhenNothingIsAskedOfIt)
 {
-    EXPECT_EQ(Pipeline{}.on_packet(0), Verdict{Deliver{0ns}});
+    EXPECT_EQ(first_verdict({}), Verdict{Deliver{}});
 }
 
-TEST(Pipeline, AddsDelays)
+TEST(Pipeline, AddsJitterToDelay)
 {
-    const Pipeline pipeline{{ConstantDelay{100ms}, ConstantDelay{60ms}}};
-    EXPECT_EQ(pipeline.on_packet(0), Verdict{Deliver{160ms}});
-}
-
-TEST(Pipeline, TakesTheFirstDropAsFinal)
-{
-    const Pipeline pipeline{{RandomLoss{100_percent, seed.stream("up/random-loss")},
-                             BurstLoss{{1, 1}, seed.stream("up/burst-loss")}}};
-    EXPECT_EQ(pipeline.on_packet(0), Verdict{Drop{DropCause::random_loss}});
+    const Conditions conditions{.delay = constant(100ms), .jitter = constant(60ms)};
+    EXPECT_EQ(first_verdict(conditions), Verdict{Deliver{.after = 160ms}});
 }
 
 TEST(Pipeline, CountsANegativeTotalAsZero)
 {
-    const UniformJitter jitter{1s, seed.stream("up/jitter")};
-    const Pipeline pipeline{{jitter}};
-    for (std::uint64_t number = 0; number < 100; ++number) {
-        const auto drawn = std::get<Deliver>(jitter.on_packet(number)).after;
-        const auto total = std::get<Deliver>(pipeline.on_packet(number)).after;
-        EXPECT_EQ(total, drawn < 0ns ? 0ns : drawn);
-    }
+    EXPECT_EQ(first_verdict({.delay = constant(1ms), .jitter = constant(-2ms)}),
+              Verdict{Deliver{}});
 }
 
-TEST(Pipeline, OfDefaultConditionsForwardsAtOnce)
+TEST(Pipeline, TakesTheFirstDropAsFinal)
 {
-    EXPECT_EQ(pipeline_of({}, seed, Direction::up).on_packet(5), Verdict{Deliver{0ns}});
-}
-
-TEST(Pipeline, LosesAtRandomBeforeInBurstsSoThatTheCauseIsTold)
-{
-    const Conditions conditions{.loss = 100_percent, .burst_loss = Burst{1, 1}};
-    EXPECT_EQ(pipeline_of(conditions, seed, Direction::up).on_packet(0),
+    EXPECT_EQ(first_verdict({.loss = {RandomLoss{100_percent}, Burst{1, 1, {}}}}),
               Verdict{Drop{DropCause::random_loss}});
+    EXPECT_EQ(first_verdict({.loss = {Burst{1, 1, {}}, RandomLoss{100_percent}}}),
+              Verdict{Drop{DropCause::burst_loss}});
+}
+
+TEST(Pipeline, DropsWhatIsLargerThanTheMtuWithItsHeaders)
+{
+    const Conditions conditions{.mtu = {1500}};
+    EXPECT_EQ(first_verdict(conditions, 1472), Verdict{Deliver{}});
+    EXPECT_EQ(first_verdict(conditions, 1473), Verdict{Drop{DropCause::mtu}});
 }
 
 TEST(Pipeline, DrawsFromStreamsNamedByDirectionAndStage)
 {
-    const Conditions conditions{.loss = 50_percent, .delay = 1s, .jitter = 1s};
-    const auto pipeline = pipeline_of(conditions, seed, Direction::down);
-    const RandomLoss loss{50_percent, seed.stream("down/random-loss")};
-    const UniformJitter jitter{1s, seed.stream("down/jitter")};
+    const Conditions conditions{
+        .loss = {RandomLoss{50_percent}}, .delay = constant(1s), .jitter = uniform(1s)};
+    Pipeline pipeline{conditions, seed, Direction::down};
+    LossProcess loss{RandomLoss{50_percent}, seed.stream("down/loss/random")};
+    DelayProcess jitter{uniform(1s), seed.stream("down/jitter")};
     for (std::uint64_t number = 0; number < 100; ++number) {
-        const bool lost = std::holds_alternative<Drop>(loss.on_packet(number));
-        const auto after = 1s + std::get<Deliver>(jitter.on_packet(number)).after;
-        EXPECT_EQ(pipeline.on_packet(number),
-                  lost ? Verdict{Drop{DropCause::random_loss}} : Verdict{Deliver{after}});
+        const Packet packet{number, 96, 1ms};
+        const auto lost = loss.on_packet(packet).cause;
+        const Deliver deliver{.after = 1s + jitter.on_packet(packet)};
+        EXPECT_EQ(pipeline.on_packet(packet).verdict,
+                  lost ? Verdict{Drop{*lost}} : Verdict{deliver});
     }
 }
 
-TEST(RandomLoss, LosesNothingAtZeroAndEverythingAtOne)
+TEST(Pipeline, KeepsThePlaceOfALawInItsDrawsWhenAnotherLawIsAddedBeforeIt)
 {
-    const RandomLoss never{0_percent, seed.stream("up/random-loss")};
-    const RandomLoss always{100_percent, seed.stream("up/random-loss")};
-    for (std::uint64_t number = 0; number < 10'000; ++number) {
-        EXPECT_TRUE(std::holds_alternative<Deliver>(never.on_packet(number)));
-        EXPECT_TRUE(std::holds_alternative<Drop>(always.on_packet(number)));
+    Pipeline alone{{.loss = {Burst{4, 100, {}}}}, seed, Direction::up};
+    Pipeline both{{.loss = {RandomLoss{1_percent}, Burst{4, 100, {}}}}, seed, Direction::up};
+    for (std::uint64_t number = 0; number < 1000; ++number) {
+        const auto verdict = both.on_packet({number, 96, 1ms}).verdict;
+        if (verdict == Verdict{Drop{DropCause::random_loss}}) {
+            std::ignore = alone.on_packet({number, 96, 1ms});
+        } else {
+            EXPECT_EQ(verdict, alone.on_packet({number, 96, 1ms}).verdict);
+        }
     }
 }
 
-TEST(BurstLoss, LosesEverythingWhenTheBurstFillsItsPeriod)
+TEST(Pipeline, DrawsTwoLawsOfOneKindFromStreamsOfTheirOwn)
 {
-    const BurstLoss burst{{5, 5}, seed.stream("up/burst-loss")};
-    for (std::uint64_t number = 0; number < 20; ++number) {
-        EXPECT_EQ(burst.on_packet(number), Verdict{Drop{DropCause::burst_loss}});
+    const RandomLoss half{50_percent};
+    Pipeline pipeline{{.loss = {half, half}}, seed, Direction::up};
+    int lost = 0;
+    for (std::uint64_t number = 0; number < 1000; ++number) {
+        const auto verdict = pipeline.on_packet({number, 96, 1ms}).verdict;
+        lost += std::holds_alternative<Drop>(verdict) ? 1 : 0;
+    }
+    EXPECT_NEAR(lost, 750, 4 * 13.7); // binomial: sd sqrt(1000 * 0.75 * 0.25)
+}
+
+TEST(Pipeline, GoesOnWithTheSameDrawsAfterAChangeOfSomethingElse)
+{
+    const Conditions before{.loss = {RandomLoss{30_percent}}, .jitter = uniform(5ms)};
+    Conditions after = before;
+    after.delay = constant(1s);
+    Pipeline changed{before, seed, Direction::up};
+    Pipeline fresh{after, seed, Direction::up};
+    for (std::uint64_t number = 0; number < 200; ++number) {
+        if (number == 100) changed.change(after);
+        const auto a = changed.on_packet({number, 96, 1ms});
+        const auto b = fresh.on_packet({number, 96, 1ms});
+        if (number >= 100) {
+            EXPECT_EQ(a, b);
+        }
     }
 }
 
-TEST(Conditions, ReadTheOrderByName)
+TEST(Pipeline, TakesUpAndGivesUpLawsOfLoss)
 {
-    EXPECT_EQ(parse_order("keep"), Order::keep);
-    EXPECT_EQ(parse_order("free"), Order::free);
-    EXPECT_FALSE(parse_order("sorted"));
-    EXPECT_FALSE(parse_order(""));
-}
-
-TEST(Conditions, ReadBurstsThatTheyPrint)
-{
-    EXPECT_EQ(parse_burst("40/100"), (Burst{40, 100}));
-    EXPECT_EQ(parse_burst(to_text(Burst{40, 100})), (Burst{40, 100}));
-    EXPECT_EQ(parse_burst("1/1"), (Burst{1, 1}));
-    EXPECT_EQ(parse_burst("0"), std::nullopt);
-}
-
-TEST(Conditions, RefuseBurstsThatMakeNoSense)
-{
-    for (const char* text : {"", "/", "40", "40/", "/100", "0/100", "101/100", "40/0", "-1/100",
-                             "40/100/3", "4e1/100", "40 /100", "99999999999/99999999999"}) {
-        EXPECT_FALSE(parse_burst(text)) << text;
-    }
+    Pipeline pipeline{{}, seed, Direction::up};
+    EXPECT_EQ(pipeline.on_packet({0, 1, 0ns}).verdict, Verdict{Deliver{}});
+    pipeline.change({.loss = {RandomLoss{100_percent}}});
+    EXPECT_EQ(pipeline.on_packet({1, 1, 0ns}).verdict, Verdict{Drop{DropCause::random_loss}});
+    pipeline.change({});
+    EXPECT_EQ(pipeline.on_packet({2, 1, 0ns}).verdict, Verdict{Deliver{}});
 }
 
 TEST(DropCauses, AllHaveNamesOfTheirOwn)

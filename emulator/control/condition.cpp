@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/control/condition.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
+#include <vector>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t path_bytes_max = 200;
+
+/// The longer signs first: ">=" begins as ">" does.
+constexpr std::array comparisons{Comparison::at_most, Comparison::at_least, Comparison::equal,
+                                 Comparison::unequal, Comparison::less,     Comparison::more};
+
+std::string_view trimmed(std::string_view text)
+{
+    const auto first = text.find_first_not_of(' ');
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::optional<double> number_in(std::string_view text)
+{
+    if (text == "true") return 1.0;
+    if (text == "false") return 0.0;
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return std::isfinite(number) ? std::optional{number} : std::nullopt;
+}
+
+bool holds(double left, Comparison comparison, double right)
+{
+    switch (comparison) {
+    case Comparison::less: return left < right;
+    case Comparison::at_most: return left <= right;
+    case Comparison::equal: return left == right;
+    case Comparison::unequal: return left != right;
+    case Comparison::at_least: return left >= right;
+    case Comparison::more: return left > right;
+    }
+    base::ensure(false);
+    return false;
+}
+
+std::string keys_of(const json& object)
+{
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : object.items()) keys.push_back(key);
+    return fmt::format("{}", fmt::join(keys, ", "));
+}
+
+/// What the path leads to; the error names the keys where it leads astray.
+base::Result<const json*> find(std::string_view path, const json& statistics)
+{
+    const json* place = &statistics;
+    std::string passed;
+    while (place->is_object()) {
+        const auto dot = path.find('.');
+        const std::string key{path.substr(0, dot)};
+        const auto next = place->find(key);
+        if (next == place->end()) {
+            return base::fail(fmt::format("there is no '{}' {}; there are: {}", key,
+                                          passed.empty() ? "in the statistics" : "in " + passed,
+                                          keys_of(*place)));
+        }
+        passed += (passed.empty() ? "" : ".") + key;
+        place = &*next;
+        if (dot == std::string_view::npos) break;
+        path.remove_prefix(dot + 1);
+        if (!place->is_object()) return base::fail(fmt::format("'{}' has no parts", passed));
+    }
+    if (place->is_object()) {
+        return base::fail(
+            fmt::format("'{}' has parts, name one of them: {}", passed, keys_of(*place)));
+    }
+    return place;
+}
+
+} // namespace
+
+std::string_view to_text(Comparison comparison)
+{
+    switch (comparison) {
+    case Comparison::less: return "<";
+    case Comparison::at_most: return "<=";
+    case Comparison::equal: return "==";
+    case Comparison::unequal: return "!=";
+    case Comparison::at_least: return ">=";
+    case Comparison::more: return ">";
+    }
+    base::ensure(false);
+    return {};
+}
+
+base::Result<Condition> parse_condition(std::string_view text)
+{
+    const auto at = text.find_first_of("<>=!");
+    if (at != std::string_view::npos) {
+        const auto path = trimmed(text.substr(0, at));
+        for (const Comparison comparison : comparisons) {
+            const auto sign = to_text(comparison);
+            if (!text.substr(at).starts_with(sign)) continue;
+            const auto number = number_in(trimmed(text.substr(at + sign.size())));
+            if (!number || path.empty() || path.size() > path_bytes_max) break;
+            return Condition{std::string{path}, comparison, *number};
+        }
+    }
+    return base::fail(fmt::format("'{}' is not a condition such as up.received>1000: a key of the "
+                                  "statistics, one of < <= == != >= >, a number",
+                                  text));
+}
+
+std::string to_text(const Condition& condition)
+{
+    return fmt::format("{}{}{}", condition.path, to_text(condition.comparison), condition.number);
+}
+
+base::Result<bool> is_met(const Condition& condition, const json& statistics)
+{
+    const auto found = find(condition.path, statistics);
+    if (!found) return tl::unexpected{found.error()};
+    const json& value = **found;
+    if (value.is_null()) return false;
+    if (!value.is_number() && !value.is_boolean()) {
+        return base::fail(fmt::format("'{}' is not a number", condition.path));
+    }
+    const double number =
+        value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>();
+    return holds(number, condition.comparison, condition.number);
+}
+
+} // namespace hapnet::emulator

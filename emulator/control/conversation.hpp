@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/control/emulation.hpp"
+#include "emulator/control/request.hpp"
+#include "proto/base/time.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace hapnet::emulator {
+
+/// One client of the control socket: lines of JSON in, lines of JSON out, one reply to each
+/// request in the order of the requests; PROTOCOL.md describes them. Does no I/O and reads no
+/// clock. Bounded: it takes no more input than room() says, and answers nothing more while the
+/// client leaves too much unread.
+class Conversation {
+public:
+    static constexpr std::size_t line_bytes_max = std::size_t{1} << 20;
+    static constexpr std::size_t unread_bytes_max = std::size_t{256} << 10;
+    /// A client that takes nothing of what it is sent for so long is given up.
+    static constexpr base::Duration patience = std::chrono::seconds{10};
+
+    /// How many bytes on_bytes() takes now.
+    [[nodiscard]] std::size_t room() const;
+
+    /// What the client has sent; at most room() bytes.
+    void on_bytes(std::string_view bytes);
+
+    /// The client will send no more; what it has asked is still answered.
+    void on_end() { has_ended_ = true; }
+
+    /// The client is no longer there: what it has asked is still done, but nobody is answered.
+    void on_gone();
+
+    /// One step: answers one request, or looks at the one that waits. Returns whether it did
+    /// something that may be followed by more at once.
+    bool advance(Emulation& emulation, base::TimePoint now);
+
+    /// When advance() is to be called again although nothing was received; nullopt: never.
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
+
+    /// What is to be sent, and that `bytes` of it have been.
+    [[nodiscard]] std::string_view output() const;
+    void on_written(std::size_t bytes, base::TimePoint now);
+
+    /// Nothing more is to be expected: close it once output() is empty.
+    [[nodiscard]] bool is_over() const;
+
+    /// It leaves its replies unread: close it.
+    [[nodiscard]] bool is_stuck(base::TimePoint now) const;
+
+private:
+    /// A request that waits for its condition.
+    struct Waiting {
+        WaitRequest request;
+        base::TimePoint next_look;
+        std::optional<base::TimePoint> end;
+    };
+    /// Statistics at intervals, until the next request.
+    struct Watching {
+        WatchRequest request;
+        base::TimePoint next_line;
+    };
+
+    [[nodiscard]] std::optional<std::string> next_line();
+    void answer(const std::string& line, Emulation& emulation, base::TimePoint now);
+    void begin(const WaitRequest& request, Emulation& emulation, base::TimePoint now);
+    bool look(Waiting& waiting, Emulation& emulation, base::TimePoint now);
+    bool show(Watching& watching, Emulation& emulation, base::TimePoint now);
+    void send(std::string_view line, base::TimePoint now);
+
+    std::string input_;
+    std::size_t searched_ = 0; // of input_, without a newline
+    std::string output_;
+    std::size_t written_ = 0; // of output_
+    base::TimePoint last_progress_{};
+    std::variant<std::monostate, Waiting, Watching> pending_;
+    bool has_ended_ = false;
+    bool is_gone_ = false;
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+#include "proto/net/stop_signal.hpp"
+#include "proto/net/unix_socket.hpp"
+#include "proto/net/wait_set.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hapnet::emulator {
+
+/// The control socket of an emulator, from the outside: lines out, lines in.
+class Connection {
+public:
+    enum class State : std::uint8_t {
+        good,
+        closed,  // the emulator has ended, or broken off
+        late,    // no answer in time
+        stopped, // a signal came
+    };
+
+    /// Throws std::system_error when nobody answers there.
+    Connection(const std::string& path, net::StopSignal& stop);
+
+    /// Sends a line, without its newline.
+    [[nodiscard]] State send(std::string_view line, base::TimePoint deadline);
+
+    /// Waits for the next line and puts it where line() finds it.
+    [[nodiscard]] State receive(std::optional<base::TimePoint> deadline);
+    [[nodiscard]] const std::string& line() const { return line_; }
+
+private:
+    State wait(net::WaitSet::Interest interest, std::optional<base::TimePoint> deadline);
+
+    net::StopSignal& stop_;
+    net::UnixStream stream_;
+    net::WaitSet wait_set_;
+    std::string input_;
+    std::string line_;
+};
+
+} // namespace hapnet::emulator

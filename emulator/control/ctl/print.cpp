@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/control/ctl/print.hpp"
+
+#include <cstdint>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The value at a pointer such as "/up/received"; null when there is none.
+Json at(const Json& json, const std::string& pointer)
+{
+    const Json::json_pointer place{pointer};
+    return json.contains(place) ? json[place] : Json(nullptr);
+}
+
+std::string text_of(const Json& value)
+{
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    if (value.is_null()) return "-";
+    return value.dump();
+}
+
+std::string text_at(const Json& json, const std::string& pointer)
+{
+    return text_of(at(json, pointer));
+}
+
+double number_at(const Json& json, const std::string& pointer)
+{
+    const Json value = at(json, pointer);
+    return value.is_number() ? value.get<double>() : 0.0;
+}
+
+std::uint64_t total_of(const Json& dropped)
+{
+    std::uint64_t total = 0;
+    if (!dropped.is_object()) return total;
+    for (const auto& count : dropped) {
+        if (count.is_number_unsigned()) total += count.get<std::uint64_t>();
+    }
+    return total;
+}
+
+/// One key a line, as wait --until names them.
+void flatten(const Json& json, const std::string& path, std::string& text)
+{
+    for (const auto& [key, value] : json.items()) {
+        const std::string whole = path.empty() ? key : path + "." + key;
+        if (value.is_object()) {
+            flatten(value, whole, text);
+        } else {
+            text += fmt::format("{} {}\n", whole, text_of(value));
+        }
+    }
+}
+
+std::string shown(const Json& reply)
+{
+    std::string text = fmt::format("# generation {}, {} s since the start, timeline at {} s",
+                                   text_at(reply, "/generation"), text_at(reply, "/elapsed_s"),
+                                   text_at(reply, "/timeline/position_s"));
+    if (const auto next = at(reply, "/timeline/next_change_in_s"); next.is_number()) {
+        text += fmt::format(", next change in {} s", text_of(next));
+    }
+    text += "\n";
+    for (const Json& one : at(reply, "/live")) {
+        const Json settings = at(one, "/settings");
+        for (const auto& [key, value] : settings.items()) {
+            text += fmt::format("# set by hand: {} = {}", key, text_of(value));
+            if (const auto left = at(one, "/remaining_s"); left.is_number()) {
+                text += fmt::format(", for {} s more", text_of(left));
+            }
+            text += "\n";
+        }
+    }
+    return text + text_at(reply, "/profile");
+}
+
+std::string differing(const Json& reply)
+{
+    std::string text;
+    for (const Json& one : at(reply, "/changes")) {
+        text += fmt::format("{}: {} -> {}\n", text_at(one, "/key"), text_at(one, "/from"),
+                            text_at(one, "/to"));
+    }
+    if (at(reply, "/is_other_timeline") == true) {
+        text += fmt::format("timeline: {} steps to come -> {} steps\n",
+                            text_at(reply, "/timeline/from"), text_at(reply, "/timeline/to"));
+    }
+    return text.empty() ? "nothing would change\n" : text;
+}
+
+} // namespace
+
+std::string in_words(const std::string& command, const Json& reply)
+{
+    if (command == "show") return shown(reply);
+    if (command == "diff") return differing(reply);
+    if (command == "stats") {
+        std::string text;
+        flatten(at(reply, "/statistics"), "", text);
+        return text;
+    }
+    if (command == "wait") {
+        return fmt::format("{}: {} after {} s\n", text_at(reply, "/until"),
+                           at(reply, "/met") == true ? "met" : "not met",
+                           text_at(reply, "/elapsed_s"));
+    }
+    return fmt::format(
+        "generation {} holds from datagram {} up and {} down, {} s after the start\n",
+        text_at(reply, "/generation"), text_at(reply, "/effective_at/up"),
+        text_at(reply, "/effective_at/down"), text_at(reply, "/elapsed_s"));
+}
+
+std::string WatchPrinter::next(const Json& reply)
+{
+    const Json statistics = at(reply, "/statistics");
+    std::string text = is_terminal_ ? table(statistics) : line(statistics);
+    last_ = statistics;
+    return text;
+}
+
+std::string WatchPrinter::rate(const char* direction, const Json& statistics) const
+{
+    const auto received = fmt::format("/{}/received", direction);
+    const double time =
+        number_at(statistics, "/elapsed_s") - (last_ ? number_at(*last_, "/elapsed_s") : 0.0);
+    const double count =
+        number_at(statistics, received) - (last_ ? number_at(*last_, received) : 0.0);
+    return time > 0.0 ? fmt::format("{:.0f}", count / time) : "-";
+}
+
+std::string WatchPrinter::table(const Json& statistics) const
+{
+    // Back to the top of the table before, whose lines are overwritten to their ends.
+    constexpr int lines = 4;
+    std::string text = last_ ? fmt::format("\x1b[{}A", lines) : "";
+    text += fmt::format("{} s, generation {}\x1b[K\n", text_at(statistics, "/elapsed_s"),
+                        text_at(statistics, "/generation"));
+    text += fmt::format("{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\x1b[K\n", "", "per s",
+                        "received", "delivered", "dropped", "in flight", "p50 us", "p99 us");
+    for (const char* direction : {"up", "down"}) {
+        const std::string place = fmt::format("/{}", direction);
+        text += fmt::format("{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\x1b[K\n", direction,
+                            rate(direction, statistics), text_at(statistics, place + "/received"),
+                            text_at(statistics, place + "/delivered"),
+                            total_of(at(statistics, place + "/dropped")),
+                            text_at(statistics, place + "/in_flight"),
+                            text_at(statistics, place + "/lateness_us/p50"),
+                            text_at(statistics, place + "/lateness_us/p99"));
+    }
+    return text;
+}
+
+std::string WatchPrinter::line(const Json& statistics) const
+{
+    std::string text = fmt::format("elapsed_s={} generation={}", text_at(statistics, "/elapsed_s"),
+                                   text_at(statistics, "/generation"));
+    for (const char* direction : {"up", "down"}) {
+        const std::string place = fmt::format("/{}", direction);
+        text += fmt::format(
+            " {0}.per_s={1} {0}.received={2} {0}.delivered={3} {0}.dropped={4}"
+            " {0}.in_flight={5} {0}.p99_us={6}",
+            direction, rate(direction, statistics), text_at(statistics, place + "/received"),
+            text_at(statistics, place + "/delivered"), total_of(at(statistics, place + "/dropped")),
+            text_at(statistics, place + "/in_flight"),
+            text_at(statistics, place + "/lateness_us/p99"));
+    }
+    return text + "\n";
+}
+
+} // namespace hapnet::emulator

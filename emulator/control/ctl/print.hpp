@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace hapnet::emulator {
+
+// The emulator's answers for a person. A key that an emulator of another version does not send is
+// shown as "-".
+
+/// The answer to `command`, except those to watch.
+[[nodiscard]] std::string in_words(const std::string& command, const nlohmann::ordered_json& reply);
+
+/// The lines of a watch, with rates since the line before.
+class WatchPrinter {
+public:
+    explicit WatchPrinter(bool is_terminal) : is_terminal_{is_terminal} {}
+
+    /// What to print for the next line: a table that takes the place of the last one in a
+    /// terminal, otherwise one line.
+    [[nodiscard]] std::string next(const nlohmann::ordered_json& reply);
+
+private:
+    [[nodiscard]] std::string rate(const char* direction,
+                                   const nlohmann::ordered_json& statistics) const;
+    [[nodiscard]] std::string table(const nlohmann::ordered_json& statistics) const;
+    [[nodiscard]] std::string line(const nlohmann::ordered_json& statistics) const;
+
+    bool is_terminal_;
+    std::optional<nlohmann::ordered_json> last_;
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/control/condition.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace hapnet::emulator {
+
+// What a client of the control socket may ask; PROTOCOL.md describes it.
+
+/// A key and its value as a profile or a command line writes them: "both.delay", "80ms".
+using SettingText = std::pair<std::string, std::string>;
+
+/// A profile as it was sent.
+struct ProfileText {
+    std::string toml;
+    std::string file; // what messages call it; files that it names lie beside it
+};
+
+struct ShowRequest {};
+struct SetRequest {
+    std::vector<SettingText> settings; // at least one
+    std::optional<base::Duration> lasting;
+};
+struct ApplyRequest {
+    ProfileText profile;
+};
+struct DiffRequest {
+    ProfileText profile;
+};
+struct ResetRequest {};
+struct StatsRequest {};
+struct WaitRequest {
+    Condition until;
+    std::optional<base::Duration> timeout;
+};
+struct WatchRequest {
+    base::Duration every = std::chrono::milliseconds{500};
+};
+
+using Request = std::variant<ShowRequest, SetRequest, ApplyRequest, DiffRequest, ResetRequest,
+                             StatsRequest, WaitRequest, WatchRequest>;
+
+/// How deep a request may be nested; an honest one needs 2.
+inline constexpr std::size_t nesting_max = 16;
+
+/// How many settings one request may make.
+inline constexpr std::size_t settings_max = 64;
+
+/// Reads one line. The error says what is wrong and what would be right.
+[[nodiscard]] base::Result<Request> parse_request(std::string_view line);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/control_server.hpp"
+
+#include "emulator/control/reply.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What the answer to an ordinary request takes at most, and how long it may be put off for the
+/// sake of what is due.
+constexpr base::Duration answer_takes = 300us;
+constexpr base::Duration put_off_max = 20ms;
+
+constexpr std::size_t read_bytes_max = std::size_t{64} << 10;
+constexpr std::size_t admitted_at_a_time = 4;
+
+/// What the wait set calls the listener; the clients are called by their places.
+constexpr std::uint64_t listener_key = ControlServer::clients_max;
+
+} // namespace
+
+ControlServer::ControlServer(std::string path) : listener_{std::move(path)}
+{
+    wait_set_.add(listener_.descriptor(), listener_key, {.to_read = true});
+}
+
+std::optional<base::TimePoint> ControlServer::next_deadline() const
+{
+    if (has_more_) return last_served_;
+    std::optional<base::TimePoint> next;
+    for (const auto& client : clients_) {
+        if (client) next = base::earlier(next, client->conversation.next_deadline());
+    }
+    return next;
+}
+
+void ControlServer::serve(Emulation& emulation, base::TimePoint now,
+                          std::optional<base::TimePoint> next_departure)
+{
+    if (base::is_due(next_departure, now + answer_takes) && now - last_served_ < put_off_max) {
+        return;
+    }
+    last_served_ = now;
+    for (const net::Ready& ready : wait_set_.ready()) attend(ready);
+    answer_one(emulation, now);
+    for (std::size_t place = 0; place < clients_max; ++place) {
+        auto& client = clients_[place];
+        if (!client) continue;
+        send(*client, now);
+        if (client->conversation.is_over() && client->conversation.output().empty()) {
+            client.reset();
+        } else {
+            want(*client, place);
+        }
+    }
+}
+
+void ControlServer::attend(const net::Ready& ready)
+{
+    if (ready.key == listener_key) return admit();
+    auto& client = clients_[ready.key];
+    if (!client) return;
+    if (ready.is_readable) {
+        take(*client);
+    } else if (ready.is_gone) {
+        client->conversation.on_gone();
+    }
+}
+
+void ControlServer::admit()
+{
+    for (std::size_t i = 0; i < admitted_at_a_time; ++i) {
+        auto stream = listener_.accept();
+        if (!stream) return;
+        const auto free = std::find_if(clients_.begin(), clients_.end(),
+                                       [](const auto& client) { return !client; });
+        if (free == clients_.end()) {
+            std::ignore = stream->write(busy_refusal() + "\n");
+            continue;
+        }
+        const auto place = static_cast<std::uint64_t>(free - clients_.begin());
+        wait_set_.add(stream->descriptor(), place, {.to_read = true});
+        free->emplace(Client{std::move(*stream), {}, {.to_read = true}});
+    }
+}
+
+void ControlServer::take(Client& client)
+{
+    std::array<char, read_bytes_max> buffer; // NOLINT(*-member-init): only what is read is used
+    const auto room = std::min(buffer.size(), client.conversation.room());
+    if (room == 0) return;
+    const auto taken = client.stream.read(std::span{buffer}.first(room));
+    switch (taken.state) {
+    case net::Transfer::State::moved:
+        client.conversation.on_bytes({buffer.data(), taken.bytes});
+        break;
+    case net::Transfer::State::later: break;
+    case net::Transfer::State::ended: client.conversation.on_end(); break;
+    case net::Transfer::State::gone: client.conversation.on_gone(); break;
+    }
+}
+
+void ControlServer::answer_one(Emulation& emulation, base::TimePoint now)
+{
+    has_more_ = false;
+    for (std::size_t i = 0; i < clients_max && !has_more_; ++i) {
+        auto& client = clients_[(turn_ + i) % clients_max];
+        if (!client || !client->conversation.advance(emulation, now)) continue;
+        turn_ = (turn_ + i + 1) % clients_max;
+        has_more_ = true;
+    }
+}
+
+void ControlServer::send(Client& client, base::TimePoint now)
+{
+    Conversation& conversation = client.conversation;
+    if (conversation.output().empty()) return;
+    const auto sent = client.stream.write(conversation.output());
+    if (sent.state == net::Transfer::State::moved) {
+        conversation.on_written(sent.bytes, now);
+    } else if (sent.state != net::Transfer::State::later || conversation.is_stuck(now)) {
+        conversation.on_gone();
+    }
+}
+
+void ControlServer::want(Client& client, std::size_t place)
+{
+    const net::WaitSet::Interest interest{.to_read = client.conversation.room() > 0,
+                                          .to_write = !client.conversation.output().empty()};
+    if (interest == client.interest) return;
+    client.interest = interest;
+    wait_set_.change(client.stream.descriptor(), place, interest);
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/control/conversation.hpp"
+#include "emulator/control/emulation.hpp"
+#include "proto/base/time.hpp"
+#include "proto/net/unix_socket.hpp"
+#include "proto/net/wait_set.hpp"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace hapnet::emulator {
+
+/// The control socket and those who are connected to it. Moves bytes between them and their
+/// Conversations, a little at a time, so that the relay is not kept from what is due.
+class ControlServer {
+public:
+    static constexpr std::size_t clients_max = 16;
+
+    /// Throws std::system_error when the socket cannot be made.
+    explicit ControlServer(std::string path);
+
+    /// Readable when there is something to do.
+    [[nodiscard]] int descriptor() const { return wait_set_.descriptor(); }
+
+    /// When serve() is to be called again although descriptor() is not readable.
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
+
+    /// Does a little of what there is to do: at most one request is answered. Puts it off, for a
+    /// while, when the next datagram is due to leave before it would be done.
+    void serve(Emulation& emulation, base::TimePoint now,
+               std::optional<base::TimePoint> next_departure);
+
+private:
+    struct Client {
+        net::UnixStream stream;
+        Conversation conversation;
+        net::WaitSet::Interest interest;
+    };
+
+    void attend(const net::Ready& ready);
+    void admit();
+    static void take(Client& client);
+    void answer_one(Emulation& emulation, base::TimePoint now);
+    static void send(Client& client, base::TimePoint now);
+    void want(Client& client, std::size_t place);
+
+    net::UnixListener listener_;
+    net::WaitSet wait_set_;
+    std::array<std::optional<Client>, clients_max> clients_;
+    std::size_t turn_ = 0;  // whose request is looked at first
+    bool has_more_ = false; // somebody's request waits already
+    base::TimePoint last_served_{};
+};
+
+} // namespace hapnet::emulator

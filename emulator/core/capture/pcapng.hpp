@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/verdict.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hapnet::emulator {
+
+// A capture as pcapng (draft-ietf-opsawg-pcapng), which Wireshark and tshark open: two interfaces,
+// "side A" and "side B", of raw IP packets, whole, with times in nanoseconds. The relay sees no IP
+// headers: the ones here are made up, with correct lengths and checksums.
+
+enum class CaptureSide : std::uint8_t { a, b };
+
+/// An address and a UDP port; an IPv4 address stands in the first four bytes.
+struct UdpAddress {
+    std::array<std::byte, 16> address{};
+    std::uint16_t port = 0;
+    bool is_v6 = false;
+};
+
+struct CapturedPacket {
+    CaptureSide side = CaptureSide::a;
+    bool is_outbound = false; // sent by the emulator
+    base::Duration time{};    // since 1970, not negative
+    UdpAddress from;
+    UdpAddress to;
+    std::span<const std::byte> payload; // at most payload_bytes_max
+    std::string_view comment;           // at most 65535 bytes
+
+    static constexpr std::size_t payload_bytes_max = 65'527; // over IPv6; 20 less over IPv4
+};
+
+/// Appends what a capture begins with: the section header and the two interfaces. `program` is
+/// named as what wrote it.
+void append_capture_head(std::string& bytes, std::string_view program);
+
+/// Appends one packet. An IPv4 packet when both addresses are IPv4, or IPv4 in an IPv6 address
+/// (::ffff:1.2.3.4); otherwise IPv6.
+void append_packet(std::string& bytes, const CapturedPacket& packet);
+
+/// Appends the comment of a datagram that arrived: "dropped: gilbert-elliott", or
+/// "delayed 163.2 ms" (as drawn; below 1 ms in us) and what else becomes of it: ", copied",
+/// ", 1 bit corrupted", ", displaced".
+void append_arrival_comment(std::string& text, const Fate& fate);
+
+/// Appends the comment of a datagram that left so late: "late 7 us", and ", copy" if it is one.
+void append_departure_comment(std::string& text, base::Duration late, bool is_copy);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/delay/sampler.hpp"
+
+#include "proto/base/ensure.hpp"
+#include "proto/base/math.hpp"
+#include "proto/base/normal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapnet::emulator {
+
+namespace {
+
+double count_of(base::Duration duration) { return static_cast<double>(duration.count()); }
+
+base::Duration rounded(double nanoseconds)
+{
+    constexpr auto most = static_cast<double>(longest_delay.count());
+    return base::Duration{std::llround(std::clamp(nanoseconds, -most, most))};
+}
+
+Sampler prepared(const ConstantLaw& law) { return ConstantSampler{law.value}; }
+
+Sampler prepared(const UniformLaw& law)
+{
+    return UniformSampler{law.mean, count_of(law.half_width)};
+}
+
+Sampler prepared(const NormalLaw& law)
+{
+    return NormalSampler{count_of(law.mean), count_of(law.sd)};
+}
+
+Sampler prepared(const LogNormalLaw& law)
+{
+    const double spread = count_of(law.sd) / count_of(law.mean);
+    const double log_variance = base::log1p(spread * spread);
+    return LogNormalSampler{base::log(count_of(law.mean)) - 0.5 * log_variance,
+                            std::sqrt(log_variance)};
+}
+
+Sampler prepared(const ExponentialLaw& law) { return ExponentialSampler{count_of(law.mean)}; }
+
+Sampler prepared(const ParetoLaw& law)
+{
+    return ParetoSampler{count_of(law.mean) * (law.shape - 1.0) / law.shape, 1.0 / law.shape};
+}
+
+double shape_of(const GammaLaw& law)
+{
+    const double ratio = count_of(law.mean) / count_of(law.sd);
+    return std::max(ratio * ratio, GammaQuantile::shape_min);
+}
+
+Sampler prepared(const GammaLaw& law)
+{
+    const double shape = shape_of(law);
+    return GammaSampler{count_of(law.mean), shape, GammaQuantile{shape}};
+}
+
+Sampler prepared(const TableLaw& law)
+{
+    const QuantileTable& table = *law.table;
+    if (law.sd == base::Duration{0}) return TableSampler{0.0, 1.0, law.table};
+    const double scale = count_of(law.sd) / table.sd();
+    return TableSampler{count_of(law.mean) - scale * table.mean(), scale, law.table};
+}
+
+Sampler prepared(const TraceLaw&)
+{
+    base::ensure(false);
+    return ConstantSampler{};
+}
+
+} // namespace
+
+base::Duration ConstantSampler::quantile(double) const { return value; }
+
+base::Duration UniformSampler::quantile(double u) const
+{
+    return mean + base::Duration{std::llround((2.0 * u - 1.0) * half_width)};
+}
+
+base::Duration NormalSampler::quantile(double u) const
+{
+    return rounded(mean + sd * base::normal_quantile(u));
+}
+
+base::Duration LogNormalSampler::quantile(double u) const
+{
+    return rounded(base::exp(log_mean + log_sd * base::normal_quantile(u)));
+}
+
+base::Duration ExponentialSampler::quantile(double u) const
+{
+    return rounded(-mean * base::log(1.0 - u));
+}
+
+base::Duration ParetoSampler::quantile(double u) const
+{
+    return rounded(least * base::exp(-exponent * base::log(1.0 - u)));
+}
+
+base::Duration GammaSampler::quantile(double u)
+{
+    return rounded(mean * quantiles.at(base::normal_quantile(u)));
+}
+
+base::Duration TableSampler::quantile(double u) const
+{
+    return rounded(offset + scale * table->quantile(u));
+}
+
+Sampler make_sampler(const DelayLaw& law)
+{
+    return std::visit([](const auto& stated) { return prepared(stated); }, law);
+}
+
+void adapt(Sampler& sampler, const DelayLaw& law)
+{
+    auto* gamma = std::get_if<GammaSampler>(&sampler);
+    const auto* gamma_law = std::get_if<GammaLaw>(&law);
+    if (gamma && gamma_law && gamma->shape == shape_of(*gamma_law)) {
+        gamma->mean = count_of(gamma_law->mean);
+        return;
+    }
+    sampler = make_sampler(law);
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/delay/table.hpp"
+
+#include "emulator/core/delay/rows.hpp"
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::emulator {
+
+QuantileTable::QuantileTable(std::vector<double> values, Unit unit)
+    : values_{std::move(values)}, unit_{unit}
+{
+    base::ensure(!values_.empty() && values_.size() <= values_max);
+    std::sort(values_.begin(), values_.end());
+    base::ensure(std::isfinite(values_.front()) && std::isfinite(values_.back()));
+    if (values_.front() == values_.back()) {
+        mean_ = values_.front();
+        return;
+    }
+    // Each piece [a, b] is uniform: its mean is (a + b) / 2, its mean square (a^2 + ab + b^2) / 3.
+    const auto pieces = static_cast<double>(values_.size() - 1);
+    double sum = 0.0;
+    for (std::size_t i = 1; i < values_.size(); ++i) sum += 0.5 * (values_[i - 1] + values_[i]);
+    mean_ = sum / pieces;
+    double squares = 0.0;
+    for (std::size_t i = 1; i < values_.size(); ++i) {
+        const double a = values_[i - 1] - mean_;
+        const double b = values_[i] - mean_;
+        squares += (a * a + a * b + b * b) / 3.0;
+    }
+    sd_ = std::sqrt(squares / pieces);
+}
+
+double QuantileTable::quantile(double u) const
+{
+    if (values_.size() == 1) return values_.front();
+    const double place = u * static_cast<double>(values_.size() - 1);
+    const auto piece = std::min(static_cast<std::size_t>(place), values_.size() - 2);
+    const double low = values_[piece];
+    const double high = values_[piece + 1];
+    // Rounding must not carry it beyond: the function ascends.
+    return std::min(low + (place - static_cast<double>(piece)) * (high - low), high);
+}
+
+base::Result<std::shared_ptr<const QuantileTable>> parse_dist(std::string_view text)
+{
+    constexpr std::string_view blanks = " \t\r\f\v";
+    std::vector<double> values;
+    LineReader lines{text};
+    while (const auto line = lines.next()) {
+        auto rest = *line;
+        while (!rest.empty()) {
+            const auto word = rest.substr(0, rest.find_first_of(blanks));
+            std::int32_t value = 0;
+            const auto [end, error] = std::from_chars(word.begin(), word.end(), value);
+            if (error != std::errc{} || end != word.end()) {
+                return lines.fail(fmt::format("'{}' is not a whole number", shortened(word)));
+            }
+            if (values.size() == QuantileTable::values_max) return lines.fail(too_many_values);
+            values.push_back(value);
+            rest.remove_prefix(word.size());
+            rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+        }
+    }
+    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+    if (values.empty() || *least == *greatest) {
+        return lines.fail("the file ends without two numbers that differ");
+    }
+    return std::make_shared<const QuantileTable>(std::move(values), QuantileTable::Unit::own);
+}
+
+base::Result<std::shared_ptr<const QuantileTable>> parse_samples(std::string_view text)
+{
+    const auto rows = read_delay_rows(text);
+    if (!rows) return base::fail(rows.error().message);
+    std::vector<double> values;
+    values.reserve(rows->delays.size());
+    for (const base::Duration delay : rows->delays) {
+        values.push_back(static_cast<double>(delay.count()));
+    }
+    return std::make_shared<const QuantileTable>(std::move(values),
+                                                 QuantileTable::Unit::nanoseconds);
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// A distribution given by values of equal weight: its quantile function runs in straight lines
+/// through the sorted values, from the least at 0 to the greatest at 1.
+class QuantileTable {
+public:
+    static constexpr std::size_t values_max = 1'000'000;
+
+    /// What its values are: in units of the file's own, or nanoseconds of delay.
+    enum class Unit { own, nanoseconds };
+
+    /// 1 to values_max finite values in any order.
+    QuantileTable(std::vector<double> values, Unit unit);
+
+    /// 0 <= u <= 1.
+    [[nodiscard]] double quantile(double u) const;
+
+    /// Of the distribution as it is drawn: of the straight lines, not of the values.
+    [[nodiscard]] double mean() const { return mean_; }
+    [[nodiscard]] double sd() const { return sd_; }
+
+    [[nodiscard]] bool holds_delays() const { return unit_ == Unit::nanoseconds; }
+
+    friend bool operator==(const QuantileTable&, const QuantileTable&) = default;
+
+private:
+    std::vector<double> values_; // ascending
+    Unit unit_;
+    double mean_ = 0.0;
+    double sd_ = 0.0;
+};
+
+/// Reads a table in the format of tc-netem: whole numbers between blanks, 8192 of them to one
+/// standard deviation, in lines that may begin with '#' to be a comment. At least two that differ.
+/// netem takes such a table at its word, although the tables it comes with do not have the
+/// standard deviation 1 (pareto: 0.82); here it is rescaled until mean and sd are those asked for.
+[[nodiscard]] base::Result<std::shared_ptr<const QuantileTable>> parse_dist(std::string_view text);
+
+/// Reads measured delays: one with its unit per line ("12.5ms"), or CSV whose header line names a
+/// column delay_ns, delay_us, delay_ms or delay_s. Empty lines and those that begin with '#' are
+/// left out. The order of the delays does not matter.
+[[nodiscard]] base::Result<std::shared_ptr<const QuantileTable>>
+parse_samples(std::string_view text);
+
+} // namespace hapnet::emulator

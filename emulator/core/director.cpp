@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/director.hpp"
+
+#include "emulator/core/profile/settings.hpp"
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::emulator {
+
+namespace {
+
+/// Takes out of `patch` what `later` sets.
+void strip(Patch& patch, const Patch& later)
+{
+    const auto drop = [](auto& mine, const auto& theirs) {
+        if (theirs) mine.reset();
+    };
+    drop(patch.mtu, later.mtu);
+    drop(patch.rate, later.rate);
+    drop(patch.loss, later.loss);
+    drop(patch.corrupt, later.corrupt);
+    drop(patch.duplicate, later.duplicate);
+    drop(patch.delay, later.delay);
+    drop(patch.jitter, later.jitter);
+    drop(patch.order, later.order);
+    drop(patch.reorder, later.reorder);
+}
+
+/// The settings that `patch` makes, as they are in `conditions`.
+Patch picked(const Conditions& conditions, const Patch& patch)
+{
+    Patch picked;
+    const auto pick = [](auto& target, const auto& value, const auto& wanted) {
+        if (wanted) target = value;
+    };
+    pick(picked.mtu, conditions.mtu, patch.mtu);
+    pick(picked.rate, conditions.rate, patch.rate);
+    pick(picked.loss, conditions.loss, patch.loss);
+    pick(picked.corrupt, conditions.corrupt, patch.corrupt);
+    pick(picked.duplicate, conditions.duplicate, patch.duplicate);
+    pick(picked.delay, conditions.delay, patch.delay);
+    pick(picked.jitter, conditions.jitter, patch.jitter);
+    pick(picked.order, conditions.order, patch.order);
+    pick(picked.reorder, conditions.reorder, patch.reorder);
+    return picked;
+}
+
+/// What both patches set, as it is in `conditions`.
+Patch common(const Patch& a, const Patch& b, const Conditions& conditions)
+{
+    Patch only_in_a = a;
+    strip(only_in_a, b);
+    Patch in_both = a;
+    strip(in_both, only_in_a);
+    return picked(conditions, in_both);
+}
+
+using Steps = std::vector<Change>;
+
+/// The first step after `time`.
+Steps::const_iterator after(const Steps& steps, base::Duration time)
+{
+    return std::upper_bound(steps.begin(), steps.end(), time,
+                            [](base::Duration t, const Change& step) { return t < step.time; });
+}
+
+void strip(Director::Override& one, const Patch& up, const Patch& down)
+{
+    strip(one.up, up);
+    strip(one.down, down);
+}
+
+bool sets_nothing(const Director::Override& one)
+{
+    return one.up == Patch{} && one.down == Patch{};
+}
+
+/// Whether an override that ends at `until` is over no later than one that ends at `other`.
+bool ends_within(std::optional<base::TimePoint> until, std::optional<base::TimePoint> other)
+{
+    return !other || (until && *until <= *other);
+}
+
+} // namespace
+
+Director::Director(Profile profile, base::TimePoint start)
+    : started_with_{std::move(profile)},
+      start_{start},
+      profile_{started_with_},
+      timeline_{profile_},
+      begin_{start},
+      now_{start},
+      path_{timeline_.at(base::Duration{0})},
+      next_change_{find_next_change()}
+{}
+
+bool Director::advance(base::TimePoint now)
+{
+    const auto before = position();
+    now_ = std::max(now, now_);
+    if (!base::is_due(next_change_, now_)) return false;
+    let_later_steps_win(before);
+    std::erase_if(overrides_, [&](const Override& one) { return base::is_due(one.until, now_); });
+    return update();
+}
+
+base::Result<void> Director::apply(const Command& command, base::TimePoint now)
+{
+    advance(now);
+    if (const auto* set = std::get_if<Set>(&command)) return take(*set);
+    if (const auto* other = std::get_if<Apply>(&command)) {
+        follow(other->profile, now_);
+    } else {
+        follow(started_with_, start_);
+    }
+    return {};
+}
+
+base::Result<void> Director::take(const Set& set)
+{
+    std::optional<base::TimePoint> until;
+    if (set.lasting) {
+        base::ensure(set.lasting->count() > 0);
+        until = now_ + *set.lasting;
+    }
+    std::vector<Override> overrides = overrides_;
+    for (Override& one : overrides) {
+        if (ends_within(one.until, until)) strip(one, set.up, set.down);
+    }
+    overrides.push_back({set.up, set.down, until});
+    std::erase_if(overrides, sets_nothing);
+    if (overrides.size() > overrides_max) {
+        return base::fail(fmt::format("{} settings made for a time hold already: wait for some to "
+                                      "end, or reset",
+                                      overrides_max));
+    }
+    overrides_ = std::move(overrides);
+    update();
+    return {};
+}
+
+void Director::follow(const Profile& profile, base::TimePoint begin)
+{
+    Profile next = profile;
+    next.seed = started_with_.seed;
+    const bool is_the_same = next == profile_ && (next.timeline.empty() || begin == begin_);
+    profile_ = std::move(next);
+    timeline_ = Timeline{profile_};
+    begin_ = begin;
+    overrides_.clear();
+    if (!update() && !is_the_same) ++generation_;
+}
+
+void Director::let_later_steps_win(base::Duration before)
+{
+    const auto end = after(profile_.timeline, position());
+    for (auto step = after(profile_.timeline, before); step < end; ++step) {
+        for (Override& one : overrides_) strip(one, step->up, step->down);
+    }
+    std::erase_if(overrides_, sets_nothing);
+}
+
+bool Director::update()
+{
+    Path path = timeline_.at(position());
+    for (const Override& one : overrides_) {
+        path.up = patched(std::move(path.up), one.up);
+        path.down = patched(std::move(path.down), one.down);
+    }
+    next_change_ = find_next_change();
+    if (path == path_) return false;
+    path_ = std::move(path);
+    ++generation_;
+    return true;
+}
+
+std::optional<base::TimePoint> Director::find_next_change() const
+{
+    std::optional<base::TimePoint> next;
+    if (const auto at = timeline_.next_change(position())) next = begin_ + *at;
+    // A step that only repeats what the profile says still ends what was set by hand.
+    const auto step = after(profile_.timeline, position());
+    if (step != profile_.timeline.end()) next = base::earlier(next, begin_ + step->time);
+    for (const Override& one : overrides_) next = base::earlier(next, one.until);
+    return next;
+}
+
+Profile Director::remaining() const
+{
+    Profile profile{profile_.name, profile_.seed, path_, {}};
+    Override by_hand; // as far as no step has taken over yet
+    for (const Override& one : overrides_) {
+        by_hand.up = merged(std::move(by_hand.up), one.up);
+        by_hand.down = merged(std::move(by_hand.down), one.down);
+    }
+    for (Change step : profile_.timeline) {
+        const bool is_past = step.time <= position();
+        if (is_past) {
+            step.ramp -= position() - step.time;
+            strip(step.up, by_hand.up);
+            strip(step.down, by_hand.down);
+            if (step.ramp.count() <= 0 || sets_nothing({step.up, step.down, {}})) continue;
+        } else if (step.ramp.count() > 0) {
+            // It does not begin at what was set by hand, but at what the profile says.
+            const Path before = timeline_.at(step.time);
+            Change start{step.time - position(),
+                         {},
+                         common(step.up, by_hand.up, before.up),
+                         common(step.down, by_hand.down, before.down)};
+            if (!sets_nothing({start.up, start.down, {}})) profile.timeline.push_back(start);
+        }
+        if (!is_past) strip(by_hand, step.up, step.down);
+        step.time = std::max(step.time - position(), base::Duration{0});
+        profile.timeline.push_back(std::move(step));
+    }
+    return profile;
+}
+
+} // namespace hapnet::emulator

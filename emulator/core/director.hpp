@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/profile/profile.hpp"
+#include "emulator/core/profile/timeline.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// Settings from now on, over whatever the profile says; for a time only when `lasting` is given,
+/// after which holds what would hold without them.
+struct Set {
+    Patch up;
+    Patch down;
+    std::optional<base::Duration> lasting{}; // more than 0
+};
+
+/// Another profile. Its timeline counts from now, and what was set by hand is gone.
+struct Apply {
+    Profile profile;
+};
+
+/// Back to the profile that the emulator was started with, where its timeline stands by now: what
+/// would hold if nobody had ever changed anything.
+struct Reset {};
+
+using Command = std::variant<Set, Apply, Reset>;
+
+/// Decides which conditions hold when: a profile, its timeline, and what is set by hand over it.
+/// Of two that say something about the same setting the later one wins, be it a step of the
+/// timeline or a person: a setting made by hand holds until the timeline's next step of that
+/// setting, and a ramp that is under way when it is made has no effect on it.
+///
+/// Does no I/O and reads no clock: feed it with apply(), call advance() by next_change(), and hand
+/// path() to the links whenever generation() has grown.
+class Director {
+public:
+    /// Settings made by hand that may hold at a time; those that can never show again don't count.
+    static constexpr std::size_t overrides_max = 64;
+
+    /// Settings made by hand, as far as nothing later has taken their place.
+    struct Override {
+        Patch up;
+        Patch down;
+        std::optional<base::TimePoint> until; // nullopt: for good
+
+        friend bool operator==(const Override&, const Override&) = default;
+    };
+
+    /// The profile's timeline counts from `start`. Its seed is that of the run, and stays.
+    Director(Profile profile, base::TimePoint start);
+
+    /// The conditions that hold at the time of the last call.
+    [[nodiscard]] const Path& path() const { return path_; }
+
+    /// 1 at first, and one more whenever path() has changed or another profile was applied.
+    [[nodiscard]] std::uint64_t generation() const { return generation_; }
+
+    /// When advance() is to be called again; nullopt when time alone changes nothing.
+    [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
+
+    /// Whether the conditions have changed by `now`. Cheap when next_change() has not come.
+    bool advance(base::TimePoint now);
+
+    /// Does what is asked, at once; changes nothing when it is refused. Apply and Reset are never
+    /// refused.
+    base::Result<void> apply(const Command& command, base::TimePoint now);
+
+    [[nodiscard]] const Profile& profile() const { return profile_; }
+
+    /// What is set by hand; a later one wins over an earlier one.
+    [[nodiscard]] const std::vector<Override>& overrides() const { return overrides_; }
+
+    /// The time of the last call.
+    [[nodiscard]] base::TimePoint now() const { return now_; }
+
+    /// How far the timeline has come.
+    [[nodiscard]] base::Duration position() const { return now_ - begin_; }
+
+    /// How long the run has lasted.
+    [[nodiscard]] base::Duration elapsed() const { return now_ - start_; }
+
+    /// A profile that, when it is applied now, changes nothing: the conditions that hold and what
+    /// is still to come of the timeline. Only the ends of settings made for a time are not in it.
+    [[nodiscard]] Profile remaining() const;
+
+private:
+    base::Result<void> take(const Set& set);
+    void follow(const Profile& profile, base::TimePoint begin);
+    void let_later_steps_win(base::Duration before);
+    bool update();
+    [[nodiscard]] std::optional<base::TimePoint> find_next_change() const;
+
+    Profile started_with_;
+    base::TimePoint start_;
+    Profile profile_;
+    Timeline timeline_;
+    base::TimePoint begin_; // time 0 of the timeline
+    base::TimePoint now_;
+    std::vector<Override> overrides_;
+    Path path_;
+    std::uint64_t generation_ = 1;
+    std::optional<base::TimePoint> next_change_;
+};
+
+} // namespace hapnet::emulator

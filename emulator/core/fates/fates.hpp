@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/verdict.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+// Fates as text: a CSV table with one row for each datagram, first all of up, then all of down,
+// each in the order of their numbers. Equal fates are equal bytes, whatever the timing of the run
+// that wrote them.
+
+/// The first line, without its end:
+/// - direction: up | down
+/// - number: of the datagram in its direction, from 0
+/// - verdict: deliver | drop
+/// - cause: why it was dropped, as in the statistics
+/// - states: of the laws of loss in the order of their list, joined by '/', without the last ones
+///   that have none
+/// - delay_ns: as it was drawn, before any queue
+/// - copy_after_ns: how long after the original the copy leaves
+/// - flipped_bits: places of inverted bits modulo the bits of the datagram, joined by '|'
+/// - displaced_places, displaced_ns: how far behind its turn it leaves
+/// A column that does not apply is empty; those from delay_ns on apply to deliver only.
+inline constexpr std::string_view fates_header =
+    "direction,number,verdict,cause,states,delay_ns,copy_after_ns,flipped_bits,"
+    "displaced_places,displaced_ns";
+
+/// The longest time that a fate may hold: so that no sum of them and of a moment overflows.
+inline constexpr base::Duration fate_time_max = std::chrono::hours{24 * 1000};
+
+/// Appends the row of a fate, with its end of line, to `text`; allocates only when `text` has to
+/// grow.
+void append_row(std::string& text, Direction direction, std::uint64_t number, const Fate& fate);
+
+/// What became of the datagrams of both directions: fate n is that of datagram n.
+struct Fates {
+    std::vector<Fate> up;
+    std::vector<Fate> down;
+
+    friend bool operator==(const Fates&, const Fates&) = default;
+};
+
+/// The whole table.
+[[nodiscard]] std::string to_text(const Fates& fates);
+
+/// Reads the whole table; refuses, with the line and what was expected, everything that to_text()
+/// would not have written.
+[[nodiscard]] base::Result<Fates> parse_fates(std::string_view text);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/packet.hpp"
+#include "emulator/core/verdict.hpp"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// Gives the datagrams of one direction the fates of a run that was recorded, number by number,
+/// instead of drawing them; whoever comes after the last of them is dropped.
+class Replay {
+public:
+    /// `fates` is not null.
+    explicit Replay(std::shared_ptr<const std::vector<Fate>> fates) : fates_{std::move(fates)} {}
+
+    [[nodiscard]] Fate on_packet(const Packet& packet) const
+    {
+        if (packet.number >= fates_->size()) return {Drop{DropCause::replay_ended}, {}};
+        return (*fates_)[packet.number];
+    }
+
+private:
+    std::shared_ptr<const std::vector<Fate>> fates_;
+};
+
+} // namespace hapnet::emulator

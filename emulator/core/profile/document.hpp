@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// Where something stands in a text; both count from 1.
+struct Place {
+    std::uint32_t line = 1;
+    std::uint32_t column = 1;
+};
+
+struct Entry;
+
+/// A value of a TOML document and where it stands. The entries of a table are in the order of the
+/// text. Dates and times are not part of it: no profile has any.
+struct Node {
+    using List = std::vector<Node>;
+    using Table = std::vector<Entry>;
+
+    Place place;
+    std::variant<bool, std::int64_t, double, std::string, List, Table> value;
+};
+
+struct Entry {
+    std::string key;
+    Place place; // of the key
+    Node value;
+};
+
+/// A text that is not TOML, or more of it than a profile can be.
+struct DocumentError {
+    Place place;
+    std::string message;
+};
+
+/// Reads TOML 1.0 into a tree. The text is at most `document_bytes_max` long and nests at most so
+/// deep that no text can exhaust the stack.
+[[nodiscard]] tl::expected<Node, DocumentError> parse_document(std::string_view text);
+
+inline constexpr std::size_t document_bytes_max = 1 << 20;
+
+} // namespace hapnet::emulator

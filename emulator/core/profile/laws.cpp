@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/profile/laws.hpp"
+
+#include "emulator/core/delay/table.hpp"
+#include "emulator/core/delay/trace.hpp"
+#include "emulator/core/loss/trace.hpp"
+#include "emulator/core/profile/faults.hpp"
+#include "proto/base/text.hpp"
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::emulator {
+
+namespace {
+
+template <typename... Laws>
+constexpr std::array<std::string_view, sizeof...(Laws)> names_of(const std::variant<Laws...>*)
+{
+    return {Form<Laws>::name...};
+}
+
+/// Reads the files that a law names; nothing for most.
+template <typename Law>
+void load(Law&, Place, Reading&)
+{}
+
+/// The text of the file of a law as `parse` reads it; nullptr: complained of.
+template <typename Parse>
+auto loaded(const std::string& file, Place place, Reading& reading, Parse parse)
+{
+    using Loaded = std::decay_t<decltype(*parse(std::string_view{}))>;
+    const auto text = reading.open(file);
+    if (!text) {
+        reading.complain(place, text.error().message);
+        return Loaded{};
+    }
+    auto value = parse(std::string_view{*text});
+    if (!value) reading.complain(place, fmt::format("{}: {}", file, value.error().message));
+    return value.value_or(Loaded{});
+}
+
+void load(TableLaw& law, Place place, Reading& reading)
+{
+    const bool is_dist = law.file.ends_with(".dist");
+    law.table = loaded(law.file, place, reading, is_dist ? parse_dist : parse_samples);
+}
+
+void load(TraceLaw& law, Place place, Reading& reading)
+{
+    law.trace = loaded(law.file, place, reading, parse_delay_trace);
+}
+
+void load(TraceLoss& law, Place place, Reading& reading)
+{
+    law.trace = loaded(law.file, place, reading, [](std::string_view text) {
+        // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
+        const bool is_table =
+            text.find_first_of(",abcdefghijklmnopqrstuvwxyz") < text.find_first_of("01#");
+        auto trace = is_table ? parse_loss_table(text) : parse_loss_trace(text);
+        return trace.map(
+            [](LossTrace& read) { return std::make_shared<const LossTrace>(std::move(read)); });
+    });
+}
+
+/// The law that { law = "name", ... } names, with its parameters.
+template <typename... Laws>
+std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwise)
+{
+    constexpr auto names = names_of(static_cast<std::variant<Laws...>*>(nullptr));
+    Reading& reading = table.reading();
+    std::string name;
+    const Node* node = table.require("law");
+    if (node == nullptr) return otherwise;
+    read_value(*node, name, reading);
+    bool is_found = false;
+    const auto read = [&]<typename Law>(std::in_place_type_t<Law>) {
+        if (Form<Law>::name != name) return;
+        is_found = true;
+        Law law = read_fields<Law>(table);
+        if (reading.is_good()) load(law, table.place(), reading);
+        otherwise = std::move(law);
+    };
+    (read(std::in_place_type<Laws>), ...);
+    if (!is_found) {
+        reading.complain(node->place,
+                         fmt::format("{} is not a law: {}", quoted(name), suggestion(name, names)));
+    }
+    return otherwise;
+}
+
+template <typename Law>
+void complain_of_fault(const Law& law, Place place, Reading& reading)
+{
+    if (!reading.is_good()) return;
+    if (const auto fault = fault_of(law)) reading.complain(place, *fault);
+}
+
+bool is_text(const Node& node, std::string_view text)
+{
+    const auto* own = std::get_if<std::string>(&node.value);
+    return own != nullptr && *own == text;
+}
+
+Variation read_law_table(const Node& node, const Node::Table& entries, std::optional<Order>& order,
+                         Reading& reading)
+{
+    TableReader table{entries, node.place, reading};
+    const Node* time = table.find("correlation_time");
+    const Node* order_node = table.find("order");
+    Variation variation;
+    variation.law = read_law(table, variation.law);
+    if (time != nullptr) read_value(*time, variation.correlation_time, reading);
+    if (order_node != nullptr) order = read_order(*order_node, reading);
+    // After a wrong law all parameters are unknown: that would be a second complaint.
+    if (reading.is_good()) table.finish();
+    return variation;
+}
+
+LossLaw read_loss(const Node& node, Reading& reading)
+{
+    LossLaw law;
+    if (const auto* entries = std::get_if<Node::Table>(&node.value)) {
+        TableReader table{*entries, node.place, reading};
+        law = read_law(table, law);
+        if (reading.is_good()) table.finish();
+    } else if (const auto* text = std::get_if<std::string>(&node.value);
+               text != nullptr && text->find('/') != std::string::npos) {
+        law = read_burst(node, reading);
+    } else {
+        RandomLoss random;
+        read_value(node, random.share, reading);
+        law = random;
+    }
+    complain_of_fault(law, node.place, reading);
+    return law;
+}
+
+template <typename Law>
+std::vector<std::string> law_texts(const Law& law)
+{
+    return std::visit(
+        [](const auto& one) {
+            using One = std::decay_t<decltype(one)>;
+            auto texts = field_texts(one);
+            texts.insert(texts.begin(), fmt::format("law = {}", quoted(Form<One>::name)));
+            return texts;
+        },
+        law);
+}
+
+std::string loss_text(const LossLaw& law)
+{
+    if (const auto* random = std::get_if<RandomLoss>(&law)) return value_text(random->share);
+    const auto* burst = std::get_if<Burst>(&law);
+    if (burst != nullptr && !burst->phase) {
+        return quoted(fmt::format("{}/{}", burst->lost, burst->of));
+    }
+    return table_text(law_texts(law));
+}
+
+} // namespace
+
+std::string_view law_name(const DelayLaw& law)
+{
+    return std::visit([](const auto& one) { return Form<std::decay_t<decltype(one)>>::name; }, law);
+}
+
+Variation read_variation(const Node& node, Role role, std::optional<Order>& order, Reading& reading)
+{
+    Variation variation;
+    if (is_text(node, "none")) return variation;
+    if (const auto* entries = std::get_if<Node::Table>(&node.value)) {
+        variation = read_law_table(node, *entries, order, reading);
+    } else {
+        base::Duration value{};
+        read_value(node, value, reading);
+        if (role == Role::delay) variation.law = ConstantLaw{value};
+        if (role == Role::jitter) variation.law = UniformLaw{.half_width = value};
+    }
+    complain_of_fault(variation, node.place, reading);
+    return variation;
+}
+
+std::string variation_text(const Variation& variation, Role role)
+{
+    const auto* constant = std::get_if<ConstantLaw>(&variation.law);
+    const auto* uniform = std::get_if<UniformLaw>(&variation.law);
+    if (variation.correlation_time == base::Duration{0}) {
+        if (role == Role::delay && constant != nullptr) return value_text(constant->value);
+        if (role == Role::jitter && variation == Variation{}) return quoted("none");
+        if (role == Role::jitter && uniform != nullptr && uniform->mean == base::Duration{0}) {
+            return value_text(uniform->half_width);
+        }
+    }
+    auto texts = law_texts(variation.law);
+    if (variation.correlation_time != base::Duration{0}) {
+        texts.push_back("correlation_time = " + value_text(variation.correlation_time));
+    }
+    return table_text(texts);
+}
+
+std::vector<LossLaw> read_losses(const Node& node, Reading& reading)
+{
+    if (is_text(node, "none")) return {};
+    const auto* list = std::get_if<Node::List>(&node.value);
+    if (list == nullptr) return {read_loss(node, reading)};
+    std::vector<LossLaw> laws;
+    for (const Node& element : *list) {
+        if (laws.size() == loss_laws_max) {
+            reading.complain(element.place,
+                             fmt::format("a direction has at most {} laws of loss", loss_laws_max));
+            break;
+        }
+        laws.push_back(read_loss(element, reading));
+    }
+    return laws;
+}
+
+std::string losses_text(const std::vector<LossLaw>& laws)
+{
+    if (laws.empty()) return quoted("none");
+    if (laws.size() == 1) return loss_text(laws.front());
+    std::string text;
+    for (const LossLaw& law : laws) text += (text.empty() ? "" : ", ") + loss_text(law);
+    return "[" + text + "]";
+}
+
+Burst read_burst(const Node& node, Reading& reading)
+{
+    const auto* text = std::get_if<std::string>(&node.value);
+    const auto slash = text == nullptr ? std::string::npos : text->find('/');
+    if (slash != std::string::npos) {
+        constexpr auto most = std::numeric_limits<std::uint32_t>::max();
+        const auto lost = base::parse_count(std::string_view{*text}.substr(0, slash), most);
+        const auto of = base::parse_count(std::string_view{*text}.substr(slash + 1), most);
+        if (lost && of) {
+            return {static_cast<std::uint32_t>(*lost), static_cast<std::uint32_t>(*of), {}};
+        }
+    }
+    reading.complain(node.place, fmt::format("{} is not a burst: write \"40/100\" to lose 40 in a "
+                                             "row of every 100",
+                                             text == nullptr ? "this" : quoted(*text)));
+    return {1, 1, {}};
+}
+
+Order read_order(const Node& node, Reading& reading)
+{
+    std::string text;
+    read_value(node, text, reading);
+    for (const Order order : {Order::keep, Order::free, Order::sorted}) {
+        if (text == to_text(order)) return order;
+    }
+    reading.complain(node.place,
+                     fmt::format("{} is not an order: write keep, free or sorted", quoted(text)));
+    return Order::keep;
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/delay/law.hpp"
+#include "emulator/core/loss/law.hpp"
+#include "emulator/core/profile/reading.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// Which of the two delays of a direction a text is about: "5ms" is 5 ms as a delay, and from
+/// -5 ms to 5 ms as a jitter.
+enum class Role { delay, jitter };
+
+/// The name of a law in a profile; that of a loss is name_of().
+[[nodiscard]] std::string_view law_name(const DelayLaw& law);
+
+/// "160ms", "none" or { law = ..., ..., correlation_time = ... }. What the table says of the order
+/// of departure is put into `order`.
+[[nodiscard]] Variation read_variation(const Node& node, Role role, std::optional<Order>& order,
+                                       Reading& reading);
+[[nodiscard]] std::string variation_text(const Variation& variation, Role role);
+
+/// "93%", "40/100", "none", { law = ... } or a list of them.
+[[nodiscard]] std::vector<LossLaw> read_losses(const Node& node, Reading& reading);
+[[nodiscard]] std::string losses_text(const std::vector<LossLaw>& laws);
+
+/// "40/100": lost / of. Complains of anything else; 0 lost is a fault of the law.
+[[nodiscard]] Burst read_burst(const Node& node, Reading& reading);
+
+/// "keep", "free" or "sorted".
+[[nodiscard]] Order read_order(const Node& node, Reading& reading);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/recorder.hpp"
+
+#include "emulator/core/fates/fates.hpp"
+#include "proto/base/version.hpp"
+#include "proto/net/clock.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <netinet/in.h>
+#include <sched.h>
+#include <spdlog/fmt/fmt.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace hapnet::emulator {
+
+namespace {
+
+constexpr base::Duration write_every = std::chrono::milliseconds{20};
+constexpr std::size_t buffer_bytes = 1 << 18;
+/// So many entries of one queue before the other has its turn.
+constexpr std::size_t turn = 4096;
+
+[[noreturn]] void refuse(const std::string& what)
+{
+    throw std::system_error{errno, std::generic_category(), what};
+}
+
+/// A file without a name, in the folder of `path` so that there is room for it, or where temporary
+/// files are when that folder is no place for files (/dev).
+int open_nameless(const std::string& path)
+{
+    const auto beside = std::filesystem::absolute(path).parent_path();
+    for (const auto& folder : {beside, std::filesystem::temp_directory_path()}) {
+        std::string name = (folder / ".hapnet-XXXXXX").string();
+        const int descriptor = mkostemp(name.data(), O_CLOEXEC);
+        if (descriptor < 0) continue;
+        unlink(name.c_str());
+        return descriptor;
+    }
+    refuse(fmt::format("cannot write beside {}", path));
+}
+
+void write_all(int descriptor, std::string_view text)
+{
+    while (!text.empty()) {
+        const auto count = write(descriptor, text.data(), text.size());
+        if (count < 0 && errno != EINTR) refuse("cannot write the fates of down");
+        if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+    }
+}
+
+} // namespace
+
+UdpAddress udp_address_of(const net::Endpoint& endpoint)
+{
+    UdpAddress address;
+    address.port = endpoint.port();
+    address.is_v6 = endpoint.family() == AF_INET6;
+    if (address.is_v6) {
+        sockaddr_in6 v6{};
+        std::memcpy(&v6, endpoint.address(), sizeof v6);
+        std::memcpy(address.address.data(), &v6.sin6_addr, sizeof v6.sin6_addr);
+    } else {
+        sockaddr_in v4{};
+        std::memcpy(&v4, endpoint.address(), sizeof v4);
+        std::memcpy(address.address.data(), &v4.sin_addr, sizeof v4.sin_addr);
+    }
+    return address;
+}
+
+Recorder::Fates::Fates(const std::string& path) : file{path}, down_descriptor{open_nameless(path)}
+{
+    up.reserve(2 * buffer_bytes);
+    down.reserve(2 * buffer_bytes);
+    up = fmt::format("{}\n", fates_header);
+}
+
+Recorder::Fates::~Fates() { close(down_descriptor); }
+
+void Recorder::Fates::write()
+{
+    FateEntry entry;
+    for (std::size_t i = 0; i < turn && queue.try_dequeue(entry); ++i) {
+        append_row(entry.direction == Direction::up ? up : down, entry.direction, entry.number,
+                   entry.fate);
+    }
+    file.append(up);
+    write_all(down_descriptor, down);
+    up.clear();
+    down.clear();
+}
+
+/// The rows of down go after those of up.
+void Recorder::Fates::finish()
+{
+    if (lseek(down_descriptor, 0, SEEK_SET) != 0) refuse("cannot read the fates of down");
+    down.resize(buffer_bytes);
+    for (;;) {
+        const auto count = read(down_descriptor, down.data(), down.size());
+        if (count < 0 && errno != EINTR) refuse("cannot read the fates of down");
+        if (count == 0) break;
+        if (count > 0) file.append({down.data(), static_cast<std::size_t>(count)});
+    }
+    file.commit({});
+}
+
+Recorder::Capture::Capture(const std::string& path)
+    : file{path},
+      since_1970{base::from_seconds(net::wall_clock_seconds()) -
+                 net::monotonic_now().time_since_epoch()}
+{
+    bytes.reserve(2 * buffer_bytes);
+    append_capture_head(bytes, base::version_line("hapnet-emulator"));
+}
+
+void Recorder::Capture::write()
+{
+    Part part;
+    for (std::size_t i = 0; i < turn && queue.try_dequeue(part); ++i) {
+        take(part);
+        if (bytes.size() < buffer_bytes) continue;
+        file.append(bytes);
+        bytes.clear();
+    }
+    file.append(bytes);
+    bytes.clear();
+}
+
+/// A packet whose pieces do not all come was lost: the next one begins instead.
+void Recorder::Capture::take(const Part& part)
+{
+    if (const auto* beginning = std::get_if<Head>(&part)) {
+        head = *beginning;
+        payload.clear();
+    } else {
+        const auto& piece = std::get<Piece>(part);
+        payload.insert(payload.end(), piece.bytes.begin(),
+                       piece.bytes.begin() + static_cast<std::ptrdiff_t>(piece.count));
+    }
+    if (!head || payload.size() < head->sight.bytes.size()) return;
+    append(*head);
+    head.reset();
+}
+
+void Recorder::Capture::append(const Head& complete)
+{
+    comment.clear();
+    const auto* departed = std::get_if<Departed>(&complete.what);
+    if (departed != nullptr) {
+        append_departure_comment(comment, departed->late, departed->is_copy);
+    } else {
+        append_arrival_comment(comment, std::get<Fate>(complete.what));
+    }
+    const Sight& sight = complete.sight;
+    append_packet(bytes, {.side = sight.side,
+                          .is_outbound = departed != nullptr,
+                          .time = sight.at.time_since_epoch() + since_1970,
+                          .from = sight.from,
+                          .to = sight.to,
+                          .payload = payload,
+                          .comment = comment});
+}
+
+Recorder::Recorder(const Files& files)
+{
+    if (files.fates) fates_ = std::make_unique<Fates>(*files.fates);
+    if (files.capture) capture_ = std::make_unique<Capture>(*files.capture);
+    if (fates_ || capture_) thread_ = std::thread{[this] { run(); }};
+}
+
+Recorder::~Recorder()
+{
+    stop_.store(true, std::memory_order_release);
+    if (thread_.joinable()) thread_.join();
+}
+
+void Recorder::on_fate(Direction direction, std::uint64_t number, const Fate& fate)
+{
+    if (!fates_) return;
+    if (!fates_->queue.try_enqueue({fate, number, direction})) fates_lost_.fetch_add(1, relaxed);
+}
+
+void Recorder::on_arrival(const Sight& sight, const Fate& fate)
+{
+    if (capture_) put(sight, fate);
+}
+
+void Recorder::on_departure(const Sight& sight, base::Duration late, bool is_copy)
+{
+    if (capture_) put(sight, Departed{late, is_copy});
+}
+
+void Recorder::put(const Sight& sight, const std::variant<Fate, Departed>& what)
+{
+    bool fits = capture_->queue.try_enqueue(Part{Head{sight, what}});
+    for (auto rest = sight.bytes; fits && !rest.empty();) {
+        Part part{std::in_place_type<Piece>};
+        auto& piece = std::get<Piece>(part);
+        piece.count = std::min(rest.size(), piece.bytes.size());
+        std::copy_n(rest.begin(), piece.count, piece.bytes.begin());
+        rest = rest.subspan(piece.count);
+        fits = capture_->queue.try_enqueue(std::move(part));
+    }
+    if (!fits) capture_lost_.fetch_add(1, relaxed);
+}
+
+/// The thread: writes what waits, and sleeps. Polling, so that the relay need not wake it.
+void Recorder::run()
+{
+    // The relay's real-time priority is inherited; it is not for files.
+    const sched_param normal{};
+    sched_setscheduler(0, SCHED_OTHER, &normal);
+    const auto write = [this] {
+        if (fates_) fates_->write();
+        if (capture_) capture_->write();
+    };
+    const auto waiting = [this] {
+        return std::max(fates_ ? fates_->queue.size_approx() : 0,
+                        capture_ ? capture_->queue.size_approx() : 0);
+    };
+    try {
+        while (!stop_.load(std::memory_order_acquire)) {
+            write();
+            if (waiting() < turn) net::sleep_until(net::monotonic_now() + write_every);
+        }
+        do {
+            write();
+        } while (waiting() > 0);
+    } catch (...) {
+        failure_ = std::current_exception();
+        failed_.store(true, std::memory_order_release);
+    }
+}
+
+void Recorder::finish()
+{
+    if (!thread_.joinable()) return;
+    stop_.store(true, std::memory_order_release);
+    thread_.join();
+    if (failure_) std::rethrow_exception(failure_);
+    if (fates_) fates_->finish();
+    if (capture_) capture_->file.commit({});
+}
+
+} // namespace hapnet::emulator

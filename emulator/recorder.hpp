@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/capture/pcapng.hpp"
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/verdict.hpp"
+#include "proto/base/time.hpp"
+#include "proto/net/endpoint.hpp"
+#include "proto/net/result_file.hpp"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <readerwriterqueue/readerwritercircularbuffer.h>
+#include <span>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// An endpoint as a capture writes it.
+[[nodiscard]] UdpAddress udp_address_of(const net::Endpoint& endpoint);
+
+/// A datagram that came or went.
+struct Sight {
+    CaptureSide side = CaptureSide::a; // whose socket it passed
+    base::TimePoint at{};
+    UdpAddress from;
+    UdpAddress to;
+    std::span<const std::byte> bytes;
+};
+
+/// Writes the fates and the capture of a run, on a thread of normal priority. What the relay hands
+/// over goes through bounded queues, which never make it wait; what does not fit is counted.
+class Recorder {
+public:
+    struct Files {
+        std::optional<std::string> fates{};
+        std::optional<std::string> capture{};
+    };
+
+    /// Throws std::system_error when a file cannot be written. No thread when there is none. The
+    /// signals that are to reach the calling thread alone are blocked already.
+    explicit Recorder(const Files& files);
+    /// What was not finished disappears.
+    ~Recorder();
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+
+    [[nodiscard]] bool writes_fates() const { return fates_ != nullptr; }
+    [[nodiscard]] bool captures() const { return capture_ != nullptr; }
+
+    // For the relay's thread. They neither allocate nor lock nor call the system; nothing happens
+    // where no file is asked for.
+
+    /// The datagram of this number was given this fate.
+    void on_fate(Direction direction, std::uint64_t number, const Fate& fate);
+    /// A datagram arrived that was given this fate.
+    void on_arrival(const Sight& sight, const Fate& fate);
+    /// A datagram left, so much after it was due.
+    void on_departure(const Sight& sight, base::Duration late, bool is_copy);
+
+    /// How many fates and how many packets are missing in their files: if any, the file is not
+    /// complete.
+    [[nodiscard]] std::uint64_t fates_lost() const { return fates_lost_.load(relaxed); }
+    [[nodiscard]] std::uint64_t capture_lost() const { return capture_lost_.load(relaxed); }
+
+    /// Whether a file could not be written (a full disk): from then on everything is lost.
+    [[nodiscard]] bool has_failed() const { return failed_.load(std::memory_order_acquire); }
+
+    /// Writes all that was handed over and puts the files into their places. Throws what the
+    /// thread failed of. Nothing may be handed over any more.
+    void finish();
+
+private:
+    static constexpr auto relaxed = std::memory_order_relaxed;
+
+    struct FateEntry {
+        Fate fate;
+        std::uint64_t number = 0;
+        Direction direction = Direction::up;
+    };
+    /// How late a datagram left.
+    struct Departed {
+        base::Duration late{};
+        bool is_copy = false;
+    };
+    /// The beginning of a packet; its bytes follow in pieces.
+    struct Head {
+        Sight sight; // its bytes: only how many
+        std::variant<Fate, Departed> what;
+    };
+    struct Piece {
+        std::array<std::byte, 240> bytes; // most datagrams are one piece
+        std::size_t count;
+    };
+    using Part = std::variant<Head, Piece>;
+
+    // Of the two queues of their package the one that ThreadSanitizer can follow. As long as
+    // nobody waits for them, and nobody here does, they make no system call.
+    template <typename T>
+    using Queue = moodycamel::BlockingReaderWriterCircularBuffer<T>;
+
+    struct Fates {
+        explicit Fates(const std::string& path);
+        ~Fates();
+        Fates(const Fates&) = delete;
+        Fates& operator=(const Fates&) = delete;
+
+        void write();
+        void finish();
+
+        static constexpr std::size_t capacity = 1 << 16; // 3 s at 20 000 datagrams/s
+        Queue<FateEntry> queue{capacity};
+        net::ResultFile file;
+        int down_descriptor; // a file without a name, for the rows that come last
+        std::string up;
+        std::string down;
+    };
+    struct Capture {
+        explicit Capture(const std::string& path);
+
+        void write();
+        void take(const Part& part);
+        void append(const Head& complete);
+
+        static constexpr std::size_t capacity = 1 << 17; // 1.6 s at 20 000 datagrams/s
+        Queue<Part> queue{capacity};
+        net::ResultFile file;
+        base::Duration since_1970; // of the time point 0
+        std::string bytes;
+        std::optional<Head> head; // of the packet whose pieces come
+        std::vector<std::byte> payload;
+        std::string comment;
+    };
+
+    void put(const Sight& sight, const std::variant<Fate, Departed>& what);
+    void run();
+
+    std::unique_ptr<Fates> fates_;
+    std::unique_ptr<Capture> capture_;
+    std::atomic<std::uint64_t> fates_lost_{0};
+    std::atomic<std::uint64_t> capture_lost_{0};
+    std::atomic<bool> stop_{false};
+    std::atomic<bool> failed_{false};
+    std::exception_ptr failure_;
+    std::thread thread_; // last: it uses the others
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/net/unix_socket.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <spdlog/fmt/fmt.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace hapnet::net {
+
+namespace {
+
+[[noreturn]] void refuse(int error, std::string_view doing, const std::string& path)
+{
+    throw std::system_error{error, std::generic_category(), fmt::format("{} {}", doing, path)};
+}
+
+sockaddr_un address_of(const std::string& path)
+{
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path.empty()) refuse(ENOENT, "a socket needs a path", path);
+    if (path.size() >= sizeof address.sun_path) {
+        refuse(
+            ENAMETOOLONG,
+            fmt::format("the path of a socket has at most {} bytes:", sizeof address.sun_path - 1),
+            path);
+    }
+    std::memcpy(address.sun_path, path.data(), path.size());
+    return address;
+}
+
+/// The type that the system's functions want.
+const sockaddr* generic(const sockaddr_un& address)
+{
+    return reinterpret_cast<const sockaddr*>(&address);
+}
+
+UnixStream new_socket()
+{
+    const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (descriptor < 0) throw std::system_error{errno, std::generic_category(), "socket"};
+    return UnixStream{descriptor};
+}
+
+Transfer outcome_of(ssize_t count)
+{
+    using State = Transfer::State;
+    if (count > 0) return {State::moved, static_cast<std::size_t>(count)};
+    if (count == 0) return {State::ended};
+    const bool is_for_now = errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
+    return {is_for_now ? State::later : State::gone};
+}
+
+/// Removes a socket that nobody answers on.
+void clear_the_place(const std::string& path, const sockaddr_un& address)
+{
+    struct stat found {};
+    if (lstat(path.c_str(), &found) != 0) return;
+    if (!S_ISSOCK(found.st_mode)) refuse(EEXIST, "this is no socket, and stays:", path);
+    const auto probe = new_socket();
+    if (::connect(probe.descriptor(), generic(address), sizeof address) == 0 || errno == EAGAIN) {
+        refuse(EADDRINUSE, "another program answers on", path);
+    }
+    if (errno == ECONNREFUSED) unlink(path.c_str());
+}
+
+} // namespace
+
+UnixStream UnixStream::connect(const std::string& path)
+{
+    const auto address = address_of(path);
+    auto stream = new_socket();
+    if (::connect(stream.descriptor(), generic(address), sizeof address) != 0) {
+        refuse(errno, "cannot connect to", path);
+    }
+    return stream;
+}
+
+UnixStream::~UnixStream()
+{
+    if (descriptor_ >= 0) close(descriptor_);
+}
+
+UnixStream::UnixStream(UnixStream&& other) noexcept
+    : descriptor_{std::exchange(other.descriptor_, -1)}
+{}
+
+UnixStream& UnixStream::operator=(UnixStream&& other) noexcept
+{
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+}
+
+Transfer UnixStream::read(std::span<char> into)
+{
+    return outcome_of(recv(descriptor_, into.data(), into.size(), MSG_DONTWAIT));
+}
+
+Transfer UnixStream::write(std::string_view bytes)
+{
+    return outcome_of(send(descriptor_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL));
+}
+
+UnixListener::UnixListener(std::string path) : path_{std::move(path)}, socket_{new_socket()}
+{
+    constexpr int waiting_max = 64;
+    const auto address = address_of(path_);
+    clear_the_place(path_, address);
+    // Nobody else may open it at any moment, so the file is made with its mode.
+    const auto mask = umask(S_IRWXG | S_IRWXO | S_IXUSR);
+    const int bound = bind(descriptor(), generic(address), sizeof address);
+    const int error = errno;
+    umask(mask);
+    if (bound != 0) refuse(error, "cannot listen on", path_);
+    struct stat created {};
+    if (lstat(path_.c_str(), &created) == 0) file_ = created.st_ino;
+    if (listen(descriptor(), waiting_max) != 0) refuse(errno, "cannot listen on", path_);
+}
+
+UnixListener::~UnixListener()
+{
+    struct stat found {};
+    if (lstat(path_.c_str(), &found) == 0 && found.st_ino == file_) unlink(path_.c_str());
+}
+
+std::optional<UnixStream> UnixListener::accept()
+{
+    const int accepted = accept4(descriptor(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (accepted < 0) return std::nullopt;
+    return UnixStream{accepted};
+}
+
+} // namespace hapnet::net

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hapnet::net {
+
+/// What became of an attempt to move bytes.
+struct Transfer {
+    enum class State : std::uint8_t {
+        moved,
+        later, // nothing now
+        ended, // the other side sends no more
+        gone,  // the connection is broken
+    };
+
+    State state = State::later;
+    std::size_t bytes = 0; // when moved
+};
+
+/// One end of a connection over a Unix socket. Moves bytes; decides nothing.
+class UnixStream {
+public:
+    /// Connects to the socket at `path`. Throws std::system_error naming it.
+    [[nodiscard]] static UnixStream connect(const std::string& path);
+
+    /// Takes over a connected descriptor.
+    explicit UnixStream(int descriptor) : descriptor_{descriptor} {}
+    ~UnixStream();
+    UnixStream(UnixStream&& other) noexcept;
+    UnixStream& operator=(UnixStream&& other) noexcept;
+    UnixStream(const UnixStream&) = delete;
+    UnixStream& operator=(const UnixStream&) = delete;
+
+    /// Never block.
+    Transfer read(std::span<char> into);
+    Transfer write(std::string_view bytes);
+
+    [[nodiscard]] int descriptor() const { return descriptor_; }
+
+private:
+    int descriptor_ = -1;
+};
+
+/// A Unix socket in the file system that only its owner may open (mode 0600). Never blocks.
+class UnixListener {
+public:
+    /// Takes the place of a socket on which nobody answers any more, and of nothing else. Throws
+    /// std::system_error naming the path, EADDRINUSE when somebody answers there or it is no
+    /// socket.
+    explicit UnixListener(std::string path);
+    /// Removes the socket, if it is still this one.
+    ~UnixListener();
+    UnixListener(const UnixListener&) = delete;
+    UnixListener& operator=(const UnixListener&) = delete;
+
+    /// The next one who has connected; nullopt when there is none.
+    [[nodiscard]] std::optional<UnixStream> accept();
+
+    [[nodiscard]] int descriptor() const { return socket_.descriptor(); }
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+    UnixStream socket_;      // for its descriptor
+    std::uint64_t file_ = 0; // the socket's own number in its file system
+};
+
+} // namespace hapnet::net

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hapnet::net {
+
+/// What a descriptor is ready for.
+struct Ready {
+    std::uint64_t key = 0; // as it was added
+    bool is_readable = false;
+    bool is_writable = false;
+    bool is_gone = false; // the other side has closed it, both ways
+};
+
+/// Many descriptors as one: its own descriptor is readable while any of them is ready for what is
+/// wanted of it.
+class WaitSet {
+public:
+    struct Interest {
+        bool to_read = false;
+        bool to_write = false;
+
+        friend bool operator==(const Interest&, const Interest&) = default;
+    };
+
+    /// Throws std::system_error.
+    WaitSet();
+    ~WaitSet();
+    WaitSet(const WaitSet&) = delete;
+    WaitSet& operator=(const WaitSet&) = delete;
+
+    /// A descriptor leaves the set when it is closed.
+    void add(int descriptor, std::uint64_t key, Interest interest);
+    void change(int descriptor, std::uint64_t key, Interest interest);
+
+    /// Those that are ready now, some of them at least; valid until the next call. Never blocks.
+    [[nodiscard]] std::span<const Ready> ready();
+
+    [[nodiscard]] int descriptor() const { return descriptor_; }
+
+private:
+    static constexpr std::size_t batch_max = 32;
+
+    int descriptor_ = -1;
+    std::array<Ready, batch_max> ready_{};
+};
+
+} // namespace hapnet::net

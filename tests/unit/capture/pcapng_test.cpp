@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/capture/pcapng.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+#include <vector>
+
+namespace hapnet::emulator {
+namespace {
+
+using namespace std::chrono_literals;
+
+UdpAddress v4(std::uint8_t last, std::uint16_t port)
+{
+    return {{std::byte{10}, std::byte{0}, std::byte{0}, std::byte{last}}, port, false};
+}
+
+UdpAddress v6(std::uint8_t last, std::uint16_t port)
+{
+    UdpAddress address{{std::byte{0xfd}}, port, true};
+    address.address[15] = std::byte{last};
+    return address;
+}
+
+UdpAddress mapped(std::uint8_t last, std::uint16_t port)
+{
+    UdpAddress address{{}, port, true};
+    address.address[10] = address.address[11] = std::byte{0xff};
+    address.address[12] = std::byte{10};
+    address.address[15] = std::byte{last};
+    return address;
+}
+
+std::string arrival_comment(const Fate& fate)
+{
+    std::string text;
+    append_arrival_comment(text, fate);
+    return text;
+}
+
+std::string departure_comment(base::Duration late, bool is_copy)
+{
+    std::string text;
+    append_departure_comment(text, late, is_copy);
+    return text;
+}
+
+TEST(Comments, SayWhatBecomesOfADatagram)
+{
+    EXPECT_EQ(arrival_comment({Drop{DropCause::gilbert_elliott}, {}}), "dropped: gilbert-elliott");
+    EXPECT_EQ(arrival_comment({Deliver{}, {}}), "delayed 0.0 ms");
+    EXPECT_EQ(arrival_comment({Deliver{.after = 15us}, {}}), "delayed 15 us");
+    EXPECT_EQ(arrival_comment({Deliver{.after = 999'500ns}, {}}), "delayed 1.0 ms");
+    EXPECT_EQ(arrival_comment({Deliver{.after = 163'249us}, {}}), "delayed 163.2 ms");
+    Deliver deliver{.after = 163'250us, .copy = 0ns};
+    deliver.flips.count = 1;
+    deliver.displacement.places = 3;
+    EXPECT_EQ(arrival_comment({deliver, {}}),
+              "delayed 163.3 ms, copied, 1 bit corrupted, displaced");
+    deliver.flips.count = 2;
+    deliver.displacement = {0, 1ms};
+    EXPECT_EQ(arrival_comment({deliver, {}}),
+              "delayed 163.3 ms, copied, 2 bits corrupted, displaced");
+}
+
+TEST(Comments, SayHowLateADatagramLeft)
+{
+    EXPECT_EQ(departure_comment(7'400ns, false), "late 7 us");
+    EXPECT_EQ(departure_comment(7'500ns, true), "late 8 us, copy");
+}
+
+/// What tshark prints; nullopt when there is none.
+std::optional<std::string> dissected(const std::string& capture)
+{
+    if (std::system("command -v tshark >/dev/null 2>&1") != 0) return std::nullopt;
+    const std::string path = fmt::format("{}hapnet-{}.pcapng", testing::TempDir(), getpid());
+    std::ofstream{path, std::ios::binary} << capture;
+    const std::string command = fmt::format(
+        "tshark -r '{}' -n -o udp.check_checksum:TRUE -o ip.check_checksum:TRUE -T fields"
+        " -e frame.interface_name -e frame.packet_flags_direction -e frame.time_epoch"
+        " -e ip.src -e ip.dst -e ipv6.src -e ipv6.dst -e udp.srcport -e udp.dstport"
+        " -e udp.length -e ip.checksum.status -e udp.checksum.status -e frame.comment 2>/dev/null",
+        path);
+    std::string printed;
+    FILE* const pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return std::nullopt;
+    std::array<char, 4096> part{};
+    while (const auto count = std::fread(part.data(), 1, part.size(), pipe)) {
+        printed.append(part.data(), count);
+    }
+    pclose(pipe);
+    std::remove(path.c_str());
+    return printed;
+}
+
+TEST(Capture, IsUnderstoodByTshark)
+{
+    const std::vector<std::byte> hello{std::byte{'h'}, std::byte{'e'}, std::byte{'y'}};
+    const std::vector<std::byte> large(CapturedPacket::payload_bytes_max - 20, std::byte{0xa5});
+    // The words of this one add up to a checksum of 0, which UDP writes as 0xffff.
+    const std::vector<std::byte> zero_sum{std::byte{0xb5}, std::byte{0x1f}};
+    const auto time = 1'700'000'000s + 123'456'789ns;
+    std::string bytes;
+    append_capture_head(bytes, "hapnet-emulator 1.0");
+    const auto a = CaptureSide::a;
+    const auto b = CaptureSide::b;
+    append_packet(bytes, {a, false, time, v4(1, 7000), v4(9, 7001), hello, "delayed 160.0 ms"});
+    append_packet(bytes, {b, true, time + 1ns, v4(9, 7002), v4(2, 7000), large, "late 7 us"});
+    append_packet(bytes, {b, false, time, v6(1, 7000), v6(9, 7001), hello, "dropped: outage"});
+    append_packet(bytes, {a, true, time, mapped(1, 7000), v4(9, 7001), {}, "late 0 us"});
+    append_packet(bytes, {a, true, time, mapped(1, 7000), v6(9, 7001), hello, "late 1 us"});
+    append_packet(bytes, {a, false, time, v4(1, 7000), v4(9, 7001), zero_sum, "x"});
+    const auto printed = dissected(bytes);
+    if (!printed) GTEST_SKIP() << "tshark is not installed";
+    const std::string second = "1700000000.123456789";
+    EXPECT_EQ(*printed, "side A\t0x00000001\t" + second +
+                            "\t10.0.0.1\t10.0.0.9\t\t\t7000\t7001\t11\t1\t1\tdelayed 160.0 ms\n"
+                            "side B\t0x00000002\t1700000000.123456790"
+                            "\t10.0.0.9\t10.0.0.2\t\t\t7002\t7000\t65515\t1\t1\tlate 7 us\n"
+                            "side B\t0x00000001\t" +
+                            second +
+                            "\t\t\tfd00::1\tfd00::9\t7000\t7001\t11\t\t1\tdropped: outage\n"
+                            "side A\t0x00000002\t" +
+                            second +
+                            "\t10.0.0.1\t10.0.0.9\t\t\t7000\t7001\t8\t1\t1\tlate 0 us\n"
+                            "side A\t0x00000002\t" +
+                            second +
+                            "\t\t\t::ffff:10.0.0.1\tfd00::9\t7000\t7001\t11\t\t1\tlate 1 us\n"
+                            "side A\t0x00000001\t" +
+                            second + "\t10.0.0.1\t10.0.0.9\t\t\t7000\t7001\t10\t1\t1\tx\n");
+}
+
+} // namespace
+} // namespace hapnet::emulator

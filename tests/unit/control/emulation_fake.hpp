@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/control/conversation.hpp"
+#include "emulator/control/emulation.hpp"
+#include "emulator/core/director.hpp"
+#include "emulator/core/profile/text.hpp"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hapnet::emulator {
+
+/// An emulator that is only what its control sees of it.
+struct EmulationFake {
+    explicit EmulationFake(std::string_view toml, base::TimePoint start)
+        : director{parse_profile(toml, "fake.toml", no_files).value(), start}
+    {}
+
+    static base::Result<std::string> no_files(const std::string& name)
+    {
+        return base::fail("no file " + name);
+    }
+
+    Director director;
+    NextNumbers next{};
+    std::optional<Path> enacted; // nullopt: nothing has changed
+    nlohmann::json statistics{{"up", {{"received", 0}, {"lateness_us", {{"p50", nullptr}}}}},
+                              {"down", {{"received", 0}}},
+                              {"program", "fake"},
+                              {"valid", true}};
+    Emulation emulation{director, [this](const Path& path, base::TimePoint) { enacted = path; },
+                        [this] { return next; }, [this] { return statistics.dump(2); },
+                        [](const std::string& name, const std::string&) { return no_files(name); }};
+};
+
+/// Takes what the conversation has to say.
+inline std::string said_by(Conversation& conversation, base::TimePoint now)
+{
+    std::string said{conversation.output()};
+    conversation.on_written(said.size(), now);
+    return said;
+}
+
+/// Everything that it says to `text` at once.
+inline std::string said_to(Conversation& conversation, std::string_view text, EmulationFake& fake,
+                           base::TimePoint now)
+{
+    conversation.on_bytes(text);
+    std::string said;
+    while (conversation.advance(fake.emulation, now)) said += said_by(conversation, now);
+    return said + said_by(conversation, now);
+}
+
+} // namespace hapnet::emulator

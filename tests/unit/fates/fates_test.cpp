@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/fates/fates.hpp"
+#include "emulator/core/fates/replay.hpp"
+
+#include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::emulator {
+namespace {
+
+using namespace std::chrono_literals;
+
+Fate delivered_after(base::Duration after) { return {Deliver{.after = after}, {}}; }
+
+Fate with_everything()
+{
+    Deliver deliver{.after = 163'200'000ns, .copy = 0ns};
+    deliver.flips = {{7, 4'294'967'295}, 2};
+    deliver.displacement = {3, 5ms};
+    return {deliver, {LossState::none, LossState::bad, LossState::none, LossState::lost_in_gap}};
+}
+
+const Fates some{{delivered_after(160ms), {Drop{DropCause::gilbert_elliott}, {LossState::bad}}},
+                 {with_everything()}};
+
+const std::string some_text = std::string{fates_header} +
+                              "\nup,0,deliver,,,160000000,,,,\n"
+                              "up,1,drop,gilbert_elliott,bad,,,,,\n"
+                              "down,0,deliver,,none/bad/none/lost_in_gap,163200000,0,"
+                              "7|4294967295,3,5000000\n";
+
+TEST(Fates, AreOneRowForEachDatagramAndFirstAllOfUp) { EXPECT_EQ(to_text(some), some_text); }
+
+TEST(Fates, ParseToWhatWasWritten)
+{
+    EXPECT_EQ(parse_fates(some_text).value(), some);
+    EXPECT_EQ(parse_fates(to_text(Fates{})).value(), Fates{});
+}
+
+TEST(Fates, AreAppendedWithoutAllocationOnceTheBufferIsLargeEnough)
+{
+    std::string text;
+    text.reserve(1024);
+    const char* const memory = text.data();
+    append_row(text, Direction::down, 0, with_everything());
+    append_row(text, Direction::up, 18'446'744'073'709'551'615U, some.up[1]);
+    EXPECT_EQ(text.data(), memory);
+}
+
+TEST(Fates, OfEveryCauseAreRead)
+{
+    Fates fates;
+    for (const DropCause cause : drop_causes) fates.down.push_back({Drop{cause}, {}});
+    EXPECT_EQ(parse_fates(to_text(fates)).value(), fates);
+}
+
+struct Refusal {
+    std::string rows; // after the header
+    std::string reason;
+};
+
+TEST(Fates, ThatWouldNotHaveBeenWrittenAreRefusedWithTheLineAndTheReason)
+{
+    const std::vector<Refusal> refusals{
+        {"up,0,deliver,,,1,,,,", "line 2: the end of the line is missing: was the file cut off?"},
+        {"up,0,deliver,,,1,,,\n", "line 2: expected 10 columns, found 9"},
+        {"\n", "line 2: expected 10 columns, found 1"},
+        {"up,0,deliver,,,1,,,,\r\n",
+         "line 2: displaced_ns: expected whole nanoseconds up to 86400000000000000, found '\r'"},
+        {"left,0,deliver,,,1,,,,\n", "line 2: direction: expected up or down, found 'left'"},
+        {"up,1,deliver,,,1,,,,\n", "line 2: number: expected 0, found '1'"},
+        {"up,00,deliver,,,1,,,,\n", "line 2: number: expected 0, found '00'"},
+        {"up,0,deliver,,,1,,,,\nup,0,deliver,,,1,,,,\n", "line 3: number: expected 1, found '0'"},
+        {"down,0,deliver,,,1,,,,\nup,0,deliver,,,1,,,,\n",
+         "line 3: direction: the rows of up stand before those of down"},
+        {"up,0,Deliver,,,1,,,,\n", "line 2: verdict: expected deliver or drop, found 'Deliver'"},
+        {"up,0,deliver,mtu,,1,,,,\n", "line 2: cause: only a drop has one"},
+        {"up,0,drop,bad_luck,,,,,,\n", "line 2: cause: 'bad_luck' is none"},
+        {"up,0,drop,mtu,,1,,,,\n", "line 2: a drop has nothing after its states"},
+        {"up,0,drop,mtu,ugly,,,,,\n", "line 2: states: 'ugly' is none"},
+        {"up,0,drop,mtu,good/,,,,,\n", "line 2: states: '' is none"},
+        {"up,0,drop,mtu,good/none,,,,,\n",
+         "line 2: states: the last of them must not be 'none': leave it out"},
+        {"up,0,drop,mtu,bad/bad/bad/bad/bad/bad/bad/bad/bad,,,,,\n",
+         "line 2: states: expected at most 8, found 9"},
+        {"up,0,deliver,,,,,,,\n",
+         "line 2: delay_ns: expected whole nanoseconds up to 86400000000000000, found ''"},
+        {"up,0,deliver,,,-1,,,,\n",
+         "line 2: delay_ns: expected whole nanoseconds up to 86400000000000000, found '-1'"},
+        {"up,0,deliver,,,86400000000000001,,,,\n",
+         "line 2: delay_ns: expected whole nanoseconds up to 86400000000000000, found "
+         "'86400000000000001'"},
+        {"up,0,deliver,,,1,01,,,\n",
+         "line 2: copy_after_ns: expected whole nanoseconds up to 86400000000000000, found '01'"},
+        {"up,0,deliver,,,1,,4294967296,,\n",
+         "line 2: flipped_bits: expected places, found '4294967296'"},
+        {"up,0,deliver,,,1,,1|,,\n", "line 2: flipped_bits: expected places, found ''"},
+        {"up,0,deliver,,,1,,1|1|1|1|1|1|1|1|1,,\n",
+         "line 2: flipped_bits: expected at most 8, found 9"},
+        {"up,0,deliver,,,1,,,0,\n",
+         "line 2: displaced_places: expected nothing or a number from 1, found '0'"},
+        {"up,0,deliver,,,1,,,,0\n",
+         "line 2: displaced_ns: expected nothing or a number from 1, found '0'"},
+    };
+    for (const Refusal& refusal : refusals) {
+        const auto read = parse_fates(std::string{fates_header} + "\n" + refusal.rows);
+        ASSERT_FALSE(read) << refusal.rows;
+        EXPECT_EQ(read.error().message, refusal.reason);
+    }
+}
+
+TEST(Fates, WithoutTheirHeaderAreRefused)
+{
+    EXPECT_EQ(parse_fates("").error().message,
+              "line 1: the end of the line is missing: was the file cut off?");
+    EXPECT_EQ(parse_fates("up,0,deliver,,,1,,,,\n").error().message,
+              fmt::format("line 1: expected '{}'", fates_header));
+}
+
+TEST(Replay, GivesEachDatagramTheFateOfItsNumberAndDropsWhatComesAfterTheLast)
+{
+    const Replay replay{std::make_shared<const std::vector<Fate>>(some.up)};
+    EXPECT_EQ(replay.on_packet({.number = 1}), some.up[1]);
+    EXPECT_EQ(replay.on_packet({.number = 0}), some.up[0]);
+    EXPECT_EQ(replay.on_packet({.number = 2}), (Fate{Drop{DropCause::replay_ended}, {}}));
+}
+
+} // namespace
+} // namespace hapnet::emulator

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/loss/trace.hpp"
+
+#include <gtest/gtest.h>
+#include <string>
+
+namespace hapnet::emulator {
+
+TEST(LossTrace, IsReadFromLinesOrFromARow)
+{
+    const auto rows = parse_loss_trace("# a walk\n0\n1\r\n 1\n\n0 # the last\n").value();
+    EXPECT_EQ(rows, parse_loss_trace("01 10").value());
+    EXPECT_EQ(rows.size(), 4U);
+    EXPECT_EQ(rows.losses(), 2U);
+}
+
+TEST(LossTrace, NamesTheLineThatItCannotRead)
+{
+    EXPECT_EQ(parse_loss_trace("0\n1\n2\n").error().message,
+              "line 3: a trace of losses holds 0 (arrived) and 1 (lost) only");
+    EXPECT_EQ(parse_loss_trace(" # nothing\n").error().message,
+              "a trace of losses with no datagram in it");
+}
+
+TEST(LossTrace, IsReadFromTheColumnOfATable)
+{
+    EXPECT_EQ(parse_loss_table("number,lost,delay\n0,1,2\n1,0,3\r\n2,0,4\n").value(),
+              parse_loss_trace("100").value());
+    EXPECT_EQ(parse_loss_table("a,b\n").error().message, "line 1: there is no column named 'lost'");
+    EXPECT_EQ(parse_loss_table("a,lost\n0,1\n1\n").error().message,
+              "line 3: 'lost' is 0 (arrived) or 1 (lost), nothing else");
+}
+
+TEST(LossTrace, HasABound)
+{
+    const std::string text(LossTrace::datagrams_max, '0');
+    EXPECT_TRUE(parse_loss_trace(text));
+    EXPECT_EQ(parse_loss_trace(text + "\n1").error().message,
+              "line 2: more than 10000000 datagrams in a trace of losses");
+}
+
+TEST(Pattern, IsReadAndPrintedAsDigits)
+{
+    EXPECT_EQ(parse_pattern("0010").value(), (std::vector<bool>{false, false, true, false}));
+    EXPECT_EQ(to_text(parse_pattern("0010").value()), "0010");
+    for (const char* wrong : {"", "012", "0 1"}) EXPECT_FALSE(parse_pattern(wrong)) << wrong;
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/loss/trace.hpp"
+#include "emulator/core/profile/text.hpp"
+#include "proto/base/text.hpp"
+
+#include <chrono>
+#include <gtest/gtest.h>
+
+namespace hapnet::emulator {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace base::literals;
+
+Profile parsed(std::string_view text)
+{
+    const auto profile = parse_profile(text, "test.toml", {});
+    EXPECT_TRUE(profile) << (profile ? "" : profile.error().message) << "\n" << text;
+    return profile.value_or(Profile{});
+}
+
+std::string refusal(std::string_view text)
+{
+    const auto profile = parse_profile(text, "test.toml", {});
+    EXPECT_FALSE(profile) << text;
+    return profile ? "" : profile.error().message;
+}
+
+TEST(ProfileText, TheExampleOfTheManualMeansWhatItSays)
+{
+    const Profile profile = parsed(R"(
+name = "fig7: 15 ms jitter"
+seed = 42
+[both]
+delay  = "160ms"
+jitter = { law = "uniform", half_width = "15ms", correlation_time = "0ms", order = "free" }
+loss   = { law = "gilbert-elliott", good_to_bad = "1%", bad_to_good = "25%" }
+[[at]]
+time = "10s"
+up.delay = "300ms"
+)");
+    EXPECT_EQ(profile.name, "fig7: 15 ms jitter");
+    EXPECT_EQ(profile.seed, base::Seed{42});
+    Conditions expected;
+    expected.delay.law = ConstantLaw{160ms};
+    expected.jitter.law = UniformLaw{0ms, 15ms};
+    expected.order = Order::free;
+    expected.loss = {GilbertElliott{1_percent, 25_percent, 0_percent, 100_percent}};
+    EXPECT_EQ(profile.path, (Path{expected, expected}));
+    ASSERT_EQ(profile.timeline.size(), 1U);
+    EXPECT_EQ(profile.timeline[0].time, 10s);
+    EXPECT_EQ(profile.timeline[0].up.delay, (Variation{ConstantLaw{300ms}, 0ms}));
+    EXPECT_EQ(profile.timeline[0].down, Patch{});
+}
+
+TEST(ProfileText, EveryStageHasAShortForm)
+{
+    const Profile profile = parsed(R"([up]
+mtu = "1500B"
+rate = "10Mbit/s"
+loss = ["93%", "40/100"]
+corrupt = "1%"
+duplicate = "2%"
+delay = "80ms"
+jitter = "5ms"
+order = "sorted"
+reorder = { share = "3%", displacement = 4 }
+)");
+    const Conditions& up = profile.path.up;
+    EXPECT_EQ(up.mtu.bytes_max, 1500U);
+    EXPECT_EQ(up.rate, (Rate{.bits_per_second = 10'000'000}));
+    EXPECT_EQ(up.loss, (std::vector<LossLaw>{RandomLoss{93_percent}, Burst{40, 100, {}}}));
+    EXPECT_EQ(up.corrupt, (Corruption{1_percent, 1}));
+    EXPECT_EQ(up.duplicate, (Duplication{2_percent, 0ms}));
+    EXPECT_EQ(up.delay.law, DelayLaw{ConstantLaw{80ms}});
+    EXPECT_EQ(up.jitter.law, (DelayLaw{UniformLaw{0ms, 5ms}}));
+    EXPECT_EQ(up.order, Order::sorted);
+    EXPECT_EQ(up.reorder, (Reordering{3_percent, {4, 0ms}}));
+    EXPECT_EQ(profile.path.down, Conditions{});
+}
+
+TEST(ProfileText, OneWayWinsOverBothWaysAndBurstLossIsAFurtherLaw)
+{
+    const Profile profile = parsed(R"(
+both = { delay = "80ms", burst_loss = "40/100" }
+up = { loss = "5%" }
+down = { delay = "1ms", burst_loss = "none" }
+)");
+    EXPECT_EQ(profile.path.up.loss,
+              (std::vector<LossLaw>{RandomLoss{5_percent}, Burst{40, 100, {}}}));
+    EXPECT_EQ(profile.path.up.delay.law, DelayLaw{ConstantLaw{80ms}});
+    EXPECT_TRUE(profile.path.down.loss.empty());
+    EXPECT_EQ(profile.path.down.delay.law, DelayLaw{ConstantLaw{1ms}});
+}
+
+TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
+{
+    EXPECT_EQ(refusal("[both]\ndelay = 160\n"),
+              "test.toml:2:9: '160' is not a duration: write a number and its unit, such as 160ms, "
+              "15us or 1.5s");
+    EXPECT_EQ(refusal("[both]\ndealy = \"160ms\"\n"),
+              "test.toml:2:1: \"dealy\" is not known here: did you mean 'delay'?");
+    EXPECT_EQ(refusal("[both]\ndelay = true\n"),
+              "test.toml:2:9: true stands where a number and its unit, such as 160ms, 15us or 1.5s "
+              "belongs");
+    EXPECT_EQ(refusal("[up]\nloss = \"150%\"\n"), "test.toml:2:8: '150%' is more than 100%");
+    EXPECT_EQ(refusal("[up]\nloss = \"101/100\"\n"),
+              "test.toml:2:8: loses 101 of 100: at least 1 is lost, and at most all");
+    EXPECT_EQ(refusal("[up]\njitter = { law = \"uniform\" }\n"),
+              "test.toml:2:10: 'half_width' is missing here");
+    EXPECT_EQ(refusal("[up]\njitter = { law = \"unifrom\" }\n"),
+              "test.toml:2:18: \"unifrom\" is not a law: did you mean 'uniform'?");
+    EXPECT_EQ(refusal("[up]\njitter = { law = \"normal\", sd = \"-1ms\" }\n"),
+              "test.toml:2:10: sd must not be negative");
+    EXPECT_EQ(refusal("[up]\norder = \"keep\"\njitter = { law = \"normal\", sd = \"1ms\", order = "
+                      "\"free\" }\n"),
+              "test.toml:2:9: jitter says another order than the key order");
+    EXPECT_EQ(refusal("[[at]]\nup.delay = \"1ms\"\n"), "test.toml:1:1: 'time' is missing here");
+    EXPECT_EQ(refusal("[both]\ndelay = \n"),
+              "test.toml:2:9: Error while parsing key-value pair: expected value, saw '\\n'");
+    EXPECT_EQ(refusal("[both]\ndelay = 1979-05-27\n").substr(0, 16), "test.toml:2:9: a");
+}
+
+TEST(ProfileText, AGilbertLawThatCannotBeIsRefusedWithTheNumberThatWouldDo)
+{
+    EXPECT_EQ(refusal("[up]\nloss = { law = \"gilbert\", share = \"93%\", mean_burst = 10 }\n"),
+              "test.toml:2:8: at a share of 93% the mean burst is more than share / (1 - share) = "
+              "13.29 datagrams, or the good runs between bursts would be shorter than one");
+}
+
+TEST(ProfileText, ATraceOfLossesIsReadFromItsFile)
+{
+    const auto open = [](const std::string& name) -> base::Result<std::string> {
+        if (name == "losses.txt") return "# of a run\n0010\n";
+        if (name == "fates.csv") return "number,lost\n0,1\n1,0\n";
+        return base::fail("cannot open " + name);
+    };
+    const auto read = [&](const std::string& file) {
+        return parse_profile("[up]\nloss = { law = \"trace\", file = \"" + file + "\" }\n", "f",
+                             open);
+    };
+    EXPECT_EQ(std::get<TraceLoss>(read("losses.txt")->path.up.loss[0]).trace->size(), 4U);
+    EXPECT_EQ(std::get<TraceLoss>(read("fates.csv")->path.up.loss[0]).trace->losses(), 1U);
+    EXPECT_EQ(read("no.txt").error().message, "f:2:8: cannot open no.txt");
+}
+
+TEST(ProfileText, MoreThanEightLawsOfLossAreRefused)
+{
+    std::string text = "[up]\nloss = [";
+    for (int i = 0; i < 9; ++i) text += "\"1%\",";
+    EXPECT_EQ(refusal(text + "]\n"), "test.toml:2:49: a direction has at most 8 laws of loss");
+}
+
+TEST(ProfileText, ARampOfWhatHasNoNumbersInBetweenNamesItsLine)
+{
+    EXPECT_EQ(refusal("[both]\njitter = \"5ms\"\n[[at]]\ntime = \"1s\"\nramp = \"1s\"\n"
+                      "both.jitter = { law = \"gamma\", mean = \"1ms\", sd = \"1ms\" }\n"),
+              "test.toml:5:8: jitter has no straight way from what held before to this: a ramp is "
+              "for numbers of the same law; change other things without ramp");
+}
+
+TEST(ProfileText, NestingHasABound)
+{
+    std::string keys = "a";
+    for (int i = 0; i < 100'000; ++i) keys += ".a";
+    EXPECT_EQ(refusal(keys + " = 1"), "test.toml:1:514: more than 256 dots in a line");
+    std::string brackets = "a = ";
+    brackets.append(100'000, '[');
+    EXPECT_NE(refusal(brackets).find("nested"), std::string::npos);
+    EXPECT_EQ(refusal("\"\".'='.\"\"\"x"),
+              "test.toml:1:10: a string over several lines has no place here");
+}
+
+TEST(ProfileText, ASettingReadsWithoutQuotesAndItsErrorsNameIt)
+{
+    const auto delay = parse_setting("up.delay", "300ms", {});
+    ASSERT_TRUE(delay);
+    EXPECT_EQ(delay->direction, Direction::up);
+    EXPECT_EQ(delay->settings.patch.delay, (Variation{ConstantLaw{300ms}, 0ms}));
+    const auto burst = parse_setting("burst-loss", "40/100", {});
+    const auto loss = parse_setting("both.loss", "[\"5%\", \"1/2\"]", {});
+    const auto jitter = parse_setting("down.jitter", "{ law = \"normal\", sd = \"3ms\" }", {});
+    ASSERT_TRUE(burst && loss && jitter);
+    const std::vector<Setting> settings{*burst, *delay, *loss, *jitter};
+    const auto path = with_settings({}, settings);
+    ASSERT_TRUE(path);
+    EXPECT_EQ(path->down.loss, (std::vector<LossLaw>{RandomLoss{5_percent}, Burst{40, 100, {}}}));
+    EXPECT_EQ(path->down.jitter.law, (DelayLaw{NormalLaw{0ms, 3ms}}));
+    EXPECT_EQ(path->down.delay, Variation{});
+    EXPECT_EQ(parse_setting("up.delay", "300", {}).error().message,
+              "up.delay: '300' is not a duration: write a number and its unit, such as 160ms, 15us "
+              "or 1.5s");
+    EXPECT_EQ(parse_setting("up.los", "3%", {}).error().message,
+              "up.los: there is no such setting: did you mean 'loss'?");
+}
+
+TEST(ProfileText, QuantitiesOfDataHaveUnits)
+{
+    EXPECT_EQ(base::parse_bit_rate("1.5Mbit/s").value(), 1'500'000U);
+    EXPECT_EQ(base::parse_bit_rate("64kbit").value(), 64'000U);
+    EXPECT_FALSE(base::parse_bit_rate("64"));
+    EXPECT_FALSE(base::parse_bit_rate("0.5bit/s"));
+    EXPECT_FALSE(base::parse_bit_rate("2Tbit/s"));
+    EXPECT_EQ(base::bit_rate_text(10'000'000), "10Mbit/s");
+    EXPECT_EQ(base::parse_size("64KiB").value(), 65'536U);
+    EXPECT_EQ(base::parse_size("1MB").value(), 1'000'000U);
+    EXPECT_FALSE(base::parse_size("64k"));
+    EXPECT_EQ(base::size_text(1500), "1500B");
+    EXPECT_EQ(base::size_text(65'536), "64KiB");
+    EXPECT_EQ(base::parse_signed_duration("-5ms").value(), -5ms);
+    EXPECT_FALSE(base::parse_signed_duration("--5ms"));
+}
+
+} // namespace
+} // namespace hapnet::emulator

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/recorder.hpp"
+
+#include "emulator/core/fates/fates.hpp"
+#include "proto/base/version.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <system_error>
+#include <unistd.h>
+
+namespace hapnet::emulator {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A folder of its own that goes with the test.
+class RecorderFiles : public testing::Test {
+protected:
+    RecorderFiles() { std::filesystem::create_directory(folder_); }
+    ~RecorderFiles() override { std::filesystem::remove_all(folder_); }
+
+    [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
+    [[nodiscard]] std::string text(const std::string& name) const
+    {
+        std::ifstream file{path(name), std::ios::binary};
+        return {std::istreambuf_iterator<char>{file}, {}};
+    }
+    [[nodiscard]] std::vector<std::string> names() const
+    {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator{folder_}) {
+            names.push_back(entry.path().filename());
+        }
+        return names;
+    }
+
+private:
+    std::filesystem::path folder_ =
+        std::filesystem::path{testing::TempDir()} / ("hapnet-recorder-" + std::to_string(getpid()));
+};
+
+Fate fate_of(std::uint64_t number)
+{
+    if (number % 3 == 0) return {Drop{DropCause::random_loss}, {}};
+    return {Deliver{.after = number * 1us}, {}};
+}
+
+TEST_F(RecorderFiles, OfFatesHoldAllOfUpAndThenAllOfDownHoweverTheyCame)
+{
+    Fates expected;
+    Recorder recorder{{path("fates.csv"), {}}};
+    for (std::uint64_t n = 0; n < 20'000; ++n) {
+        recorder.on_fate(Direction::down, n, fate_of(n));
+        recorder.on_fate(Direction::up, n, fate_of(n + 1));
+        expected.down.push_back(fate_of(n));
+        expected.up.push_back(fate_of(n + 1));
+    }
+    EXPECT_EQ(recorder.fates_lost(), 0U);
+    recorder.finish();
+    EXPECT_EQ(text("fates.csv"), to_text(expected));
+    EXPECT_EQ(names(), std::vector<std::string>{"fates.csv"});
+}
+
+struct Blocks {
+    std::string without_times; // whose origin is unknown
+    std::uint64_t packets = 0;
+};
+
+Blocks blocks_of(const std::string& capture)
+{
+    Blocks blocks{capture, 0};
+    std::string& text = blocks.without_times;
+    for (std::size_t at = 0; at + 12 <= text.size();) {
+        const auto byte = [&](std::size_t i) -> std::size_t {
+            return static_cast<unsigned char>(text[at + i]);
+        };
+        const auto length = byte(4) | byte(5) << 8 | byte(6) << 16 | byte(7) << 24;
+        if (byte(0) == 6) {
+            text.replace(at + 12, 8, 8, 't');
+            ++blocks.packets;
+        }
+        at += length;
+    }
+    return blocks;
+}
+
+TEST_F(RecorderFiles, OfACaptureHoldEveryPacketWholeWithItsComment)
+{
+    Recorder recorder{{{}, path("capture.pcapng")}};
+    std::string expected;
+    append_capture_head(expected, base::version_line("hapnet-emulator"));
+    const UdpAddress from{{std::byte{10}}, 7000, false};
+    const UdpAddress to{{std::byte{11}}, 7001, false};
+    for (const std::size_t size : {0U, 1U, 239U, 240U, 241U, 480U, 65'507U}) {
+        const std::vector<std::byte> payload(size, std::byte{0x5a});
+        const Sight came{CaptureSide::a, base::TimePoint{1s}, from, to, payload};
+        const Sight left{CaptureSide::b, base::TimePoint{2s}, to, from, payload};
+        recorder.on_arrival(came, fate_of(4));
+        recorder.on_departure(left, 7us, true);
+        append_packet(expected, {CaptureSide::a, false, {}, from, to, payload, "delayed 4 us"});
+        append_packet(expected, {CaptureSide::b, true, {}, to, from, payload, "late 7 us, copy"});
+    }
+    recorder.finish();
+    EXPECT_EQ(recorder.capture_lost(), 0U);
+    EXPECT_EQ(blocks_of(text("capture.pcapng")).without_times, blocks_of(expected).without_times);
+}
+
+TEST_F(RecorderFiles, LackExactlyWhatWasCountedAsLost)
+{
+    Recorder recorder{{{}, path("capture.pcapng")}};
+    const std::vector<std::byte> payload(65'507);
+    const Sight sight{CaptureSide::a, base::TimePoint{1s}, {}, {}, payload};
+    // Each needs a 480th of the queue, and copying is faster than writing with checksums.
+    std::uint64_t handed_over = 0;
+    for (; handed_over < 20'000 && recorder.capture_lost() == 0; ++handed_over) {
+        recorder.on_departure(sight, 0us, false);
+    }
+    EXPECT_GT(recorder.capture_lost(), 0U);
+    recorder.finish();
+    EXPECT_EQ(blocks_of(text("capture.pcapng")).packets, handed_over - recorder.capture_lost());
+}
+
+TEST_F(RecorderFiles, ThatWereNotFinishedLeaveNothingBehind)
+{
+    {
+        Recorder recorder{{path("fates.csv"), path("capture.pcapng")}};
+        recorder.on_fate(Direction::up, 0, fate_of(0));
+    }
+    EXPECT_EQ(names(), std::vector<std::string>{});
+}
+
+TEST_F(RecorderFiles, ThatCannotBeWrittenAreRefusedAtOnce)
+{
+    EXPECT_THROW((Recorder{{path("none/fates.csv"), {}}}), std::system_error);
+    EXPECT_THROW((Recorder{{{}, path("none/capture.pcapng")}}), std::system_error);
+}
+
+TEST_F(RecorderFiles, OnAFullDiskAreReportedAtTheEnd)
+{
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+    Recorder recorder{{{}, "/dev/full"}};
+    EXPECT_THROW(recorder.finish(), std::system_error);
+    EXPECT_TRUE(recorder.has_failed());
+}
+
+TEST(Recorder, WithoutAFileDoesNothing)
+{
+    Recorder recorder{{}};
+    EXPECT_FALSE(recorder.writes_fates());
+    EXPECT_FALSE(recorder.captures());
+    recorder.on_fate(Direction::up, 0, fate_of(0));
+    recorder.on_departure({}, 0us, false);
+    recorder.finish();
+}
+
+} // namespace
+} // namespace hapnet::emulator
