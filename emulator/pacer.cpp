@@ -32,7 +32,12 @@ void Pacer::wait(std::span<const int> descriptors, std::optional<base::TimePoint
 {
     const auto before = net::monotonic_now();
     const auto plan = rhythm_.plan(deadline, before);
-    if (std::holds_alternative<Rhythm::Watch>(plan)) return;
+    if (const auto* watch = std::get_if<Rhythm::Watch>(&plan)) {
+        if (!watch->warm_up) return;
+        warm_up_.run();
+        rhythm_.on_warm_up();
+        return;
+    }
     bool by_datagram = false;
     if (const auto* rest = std::get_if<Rhythm::Rest>(&plan)) {
         net::sleep_until(rest->until);

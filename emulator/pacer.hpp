@@ -5,6 +5,7 @@
 #include "emulator/core/rhythm.hpp"
 #include "emulator/options.hpp"
 #include "proto/base/time.hpp"
+#include "proto/net/warm_up.hpp"
 
 #include <optional>
 #include <span>
@@ -21,6 +22,7 @@ public:
 
 private:
     Rhythm rhythm_;
+    net::WarmUp warm_up_;
 };
 
 } // namespace hapnet::emulator

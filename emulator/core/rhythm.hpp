@@ -11,8 +11,8 @@ namespace hapnet::emulator {
 
 /// Decides when a relay sleeps and when it watches the clock, from times alone. A sleep ends late
 /// by what the machine needs to wake up: so it ends a margin before the deadline, and the rest is
-/// watched. The margin follows the wake-ups that are seen, between two limits, and stays above
-/// nearly all of them: it grows fast and shrinks slowly.
+/// watched. The margin follows the wake-ups that are seen, between two limits, so that nearly all
+/// of them leave time for a warm-up: it grows fast and shrinks slowly.
 ///
 /// It also sees to it that a busy relay sleeps at times: a SCHED_FIFO thread that never sleeps
 /// keeps the kernel from receiving (ksoftirqd).
@@ -24,8 +24,11 @@ public:
         base::Duration most{};
     };
 
-    struct Watch {}; // return at once and read the clock again
-    struct Sleep {   // until a datagram comes or it is time; nullopt: for a datagram alone
+    struct Watch { // return at once and read the clock again
+        /// There is time to bring the way of a datagram into the caches, which a sleep has emptied.
+        bool warm_up = false;
+    };
+    struct Sleep { // until a datagram comes or it is time; nullopt: for a datagram alone
         std::optional<base::TimePoint> until;
     };
     struct Rest { // whatever comes
@@ -47,12 +50,16 @@ public:
     /// How `plan` went.
     void on_wake_up(const Plan& plan, const WakeUp& wake_up);
 
+    /// The warm-up that was planned has been done.
+    void on_warm_up() { is_cold_ = false; }
+
     [[nodiscard]] base::Duration margin() const { return margin_; }
 
 private:
     Margin limits_;
     base::Duration margin_;
     base::TimePoint slept_; // when a real sleep last ended
+    bool is_cold_ = false;  // since then
 };
 
 } // namespace hapnet::emulator

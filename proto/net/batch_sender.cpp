@@ -61,6 +61,10 @@ BatchSender::send(int descriptor, const Endpoint& to,
                   std::span<const std::span<const std::byte>> datagrams)
 {
     base::ensure(datagrams.size() <= batch_max);
+    if (datagrams.size() == 1) {
+        outcomes_[0] = send_one(descriptor, to, datagrams[0]);
+        return {outcomes_.data(), 1};
+    }
     std::size_t messages = 0;
     for (std::size_t first = 0; first < datagrams.size(); ++messages) {
         const Train train{first, train_length(datagrams.subspan(first))};

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/net/endpoint.hpp"
+
+namespace hapnet::net {
+
+/// Brings the way of a datagram through the kernel back into the processor's caches: a send right
+/// after a sleep took 9 us, and 3.5 us with this shortly before it (loopback, 2 virtual CPUs,
+/// Linux 6.18, November 2026). A socket of its own sends itself one datagram over the loopback
+/// device, where a filter drops it: nobody else ever sees it.
+class WarmUp {
+public:
+    WarmUp();
+    ~WarmUp();
+    WarmUp(const WarmUp&) = delete;
+    WarmUp& operator=(const WarmUp&) = delete;
+
+    /// Takes about as long as a send. Does nothing where there is no loopback device.
+    void run() const;
+
+private:
+    int descriptor_;
+    Endpoint self_;
+};
+
+} // namespace hapnet::net

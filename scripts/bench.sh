@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# Measures one part of the project against its baselines.
+set -euo pipefail
+
+usage="usage: scripts/bench.sh emulator [--quick] [--json FILE] [--plot FILE.svg]
+Installs what is missing, builds the release preset's benchmark, and runs it: a table on stdout, and
+the same numbers in FILE. --quick ends within a minute of measuring. Run it as root, or where
+SCHED_FIFO is allowed, to measure real-time scheduling too. Exits 0 when it has measured, also when
+a target was missed; 2 for an unknown subject or argument."
+
+refuse() {
+    echo "bench: $1"$'\n'"$usage" >&2
+    exit 2
+}
+
+(($# > 0)) || refuse "which subject?"
+subject=$1
+shift
+case $subject in
+-h | --help) echo "$usage" && exit 0 ;;
+emulator) ;;
+scene | lab) refuse "there is no benchmark of '$subject' yet" ;;
+*) refuse "unknown subject '$subject'" ;;
+esac
+
+arguments=()
+while (($# > 0)); do
+    case $1 in
+    --quick) arguments+=(--quick) && shift ;;
+    --json | --plot)
+        (($# > 1)) || refuse "$1: which file?"
+        arguments+=("$1" "$(realpath -m "$2")") && shift 2
+        ;;
+    -h | --help) echo "$usage" && exit 0 ;;
+    *) refuse "unknown argument '$1'" ;;
+    esac
+done
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+{
+    scripts/setup.sh --test
+    cmake --preset release
+    cmake --build --preset release --target "bench_$subject"
+} >&2
+exec "build/release/bin/bench_$subject" "${arguments[@]}"

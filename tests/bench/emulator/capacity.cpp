@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/bench/emulator/capacity.hpp"
+
+#include "proto/net/clock.hpp"
+#include "tests/bench/emulator/probe.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::bench {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double loss_max = 0.001;
+constexpr double rate_first = 100'000.0;
+constexpr double rate_last = 4'000'000.0;
+
+struct Case {
+    Sending sending = Sending::ordinary;
+    base::Duration delay{};
+
+    [[nodiscard]] std::string name() const
+    {
+        return fmt::format("{} ms, {} senders", delay / 1ms,
+                           sending == Sending::ordinary ? "ordinary" : "offloading");
+    }
+};
+
+/// What a search has found.
+struct Capacity {
+    double rate = 0.0;
+    bool by_sender = false; // the sender could not do more
+    std::uint64_t reordered = 0;
+};
+
+class Search {
+public:
+    Search(const Plan& plan, const Case& given, Standing standing)
+        : plan_{plan}, case_{given}, standing_{standing}, prober_{given.sending}
+    {}
+
+    [[nodiscard]] Capacity run(const Subject& subject)
+    {
+        const RelayProcess relay{
+            command_of(subject, plan_, {prober_.a(), prober_.b()}, case_.delay), standing_};
+        found_ = {};
+        double lost = rate_last; // the lowest rate that lost datagrams
+        for (double rate = rate_first; rate < rate_last; rate *= 2.0) {
+            if (found_.by_sender) return found_;
+            if (passes(relay, rate)) continue;
+            lost = rate;
+            break;
+        }
+        double kept = std::max(found_.rate, rate_first / 4.0);
+        for (int i = 0; i < (plan_.quick ? 3 : 5) && !found_.by_sender; ++i) {
+            const double rate = std::sqrt(kept * lost);
+            (passes(relay, rate) ? kept : lost) = rate;
+        }
+        return found_;
+    }
+
+private:
+    /// A rate passes when one of three trials does: what else runs on the machine may spoil one. A
+    /// trial in which the sender fell short proves nothing but the rate that it reached.
+    bool passes(const RelayProcess& relay, double rate)
+    {
+        bool is_short = false;
+        for (int attempt = 0; attempt < 3; ++attempt) {
+            const auto used = relay.used();
+            const auto begin = net::monotonic_now();
+            const auto trial =
+                prober_.measure_rate({relay.a(), rate, plan_.quick ? 250ms : 500ms, case_.delay});
+            found_.reordered += trial.tally.reordered;
+            fmt::print(stderr,
+                       "  {:.0f} datagrams/s of {:.0f}: {:.3f} % missing, {:.0f} % of a core\n",
+                       trial.rate, rate, 100.0 * trial.missing,
+                       100.0 * base::to_seconds(relay.used() - used) /
+                           base::to_seconds(net::monotonic_now() - begin));
+            if (trial.missing >= loss_max) continue;
+            found_.rate = std::max(found_.rate, trial.rate);
+            if (trial.rate >= 0.95 * rate) return true;
+            is_short = true;
+        }
+        found_.by_sender = is_short;
+        return is_short;
+    }
+
+    Plan plan_;
+    Case case_;
+    Standing standing_;
+    Prober prober_;
+    Capacity found_;
+};
+
+double median(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+std::vector<Row> compare(const Plan& plan, const Case& given, Standing standing)
+{
+    Search search{plan, given, standing};
+    std::vector<double> ours;
+    std::vector<double> theirs;
+    double reordered = 0.0;
+    bool by_sender = false;
+    const int rounds = plan.quick ? 1 : 3;
+    for (int round = 0; round < rounds; ++round) {
+        fmt::print(stderr, "highest rate: round {} of {}: {}\n", round + 1, rounds, given.name());
+        const Capacity own = search.run(precise);
+        ours.push_back(own.rate);
+        by_sender = by_sender || own.by_sender;
+        reordered += static_cast<double>(own.reordered);
+        theirs.push_back(search.run(poll_relay).rate);
+    }
+    Row rate{.name = given.name() + (by_sender ? " (the sender's limit)" : ""),
+             .subject = std::string{precise.name},
+             .baseline = std::string{poll_relay.name},
+             .metric = "highest_rate_ratio",
+             .value = median(ours),
+             .baseline_value = median(theirs),
+             // The ratio is baseline / value: 1.2 times and 3 times the rate of the baseline.
+             .target = given.sending == Sending::ordinary ? 1.0 / 1.2 : 1.0 / 3.0,
+             .direction = Direction::at_most};
+    Row in_order{.name = given.name(),
+                 .subject = std::string{precise.name},
+                 .baseline = "",
+                 .metric = "reordered",
+                 .value = reordered,
+                 .baseline_value = std::nullopt,
+                 .target = 0.0,
+                 .direction = Direction::at_most};
+    return {rate, in_order};
+}
+
+} // namespace
+
+std::vector<Row> measure_capacity(const Plan& plan, bool fifo)
+{
+    set_real_time(fifo);
+    std::vector<Row> rows;
+    for (const Sending sending : {Sending::ordinary, Sending::offload}) {
+        for (const base::Duration delay : {base::Duration{0ms}, base::Duration{50ms}}) {
+            const auto more =
+                compare(plan, {sending, delay}, fifo ? Standing::real_time : Standing::ordinary);
+            rows.insert(rows.end(), more.begin(), more.end());
+        }
+    }
+    set_real_time(false);
+    return rows;
+}
+
+} // namespace hapnet::bench

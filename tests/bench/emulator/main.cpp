@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/core/plot.hpp"
+#include "proto/base/text.hpp"
+#include "proto/net/program.hpp"
+#include "proto/net/result_file.hpp"
+#include "tests/bench/emulator/accuracy.hpp"
+#include "tests/bench/emulator/baseline_relay.hpp"
+#include "tests/bench/emulator/capacity.hpp"
+#include "tests/bench/emulator/machine.hpp"
+#include "tests/bench/emulator/rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+
+namespace hapnet::bench {
+
+namespace {
+
+constexpr std::string_view program = "bench_emulator";
+constexpr std::string_view usage =
+    "usage: bench_emulator [--quick] [--json FILE] [--plot FILE.svg]\n"
+    "       bench_emulator --relay poll|timerfd --a HOST:PORT --b HOST:PORT --delay 10ms\n"
+    "Compares hapnet-emulator (beside this program) with two baseline relays, and writes a table.\n"
+    "With --relay it is one of the baselines.\n";
+
+struct Options {
+    Plan plan;
+    std::optional<std::string> json;
+    std::optional<std::string> plot;
+    std::optional<BaselineOptions> baseline;
+};
+
+base::Result<net::Endpoint> endpoint_of(const std::string& text)
+{
+    const auto place = net::parse_host_port(text);
+    if (!place) return tl::unexpected{place.error()};
+    return net::resolve(*place);
+}
+
+base::Result<BaselineOptions> baseline_of(const std::map<std::string, std::string>& given)
+{
+    for (const char* name : {"--relay", "--a", "--b", "--delay"}) {
+        if (!given.contains(name)) return base::fail(fmt::format("{} is missing\n{}", name, usage));
+    }
+    const auto a = endpoint_of(given.at("--a"));
+    const auto b = endpoint_of(given.at("--b"));
+    const auto delay = base::parse_duration(given.at("--delay"));
+    const bool is_poll = given.at("--relay") == "poll";
+    if (!a || !b || !delay || (!is_poll && given.at("--relay") != "timerfd")) {
+        return base::fail(std::string{usage});
+    }
+    return BaselineOptions{is_poll ? Waiting::poll : Waiting::timerfd, *a, *b, *delay};
+}
+
+net::CommandLine<Options> parse(std::span<char*> words)
+{
+    Options options;
+    std::map<std::string, std::string> given;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        const std::string word = words[i];
+        if (word == "--help") return net::Answer{std::string{usage}};
+        if (word == "--quick") {
+            options.plan.quick = true;
+            continue;
+        }
+        constexpr std::array known{"--json", "--plot", "--relay", "--a", "--b", "--delay"};
+        if (std::find(known.begin(), known.end(), word) == known.end() || i + 1 == words.size()) {
+            return base::fail(fmt::format("'{}' is not understood\n{}", word, usage));
+        }
+        given[word] = words[++i];
+    }
+    if (given.contains("--relay")) {
+        const auto baseline = baseline_of(given);
+        if (!baseline) return tl::unexpected{baseline.error()};
+        options.baseline = *baseline;
+    }
+    if (given.contains("--json")) options.json = given["--json"];
+    if (given.contains("--plot")) options.plot = given["--plot"];
+    const auto self = std::filesystem::read_symlink("/proc/self/exe");
+    options.plan.self = self.string();
+    options.plan.emulator = (self.parent_path() / "hapnet-emulator").string();
+    return options;
+}
+
+/// The shares of the datagrams that were at most so late.
+std::string plot_of(const Accuracy& accuracy)
+{
+    constexpr std::array colours{"#7fbf7b", "#1b7837", "#00441b", "#b2182b", "#2166ac"};
+    constexpr int steps = 400;
+    constexpr double error_us_max = 200.0;
+    std::vector<lab::Curve> curves;
+    for (const Distribution& one : accuracy.distributions) {
+        lab::Curve curve{one.subject, colours[curves.size() % colours.size()], {}};
+        for (int i = 0; i <= steps; ++i) {
+            const double limit_us = error_us_max * i / steps;
+            const auto below = std::upper_bound(one.errors.begin(), one.errors.end(),
+                                                base::from_seconds(limit_us * 1e-6));
+            curve.points.push_back(
+                {limit_us, 100.0 * static_cast<double>(below - one.errors.begin()) /
+                               static_cast<double>(one.errors.size())});
+        }
+        curves.push_back(std::move(curve));
+    }
+    return lab::svg_plot({"Error against a configured delay of 10 ms, 1000 datagrams per second",
+                          "later than configured by at most (us)", "share of datagrams (%)"},
+                         curves);
+}
+
+base::Result<int> run(const Options& options)
+{
+    if (options.baseline) run_baseline(*options.baseline);
+    std::optional<net::ResultFile> json;
+    std::optional<net::ResultFile> plot;
+    if (options.json) json.emplace(*options.json);
+    if (options.plot) plot.emplace(*options.plot);
+    pin_prober();
+    const Host machine = host();
+    if (!machine.fifo) {
+        net::say(program,
+                 "SCHED_FIFO is not allowed here: only the ordinary user's part is measured");
+    }
+    Accuracy accuracy = measure_accuracy(options.plan, machine.fifo);
+    auto rows = std::move(accuracy.rows);
+    const auto capacity = measure_capacity(options.plan, machine.fifo);
+    rows.insert(rows.end(), capacity.begin(), capacity.end());
+    fmt::print("{}", rows_table(rows));
+    if (json) json->commit(rows_json(machine, rows));
+    if (plot) plot->commit(plot_of(accuracy));
+    return 0;
+}
+
+} // namespace
+
+} // namespace hapnet::bench
+
+int main(int argc, char** argv)
+{
+    namespace bench = hapnet::bench;
+    const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
+    return hapnet::net::run_program(bench::program, bench::parse(words), bench::run);
+}

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/bench/emulator/machine.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::bench {
+
+/// Which side of a target is good.
+enum class Direction : std::uint8_t { at_least, at_most };
+
+/// A number, what it is compared with, and what it has to reach.
+struct Row {
+    std::string name;     // of the case: "1 kpps, 10 ms, real-time"
+    std::string subject;  // "hapnet-emulator precise"
+    std::string baseline; // "" for none
+    std::string metric;   // with its unit: "p50_us"; "p50_ratio": the target is for the ratio
+    double value = 0.0;
+    std::optional<double> baseline_value;
+    std::optional<double> target;
+    Direction direction = Direction::at_most;
+
+    /// baseline_value / value; nullopt without a baseline, or when value is 0.
+    [[nodiscard]] std::optional<double> ratio() const;
+    /// nullopt when there is no target.
+    [[nodiscard]] std::optional<bool> met() const;
+};
+
+/// {"host": {...}, "rows": [...]}: the format of every benchmark of the project.
+[[nodiscard]] std::string rows_json(const Host& host, std::span<const Row> rows);
+
+/// The rows as lines of text, those with a target marked as met or MISSED.
+[[nodiscard]] std::string rows_table(std::span<const Row> rows);
+
+} // namespace hapnet::bench
