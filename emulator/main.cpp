@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/live.hpp"
 #include "emulator/options.hpp"
 #include "emulator/pacer.hpp"
 #include "emulator/places.hpp"
@@ -57,24 +58,26 @@ private:
     std::optional<base::TimePoint> next_;
 };
 
-/// Relays until told to stop; returns how long that was.
-base::Duration relay_until_stopped(Relay& relay, Run run, net::StopSignal& stop)
+/// Relays until told to stop.
+void relay_until_stopped(Relay& relay, Live& live, Run& run, net::StopSignal& stop)
 {
     const auto start = net::monotonic_now();
     std::optional<base::TimePoint> end;
     if (run.options.duration) end = start + *run.options.duration;
     const std::array descriptors{relay.a().socket.descriptor(), relay.b().socket.descriptor(),
-                                 stop.descriptor()};
+                                 stop.descriptor(), live.descriptor()};
     Pacer pacer{run.options.timing, start};
     Status status{start};
     auto now = start;
     while (!stop.requested() && !base::is_due(end, now)) {
-        pacer.wait(descriptors, base::earlier(relay.next_deadline(),
-                                              base::earlier(end, status.next_deadline())));
+        pacer.wait(descriptors,
+                   base::earlier(base::earlier(relay.next_deadline(), live.next_deadline()),
+                                 base::earlier(end, status.next_deadline())));
         const bool adopted = relay.receive() > 0;
         now = net::monotonic_now();
         relay.release(now);
         run.elapsed = now - start;
+        live.update(now);
         if (adopted) {
             status.clear();
             say(endpoints_line(relay));
@@ -82,7 +85,6 @@ base::Duration relay_until_stopped(Relay& relay, Run run, net::StopSignal& stop)
         status.show(run, now);
     }
     status.clear();
-    return now - start;
 }
 
 void write_statistics(const Run& run, std::optional<net::ResultFile>& file)
@@ -105,10 +107,14 @@ base::Result<int> emulate(const Options& options)
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Run run{options, relay, net::request_real_time(40), {}};
     if (const auto shortage = run.real_time.shortage(); !shortage.empty()) say(shortage);
+    Live live{{.profile = {"", options.seed, options.path, {}},
+               .socket = options.control,
+               .statistics_json = [&run] { return statistics_json(run); }},
+              relay};
     fmt::print("{}", ready_line(options, relay));
     std::fflush(stdout);
 
-    run.elapsed = relay_until_stopped(relay, run, stop);
+    relay_until_stopped(relay, live, run, stop);
     write_statistics(run, file);
     return 0;
 }

@@ -61,6 +61,7 @@ struct Texts {
     Text budget;
     Text duration;
     Text stats;
+    Text control;
 };
 
 constexpr std::array<const char*, 3> prefixes{"", "up.", "down."};
@@ -112,6 +113,9 @@ void add_options(CLI::App& app, Texts& texts)
         ->type_name("TIME");
     app.add_option("--stats", texts.stats, "Write statistics to FILE at the end; - is stdout")
         ->type_name("FILE");
+    app.add_option("--control", texts.control,
+                   "Listen for hapnet-ctl on a Unix socket at this path; only its owner may use it")
+        ->type_name("SOCKET");
 }
 
 base::Result<Order> parse_order(std::string_view text)
@@ -237,6 +241,7 @@ net::CommandLine<Options> options_from(const Texts& texts)
     reader.read("--budget", texts.budget, options.budget, base::parse_duration);
     reader.read("--duration", texts.duration, options.duration, base::parse_duration);
     options.stats = texts.stats;
+    options.control = texts.control;
     if (reader.error()) return base::fail(*reader.error());
     return options;
 }

@@ -34,6 +34,7 @@ struct Options {
     base::Duration budget = std::chrono::milliseconds{1};
     std::optional<base::Duration> duration; // nullopt: until SIGINT or SIGTERM
     std::optional<std::string> stats;       // a file, or "-" for stdout
+    std::optional<std::string> control;     // the path of a Unix socket
 };
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be

@@ -140,6 +140,12 @@ void Relay::release(base::TimePoint now)
     }
 }
 
+void Relay::change(const Path& path, base::TimePoint now)
+{
+    a_.link.change(path.up, now);
+    b_.link.change(path.down, now);
+}
+
 std::optional<base::TimePoint> Relay::next_deadline() const
 {
     return base::earlier(a_.link.next_deadline(), b_.link.next_deadline());

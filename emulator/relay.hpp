@@ -34,6 +34,12 @@ public:
     /// When the next datagram is due to leave; nullopt when none is in flight.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
+    /// Other conditions for what is taken from now on.
+    void change(const Path& path, base::TimePoint now);
+
+    /// When the sockets were bound: time 0 of the run.
+    [[nodiscard]] base::TimePoint start() const { return start_; }
+
     /// One side of the relay, and the direction that begins there.
     struct Side {
         Side(const net::Endpoint& listen, const std::optional<net::Endpoint>& peer, Link direction);
