@@ -117,7 +117,7 @@ Complaint four_state_ranges(const FourState& law)
 
 Complaint complaint(const FourState& law)
 {
-    if (const auto wrong = four_state_ranges(law)) return wrong;
+    if (auto wrong = four_state_ranges(law)) return wrong;
     const auto steps = steps_of(law);
     const double density = law.density.fraction();
     constexpr double rounding = 1e-12;

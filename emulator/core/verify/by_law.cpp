@@ -25,7 +25,7 @@ constexpr std::size_t run_length_max = 10'000; // what is longer falls into the 
 struct Evidence {
     const LossRecord& record;
     std::optional<base::Duration> spacing;
-    double alpha;
+    double alpha = 0.0;
 };
 
 LossTally tally_of(const Evidence& evidence, std::size_t stride = 1)

@@ -76,13 +76,14 @@ TestResult test_blocks(std::span<const std::uint8_t> lost, const BlockLoss& law)
 TestResult test_places(std::span<const std::uint8_t> lost, const BlockLoss& law, double alpha)
 {
     const std::size_t of = law.of;
-    const auto blocks = static_cast<double>(lost.size() / of);
+    const std::size_t whole = lost.size() / of;
+    const auto blocks = static_cast<double>(whole);
     const double expected = blocks * law.lost / law.of;
     if (of < 2 || law.lost >= law.of || std::min(expected, blocks - expected) < 5.0) {
         return unable("places", "too few blocks to compare the places in them");
     }
     std::vector<double> losses(of);
-    for (std::size_t i = 0; i < lost.size() / of * of; ++i) losses[i % of] += lost[i];
+    for (std::size_t i = 0; i < whole * of; ++i) losses[i % of] += lost[i];
     double sum = 0.0;
     for (const double one : losses) sum += (one - expected) * (one - expected);
     // As each block loses its exact number, the places share one degree of freedom less.

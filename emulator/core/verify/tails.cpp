@@ -48,8 +48,9 @@ double kolmogorov_tail(double distance, double n)
     return std::clamp(sum, 0.0, 1.0);
 }
 
-double anderson_darling_tail(double z)
+double anderson_darling_tail(double a_square)
 {
+    const double z = a_square;
     if (!(z > 0.0)) return 1.0;
     if (z >= 6.0) return std::sqrt(3.0) * std::erfc(std::sqrt(z));
     if (z < 2.0) {

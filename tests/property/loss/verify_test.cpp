@@ -193,6 +193,27 @@ TEST(Verify, SaysNothingAgainstAnHonestRunAndShowsEachTest)
     EXPECT_TRUE(text.ends_with("verdict  passed\n"));
 }
 
+TEST(Verify, FindsARightLawImprobableAsOftenAsItSays)
+{
+    // p < 5 % in 200 runs: binomial, mean 10, standard deviation 3.1; at most 5 of them above.
+    constexpr int runs = 200;
+    for (const LossLaw& law :
+         {LossLaw{RandomLoss{10_percent}}, LossLaw{BlockLoss{30, 100}},
+          LossLaw{GilbertElliott{2_percent, 5_percent, 10_percent, 70_percent}},
+          LossLaw{FourState{30_percent, 10.0, 60_percent, 10_percent, 3.0}}}) {
+        std::map<std::string, int> improbable;
+        for (std::uint64_t seed = 0; seed < runs; ++seed) {
+            for (const auto& one :
+                 verify_losses({law}, simulated(law, 10'000, seed), spacing, 0.05)) {
+                if (one.outcome == Outcome::failed) ++improbable[one.name];
+            }
+        }
+        for (const auto& [name, times] : improbable) {
+            EXPECT_LE(times, 10 + 5 * 3.1) << name_of(law) << ": " << name;
+        }
+    }
+}
+
 TEST(Verify, SaysWhatItCannotTell)
 {
     const auto few = outcomes(Gilbert{1_percent, 50.0}, simulated(Gilbert{1_percent, 50.0}, 1000));

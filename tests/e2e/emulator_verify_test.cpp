@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// hapnet-emulator verify: what it says of a run, and how it ends.
+#include "tests/e2e/process.hpp"
+
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace hapnet::e2e {
+
+namespace {
+
+/// A folder with the fates of four datagrams: those of `lost` that are 1 were lost by the pattern.
+void write_run(const TemporaryFolder& folder, const std::string& lost)
+{
+    std::ofstream{folder.file("profile.toml")}
+        << "name = \"every other\"\n[up]\nloss = { law = \"pattern\", pattern = \"01\" }\n";
+    std::ofstream fates{folder.file("fates.csv")};
+    fates << "direction,number,verdict,cause,states,delay_ns,copy_after_ns,flipped_bits,"
+             "displaced_places,displaced_ns\n";
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        fates << "up," << i
+              << (lost[i] == '1' ? ",drop,pattern_loss,,,,,,\n" : ",deliver,,,0,,,,\n");
+    }
+}
+
+Outcome verify(const TemporaryFolder& folder, const std::vector<std::string>& options = {})
+{
+    std::vector<std::string> words{"verify", folder.file(".")};
+    words.insert(words.end(), options.begin(), options.end());
+    return run("hapnet-emulator", words);
+}
+
+} // namespace
+
+TEST(EmulatorVerify, PassesARunThatKeptItsProfile)
+{
+    const TemporaryFolder folder;
+    write_run(folder, "0101");
+    const auto outcome = verify(folder);
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("verdict  passed"), std::string::npos) << outcome.out;
+}
+
+TEST(EmulatorVerify, FailsARunThatDidNotAndSaysSoInJson)
+{
+    const TemporaryFolder folder;
+    write_run(folder, "0111");
+    const auto outcome = verify(folder, {"--json", "--seed", "1"});
+    EXPECT_EQ(outcome.exit, 1) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_FALSE(json.at("passed").get<bool>());
+    EXPECT_EQ(json.at("up").at(0).at("test"), "seed");
+    EXPECT_EQ(json.at("up").at(0).at("outcome"), "failed");
+    EXPECT_EQ(json.at("up").at(1).at("says"), "1 of 4 datagrams deviate, first number 2");
+}
+
+TEST(EmulatorVerify, NamesTheFileThatItCannotUse)
+{
+    const TemporaryFolder folder;
+    const auto outcome = verify(folder);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_NE(outcome.err.find("fates.csv: No such file"), std::string::npos) << outcome.err;
+}
+
+} // namespace hapnet::e2e
