@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/dry_run.hpp"
 
-#include "emulator/profile_source.hpp"
+#include "emulator/presets.hpp"
 #include "proto/base/text.hpp"
 
 #include <CLI/CLI.hpp>
@@ -23,6 +23,14 @@ struct Texts {
     bool as_json = false;
     bool is_list = false;
 };
+
+/// The names of the presets, each followed by `separator`.
+std::string preset_list(char separator)
+{
+    std::string list;
+    for (const Preset& preset : presets()) list += std::string{preset.name} + separator;
+    return list;
+}
 
 /// "1000" or "1000/s": datagrams a second.
 base::Result<base::Duration> parse_spacing(std::string_view text)
@@ -52,13 +60,9 @@ base::Result<void> read(const std::optional<std::string>& text, const char* opti
 
 net::CommandLine<DryRun> dry_run_from(const Texts& texts)
 {
-    if (texts.is_list) return net::Answer{preset_list()};
+    if (texts.is_list) return net::Answer{preset_list('\n')};
     if (!texts.profile) {
-        return base::fail("a profile is required: a file, or one of " + [] {
-            auto list = preset_list();
-            for (char& c : list) c = c == '\n' ? ' ' : c;
-            return list;
-        }());
+        return base::fail("a profile is required: a file, or one of " + preset_list(' '));
     }
     DryRun run;
     run.profile = *texts.profile;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/predict.hpp"
 #include "emulator/dry_run.hpp"
-#include "emulator/profile_source.hpp"
+#include "emulator/profile_file.hpp"
 #include "proto/base/version.hpp"
 
 #include <chrono>
