@@ -22,8 +22,8 @@ constexpr const char* description =
     "when that one has been silent for 1 s, a new one may take its place.";
 
 constexpr const char* footer =
-    R"(Units are mandatory: ns us ms s min for times, % for shares, B KiB for sizes, kbit/s Mbit/s for
-rates; a bare 0 is zero. Each condition holds both ways; --up.delay 20ms or --down.loss 5% holds
+    R"(Units are mandatory: ns us ms s min for times, % for shares, B KiB for sizes, kbit/s Mbit/s
+for rates; a bare 0 is zero. Each condition holds both ways; --up.delay 20ms or --down.loss 5% holds
 one way only (up: A to B, down: B to A) and wins over the plain one, and each takes whatever a
 profile takes: --loss '{ law = "gilbert", share = "2%", mean_burst = 5.0 }'.
 Conditions given here win over those of --profile or --netem.

@@ -3,14 +3,34 @@
 #include "emulator/profile_file.hpp"
 
 #include "emulator/core/profile/text.hpp"
+#include "emulator/presets.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <spdlog/fmt/fmt.h>
+#include <string_view>
+#include <vector>
 
 namespace hapnet::emulator {
+
+namespace {
+
+base::Result<Profile> load_preset(const std::string& name)
+{
+    std::vector<std::string_view> names;
+    for (const Preset& preset : presets()) {
+        if (preset.name == name) {
+            return parse_profile(preset.text, fmt::format("{}.toml", name), {});
+        }
+        names.push_back(preset.name);
+    }
+    return base::fail(fmt::format("there is neither a file nor a preset '{}': {}", name,
+                                  suggestion(name, names)));
+}
+
+} // namespace
 
 base::Result<std::string> text_of_file(const std::string& path)
 {
@@ -39,6 +59,11 @@ std::string path_beside(const std::string& name, const std::string& beside)
 
 base::Result<Profile> load_profile(const std::string& file_or_name)
 {
+    std::error_code trouble;
+    const bool is_file = file_or_name.find('/') != std::string::npos ||
+                         file_or_name.ends_with(".toml") ||
+                         std::filesystem::exists(file_or_name, trouble);
+    if (!is_file) return load_preset(file_or_name);
     const auto text = text_of_file(file_or_name);
     if (!text) return tl::unexpected{text.error()};
     return parse_profile(*text, file_or_name, [&](const std::string& name) {

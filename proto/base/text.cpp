@@ -169,8 +169,13 @@ std::string to_text(Probability probability)
     // the product closely enough for any of them.
     const long double percent = 100.0L * static_cast<long double>(probability.fraction());
     constexpr int decimals_max = 400; // more than the smallest double needs
+    std::array<char, decimals_max + 8> buffer{};
     for (int decimals = 0; decimals < decimals_max; ++decimals) {
-        auto text = fmt::format("{:.{}f}%", percent, decimals);
+        // Not by fmt: version 9 takes no notice of the precision here (0.05L with 0 decimals).
+        const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
+                                                percent, std::chars_format::fixed, decimals);
+        ensure(error == std::errc{});
+        const std::string text = std::string{buffer.data(), end} + '%';
         const auto again = parse_probability(text);
         if (again && *again == probability) return text;
     }

@@ -22,8 +22,8 @@ constexpr const char* description =
     "which datagram of each direction on it holds.";
 
 constexpr const char* footer =
-    R"(Keys are those of a profile: up.delay holds from A to B, down.delay from B to A, both.delay both
-ways. Units are mandatory: ns us ms s min for times, % for shares. A setting holds until the
+    R"(Keys are those of a profile: up.delay holds from A to B, down.delay from B to A, both.delay
+both ways. Units are mandatory: ns us ms s min for times, % for shares. A setting holds until the
 profile's timeline says something about the same key; with --for it ends by itself, so that
 nothing bad stays behind when nobody comes back.
 

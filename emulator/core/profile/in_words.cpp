@@ -20,7 +20,9 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 std::string in_ms(base::Duration duration)
 {
-    return fmt::format("{:.3g} ms", Milliseconds{duration}.count());
+    const double value = Milliseconds{duration}.count();
+    return std::abs(value) < 100.0 ? fmt::format("{:.3g} ms", value)
+                                   : fmt::format("{:.0f} ms", value);
 }
 
 std::string in_percent(double share) { return fmt::format("{:.4g} %", 100.0 * share); }
@@ -150,11 +152,12 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
         prediction.added_by_queues > noticeable) {
         list.push_back(fmt::format(
             "keeping the order makes the mean {} longer and the sd {} instead of {} {}, with {} of "
-            "the gaps below 50 us; a correlation_time (100ms, say) keeps order, mean and sd, and "
-            "order = \"free\" reorders",
+            "the gaps below 50 us; {} keeps order, mean and sd, and order = \"free\" reorders",
             in_ms(prediction.added_by_queues), in_ms(*lens.delay->sd),
-            in_ms(*lens.requested_delay->sd), at_rate,
-            in_percent(lens.clumped_share.value_or(0.0))));
+            in_ms(*lens.requested_delay->sd), at_rate, in_percent(lens.clumped_share.value_or(0.0)),
+            conditions.jitter.correlation_time > base::Duration{0}
+                ? "a longer correlation_time"
+                : "a correlation_time (100ms, say)"));
     }
     if (has_jitter && conditions.order == Order::free && lens.reordered > 0) {
         const auto delivered =

@@ -184,7 +184,7 @@ std::optional<std::int64_t> NetemWords::optional_integer()
 
 void NetemWords::complain(const std::string& what)
 {
-    if (!complaint_) complaint_ = fmt::format("netem, word {}: {}", next_, what);
+    if (!complaint_) complaint_ = fmt::format("word {}: {}", next_, what);
 }
 
 bool NetemWords::is_number_next() const

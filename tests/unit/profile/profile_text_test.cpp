@@ -195,6 +195,13 @@ TEST(ProfileText, ASettingReadsWithoutQuotesAndItsErrorsNameIt)
               "up.los: there is no such setting: did you mean 'loss'?");
 }
 
+TEST(ProfileText, ASmallShareIsPrintedAsShortAsItWasWritten)
+{
+    for (const char* text : {"0.05%", "0.005%", "93%", "7%", "0.1%", "0%", "100%"}) {
+        EXPECT_EQ(base::to_text(base::parse_probability(text).value()), text);
+    }
+}
+
 TEST(ProfileText, QuantitiesOfDataHaveUnits)
 {
     EXPECT_EQ(base::parse_bit_rate("1.5Mbit/s").value(), 1'500'000U);

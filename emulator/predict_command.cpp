@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/profile/predict.hpp"
+#include "emulator/dry_run.hpp"
+#include "emulator/profile_file.hpp"
+#include "proto/base/version.hpp"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+double in_ms(base::Duration duration) { return Milliseconds{duration}.count(); }
+
+Json json_of(std::optional<base::Duration> duration)
+{
+    return duration ? Json(in_ms(*duration)) : Json(nullptr);
+}
+
+Json json_of(std::optional<double> number) { return number ? Json(*number) : Json(nullptr); }
+
+Json json_of(const std::optional<Quantiles>& quantiles)
+{
+    if (!quantiles) return nullptr;
+    return {{"p50", in_ms(quantiles->p50)},
+            {"p90", in_ms(quantiles->p90)},
+            {"p99", in_ms(quantiles->p99)},
+            {"p999", in_ms(quantiles->p999)},
+            {"max", in_ms(quantiles->max)}};
+}
+
+Json json_of(const std::optional<Moments>& moments)
+{
+    if (!moments) return nullptr;
+    return {{"mean", in_ms(moments->mean)}, {"sd", json_of(moments->sd)}};
+}
+
+double share_of(std::uint64_t part, const DirectionPrediction& of)
+{
+    const auto departures = of.statistics.delivered - of.statistics.duplicated;
+    return departures == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(departures);
+}
+
+Json json_of(const DirectionPrediction& of, const Conditions& conditions, const Stream& stream)
+{
+    Json dropped = Json::object();
+    for (const DropCause cause : drop_causes) {
+        if (of.statistics.dropped_by(cause) == 0) continue;
+        dropped[std::string{to_text(cause)}] = of.statistics.dropped_by(cause);
+    }
+    const LensReport& lens = of.lens;
+    return {
+        {"theory", stages_in_words(conditions, stream)},
+        {"warnings", warnings(conditions, stream, of)},
+        {"received", of.statistics.received},
+        {"delivered", of.statistics.delivered},
+        {"duplicated", of.statistics.duplicated},
+        {"corrupted", of.statistics.corrupted},
+        {"dropped", dropped},
+        {"loss",
+         {{"share", of.loss_share()},
+          {"runs", of.loss_runs},
+          {"run_mean", json_of(of.loss_run_mean())},
+          {"run_max", of.loss_run_max}}},
+        {"requested_delay_ms", json_of(lens.requested_delay)},
+        {"delay_ms", json_of(lens.delay)},
+        {"delay_quantiles_ms", json_of(lens.delay_quantiles)},
+        {"added_by_queues_ms", in_ms(of.added_by_queues)},
+        {"jitter_ms", json_of(lens.delay_variation)},
+        {"gap_ms", json_of(lens.gap)},
+        {"clumped_share", json_of(lens.clumped_share)},
+        {"reordered_share", share_of(lens.reordered, of)},
+        {"reorder_extent",
+         {{"mean", json_of(lens.reorder_extent_mean)}, {"max", lens.reorder_extent_max}}},
+        {"age_ms", {{"mean", json_of(lens.age_mean)}, {"peak_max", json_of(lens.peak_age_max)}}}};
+}
+
+std::string in_words(const std::optional<Quantiles>& quantiles)
+{
+    if (!quantiles) return "none";
+    return fmt::format("p50 {:.4g}, p90 {:.4g}, p99 {:.4g}, p99.9 {:.4g}, max {:.4g} ms",
+                       in_ms(quantiles->p50), in_ms(quantiles->p90), in_ms(quantiles->p99),
+                       in_ms(quantiles->p999), in_ms(quantiles->max));
+}
+
+std::string in_words(const std::optional<Moments>& moments)
+{
+    if (!moments) return "none";
+    return fmt::format("mean {:.4g} ms, sd {:.4g} ms", in_ms(moments->mean),
+                       in_ms(moments->sd.value_or(base::Duration{})));
+}
+
+std::string in_words(std::string_view title, const DirectionPrediction& of,
+                     const Conditions& conditions, const Stream& stream)
+{
+    const LensReport& lens = of.lens;
+    std::string text = fmt::format("{}\n", title);
+    for (const auto& stage : stages_in_words(conditions, stream)) {
+        text += fmt::format("  theory     {}\n", stage);
+    }
+    const auto& s = of.statistics;
+    text += fmt::format("  datagrams  {} in, {} out, {} copies, {} damaged\n", s.received,
+                        s.delivered, s.duplicated, s.corrupted);
+    text += fmt::format("  loss       {:.4g} %", 100.0 * of.loss_share());
+    if (of.loss_runs > 0) {
+        text += fmt::format(", runs of {:.4g} on average, {} at most", *of.loss_run_mean(),
+                            of.loss_run_max);
+    }
+    text += fmt::format("\n  drawn      {}\n", in_words(lens.requested_delay));
+    text += fmt::format("  delay      {}; {:+.4g} ms by the order and the queue\n",
+                        in_words(lens.delay), in_ms(of.added_by_queues));
+    text += fmt::format("             {}\n", in_words(lens.delay_quantiles));
+    text += fmt::format("  variation  {} (IPDV)\n", in_words(lens.delay_variation));
+    text += fmt::format("  reordered  {:.4g} %, by {:.3g} places on average, {} at most\n",
+                        100.0 * share_of(lens.reordered, of),
+                        lens.reorder_extent_mean.value_or(0.0), lens.reorder_extent_max);
+    text += fmt::format("  clumped    {:.4g} % of the gaps are below 50 us\n",
+                        100.0 * lens.clumped_share.value_or(0.0));
+    for (const auto& warning : warnings(conditions, stream, of)) {
+        text += fmt::format("  warning    {}\n", warning);
+    }
+    return text;
+}
+
+base::Result<int> run(const DryRun& dry_run)
+{
+    const auto profile = load_profile(dry_run.profile);
+    if (!profile) return base::fail(profile.error().message);
+    const Stream& stream = dry_run.stream;
+    const auto seed = seed_of(dry_run, *profile);
+    const auto [up, down] = predicted(*profile, stream, seed);
+    const auto& path = profile->path;
+    if (dry_run.as_json) {
+        const Json json{{"program", "hapnet-emulator predict"},
+                        {"version", base::version()},
+                        {"profile", dry_run.profile},
+                        {"seed", seed.value()},
+                        {"rate_hz", 1.0 / base::to_seconds(stream.spacing)},
+                        {"packets", stream.packets},
+                        {"bytes", stream.bytes},
+                        {"up", json_of(up, path.up, stream)},
+                        {"down", json_of(down, path.down, stream)}};
+        fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+        return 0;
+    }
+    fmt::print("{} datagrams of {} B at {:.6g}/s each way, seed {}\n\n{}\n{}", stream.packets,
+               stream.bytes, 1.0 / base::to_seconds(stream.spacing), seed.value(),
+               in_words("up: from A to B", up, path.up, stream),
+               in_words("down: from B to A", down, path.down, stream));
+    return 0;
+}
+
+} // namespace
+
+int predict_command(std::span<char*> words)
+{
+    return net::run_program("hapnet-emulator predict", parse_predict(words), run);
+}
+
+} // namespace hapnet::emulator

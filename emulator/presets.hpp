@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace hapnet::emulator {
+
+/// A profile that every emulator carries with it: a file of scripts/profiles.
+struct Preset {
+    std::string_view name; // without .toml
+    std::string_view text;
+};
+
+/// All of them, by name.
+[[nodiscard]] std::span<const Preset> presets();
+
+} // namespace hapnet::emulator
