@@ -81,9 +81,11 @@ private:
 
 int pass(Relay::Side& from, Relay::Side& to)
 {
+    const auto arrived = from.socket.receive();
+    if (arrived.empty()) return 0;
     int adopted = 0;
     Batch undelayed{from.link, to};
-    for (const net::Received& datagram : from.socket.receive()) {
+    for (const net::Received& datagram : arrived) {
         const Sender sender = from.correspondent.judge(datagram.from, datagram.at);
         if (sender == Sender::stranger) {
             ++from.strangers;
