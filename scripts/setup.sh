@@ -10,7 +10,7 @@ Installs the Debian 12 packages that building Hapnet needs and that are missing;
 also those that scripts/test.sh needs. Runs as root or with sudo, asks nothing, and does nothing
 when nothing is missing."
 
-packages=(g++ cmake ninja-build libcli11-dev libexpected-dev libglm-dev librandom123-dev
+packages=(g++ cmake ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev librandom123-dev
     libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev nlohmann-json3-dev)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 jq libboost-dev libgtest-dev shellcheck
     tshark)

@@ -66,7 +66,7 @@ void clear_the_place(const std::string& path, const sockaddr_un& address)
     if (!S_ISSOCK(found.st_mode)) refuse(EEXIST, "this is no socket, and stays:", path);
     const auto probe = new_socket();
     if (::connect(probe.descriptor(), generic(address), sizeof address) == 0 || errno == EAGAIN) {
-        refuse(EADDRINUSE, "another program answers on", path);
+        refuse(EADDRINUSE, "cannot listen on", path);
     }
     if (errno == ECONNREFUSED) unlink(path.c_str());
 }

@@ -45,20 +45,22 @@ std::string_view cure_of(int error)
     }
 }
 
-/// A profile's text; throws std::system_error when it cannot be read.
-std::string text_of(const std::string& file)
+base::Result<std::string> text_of(const std::string& file)
 {
-    if (file == "-") return {std::istreambuf_iterator<char>{std::cin}, {}};
+    if (file == "-") return std::string{std::istreambuf_iterator<char>{std::cin}, {}};
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) {
+        return base::fail(fmt::format("{} is a folder: name a profile", file));
+    }
     std::ifstream stream{file, std::ios::binary};
     std::string text{std::istreambuf_iterator<char>{stream}, {}};
-    if (stream.bad() || !stream.is_open() || std::filesystem::is_directory(file)) {
-        throw std::system_error{std::make_error_code(std::errc::no_such_file_or_directory),
-                                fmt::format("cannot read {}", file)};
+    if (!stream.is_open() || stream.bad()) {
+        return base::fail(fmt::format("cannot read {}: is there such a file?", file));
     }
     return text;
 }
 
-Json request_of(const CtlOptions& options)
+base::Result<Json> request_of(const CtlOptions& options)
 {
     Json request{{"command", options.command}};
     const auto add = [&](const char* key, const std::optional<std::string>& text) {
@@ -66,7 +68,9 @@ Json request_of(const CtlOptions& options)
     };
     for (const auto& [key, value] : options.settings) request["settings"][key] = value;
     if (!options.file.empty()) {
-        request["profile"] = text_of(options.file);
+        auto text = text_of(options.file);
+        if (!text) return tl::unexpected{text.error()};
+        request["profile"] = *std::move(text);
         // What a profile names lies beside it, wherever the emulator was started.
         request["file"] = options.file == "-" ? "(standard input)"
                                               : std::filesystem::absolute(options.file).string();
@@ -132,10 +136,10 @@ int trouble(Connection::State state, const CtlOptions& options)
     return net::exit_failed;
 }
 
-int converse(Connection& connection, const CtlOptions& options)
+int converse(Connection& connection, const Json& request, const CtlOptions& options)
 {
-    const auto request = request_of(options).dump(-1, ' ', false, Json::error_handler_t::replace);
-    auto state = connection.send(request, net::monotonic_now() + answer_max);
+    const auto text = request.dump(-1, ' ', false, Json::error_handler_t::replace);
+    auto state = connection.send(text, net::monotonic_now() + answer_max);
     WatchPrinter watch{isatty(STDOUT_FILENO) != 0};
     while (state == Connection::State::good) {
         state = connection.receive(deadline_of(options));
@@ -148,6 +152,8 @@ int converse(Connection& connection, const CtlOptions& options)
 
 base::Result<int> control(const CtlOptions& options)
 {
+    const auto request = request_of(options);
+    if (!request) return tl::unexpected{request.error()};
     net::StopSignal stop;
     std::optional<Connection> connection;
     try {
@@ -156,7 +162,7 @@ base::Result<int> control(const CtlOptions& options)
         net::say(program, fmt::format("{}; {}", error.what(), cure_of(error.code().value())));
         return net::exit_environment;
     }
-    return converse(*connection, options);
+    return converse(*connection, *request, options);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "proto/base/version.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
@@ -59,9 +60,7 @@ void add_commands(CLI::App& app, Texts& texts)
     };
     add("show", "Print the conditions that hold and the rest of the timeline, as a profile");
     auto* set = add("set", "Change settings: set KEY VALUE [KEY VALUE ...] [--for 30s]");
-    set->add_option("settings", texts.settings, "Keys and values in turn")
-        ->type_name("KEY VALUE")
-        ->required();
+    set->add_option("settings", texts.settings, "Keys and values in turn")->type_name("KEY VALUE");
     set->add_option("--for", texts.lasting, "Only for so long; then holds what held without it")
         ->type_name("TIME");
     for (auto* command :
@@ -95,6 +94,9 @@ net::CommandLine<CtlOptions> options_from(const CLI::App& app, const Texts& text
                        .timeout = texts.timeout,
                        .every = texts.every,
                        .as_json = texts.as_json};
+    if (options.command == "set" && texts.settings.empty()) {
+        return base::fail("set: what? Write set KEY VALUE, such as set both.delay 80ms");
+    }
     if (texts.settings.size() % 2 != 0) {
         return base::fail(fmt::format("set: '{}' has no value: set KEY VALUE [KEY VALUE ...]",
                                       texts.settings.back()));
@@ -111,6 +113,32 @@ net::CommandLine<CtlOptions> options_from(const CLI::App& app, const Texts& text
         }
     }
     return options;
+}
+
+/// What is wrong with a line that CLI11 has refused: it does not tell a mistyped command.
+std::string explained(std::span<char*> words, const CLI::App& app, const CLI::ParseError& error)
+{
+    std::vector<std::string> commands;
+    for (const auto* command : app.get_subcommands(nullptr)) {
+        commands.push_back(command->get_name());
+    }
+    const auto is_command = [&](const std::string& word) {
+        return std::find(commands.begin(), commands.end(), word) != commands.end();
+    };
+    std::vector<std::string> plain; // without the options, of which none before the command has
+    for (const char* word : words.subspan(1)) { // a value
+        if (*word != '-') plain.emplace_back(word);
+    }
+    if (plain.empty() || is_command(plain[0])) {
+        return fmt::format("first comes the socket: hapnet-ctl SOCKET {}",
+                           plain.empty() ? "show" : plain[0]);
+    }
+    if (plain.size() < 2 || !is_command(plain[1])) {
+        return fmt::format("{} is no command; commands are {}",
+                           plain.size() < 2 ? "nothing" : "'" + plain[1] + "'",
+                           fmt::join(commands, ", "));
+    }
+    return error.what();
 }
 
 } // namespace
@@ -136,7 +164,8 @@ net::CommandLine<CtlOptions> parse_ctl_options(std::span<char*> words)
     } catch (const CLI::CallForVersion&) {
         return net::Answer{app.version() + "\n"};
     } catch (const CLI::ParseError& error) {
-        return base::fail(fmt::format("{} (--help lists the commands)", error.what()));
+        return base::fail(
+            fmt::format("{} (--help lists the commands)", explained(words, app, error)));
     }
     return options_from(app, texts);
 }

@@ -90,7 +90,7 @@ std::string differing(const Json& reply)
                             text_at(one, "/to"));
     }
     if (at(reply, "/is_other_timeline") == true) {
-        text += fmt::format("timeline: {} steps to come -> {} steps\n",
+        text += fmt::format("timeline: steps to come: {} -> {}, counted from then\n",
                             text_at(reply, "/timeline/from"), text_at(reply, "/timeline/to"));
     }
     return text.empty() ? "nothing would change\n" : text;

@@ -58,6 +58,21 @@ TEST(StopSignal, TurnsASignalIntoSomethingToRead)
     wait_readable(std::array{stop.descriptor()}, std::nullopt);
     EXPECT_TRUE(stop.requested());
     EXPECT_TRUE(stop.requested()); // stays true
+    EXPECT_FALSE(stop.reload_requested());
+}
+
+TEST(StopSignal, TakesAHangupForAStopUnlessItMeansReload)
+{
+    {
+        StopSignal stop;
+        ASSERT_EQ(raise(SIGHUP), 0);
+        EXPECT_TRUE(stop.requested());
+    }
+    StopSignal stop{Hangup::reload};
+    ASSERT_EQ(raise(SIGHUP), 0);
+    EXPECT_FALSE(stop.requested());
+    EXPECT_TRUE(stop.reload_requested());
+    EXPECT_FALSE(stop.reload_requested()); // consumed
 }
 
 } // namespace

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// A running emulator, changed and asked with hapnet-ctl and over its socket.
+#include "proto/net/unix_socket.hpp"
+#include "tests/e2e/emulator.hpp"
+#include "tests/e2e/udp.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <sys/stat.h>
+#include <thread>
+#include <vector>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+struct Controlled : testing::Test {
+    Outcome ctl(std::vector<std::string> words)
+    {
+        words.insert(words.begin(), socket);
+        return run("hapnet-ctl", words);
+    }
+
+    json asked(std::vector<std::string> words)
+    {
+        words.insert(words.begin(), "--json");
+        const auto outcome = ctl(words);
+        EXPECT_EQ(outcome.exit, 0) << outcome.err;
+        return json::parse(outcome.out, nullptr, false);
+    }
+
+    void expect_refusal(const std::vector<std::string>& words, int exit, const char* word)
+    {
+        const auto outcome = ctl(words);
+        EXPECT_EQ(outcome.exit, exit) << outcome.out;
+        EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+    }
+
+    /// What a client gets that sends `text` and no more, until the emulator closes.
+    std::string said_to(std::string_view text)
+    {
+        auto stream = net::UnixStream::connect(socket);
+        while (!text.empty()) {
+            const auto sent = stream.write(text);
+            if (sent.state == net::Transfer::State::gone) break;
+            text.remove_prefix(sent.bytes);
+            std::this_thread::sleep_for(1ms);
+        }
+        return heard(stream);
+    }
+
+    /// A line, or what came until the connection was closed; nothing after 5 s of silence.
+    static std::string heard(net::UnixStream& stream)
+    {
+        std::string text;
+        std::array<char, 4096> buffer{};
+        for (int i = 0; i < 5000 && text.find('\n') == std::string::npos; ++i) {
+            const auto taken = stream.read(buffer);
+            if (taken.state == net::Transfer::State::moved) {
+                text.append(buffer.data(), taken.bytes);
+            } else if (taken.state != net::Transfer::State::later) {
+                break;
+            } else {
+                std::this_thread::sleep_for(1ms);
+            }
+        }
+        return text;
+    }
+
+    TemporaryFolder folder;
+    std::string socket = folder.file("emulator.sock");
+};
+
+} // namespace
+
+TEST_F(Controlled, TakesEffectExactlyAtTheDatagramThatTheAnswerNames)
+{
+    Host a;
+    Host b;
+    Emulator emulator{{"--a", a.endpoint().to_text(), "--b", b.endpoint().to_text(), "--delay",
+                       "20ms", "--control", socket}};
+    std::optional<json> reply;
+    std::thread person{[&] {
+        std::this_thread::sleep_for(300ms);
+        reply = asked({"set", "up.loss", "100%"});
+    }};
+    stream(a, emulator.a(), 1000, 1ms);
+    person.join();
+    ASSERT_TRUE(reply);
+    const auto first_lost = (*reply)["effective_at"]["up"].get<std::uint64_t>();
+    EXPECT_GT(first_lost, 100U);
+    EXPECT_LT(first_lost, 1000U);
+    const auto arrivals = b.receive(1000, 300ms);
+    ASSERT_EQ(arrivals.size(), first_lost);
+    EXPECT_EQ(arrivals.back().number, first_lost - 1);
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["dropped"]["random_loss"], 1000 - first_lost);
+}
+
+TEST_F(Controlled, ShowsAProfileThatCanBeAppliedAndReturnsToItsStart)
+{
+    Emulator emulator{{"--delay", "160ms", "--control", socket}};
+    EXPECT_EQ(asked({"set", "both.delay", "80ms", "up.loss", "5%"})["generation"], 2);
+    const auto shown = ctl({"show"});
+    std::ofstream{folder.file("now.toml")} << shown.out;
+    EXPECT_NE(shown.out.find("\ndelay = \"80ms\""), std::string::npos) << shown.out;
+    EXPECT_NE(shown.out.find("set by hand: up.loss = 5%"), std::string::npos) << shown.out;
+    EXPECT_EQ(ctl({"diff", folder.file("now.toml")}).out, "nothing would change\n");
+    EXPECT_EQ(asked({"reset"})["generation"], 3);
+    EXPECT_NE(ctl({"diff", folder.file("now.toml")}).out.find("up.delay: 160ms -> 80ms\n"),
+              std::string::npos);
+    EXPECT_EQ(asked({"apply", folder.file("now.toml")})["generation"], 4);
+    EXPECT_EQ(asked({"apply", folder.file("now.toml")})["generation"], 4) << "idempotent";
+    EXPECT_EQ(asked({"stats"})["statistics"]["generation"], 4);
+}
+
+TEST_F(Controlled, RestoresByItselfWhatWasChangedForATime)
+{
+    Host a;
+    Host b;
+    Emulator emulator{
+        {"--a", a.endpoint().to_text(), "--b", b.endpoint().to_text(), "--control", socket}};
+    asked({"set", "up.loss", "100%", "--for", "500ms"});
+    a.send(emulator.a(), 0);
+    EXPECT_TRUE(b.receive(1, 100ms).empty());
+    EXPECT_EQ(asked({"wait", "--until", "generation>=3", "--timeout", "5s"})["met"], true);
+    a.send(emulator.a(), 1);
+    EXPECT_EQ(b.receive(1, 1s).size(), 1U);
+    EXPECT_EQ(asked({"show"})["live"], json::array());
+}
+
+TEST_F(Controlled, WaitsForAConditionAndSaysWhenItsTimeIsOver)
+{
+    Host a;
+    Emulator emulator{{"--control", socket}};
+    Process waiting{"hapnet-ctl", {socket, "wait", "--until", "up.received>=3"}};
+    EXPECT_EQ(waiting.wait_exit(300ms), std::nullopt);
+    stream(a, emulator.a(), 3, 1ms);
+    EXPECT_EQ(waiting.wait_exit(5s), 0);
+    EXPECT_EQ(ctl({"wait", "--until", "up.received>3", "--timeout", "200ms"}).exit, 1);
+    expect_refusal({"wait", "--until", "up.recieved>3"}, 2, "received");
+}
+
+TEST_F(Controlled, WatchesALineAtATimeUntilItIsInterrupted)
+{
+    Emulator emulator{{"--control", socket}};
+    Process watching{"hapnet-ctl", {socket, "watch", "--every", "50ms"}};
+    std::this_thread::sleep_for(500ms);
+    watching.signal(SIGINT);
+    EXPECT_EQ(watching.wait_exit(5s), 0) << watching.err();
+    const auto lines = std::count(watching.out().begin(), watching.out().end(), '\n');
+    EXPECT_GE(lines, 3);
+    EXPECT_LE(lines, 12);
+    EXPECT_NE(watching.out().find(" up.received=0 "), std::string::npos) << watching.out();
+}
+
+TEST_F(Controlled, SaysWhatIsWrongWithACommand)
+{
+    Emulator emulator{{"--control", socket}};
+    expect_refusal({"set", "both.dealy", "80ms"}, 2, "delay");
+    expect_refusal({"set", "both.delay", "80"}, 2, "'80'");
+    expect_refusal({"set", "both.delay"}, 2, "has no value");
+    expect_refusal({"set", "both.delay", "1ms", "--for", "5"}, 2, "--for");
+    expect_refusal({"shwo"}, 2, "'shwo'");
+    expect_refusal({"apply", folder.file("none.toml")}, 2, "none.toml");
+    std::ofstream{folder.file("bad.toml")} << "\n[both]\ndelay = \"80\"\n";
+    expect_refusal({"apply", folder.file("bad.toml")}, 2, "bad.toml:3");
+    EXPECT_EQ(asked({"show"})["generation"], 1);
+    EXPECT_EQ(run("hapnet-ctl", {"show"}).exit, 2);
+    const auto help = run("hapnet-ctl", {"--help"});
+    EXPECT_EQ(help.exit, 0);
+    for (const char* word : {"show", "set", "apply", "diff", "reset", "stats", "watch", "wait",
+                             "Examples", "Exit codes", "SOCKET"}) {
+        EXPECT_NE(help.out.find(word), std::string::npos) << word;
+    }
+}
+
+TEST_F(Controlled, SaysThatNoEmulatorAnswers)
+{
+    expect_refusal({"show"}, 3, "--control");
+    std::ofstream{socket} << "no socket";
+    expect_refusal({"show"}, 3, "--control");
+}
+
+TEST_F(Controlled, OwnsItsSocketAloneAndLeavesNoneBehind)
+{
+    const std::vector<std::string> another{"--listen-a",  "127.0.0.1:0", "--listen-b",
+                                           "127.0.0.1:0", "--control",   socket};
+    {
+        Emulator killed{{"--control", socket}};
+        killed.process().signal(SIGKILL);
+        EXPECT_EQ(killed.process().wait_exit(5s), 128 + SIGKILL);
+    }
+    Emulator emulator{{"--control", socket}};
+    struct stat found {};
+    ASSERT_EQ(stat(socket.c_str(), &found), 0);
+    EXPECT_EQ(found.st_mode & 0777U, 0600U);
+    const auto second = run("hapnet-emulator", another);
+    EXPECT_EQ(second.exit, 3);
+    EXPECT_NE(second.err.find(socket), std::string::npos) << second.err;
+    EXPECT_EQ(asked({"show"})["ok"], true);
+    std::ignore = emulator.stop();
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST_F(Controlled, AnswersGarbageWithAnErrorAndLives)
+{
+    Emulator emulator{{"--control", socket}};
+    for (const std::string& text :
+         {std::string{"\n"}, std::string{"\xff\xfe{\n"}, std::string(100'000, '[') + "\n",
+          std::string{"{\"command\":\"set\",\"settings\":{\"up.delay\":5}}\n"},
+          std::string((1 << 20) + 10, 'x')}) {
+        const auto reply = json::parse(said_to(text), nullptr, false);
+        EXPECT_EQ(reply.value("ok", true), false) << reply;
+    }
+    EXPECT_EQ(asked({"show"})["ok"], true);
+}
+
+TEST_F(Controlled, ServesAFewClientsAtATimeAndTellsTheOthers)
+{
+    Emulator emulator{{"--control", socket}};
+    std::vector<net::UnixStream> clients;
+    for (int i = 0; i < 1000; ++i) {
+        clients.push_back(net::UnixStream::connect(socket));
+        if (i >= 16) {
+            EXPECT_NE(heard(clients.back()).find("\"busy\":true"), std::string::npos) << i;
+        }
+        if (clients.size() > 17) clients.pop_back();
+    }
+    expect_refusal({"show"}, 3, "too many");
+    clients.clear();
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_NE(said_to("{\"command\":\"show\"}\n").find("\"ok\":true"), std::string::npos) << i;
+    }
+}
+
+} // namespace hapnet::e2e
