@@ -106,10 +106,12 @@ Link link_of(const Relay::Setup& setup, Direction direction)
 
 int Relay::pass(Side& from, Side& to)
 {
+    const auto arrived = from.socket.receive();
+    if (arrived.empty()) return 0;
     int adopted = 0;
     const Direction direction = from.side == CaptureSide::a ? Direction::up : Direction::down;
     Batch undelayed{from.link, to, recorder_};
-    for (const net::Received& datagram : from.socket.receive()) {
+    for (const net::Received& datagram : arrived) {
         const Sender sender = from.correspondent.judge(datagram.from, datagram.at);
         if (sender == Sender::stranger) {
             ++from.strangers;

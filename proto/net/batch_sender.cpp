@@ -37,6 +37,13 @@ bool is_refusal(int error)
            error == EOPNOTSUPP;
 }
 
+/// What msghdr wants of what it only reads when it sends.
+template <typename T>
+T* writable(const T* read_only)
+{
+    return const_cast<T*>(read_only); // NOLINT(*-const-cast)
+}
+
 } // namespace
 
 SendOutcome send_one(int descriptor, const Endpoint& to, std::span<const std::byte> bytes)
@@ -69,8 +76,7 @@ BatchSender::send(int descriptor, const Endpoint& to,
     for (std::size_t first = 0; first < datagrams.size(); ++messages) {
         const Train train{first, train_length(datagrams.subspan(first))};
         for (std::size_t i = first; i < first + train.count; ++i) {
-            // The socket API's own idiom: it does not write what it sends.
-            vectors_[i] = {.iov_base = const_cast<std::byte*>(datagrams[i].data()),
+            vectors_[i] = {.iov_base = writable(datagrams[i].data()),
                            .iov_len = datagrams[i].size()};
         }
         trains_[messages] = train;
@@ -113,7 +119,7 @@ void BatchSender::write_message(std::size_t index, const Train& train, const End
 {
     msghdr& header = headers_[index].msg_hdr;
     header = {};
-    header.msg_name = const_cast<sockaddr*>(to.address());
+    header.msg_name = writable(to.address());
     header.msg_namelen = to.length();
     header.msg_iov = &vectors_[train.first];
     header.msg_iovlen = train.count;

@@ -29,8 +29,6 @@ public:
     static constexpr std::size_t batch_max = 64; // datagrams per send(); segments per message
 
     BatchSender();
-    BatchSender(const BatchSender&) = delete;
-    BatchSender& operator=(const BatchSender&) = delete;
 
     /// What became of each, in their order; valid until the next send(). Ensures that there are at
     /// most batch_max. Never blocks.
