@@ -22,70 +22,122 @@ constexpr const char* description =
     "when that one has been silent for 1 s, a new one may take its place.";
 
 constexpr const char* footer =
-    R"(Units are mandatory: ns us ms s min for times, % for shares; a bare 0 is zero.
---delay, --jitter, --order, --loss and --burst-loss hold both ways; --up.delay 20ms or
---down.loss 5% hold for one way only (up: A to B, down: B to A) and win over the plain ones.
-Datagrams pass random loss, burst loss, delay, jitter, in this order. The same seed loses the
-same n-th datagrams of a direction in every run, whatever delay and jitter are.
+    R"(Units are mandatory: ns us ms s min for times, % for shares, B KiB for sizes, kbit/s Mbit/s for
+rates; a bare 0 is zero. Each condition holds both ways; --up.delay 20ms or --down.loss 5% holds
+one way only (up: A to B, down: B to A) and wins over the plain one, and each takes whatever a
+profile takes: --loss '{ law = "gilbert", share = "2%", mean_burst = 5.0 }'.
+Conditions given here win over those of --profile or --netem.
+Datagrams pass mtu, rate, loss, corrupt, duplicate, delay, jitter, order, reorder, in this order.
+The same seed loses the same n-th datagrams of a direction in every run, whatever the rest is.
 
 Examples:
   hapnet-emulator --listen-a 127.0.0.1:7001 --listen-b 127.0.0.1:7002 --delay 160ms
   hapnet-emulator --listen-a 0.0.0.0:7001 --listen-b 0.0.0.0:7002 \
       --a 10.0.0.1:7000 --b 10.0.0.2:7000 --delay 80ms --jitter 5ms --down.loss 10% \
       --seed 42 --duration 30s --stats run.json
+  hapnet-emulator --listen-a 127.0.0.1:7001 --listen-b 127.0.0.1:7002 --profile wifi-busy \
+      --control emulator.sock --fates fates.csv --pcap run.pcapng
+
+Without a network (each has a --help of its own):
+  hapnet-emulator check PROFILE                   what a profile says, stage by stage
+  hapnet-emulator predict PROFILE --rate 1000     what it will do to so many datagrams a second
+  hapnet-emulator verify RUN                      whether a run's fates follow their laws
 
 Prints one line "ready a=... b=..." on stdout when it listens; port 0 takes any free port.
-SIGINT or SIGTERM ends it and writes the statistics.
-Exit codes: 0 done, 1 the run failed, 2 bad usage, 3 the system refused (port in use, no route).)";
+SIGINT or SIGTERM ends it and writes the files; SIGHUP reads the profile again.
+Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the system refused (port in use).)";
 
 /// What follows an option, if it was given.
 using Text = std::optional<std::string>;
 
-/// The texts of the options that exist for both ways and for each way.
-struct ConditionTexts {
-    Text delay;
-    Text jitter;
-    Text order;
-    Text loss;
-    Text burst_loss;
+/// A condition, and what --help says of it.
+struct Condition {
+    const char* name;
+    const char* type;
+    const char* help;
 };
+constexpr std::array conditions{
+    Condition{"delay", "TIME", "Delay of every datagram (default 0)"},
+    Condition{"jitter", "TIME",
+              "Half width of a uniform offset, drawn for each datagram: 5ms is -5ms to +5ms\n"
+              "(default 0). Nothing leaves before it has arrived."},
+    Condition{"order", "keep|free|sorted",
+              "Whether jitter may reorder. keep (default): never; wide jitter then lengthens the\n"
+              "mean delay. free: each datagram leaves at its own time. sorted: at the times of\n"
+              "free, but in order."},
+    Condition{"loss", "SHARE", "Loss of each datagram on its own (default 0)"},
+    Condition{"burst-loss", "LOST/OF", "40/100: lose 40 in a row of every 100 (default 0)"},
+    Condition{"duplicate", "SHARE", "Send a second copy of so many (default 0)"},
+    Condition{"corrupt", "SHARE", "Invert a bit of so many (default 0)"},
+    Condition{"reorder", "TABLE",
+              "Send some behind their turn: '{ share = \"1%\", displacement = 3 }'"},
+    Condition{"rate", "RATE", "Bits per second, with a drop-tail queue of 64KiB (default: any)"},
+    Condition{"mtu", "SIZE", "Drop what is larger with its IP and UDP headers (default: none)"},
+};
+
+constexpr std::array<const char*, 3> prefixes{"", "up.", "down."};
 
 struct Texts {
     Text listen_a;
     Text listen_b;
     Text a;
     Text b;
-    std::array<ConditionTexts, 3> conditions; // of both, up, down
+    Text profile;
+    Text netem;
+    std::array<std::array<Text, conditions.size()>, prefixes.size()> by_way;
     Text seed;
+    Text replay;
     Text timing;
     Text budget;
     Text duration;
     Text stats;
+    Text fates;
+    Text capture;
     Text control;
 };
 
-constexpr std::array<const char*, 3> prefixes{"", "up.", "down."};
-
-void add_conditions(CLI::App& app, const std::string& prefix, ConditionTexts& texts)
+void add_conditions(CLI::App& app, Texts& texts)
 {
-    const std::string group = prefix.empty()    ? "Both ways"
-                              : prefix == "up." ? "Up: from A to B"
-                                                : "Down: from B to A";
-    const auto add = [&](const char* name, Text& text, const char* help) {
-        return app.add_option("--" + prefix + name, text, prefix.empty() ? help : "")->group(group);
-    };
-    add("delay", texts.delay, "Delay of every datagram (default 0)")->type_name("TIME");
-    add("jitter", texts.jitter,
-        "Half width of a uniform offset, drawn for each datagram: 5ms is -5ms to +5ms\n"
-        "(default 0). Nothing leaves before it has arrived.")
+    for (std::size_t way = 0; way < prefixes.size(); ++way) {
+        for (std::size_t i = 0; i < conditions.size(); ++i) {
+            const auto& [name, type, help] = conditions[i];
+            app.add_option(fmt::format("--{}{}", prefixes[way], name), texts.by_way[way][i], help)
+                ->type_name(type)
+                ->group(way == 0 ? "Conditions, both ways (--up.NAME, --down.NAME: one way)" : "");
+        }
+    }
+}
+
+void add_run_options(CLI::App& app, Texts& texts)
+{
+    app.add_option("--seed", texts.seed, "Of all chance in the run (default: the profile's, or 1)")
+        ->type_name("NUMBER");
+    app.add_option("--timing", texts.timing,
+                   "eco: sleep until a datagram is due. precise (default): wake shortly before,\n"
+                   "by as much as this machine needs, and watch the clock. spin: wake 200 us\n"
+                   "before.")
+        ->type_name("eco|precise|spin");
+    app.add_option("--budget", texts.budget,
+                   "The run is called valid when 99 % of the datagrams leave at most this late\n"
+                   "(default 1ms)")
         ->type_name("TIME");
-    add("order", texts.order,
-        "Whether jitter may reorder. keep (default): never; wide jitter then lengthens the\n"
-        "mean delay. free: each datagram leaves at its own time.")
-        ->type_name("keep|free");
-    add("loss", texts.loss, "Loss of each datagram on its own (default 0)")->type_name("SHARE");
-    add("burst-loss", texts.burst_loss, "40/100: lose 40 in a row of every 100 (default 0)")
-        ->type_name("LOST/OF");
+    app.add_option("--duration", texts.duration, "End after this time (default: run until stopped)")
+        ->type_name("TIME");
+    app.add_option("--stats", texts.stats, "Write statistics to FILE at the end; - is stdout")
+        ->type_name("FILE");
+    app.add_option("--fates", texts.fates, "Write what became of each datagram to FILE (CSV)")
+        ->type_name("FILE");
+    app.add_option("--replay", texts.replay,
+                   "Give the n-th datagram the n-th fate of FILE, which --fates wrote, instead of\n"
+                   "drawing it")
+        ->type_name("FILE");
+    app.add_option("--pcap", texts.capture,
+                   "Capture both sides to FILE, a comment on each packet (pcapng, for Wireshark)")
+        ->type_name("FILE");
+    app.add_option("--control", texts.control,
+                   "Listen on this Unix socket for hapnet-ctl, which shows and changes the\n"
+                   "conditions while it runs")
+        ->type_name("SOCKET");
 }
 
 void add_options(CLI::App& app, Texts& texts)
@@ -96,61 +148,17 @@ void add_options(CLI::App& app, Texts& texts)
         ->type_name("HOST:PORT");
     app.add_option("--a", texts.a, "A itself (default: the first sender)")->type_name("HOST:PORT");
     app.add_option("--b", texts.b, "B itself (default: the first sender)")->type_name("HOST:PORT");
-    for (std::size_t i = 0; i < prefixes.size(); ++i) {
-        add_conditions(app, prefixes[i], texts.conditions[i]);
-    }
-    app.add_option("--seed", texts.seed, "Of all chance in the run (default 1)")
-        ->type_name("NUMBER");
-    app.add_option("--timing", texts.timing,
-                   "eco: sleep until a datagram is due. precise (default): wake 60 us before and\n"
-                   "watch the clock. spin: wake 200 us before.")
-        ->type_name("eco|precise|spin");
-    app.add_option("--budget", texts.budget,
-                   "The run is called valid when 99 % of the datagrams leave at most this late\n"
-                   "(default 1ms)")
-        ->type_name("TIME");
-    app.add_option("--duration", texts.duration, "End after this time (default: run until stopped)")
-        ->type_name("TIME");
-    app.add_option("--stats", texts.stats, "Write statistics to FILE at the end; - is stdout")
-        ->type_name("FILE");
-    app.add_option("--control", texts.control,
-                   "Listen for hapnet-ctl on a Unix socket at this path; only its owner may use it")
-        ->type_name("SOCKET");
-}
-
-base::Result<Order> parse_order(std::string_view text)
-{
-    for (const Order order : {Order::keep, Order::free, Order::sorted}) {
-        if (text == to_text(order)) return order;
-    }
-    return base::fail(fmt::format("'{}' is not an order: write keep, free or sorted", text));
-}
-
-base::Result<LossLaw> parse_burst(std::string_view text)
-{
-    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-    const auto slash = text.find('/');
-    if (slash != std::string_view::npos) {
-        const auto lost = base::parse_count(text.substr(0, slash), most);
-        const auto of = base::parse_count(text.substr(slash + 1), most);
-        if (lost && of && 0 < *lost && *lost <= *of) {
-            return LossLaw{
-                Burst{static_cast<std::uint32_t>(*lost), static_cast<std::uint32_t>(*of), {}}};
-        }
-    }
-    return base::fail(fmt::format("'{}' is not a burst: write LOST/OF, such as 40/100 for 40 in a "
-                                  "row of every 100",
-                                  text));
-}
-
-base::Result<Variation> parse_constant(const std::string& text)
-{
-    return base::parse_duration(text).map([](base::Duration value) { return constant(value); });
-}
-
-base::Result<Variation> parse_uniform(const std::string& text)
-{
-    return base::parse_duration(text).map([](base::Duration value) { return uniform(value); });
+    app.add_option("--profile", texts.profile,
+                   "Conditions and their timeline from a TOML file, or the name of a preset\n"
+                   "(hapnet-emulator check --list)")
+        ->type_name("FILE|NAME");
+    app.add_option(
+           "--netem", texts.netem,
+           "Conditions as tc-netem takes them: \"delay 80ms 5ms loss 1%\"; says where netem\n"
+           "would not have done what this says")
+        ->type_name("SENTENCE");
+    add_conditions(app, texts);
+    add_run_options(app, texts);
 }
 
 /// Puts parsed texts in their places; the first error wins and names its option.
@@ -166,24 +174,6 @@ public:
         } else {
             error_ = fmt::format("{}: {}", option, value.error().message);
         }
-    }
-
-    void read_conditions(const std::string& prefix, const ConditionTexts& texts, Conditions& target)
-    {
-        const std::string dashes = "--" + prefix;
-        const auto random = [](const std::string& text) {
-            return base::parse_probability(text).map(
-                [](base::Probability share) { return LossLaw{RandomLoss{share}}; });
-        };
-        read(dashes + "delay", texts.delay, target.delay, parse_constant);
-        read(dashes + "jitter", texts.jitter, target.jitter, parse_uniform);
-        read(dashes + "order", texts.order, target.order, parse_order);
-        std::optional<LossLaw> loss;
-        std::optional<LossLaw> burst;
-        read(dashes + "loss", texts.loss, loss, random);
-        read(dashes + "burst-loss", texts.burst_loss, burst, parse_burst);
-        if (loss) target.loss.push_back(*loss);
-        if (burst) target.loss.push_back(*burst);
     }
 
     /// Not left to CLI11, which would speak of it before it speaks of a mistyped option.
@@ -231,16 +221,24 @@ net::CommandLine<Options> options_from(const Texts& texts)
     reader.read("--listen-b", texts.listen_b, options.listen_b, net::parse_host_port);
     reader.read("--a", texts.a, options.a, parse_peer);
     reader.read("--b", texts.b, options.b, parse_peer);
-    for (Conditions* conditions : {&options.path.up, &options.path.down}) {
-        reader.read_conditions(prefixes[0], texts.conditions[0], *conditions);
+    for (std::size_t way = 0; way < prefixes.size(); ++way) {
+        for (std::size_t i = 0; i < conditions.size(); ++i) {
+            if (const Text& value = texts.by_way[way][i]) {
+                options.settings.push_back(
+                    {prefixes[way] + std::string{conditions[i].name}, *value});
+            }
+        }
     }
-    reader.read_conditions(prefixes[1], texts.conditions[1], options.path.up);
-    reader.read_conditions(prefixes[2], texts.conditions[2], options.path.down);
     reader.read("--seed", texts.seed, options.seed, parse_seed);
     reader.read("--timing", texts.timing, options.timing, parse_timing);
     reader.read("--budget", texts.budget, options.budget, base::parse_duration);
     reader.read("--duration", texts.duration, options.duration, base::parse_duration);
+    options.profile = texts.profile;
+    options.netem = texts.netem;
+    options.replay = texts.replay;
     options.stats = texts.stats;
+    options.fates = texts.fates;
+    options.capture = texts.capture;
     options.control = texts.control;
     if (reader.error()) return base::fail(*reader.error());
     return options;

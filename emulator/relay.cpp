@@ -7,8 +7,10 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -35,7 +37,9 @@ constexpr int release_rounds_max = 16;
 /// What leaves in one direction: gathered and sent together. Flush it before the bytes go.
 class Batch {
 public:
-    Batch(Link& link, Relay::Side& to) : link_{link}, to_{to} {}
+    Batch(Link& link, Relay::Side& to, Recorder& recorder)
+        : link_{link}, to_{to}, recorder_{recorder}
+    {}
 
     void add(const Departure& departure)
     {
@@ -51,7 +55,13 @@ public:
         if (count_ > 0 && destination) {
             const auto outcomes = to_.socket.send_batch(*destination, {bytes_.data(), count_});
             const auto at = net::monotonic_now();
-            for (std::size_t i = 0; i < count_; ++i) note(departures_[i], outcomes[i], at);
+            for (std::size_t i = 0; i < count_; ++i) {
+                if (outcomes[i] == net::SendOutcome::sent) {
+                    on_sent(departures_[i], at, *destination);
+                } else {
+                    link_.on_failed(departures_[i], cause_of(outcomes[i]));
+                }
+            }
         } else {
             for (std::size_t i = 0; i < count_; ++i) {
                 link_.on_failed(departures_[i], DropCause::no_destination);
@@ -63,26 +73,42 @@ public:
 private:
     [[nodiscard]] bool is_full() const { return count_ == departures_.size(); }
 
-    void note(const Departure& departure, net::SendOutcome outcome, base::TimePoint at)
+    void on_sent(const Departure& departure, base::TimePoint at, const net::Endpoint& destination)
     {
-        if (outcome == net::SendOutcome::sent) {
-            link_.on_sent(departure, at);
-        } else {
-            link_.on_failed(departure, cause_of(outcome));
+        if (recorder_.captures()) {
+            recorder_.on_departure(
+                {to_.side, at, to_.local, udp_address_of(destination), departure.bytes},
+                at - departure.due, departure.is_copy);
         }
+        link_.on_sent(departure, at); // its bytes go
     }
 
     Link& link_;
     Relay::Side& to_;
+    Recorder& recorder_;
     std::size_t count_ = 0;
     std::array<Departure, net::BatchSender::batch_max> departures_;
     std::array<std::span<const std::byte>, net::BatchSender::batch_max> bytes_;
 };
 
-int pass(Relay::Side& from, Relay::Side& to)
+Link link_of(const Relay::Setup& setup, Direction direction)
+{
+    const bool is_up = direction == Direction::up;
+    Link::Setup link{setup.seed, direction, setup.start, {}, {}};
+    if (setup.replay) {
+        const auto& fates = is_up ? setup.replay->up : setup.replay->down;
+        link.replay.emplace(std::shared_ptr<const std::vector<Fate>>{setup.replay, &fates});
+    }
+    return Link{is_up ? setup.path.up : setup.path.down, link};
+}
+
+} // namespace
+
+int Relay::pass(Side& from, Side& to)
 {
     int adopted = 0;
-    Batch undelayed{from.link, to};
+    const Direction direction = from.side == CaptureSide::a ? Direction::up : Direction::down;
+    Batch undelayed{from.link, to, recorder_};
     for (const net::Received& datagram : from.socket.receive()) {
         const Sender sender = from.correspondent.judge(datagram.from, datagram.at);
         if (sender == Sender::stranger) {
@@ -91,6 +117,12 @@ int pass(Relay::Side& from, Relay::Side& to)
         }
         if (sender == Sender::adopted) ++adopted;
         const Admission admission = from.link.on_packet(datagram.bytes, datagram.at);
+        recorder_.on_fate(direction, admission.number, admission.fate);
+        if (recorder_.captures()) {
+            recorder_.on_arrival(
+                {from.side, datagram.at, udp_address_of(datagram.from), from.local, datagram.bytes},
+                {admission.verdict, {}});
+        }
         if (admission.departure) undelayed.add(*admission.departure);
     }
     undelayed.flush();
@@ -98,10 +130,10 @@ int pass(Relay::Side& from, Relay::Side& to)
 }
 
 /// Sends at most one batch of what is due; returns whether it was a whole one.
-bool send_due(Relay::Side& from, Relay::Side& to, base::TimePoint now)
+bool Relay::send_due(Side& from, Side& to, base::TimePoint now)
 {
     if (!base::is_due(from.link.next_deadline(), now)) return false;
-    Batch due{from.link, to};
+    Batch due{from.link, to, recorder_};
     for (std::size_t i = 0; i < net::BatchSender::batch_max; ++i) {
         const auto departure = from.link.poll(now);
         if (!departure) {
@@ -113,19 +145,19 @@ bool send_due(Relay::Side& from, Relay::Side& to, base::TimePoint now)
     return true;
 }
 
-} // namespace
-
-Relay::Side::Side(const net::Endpoint& listen, const std::optional<net::Endpoint>& peer,
-                  Link direction)
-    : socket{listen, net::Load::bulk}, correspondent{peer}, link{std::move(direction)}
+Relay::Side::Side(CaptureSide which, const net::Endpoint& listen,
+                  const std::optional<net::Endpoint>& peer, Link from_here)
+    : side{which},
+      socket{listen, net::Load::bulk},
+      local{udp_address_of(socket.local())},
+      correspondent{peer},
+      link{std::move(from_here)}
 {}
 
-Relay::Relay(const Places& places, const Options& options)
-    : start_{net::monotonic_now()},
-      a_{places.listen_a, places.a,
-         Link{options.path.up, {options.seed, Direction::up, start_, {}}}},
-      b_{places.listen_b, places.b,
-         Link{options.path.down, {options.seed, Direction::down, start_, {}}}}
+Relay::Relay(const Places& places, const Setup& setup, Recorder& recorder)
+    : recorder_{recorder},
+      a_{CaptureSide::a, places.listen_a, places.a, link_of(setup, Direction::up)},
+      b_{CaptureSide::b, places.listen_b, places.b, link_of(setup, Direction::down)}
 {}
 
 int Relay::receive() { return pass(a_, b_) + pass(b_, a_); }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/report.hpp"
 
+#include "emulator/core/profile/settings.hpp"
+#include "emulator/core/profile/text.hpp"
 #include "emulator/core/statistics.hpp"
 #include "proto/base/version.hpp"
 
@@ -33,6 +35,69 @@ Json json_of(const base::DurationHistogram& lateness)
             {"max", microseconds(lateness.max())}};
 }
 
+Json milliseconds(std::optional<base::Duration> duration)
+{
+    if (!duration) return nullptr;
+    return std::chrono::duration<double, std::milli>{*duration}.count();
+}
+
+Json json_of(const std::optional<Moments>& moments)
+{
+    if (!moments) return nullptr;
+    return {{"mean", milliseconds(moments->mean)}, {"sd", milliseconds(moments->sd)}};
+}
+
+Json json_of(const std::optional<Quantiles>& quantiles)
+{
+    if (!quantiles) return nullptr;
+    return {{"p50", milliseconds(quantiles->p50)},
+            {"p90", milliseconds(quantiles->p90)},
+            {"p99", milliseconds(quantiles->p99)},
+            {"p999", milliseconds(quantiles->p999)},
+            {"max", milliseconds(quantiles->max)}};
+}
+
+template <typename T>
+Json or_null(const std::optional<T>& value)
+{
+    return value ? Json(*value) : Json(nullptr);
+}
+
+/// What differs from the default, as a profile says it.
+Json json_of(const Conditions& conditions)
+{
+    Json json = Json::object();
+    const auto texts = setting_texts(patch_of(conditions));
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        if (texts[i]) json[std::string{setting_keys[i]}] = *texts[i];
+    }
+    return json;
+}
+
+Json json_of(const LensReport& lens)
+{
+    Json delay = json_of(lens.delay);
+    if (lens.delay_quantiles) delay.update(json_of(lens.delay_quantiles));
+    return {{"requested_delay_ms", json_of(lens.requested_delay)},
+            {"delay_ms", delay},
+            {"delay_variation_ms", json_of(lens.delay_variation)},
+            {"gap_ms", json_of(lens.gap)},
+            {"clumped", or_null(lens.clumped_share)},
+            {"missing_run_updates",
+             {{"count", lens.missing_runs},
+              {"mean", or_null(lens.missing_run_mean)},
+              {"max", lens.missing_run_max}}},
+            {"reorder_extent",
+             {{"count", lens.reordered},
+              {"mean", or_null(lens.reorder_extent_mean)},
+              {"max", lens.reorder_extent_max},
+              {"beyond_look_back", lens.beyond_look_back}}},
+            {"age_ms",
+             {{"mean", milliseconds(lens.age_mean)},
+              {"peak_mean", milliseconds(lens.peak_age_mean)},
+              {"peak_max", milliseconds(lens.peak_age_max)}}}};
+}
+
 Json json_of(const Relay::Side& side, base::Duration budget)
 {
     const Statistics& s = side.link.statistics();
@@ -40,19 +105,48 @@ Json json_of(const Relay::Side& side, base::Duration budget)
     for (const DropCause cause : drop_causes) {
         dropped[std::string{to_text(cause)}] = s.dropped_by(cause);
     }
-    return {{"received", s.received},      {"delivered", s.delivered},
-            {"duplicated", s.duplicated},  {"corrupted", s.corrupted},
-            {"reordered", s.reordered},    {"in_flight", s.in_flight},
-            {"bytes_in", s.bytes_in},      {"bytes_out", s.bytes_out},
-            {"dropped", dropped},          {"lateness_us", json_of(s.lateness)},
-            {"strangers", side.strangers}, {"overflowed", side.socket.overflowed()},
-            {"valid", s.is_valid(budget)}};
+    return {{"received", s.received},
+            {"delivered", s.delivered},
+            {"duplicated", s.duplicated},
+            {"corrupted", s.corrupted},
+            {"reordered", s.reordered},
+            {"in_flight", s.in_flight},
+            {"bytes_in", s.bytes_in},
+            {"bytes_out", s.bytes_out},
+            {"dropped", dropped},
+            {"lateness_us", json_of(s.lateness)},
+            {"strangers", side.strangers},
+            {"overflowed", side.socket.overflowed()},
+            {"over_budget", s.late_beyond(budget)},
+            {"valid", s.is_valid(budget)},
+            {"lens", json_of(side.link.lens().report())}};
 }
 
 Json address_of(const Relay::Side& side)
 {
     const auto& address = side.correspondent.address();
     return address ? Json(address->to_text()) : Json(nullptr);
+}
+
+/// "160.00 ms (sd 2.89)"
+std::string in_words(const Moments& moments)
+{
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    return fmt::format("{:.2f} ms (sd {:.2f})", Milliseconds{moments.mean}.count(),
+                       Milliseconds{moments.sd.value_or(base::Duration{0})}.count());
+}
+
+/// What is missing in the files that were asked for.
+std::string incomplete(const Recorder& recorder)
+{
+    std::string text;
+    if (const auto lost = recorder.fates_lost(); lost > 0) {
+        text += fmt::format("NOT COMPLETE: the fates lack {} datagrams\n", lost);
+    }
+    if (const auto lost = recorder.capture_lost(); lost > 0) {
+        text += fmt::format("NOT COMPLETE: the capture lacks {} packets\n", lost);
+    }
+    return text;
 }
 
 std::string in_words(const char* title, const Relay::Side& side, base::Duration budget)
@@ -75,6 +169,11 @@ std::string in_words(const char* title, const Relay::Side& side, base::Duration 
                             Microseconds{*p99}.count(), Microseconds{*s.lateness.max()}.count());
     }
     if (!s.is_valid(budget)) text += "; NOT VALID: p99 exceeds the budget";
+    const LensReport lens = side.link.lens().report();
+    if (lens.requested_delay && lens.delay) {
+        text += fmt::format("; delay {} as drawn, {} as it came out",
+                            in_words(*lens.requested_delay), in_words(*lens.delay));
+    }
     return text + "\n";
 }
 
@@ -91,11 +190,12 @@ std::string in_short(const char* title, const Relay::Side& side)
 
 } // namespace
 
-std::string ready_line(const Options& options, const Relay& relay)
+std::string ready_line(const Run& run)
 {
-    return fmt::format("ready a={} b={} seed={} timing={}\n", relay.a().socket.local().to_text(),
-                       relay.b().socket.local().to_text(), options.seed.value(),
-                       to_text(options.timing));
+    return fmt::format("ready a={} b={} seed={} timing={}\n",
+                       run.relay.a().socket.local().to_text(),
+                       run.relay.b().socket.local().to_text(), run.scenario.seed.value(),
+                       to_text(run.options.timing));
 }
 
 std::string endpoints_line(const Relay& relay)
@@ -120,7 +220,7 @@ std::string statistics_json(const Run& run)
         {"version", base::version()},
         {"commit", base::commit()},
         {"compiler", base::compiler()},
-        {"seed", options.seed.value()},
+        {"seed", run.scenario.seed.value()},
         {"timing", to_text(options.timing)},
         {"budget_us", microseconds(options.budget)},
         {"duration_s", base::to_seconds(run.elapsed)},
@@ -132,6 +232,16 @@ std::string statistics_json(const Run& run)
         {"b", address_of(b)},
         {"strangers", a.strangers + b.strangers},
         {"overflowed", a.socket.overflowed() + b.socket.overflowed()},
+        {"generation", run.director.generation()},
+        {"configuration",
+         {{"up", json_of(run.scenario.profile.path.up)},
+          {"down", json_of(run.scenario.profile.path.down)}}},
+        {"profile", to_text(run.scenario.profile)},
+        {"fates", or_null(options.fates)},
+        {"replay", or_null(options.replay)},
+        {"capture", or_null(options.capture)},
+        {"fates_lost", run.recorder.fates_lost()},
+        {"capture_lost", run.recorder.capture_lost()},
         {"valid", valid(a) && valid(b)},
         {"up", json_of(a, options.budget)},
         {"down", json_of(b, options.budget)},
@@ -142,9 +252,9 @@ std::string statistics_json(const Run& run)
 std::string summary(const Run& run)
 {
     return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(run.elapsed),
-                       run.options.seed.value()) +
+                       run.scenario.seed.value()) +
            in_words("up   (A to B)", run.relay.a(), run.options.budget) +
-           in_words("down (B to A)", run.relay.b(), run.options.budget);
+           in_words("down (B to A)", run.relay.b(), run.options.budget) + incomplete(run.recorder);
 }
 
 std::string status_line(const Run& run)

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/director.hpp"
 #include "emulator/options.hpp"
 #include "emulator/places.hpp"
 #include "emulator/relay.hpp"
+#include "emulator/scenario.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/real_time.hpp"
 
@@ -15,13 +17,16 @@ namespace hapnet::emulator {
 /// All that a report is made from.
 struct Run {
     const Options& options;
+    const Scenario& scenario;
+    const Director& director;
     const Relay& relay;
+    const Recorder& recorder;
     net::RealTime real_time;
     base::Duration elapsed{}; // since the sockets were bound
 };
 
 /// The line that says that the emulator listens: "ready a=127.0.0.1:7001 b=... seed=42 ...".
-[[nodiscard]] std::string ready_line(const Options& options, const Relay& relay);
+[[nodiscard]] std::string ready_line(const Run& run);
 
 /// Who is on each side: "a is 127.0.0.1:5000, b is not known yet".
 [[nodiscard]] std::string endpoints_line(const Relay& relay);

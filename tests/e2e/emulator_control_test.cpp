@@ -140,6 +140,23 @@ TEST_F(Controlled, RestoresByItselfWhatWasChangedForATime)
     EXPECT_EQ(asked({"show"})["live"], json::array());
 }
 
+TEST_F(Controlled, ReadsItsProfileAgainOnAHangupAndKeepsTheOldOneWhenTheNewOneIsWrong)
+{
+    const std::string profile = folder.file("profile.toml");
+    std::ofstream{profile} << "[both]\ndelay = \"160ms\"\n";
+    Emulator emulator{{"--profile", profile, "--control", socket}};
+    std::ofstream{profile} << "[both]\ndelay = \"80\"\n";
+    emulator.process().signal(SIGHUP);
+    const auto why = emulator.process().wait_for_err("profile.toml:2", 5s);
+    EXPECT_TRUE(why) << emulator.process().err();
+    EXPECT_EQ(asked({"show"})["generation"], 1);
+    std::ofstream{profile} << "[both]\ndelay = \"80ms\"\n";
+    emulator.process().signal(SIGHUP);
+    EXPECT_EQ(asked({"wait", "--until", "generation>=2", "--timeout", "5s"})["met"], true);
+    EXPECT_NE(ctl({"show"}).out.find("delay = \"80ms\""), std::string::npos);
+    std::ignore = emulator.stop();
+}
+
 TEST_F(Controlled, WaitsForAConditionAndSaysWhenItsTimeIsOver)
 {
     Host a;

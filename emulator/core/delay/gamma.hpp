@@ -37,8 +37,8 @@ private:
 
     double shape_;
     double log_shape_ = 0.0;
-    double log_gamma_ = 0.0; // of the shape
-    std::array<Node, nodes> nodes_;
+    double log_gamma_ = 0.0;          // of the shape
+    std::array<Node, nodes> nodes_{}; // NaN: not worked out yet
 };
 
 } // namespace hapnet::emulator

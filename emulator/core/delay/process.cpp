@@ -53,10 +53,10 @@ double DelayProcess::uniform(const Packet& packet)
 
 void DelayProcess::change(const Variation& variation)
 {
-    base::ensure(!objection(variation));
     correlation_time_ = variation.correlation_time;
     if (correlation_time_ == base::Duration{0}) gaussian_.reset();
     if (const auto* law = std::get_if<TraceLaw>(&variation.law)) {
+        base::ensure(law->trace != nullptr);
         trace_ = law->trace;
         return;
     }

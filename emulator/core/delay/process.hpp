@@ -19,7 +19,7 @@ namespace hapnet::emulator {
 /// of its datagram, with it also on when the datagrams arrived.
 class DelayProcess {
 public:
-    /// There is no objection() to `variation`.
+    /// There is no objection() to `variation`, but for what a ramp loses by rounding.
     DelayProcess(const Variation& variation, const base::RandomStream& stream);
 
     /// The delay of the next datagram; that of a jitter may be negative. Every datagram of the

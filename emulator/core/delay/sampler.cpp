@@ -35,10 +35,10 @@ Sampler prepared(const NormalLaw& law)
 
 Sampler prepared(const LogNormalLaw& law)
 {
-    const double spread = count_of(law.sd) / count_of(law.mean);
+    const double mean = std::max(count_of(law.mean), 1.0);
+    const double spread = count_of(law.sd) / mean;
     const double log_variance = base::log1p(spread * spread);
-    return LogNormalSampler{base::log(count_of(law.mean)) - 0.5 * log_variance,
-                            std::sqrt(log_variance)};
+    return LogNormalSampler{base::log(mean) - 0.5 * log_variance, std::sqrt(log_variance)};
 }
 
 Sampler prepared(const ExponentialLaw& law) { return ExponentialSampler{count_of(law.mean)}; }
@@ -50,7 +50,7 @@ Sampler prepared(const ParetoLaw& law)
 
 double shape_of(const GammaLaw& law)
 {
-    const double ratio = count_of(law.mean) / count_of(law.sd);
+    const double ratio = count_of(law.mean) / std::max(count_of(law.sd), 1.0);
     return std::max(ratio * ratio, GammaQuantile::shape_min);
 }
 
@@ -62,9 +62,13 @@ Sampler prepared(const GammaLaw& law)
 
 Sampler prepared(const TableLaw& law)
 {
+    base::ensure(law.table != nullptr);
     const QuantileTable& table = *law.table;
-    if (law.sd == base::Duration{0}) return TableSampler{0.0, 1.0, law.table};
-    const double scale = count_of(law.sd) / table.sd();
+    const base::Duration zero{0};
+    if (law.sd == zero && law.mean == zero && table.holds_delays()) {
+        return TableSampler{0.0, 1.0, law.table};
+    }
+    const double scale = table.sd() > 0.0 ? count_of(law.sd) / table.sd() : 0.0;
     return TableSampler{count_of(law.mean) - scale * table.mean(), scale, law.table};
 }
 
@@ -80,7 +84,8 @@ base::Duration ConstantSampler::quantile(double) const { return value; }
 
 base::Duration UniformSampler::quantile(double u) const
 {
-    return mean + base::Duration{std::llround((2.0 * u - 1.0) * half_width)};
+    const auto value = mean + base::Duration{std::llround((2.0 * u - 1.0) * half_width)};
+    return std::clamp(value, -longest_delay, longest_delay);
 }
 
 base::Duration NormalSampler::quantile(double u) const

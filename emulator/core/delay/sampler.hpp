@@ -67,7 +67,8 @@ struct TableSampler {
 using Sampler = std::variant<ConstantSampler, UniformSampler, NormalSampler, LogNormalSampler,
                              ExponentialSampler, ParetoSampler, GammaSampler, TableSampler>;
 
-/// `law` has no objection() and is not a trace, which is not drawn from.
+/// For every law but a trace, which is not drawn from. Parameters just outside of their range, as
+/// the rounding of a ramp makes them, count as the nearest that are possible.
 [[nodiscard]] Sampler make_sampler(const DelayLaw& law);
 
 /// sampler = make_sampler(law), but what still holds stays.

@@ -27,6 +27,10 @@ struct Field {
     Counts counts = Counts::bytes;
 };
 
+// Clang 14 does not deduce the arguments of an aggregate by itself.
+template <typename T, typename Value>
+Field(std::string_view, Value T::*, Need = {}, Counts = {}) -> Field<T, Value>;
+
 /// How T is written in a profile: the name of the law, and its parameters. Reading, printing and
 /// ramps all go by it, so that none of them can forget a parameter.
 template <typename T>

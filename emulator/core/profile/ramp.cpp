@@ -42,7 +42,7 @@ std::optional<base::Probability> between(base::Probability a, base::Probability 
 template <typename Whole>
 requires std::is_unsigned_v<Whole> std::optional<Whole> between(Whole a, Whole b, double progress)
 {
-    const double from = static_cast<double>(a);
+    const auto from = static_cast<double>(a);
     return static_cast<Whole>(std::llround(from + (static_cast<double>(b) - from) * progress));
 }
 
@@ -106,6 +106,14 @@ std::optional<T> between_fields(const T& a, const T& b, double progress)
 std::optional<FourState> between_fields(const FourState& a, const FourState& b, double)
 {
     return only_equal(a, b);
+}
+
+/// Delays taken as they were measured have no mean and sd to go from or to.
+std::optional<TableLaw> between_fields(const TableLaw& a, const TableLaw& b, double progress)
+{
+    const base::Duration as_measured{0};
+    if ((a.sd == as_measured) != (b.sd == as_measured)) return std::nullopt;
+    return between_fields<TableLaw>(a, b, progress);
 }
 
 template <typename Law>

@@ -124,6 +124,16 @@ TEST(DelayProcess, DatagramsThatArriveTogetherShareACorrelatedDelay)
     EXPECT_NE(process.on_packet({2, 96, 3s + 1us}), first);
 }
 
+TEST(DelayProcess, TakesTheNearestPossibleLawWhereARampRoundsItOutOfItsRange)
+{
+    const auto median = [](const DelayLaw& law) {
+        auto sampler = make_sampler(law);
+        return std::visit([](auto& s) { return s.quantile(0.5); }, sampler);
+    };
+    EXPECT_EQ(median(GammaLaw{10'000'000ns, 100'000'004ns}), median(GammaLaw{10ms, 100ms}));
+    EXPECT_EQ(median(table_law(7ns, 0ns, QuantileTable::Unit::own)), 7ns);
+}
+
 TEST(DelayProcess, NoDrawIsLongerThanTheLongestDelay)
 {
     const auto most = longest_delay;

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/emulate.hpp"
+
+#include "emulator/control_server.hpp"
+#include "emulator/core/director.hpp"
+#include "emulator/options.hpp"
+#include "emulator/pacer.hpp"
+#include "emulator/places.hpp"
+#include "emulator/profile_file.hpp"
+#include "emulator/recorder.hpp"
+#include "emulator/relay.hpp"
+#include "emulator/report.hpp"
+#include "emulator/scenario.hpp"
+#include "emulator/status.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/program.hpp"
+#include "proto/net/real_time.hpp"
+#include "proto/net/result_file.hpp"
+#include "proto/net/stop_signal.hpp"
+
+#include <cstdio>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+namespace {
+
+constexpr std::string_view program = "hapnet-emulator";
+
+void say(std::string_view text) { net::say(program, text); }
+
+/// One run, from bound sockets to written files. Everything but the recorder's writing happens on
+/// the thread that constructs it.
+class Session {
+public:
+    Session(const Options& options, const Scenario& scenario, const Places& places)
+        : start_{net::monotonic_now()},
+          scenario_{scenario},
+          recorder_{{options.fates, options.capture}},
+          director_{scenario.profile, start_},
+          relay_{places, {director_.path(), scenario.seed, start_, scenario.replay}, recorder_},
+          run_{options, scenario_, director_, relay_, recorder_, {}, {}},
+          status_{start_}
+    {
+        if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
+        if (options.control) control_.emplace(*options.control);
+        if (options.duration) end_ = start_ + *options.duration;
+        run_.real_time = net::request_real_time(40); // after the recorder's thread was made
+    }
+
+    void announce() const
+    {
+        if (const auto shortage = run_.real_time.shortage(); !shortage.empty()) say(shortage);
+        for (const std::string& warning : scenario_.warnings) say(warning);
+        fmt::print("{}", ready_line(run_));
+        std::fflush(stdout);
+    }
+
+    void relay_until_stopped(net::StopSignal& stop)
+    {
+        std::vector<int> descriptors{relay_.a().socket.descriptor(), relay_.b().socket.descriptor(),
+                                     stop.descriptor()};
+        if (control_) descriptors.push_back(control_->descriptor());
+        Emulation emulation = controlled();
+        Pacer pacer{run_.options.timing, start_};
+        auto now = start_;
+        while (!stop.requested() && !base::is_due(end_, now)) {
+            pacer.wait(descriptors, next_deadline());
+            const bool adopted = relay_.receive() > 0;
+            now = net::monotonic_now();
+            if (director_.advance(now)) relay_.change(director_.path(), now);
+            relay_.release(now);
+            run_.elapsed = now - start_;
+            if (adopted) tell(endpoints_line(relay_));
+            if (control_) control_->serve(emulation, now, relay_.next_deadline());
+            if (stop.reload_requested()) reload(now);
+            status_.show(run_, now);
+        }
+        status_.clear();
+    }
+
+    /// Writes the files and says how it went; gives the exit code.
+    int finish()
+    {
+        recorder_.finish();
+        if (stats_) {
+            stats_->commit(statistics_json(run_));
+        } else if (run_.options.stats) {
+            fmt::print("{}", statistics_json(run_));
+        }
+        net::tell(summary(run_));
+        const bool is_complete = recorder_.fates_lost() == 0 && recorder_.capture_lost() == 0;
+        return is_complete ? 0 : net::exit_failed;
+    }
+
+private:
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const
+    {
+        auto deadline = base::earlier(relay_.next_deadline(), director_.next_change());
+        deadline = base::earlier(deadline, base::earlier(end_, status_.next_deadline()));
+        return control_ ? base::earlier(deadline, control_->next_deadline()) : deadline;
+    }
+
+    [[nodiscard]] Emulation controlled()
+    {
+        const auto open = [](const std::string& name, const std::string& beside) {
+            return text_of_file(path_beside(name, beside));
+        };
+        return {
+            .director = director_,
+            .enact = [this](const Path& path, base::TimePoint now) { relay_.change(path, now); },
+            .next_numbers =
+                [this] {
+                    return NextNumbers{relay_.a().link.statistics().received,
+                                       relay_.b().link.statistics().received};
+                },
+            .statistics_json = [this] { return statistics_json(run_); },
+            .open = open};
+    }
+
+    /// Reads the profile again. One that is wrong changes nothing.
+    void reload(base::TimePoint now)
+    {
+        if (!run_.options.profile) return tell("SIGHUP: there is no --profile to read again");
+        auto scenario = scenario_of(run_.options);
+        if (!scenario) {
+            return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
+        }
+        std::ignore = director_.apply(Apply{scenario->profile}, now); // is never refused
+        relay_.change(director_.path(), now);
+        tell(fmt::format("SIGHUP: {} is read again, generation {}", *run_.options.profile,
+                         director_.generation()));
+    }
+
+    void tell(const std::string& line) const
+    {
+        status_.clear();
+        say(line);
+    }
+
+    base::TimePoint start_;
+    const Scenario& scenario_;
+    Recorder recorder_;
+    Director director_;
+    Relay relay_;
+    std::optional<ControlServer> control_;
+    std::optional<net::ResultFile> stats_;
+    std::optional<base::TimePoint> end_;
+    Run run_;
+    Status status_;
+};
+
+base::Result<int> run(const Options& options)
+{
+    const auto scenario = scenario_of(options);
+    if (!scenario) return tl::unexpected{scenario.error()};
+    const auto places = look_up(options);
+    if (!places) return tl::unexpected{places.error()};
+    net::StopSignal stop{net::Hangup::reload};
+    Session session{options, *scenario, *places};
+    session.announce();
+    session.relay_until_stopped(stop);
+    return session.finish();
+}
+
+} // namespace
+
+int emulate(std::span<char*> words) { return net::run_program(program, parse_options(words), run); }
+
+} // namespace hapnet::emulator

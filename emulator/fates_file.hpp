@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/fates/fates.hpp"
+#include "proto/base/result.hpp"
+
+#include <string>
+
+namespace hapnet::emulator {
+
+/// The fates in a file; the error names it, and the line.
+[[nodiscard]] base::Result<Fates> read_fates(const std::string& path);
+
+} // namespace hapnet::emulator

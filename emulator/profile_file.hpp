@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/profile/profile.hpp"
+#include "proto/base/result.hpp"
+
+#include <string>
+
+namespace hapnet::emulator {
+
+/// The whole text of a file of at most 64 MiB; the error names it and says why it cannot be read.
+[[nodiscard]] base::Result<std::string> text_of_file(const std::string& path);
+
+/// The path of a file that the profile in `beside` names: relative to that profile's folder; as it
+/// is when `beside` is empty.
+[[nodiscard]] std::string path_beside(const std::string& name, const std::string& beside);
+
+/// Reads the profile of a file, or the preset of that name: what holds a '/' or ends in ".toml" is
+/// a file, and so is what exists as one. The error names the file and the line.
+[[nodiscard]] base::Result<Profile> load_profile(const std::string& file_or_name);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/scenario.hpp"
+
+#include "emulator/core/profile/netem.hpp"
+#include "emulator/core/profile/text.hpp"
+#include "emulator/fates_file.hpp"
+#include "emulator/profile_file.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::emulator {
+
+namespace {
+
+/// What --profile or --netem says, before the settings of the command line.
+base::Result<Profile> base_of(const Options& options, std::vector<std::string>& warnings)
+{
+    if (options.profile && options.netem) {
+        return base::fail("--profile and --netem exclude each other: give one of them");
+    }
+    if (options.profile) return load_profile(*options.profile);
+    if (!options.netem) return Profile{};
+    auto netem = parse_netem(*options.netem);
+    if (!netem) return base::fail(fmt::format("--netem: {}", netem.error().message));
+    for (std::string& warning : netem->warnings) warnings.push_back(std::move(warning));
+    Profile profile;
+    profile.name = fmt::format("netem {}", *options.netem);
+    profile.seed = netem->seed;
+    profile.path = {netem->conditions, netem->conditions};
+    return profile;
+}
+
+base::Result<Path> with_typed(const Path& path, const std::vector<TypedSetting>& typed)
+{
+    std::vector<Setting> settings;
+    for (const auto& [key, value] : typed) {
+        auto setting = parse_setting(key, value, text_of_file);
+        if (!setting) return base::fail(fmt::format("--{}", setting.error().message));
+        settings.push_back(*std::move(setting));
+    }
+    return with_settings(path, settings);
+}
+
+} // namespace
+
+base::Result<Scenario> scenario_of(const Options& options)
+{
+    Scenario scenario;
+    auto profile = base_of(options, scenario.warnings);
+    if (!profile) return tl::unexpected{profile.error()};
+    scenario.profile = *std::move(profile);
+    auto path = with_typed(scenario.profile.path, options.settings);
+    if (!path) return tl::unexpected{path.error()};
+    scenario.profile.path = *std::move(path);
+    scenario.seed = options.seed.value_or(scenario.profile.seed.value_or(base::Seed{1}));
+    scenario.profile.seed = scenario.seed;
+    if (options.replay) {
+        auto fates = read_fates(*options.replay);
+        if (!fates) return tl::unexpected{fates.error()};
+        scenario.replay = std::make_shared<const Fates>(*std::move(fates));
+        scenario.warnings.emplace_back("--replay gives the fates: mtu, loss, corruption, copies, "
+                                       "delay and jitter of the conditions are not drawn; rate "
+                                       "and order hold");
+    }
+    return scenario;
+}
+
+} // namespace hapnet::emulator

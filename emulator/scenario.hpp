@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/fates/fates.hpp"
+#include "emulator/core/profile/profile.hpp"
+#include "emulator/options.hpp"
+#include "proto/base/random.hpp"
+#include "proto/base/result.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// What a run is to do to its datagrams: the options, with the files that they name.
+struct Scenario {
+    Profile profile; // with the seed and the settings of the command line
+    base::Seed seed{1};
+    std::shared_ptr<const Fates> replay; // null: fates are drawn
+    std::vector<std::string> warnings;   // for a person, a sentence each
+};
+
+/// Opens the files that the options name. The error is one of bad input: it names the option or
+/// the file and line.
+[[nodiscard]] base::Result<Scenario> scenario_of(const Options& options);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What the emulator writes of a run, and what it takes up again from it.
+#include "tests/e2e/emulator.hpp"
+#include "tests/e2e/udp.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What gets through both ways of an emulator that writes its fates to `path`.
+struct Crossing {
+    std::vector<std::uint64_t> up;
+    std::vector<std::uint64_t> down;
+    std::string fates;
+};
+
+std::vector<std::uint64_t> numbers_of(const std::vector<Arrival>& arrivals)
+{
+    std::vector<std::uint64_t> numbers;
+    for (const Arrival& arrival : arrivals) numbers.push_back(arrival.number);
+    return numbers;
+}
+
+Crossing cross(const std::string& path, std::vector<std::string> options)
+{
+    constexpr std::uint64_t count = 400;
+    Host a;
+    Host b;
+    options.insert(options.end(),
+                   {"--a", a.endpoint().to_text(), "--b", b.endpoint().to_text(), "--fates", path});
+    Emulator emulator{options};
+    stream(a, emulator.a(), count, 500us);
+    stream(b, emulator.b(), count, 500us);
+    Crossing crossing{numbers_of(b.receive(count, 300ms)), numbers_of(a.receive(count, 300ms)), {}};
+    EXPECT_EQ(emulator.stop()["fates_lost"], 0);
+    crossing.fates = text_of(path);
+    return crossing;
+}
+
+} // namespace
+
+TEST(EmulatorRecords, FatesThatAreEqualForEqualSeedsAndCanBeReplayed)
+{
+    const TemporaryFolder folder;
+    const std::string first = folder.file("first.csv");
+    const std::vector<std::string> options{"--seed",  "7",    "--loss",   "30%",
+                                           "--delay", "20ms", "--jitter", "5ms"};
+    const Crossing original = cross(first, options);
+    EXPECT_EQ(std::count(original.fates.begin(), original.fates.end(), '\n'), 801);
+    EXPECT_EQ(cross(folder.file("second.csv"), options).fates, original.fates);
+
+    const Crossing replayed = cross(folder.file("third.csv"), {"--seed", "8", "--replay", first});
+    EXPECT_EQ(replayed.fates, original.fates);
+    EXPECT_EQ(replayed.up, original.up);
+    EXPECT_EQ(replayed.down, original.down);
+    EXPECT_NE(original.up, original.down);
+}
+
+TEST(EmulatorRecords, FatesThatCannotBeReadAreRefusedWithTheirPlace)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.file("wrong.csv");
+    std::ofstream{path} << "not,fates\n";
+    Process emulator{"hapnet-emulator",
+                     {"--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0", "--replay", path}};
+    EXPECT_EQ(emulator.wait_exit(5s), 2);
+    EXPECT_NE(emulator.err().find(path + ": line 1: expected 'direction,number,"),
+              std::string::npos)
+        << emulator.err();
+}
+
+TEST(EmulatorRecords, ACaptureThatTsharkReads)
+{
+    if (std::system("command -v tshark >/dev/null 2>&1") != 0) {
+        GTEST_SKIP() << "tshark is not installed";
+    }
+    const TemporaryFolder folder;
+    const std::string path = folder.file("run.pcapng");
+    Host a;
+    Host b;
+    Emulator emulator{{"--a", a.endpoint().to_text(), "--b", b.endpoint().to_text(), "--up.delay",
+                       "20ms", "--down.loss", "100%", "--pcap", path}};
+    const auto ports =
+        std::to_string(a.endpoint().port()) + "\t" + std::to_string(emulator.a().port());
+    stream(a, emulator.a(), 20, 1ms);
+    stream(b, emulator.b(), 20, 1ms);
+    EXPECT_EQ(b.receive(20, 500ms).size(), 20U);
+    EXPECT_EQ(emulator.stop()["capture_lost"], 0);
+
+    const std::string command =
+        "tshark -r '" + path +
+        "' -o udp.check_checksum:TRUE -T fields -e frame.interface_name -e udp.srcport"
+        " -e udp.dstport -e udp.checksum.status -e frame.comment 2>/dev/null";
+    FILE* const pipe = popen(command.c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    std::string printed;
+    std::array<char, 4096> part{};
+    while (const auto count = std::fread(part.data(), 1, part.size(), pipe)) {
+        printed.append(part.data(), count);
+    }
+    pclose(pipe);
+    int delayed = 0;
+    int late = 0;
+    int dropped = 0;
+    std::istringstream lines{printed};
+    for (std::string line; std::getline(lines, line);) {
+        if (line == "side A\t" + ports + "\t1\tdelayed 20.0 ms") ++delayed;
+        if (line.starts_with("side B\t") && line.find("\t1\tlate ") != std::string::npos) ++late;
+        if (line.starts_with("side B\t") && line.ends_with("\t1\tdropped: random-loss")) ++dropped;
+    }
+    EXPECT_EQ(delayed, 20) << printed;
+    EXPECT_EQ(late, 20) << printed;
+    EXPECT_EQ(dropped, 20) << printed;
+}
+
+} // namespace hapnet::e2e

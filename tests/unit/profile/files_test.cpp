@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/delay/table.hpp"
+#include "emulator/core/delay/trace.hpp"
+#include "emulator/core/profile/ramp.hpp"
+#include "emulator/core/profile/text.hpp"
+
+#include <chrono>
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(ProfileFiles, TablesAndTracesAreReadFromTheFilesTheyName)
+{
+    const OpenFile open = [](const std::string& name) -> base::Result<std::string> {
+        if (name == "pareto.dist") return "0 8192 12000\n";
+        if (name == "lte.csv") return "time_s,delay_ms\n0,40\n1,45\n";
+        if (name == "wrong.csv") return "40ms\n12\n";
+        return base::fail("there is no file " + name);
+    };
+    const auto profile = parse_profile("[up]\ndelay = { law = \"trace\", file = \"lte.csv\" }\n"
+                                       "jitter = { law = \"table\", file = \"pareto.dist\", "
+                                       "sd = \"5ms\" }\n",
+                                       "test.toml", open);
+    ASSERT_TRUE(profile) << profile.error().message;
+    const auto& delay = std::get<TraceLaw>(profile->path.up.delay.law);
+    EXPECT_EQ(delay.trace->delays(), (std::vector<base::Duration>{40ms, 45ms}));
+    EXPECT_EQ(std::get<TableLaw>(profile->path.up.jitter.law).table->quantile(1.0), 12000.0);
+    const auto refused = [&](const std::string& law) {
+        const auto result = parse_profile("[up]\njitter = { " + law + " }\n", "test.toml", open);
+        return result ? "accepted" : result.error().message;
+    };
+    EXPECT_EQ(refused("law = \"table\", file = \"wrong.csv\""),
+              "test.toml:2:10: wrong.csv: line 2: '12' has no unit: write 12ms");
+    EXPECT_EQ(refused("law = \"table\", file = \"pareto.dist\""),
+              "test.toml:2:10: sd must be more than 0");
+    EXPECT_EQ(refused("law = \"trace\", file = \"no.csv\""),
+              "test.toml:2:10: there is no file no.csv");
+}
+
+TEST(ProfileFiles, BetweenDelaysAsMeasuredAndATableWithMeanAndSdThereIsNoRamp)
+{
+    const auto table = std::make_shared<const QuantileTable>(std::vector<double>{1e6, 2e6},
+                                                             QuantileTable::Unit::nanoseconds);
+    const auto with = [&](base::Duration mean, base::Duration sd) {
+        return Variation{TableLaw{"lte.csv", mean, sd, table}, 0ms};
+    };
+    Conditions from;
+    Patch to;
+    to.delay = with(50ms, 5ms);
+    from.delay = with(0ms, 0ms);
+    EXPECT_TRUE(ramp_fault(from, to));
+    from.delay = with(20ms, 1ms);
+    EXPECT_FALSE(ramp_fault(from, to));
+    EXPECT_EQ(ramped(from, from, to, 0.5).delay, with(35ms, 3ms));
+}
+
+} // namespace
+} // namespace hapnet::emulator
