@@ -16,7 +16,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t path_bytes_max = 200;
 
@@ -55,7 +55,7 @@ bool holds(double left, Comparison comparison, double right)
     return false;
 }
 
-std::string keys_of(const json& object)
+std::string keys_of(const Json& object)
 {
     std::vector<std::string> keys;
     for (const auto& [key, value] : object.items()) keys.push_back(key);
@@ -63,9 +63,9 @@ std::string keys_of(const json& object)
 }
 
 /// What the path leads to; the error names the keys where it leads astray.
-base::Result<const json*> find(std::string_view path, const json& statistics)
+base::Result<const Json*> find(std::string_view path, const Json& statistics)
 {
-    const json* place = &statistics;
+    const Json* place = &statistics;
     std::string passed;
     while (place->is_object()) {
         const auto dot = path.find('.');
@@ -128,11 +128,11 @@ std::string to_text(const Condition& condition)
     return fmt::format("{}{}{}", condition.path, to_text(condition.comparison), condition.number);
 }
 
-base::Result<bool> is_met(const Condition& condition, const json& statistics)
+base::Result<bool> is_met(const Condition& condition, const Json& statistics)
 {
     const auto found = find(condition.path, statistics);
     if (!found) return tl::unexpected{found.error()};
-    const json& value = **found;
+    const Json& value = **found;
     if (value.is_null()) return false;
     if (!value.is_number() && !value.is_boolean()) {
         return base::fail(fmt::format("'{}' is not a number", condition.path));

@@ -30,6 +30,6 @@ struct Condition {
 /// Whether the statistics meet the condition. What has no value yet (null) meets none. The error
 /// says which keys there are when the path leads nowhere or to something that is no number.
 [[nodiscard]] base::Result<bool> is_met(const Condition& condition,
-                                        const nlohmann::json& statistics);
+                                        const nlohmann::ordered_json& statistics);
 
 } // namespace hapnet::emulator

@@ -19,10 +19,9 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t error_bytes_max = 2000;
 
 /// On one line; what is no UTF-8 is replaced, so that every text can be printed.
-template <typename AnyJson>
-std::string line_of(const AnyJson& json)
+std::string line_of(const Json& json)
 {
-    return json.dump(-1, ' ', false, AnyJson::error_handler_t::replace);
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 Json settings_json(const Director::Override& one)
@@ -145,10 +144,10 @@ std::string reply_to(const ResetRequest& /*request*/, Emulation& emulation, base
     return effect_of(Reset{}, emulation, now);
 }
 
-nlohmann::json statistics_of(const Emulation& emulation)
+nlohmann::ordered_json statistics_of(const Emulation& emulation)
 {
-    auto json = nlohmann::json::parse(emulation.statistics_json(), nullptr,
-                                      /*allow_exceptions*/ false);
+    auto json = Json::parse(emulation.statistics_json(), nullptr,
+                            /*allow_exceptions*/ false);
     base::ensure(json.is_object());
     json["generation"] = emulation.director.generation();
     json["elapsed_s"] = base::to_seconds(emulation.director.elapsed());
@@ -157,7 +156,9 @@ nlohmann::json statistics_of(const Emulation& emulation)
 
 std::string statistics_reply(const Emulation& emulation)
 {
-    return line_of(nlohmann::json{{"ok", true}, {"statistics", statistics_of(emulation)}});
+    Json reply{{"ok", true}};
+    reply.update(statistics_of(emulation));
+    return line_of(reply);
 }
 
 std::string wait_reply(const Condition& until, bool is_met, const Emulation& emulation)

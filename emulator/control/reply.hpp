@@ -37,7 +37,7 @@ namespace hapnet::emulator {
                                      const Emulation& emulation);
 
 /// The emulator's statistics with "generation" and "elapsed_s".
-[[nodiscard]] nlohmann::json statistics_of(const Emulation& emulation);
+[[nodiscard]] nlohmann::ordered_json statistics_of(const Emulation& emulation);
 
 /// Does what is asked, and hands the conditions on when they have changed.
 [[nodiscard]] base::Result<void> carry_out(const Command& command, Emulation& emulation,

@@ -122,7 +122,7 @@ TEST_F(Controlled, ShowsAProfileThatCanBeAppliedAndReturnsToItsStart)
               std::string::npos);
     EXPECT_EQ(asked({"apply", folder.file("now.toml")})["generation"], 4);
     EXPECT_EQ(asked({"apply", folder.file("now.toml")})["generation"], 4) << "idempotent";
-    EXPECT_EQ(asked({"stats"})["statistics"]["generation"], 4);
+    EXPECT_EQ(json::parse(ctl({"stats"}).out, nullptr, false)["generation"], 4);
 }
 
 TEST_F(Controlled, RestoresByItselfWhatWasChangedForATime)
@@ -138,6 +138,23 @@ TEST_F(Controlled, RestoresByItselfWhatWasChangedForATime)
     a.send(emulator.a(), 1);
     EXPECT_EQ(b.receive(1, 1s).size(), 1U);
     EXPECT_EQ(asked({"show"})["live"], json::array());
+}
+
+TEST_F(Controlled, ReadsItsProfileAgainOnAHangupAndKeepsTheOldOneWhenTheNewOneIsWrong)
+{
+    const std::string profile = folder.file("profile.toml");
+    std::ofstream{profile} << "[both]\ndelay = \"160ms\"\n";
+    Emulator emulator{{"--profile", profile, "--control", socket}};
+    std::ofstream{profile} << "[both]\ndelay = \"80\"\n";
+    emulator.process().signal(SIGHUP);
+    const auto why = emulator.process().wait_for_err("profile.toml:2", 5s);
+    EXPECT_TRUE(why) << emulator.process().err();
+    EXPECT_EQ(asked({"show"})["generation"], 1);
+    std::ofstream{profile} << "[both]\ndelay = \"80ms\"\n";
+    emulator.process().signal(SIGHUP);
+    EXPECT_EQ(asked({"wait", "--until", "generation>=2", "--timeout", "5s"})["met"], true);
+    EXPECT_NE(ctl({"show"}).out.find("delay = \"80ms\""), std::string::npos);
+    std::ignore = emulator.stop();
 }
 
 TEST_F(Controlled, WaitsForAConditionAndSaysWhenItsTimeIsOver)

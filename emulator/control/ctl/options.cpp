@@ -35,7 +35,7 @@ Examples:
   hapnet-ctl /tmp/emulator.sock diff now.toml
   hapnet-ctl /tmp/emulator.sock apply now.toml
   hapnet-ctl /tmp/emulator.sock wait --until 'up.received>1000' --timeout 10s
-  hapnet-ctl /tmp/emulator.sock --json stats
+  hapnet-ctl /tmp/emulator.sock stats
 
 Exit codes: 0 done, 1 the condition was not met in time or the emulator went away, 2 bad usage or
 refused by the emulator, 3 no emulator answers on the socket.)";
@@ -71,7 +71,7 @@ void add_commands(CLI::App& app, Texts& texts)
             ->required();
     }
     add("reset", "Go back to what the emulator was started with");
-    add("stats", "Print the statistics, one key a line");
+    add("stats", "Print the statistics, as --stats of the emulator writes them");
     auto* watch = add("watch", "Print the main figures again and again, until Ctrl-C");
     watch->add_option("--every", texts.every, "The interval, at least 50ms (default 500ms)")
         ->type_name("TIME");

@@ -47,19 +47,6 @@ std::uint64_t total_of(const Json& dropped)
     return total;
 }
 
-/// One key a line, as wait --until names them.
-void flatten(const Json& json, const std::string& path, std::string& text)
-{
-    for (const auto& [key, value] : json.items()) {
-        const std::string whole = path.empty() ? key : path + "." + key;
-        if (value.is_object()) {
-            flatten(value, whole, text);
-        } else {
-            text += fmt::format("{} {}\n", whole, text_of(value));
-        }
-    }
-}
-
 std::string shown(const Json& reply)
 {
     std::string text = fmt::format("# generation {}, {} s since the start, timeline at {} s",
@@ -103,9 +90,9 @@ std::string in_words(const std::string& command, const Json& reply)
     if (command == "show") return shown(reply);
     if (command == "diff") return differing(reply);
     if (command == "stats") {
-        std::string text;
-        flatten(at(reply, "/statistics"), "", text);
-        return text;
+        Json statistics = reply;
+        statistics.erase("ok");
+        return statistics.dump(2) + "\n";
     }
     if (command == "wait") {
         return fmt::format("{}: {} after {} s\n", text_at(reply, "/until"),
@@ -120,9 +107,8 @@ std::string in_words(const std::string& command, const Json& reply)
 
 std::string WatchPrinter::next(const Json& reply)
 {
-    const Json statistics = at(reply, "/statistics");
-    std::string text = is_terminal_ ? table(statistics) : line(statistics);
-    last_ = statistics;
+    std::string text = is_terminal_ ? table(reply) : line(reply);
+    last_ = reply;
     return text;
 }
 
