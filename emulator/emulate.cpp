@@ -20,10 +20,13 @@
 #include "proto/net/stop_signal.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <tuple>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -71,7 +74,7 @@ public:
         auto now = start_;
         while (!stop.requested() && !base::is_due(end_, now)) {
             pacer.wait(descriptors, next_deadline());
-            const bool adopted = relay_.receive() > 0;
+            const bool adopted = relay_.receive(director_) > 0;
             now = net::monotonic_now();
             if (director_.advance(now)) relay_.change(director_.path(), now);
             relay_.release(now);
@@ -108,8 +111,15 @@ private:
 
     [[nodiscard]] Emulation controlled()
     {
-        const auto open = [](const std::string& name, const std::string& beside) {
-            return text_of_file(path_beside(name, beside));
+        const auto open = [](const std::string& name,
+                             const std::string& beside) -> base::Result<std::string> {
+            const auto path = path_beside(name, beside);
+            std::error_code trouble; // a pipe would keep the relay waiting
+            if (std::filesystem::exists(path, trouble) &&
+                !std::filesystem::is_regular_file(path, trouble)) {
+                return base::fail(fmt::format("{} is not a regular file", path));
+            }
+            return text_of_file(path);
         };
         return {
             .director = director_,
@@ -126,7 +136,6 @@ private:
     /// Reads the profile again. One that is wrong changes nothing.
     void reload(base::TimePoint now)
     {
-        if (!run_.options.profile) return tell("SIGHUP: there is no --profile to read again");
         auto scenario = scenario_of(run_.options);
         if (!scenario) {
             return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
@@ -161,7 +170,8 @@ base::Result<int> run(const Options& options)
     if (!scenario) return tl::unexpected{scenario.error()};
     const auto places = look_up(options);
     if (!places) return tl::unexpected{places.error()};
-    net::StopSignal stop{net::Hangup::reload};
+    // Without a profile there is nothing to read again, and a closed terminal ends the run.
+    net::StopSignal stop{options.profile ? net::Hangup::reload : net::Hangup::stop};
     Session session{options, *scenario, *places};
     session.announce();
     session.relay_until_stopped(stop);

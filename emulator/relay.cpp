@@ -104,7 +104,7 @@ Link link_of(const Relay::Setup& setup, Direction direction)
 
 } // namespace
 
-int Relay::pass(Side& from, Side& to)
+int Relay::pass(Side& from, Side& to, Director& director)
 {
     const auto arrived = from.socket.receive();
     if (arrived.empty()) return 0;
@@ -118,6 +118,7 @@ int Relay::pass(Side& from, Side& to)
             continue;
         }
         if (sender == Sender::adopted) ++adopted;
+        if (director.advance(datagram.at)) change(director.path(), datagram.at);
         const Admission admission = from.link.on_packet(datagram.bytes, datagram.at);
         recorder_.on_fate(direction, admission.number, admission.fate);
         if (recorder_.captures()) {
@@ -162,7 +163,7 @@ Relay::Relay(const Places& places, const Setup& setup, Recorder& recorder)
       b_{CaptureSide::b, places.listen_b, places.b, link_of(setup, Direction::down)}
 {}
 
-int Relay::receive() { return pass(a_, b_) + pass(b_, a_); }
+int Relay::receive(Director& director) { return pass(a_, b_, director) + pass(b_, a_, director); }
 
 void Relay::release(base::TimePoint now)
 {

@@ -5,6 +5,7 @@
 #include "emulator/core/capture/pcapng.hpp"
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/correspondent.hpp"
+#include "emulator/core/director.hpp"
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/link.hpp"
 #include "emulator/places.hpp"
@@ -35,9 +36,10 @@ public:
     Relay(const Places& places, const Setup& setup, Recorder& recorder);
 
     /// Takes what has arrived, at most one batch a side, so that a flood cannot hold up what is
-    /// due, and sends on at once what is not delayed. Returns how many senders were adopted by
-    /// that.
-    int receive();
+    /// due, and sends on at once what is not delayed. Conditions that change in the meantime hold
+    /// from the first datagram that arrived after their time. Returns how many senders were
+    /// adopted by that.
+    int receive(Director& director);
 
     /// Sends what is due at `now`, the two sides in turn; so much at most that what arrives does
     /// not have to wait long. What is left is still due.
@@ -65,7 +67,7 @@ public:
     [[nodiscard]] const Side& b() const { return b_; }
 
 private:
-    int pass(Side& from, Side& to);
+    int pass(Side& from, Side& to, Director& director);
     bool send_due(Side& from, Side& to, base::TimePoint now);
 
     Recorder& recorder_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/report.hpp"
 
+#include "emulator/control/settings.hpp"
 #include "emulator/core/profile/settings.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/core/statistics.hpp"
@@ -64,12 +65,11 @@ Json or_null(const std::optional<T>& value)
 }
 
 /// What differs from the default, as a profile says it.
-Json json_of(const Conditions& conditions)
+Json json_of(Direction direction, const Conditions& conditions)
 {
     Json json = Json::object();
-    const auto texts = setting_texts(patch_of(conditions));
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-        if (texts[i]) json[std::string{setting_keys[i]}] = *texts[i];
+    for (const auto& [key, value] : texts_of(direction, patch_of(conditions))) {
+        json[key.substr(key.find('.') + 1)] = value;
     }
     return json;
 }
@@ -234,8 +234,8 @@ std::string statistics_json(const Run& run)
         {"overflowed", a.socket.overflowed() + b.socket.overflowed()},
         {"generation", run.director.generation()},
         {"configuration",
-         {{"up", json_of(run.scenario.profile.path.up)},
-          {"down", json_of(run.scenario.profile.path.down)}}},
+         {{"up", json_of(Direction::up, run.scenario.profile.path.up)},
+          {"down", json_of(Direction::down, run.scenario.profile.path.down)}}},
         {"profile", to_text(run.scenario.profile)},
         {"fates", or_null(options.fates)},
         {"replay", or_null(options.replay)},

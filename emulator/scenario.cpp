@@ -37,7 +37,12 @@ base::Result<Path> with_typed(const Path& path, const std::vector<TypedSetting>&
     std::vector<Setting> settings;
     for (const auto& [key, value] : typed) {
         auto setting = parse_setting(key, value, text_of_file);
-        if (!setting) return base::fail(fmt::format("--{}", setting.error().message));
+        if (!setting) {
+            const std::string why = setting.error().message.substr(key.size() + 2);
+            const bool quotes = why.find(value) != std::string::npos;
+            return base::fail(quotes ? fmt::format("--{}: {}", key, why)
+                                     : fmt::format("--{}: '{}': {}", key, value, why));
+        }
         settings.push_back(*std::move(setting));
     }
     return with_settings(path, settings);

@@ -5,20 +5,19 @@
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/core/verify/verify.hpp"
+#include "emulator/fates_file.hpp"
+#include "emulator/profile_file.hpp"
 #include "proto/base/text.hpp"
 #include "proto/net/program.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
+#include <utility>
 
 namespace hapnet::emulator {
 
@@ -31,12 +30,14 @@ constexpr const char* description = "Tests whether the fates of a run are those 
                                     "seed every fate.";
 
 constexpr const char* footer =
-    R"(RUN is a file that --fates has written, or a folder with fates.csv and profile.toml.
+    R"(RUN is the file that --stats has written of a run with --fates; or the file that --fates has
+written, with --profile; or a folder with fates.csv and profile.toml.
 A test fails when a run that follows its profile would look like this one time in a million.
 What cannot be told from so few datagrams, or from fates, is called unable.
 
 Examples:
-  hapnet-emulator verify run.csv --profile wifi.toml --seed 42 --rate 1000
+  hapnet-emulator verify run.json
+  hapnet-emulator verify fates.csv --profile wifi-busy --seed 42 --rate 1000
   hapnet-emulator verify results/run-7 --json
 
 Exit codes: 0 no test failed, 1 a test failed, 2 bad usage, or a file that cannot be used.)";
@@ -62,11 +63,9 @@ struct Texts {
 
 void add_options(CLI::App& app, Texts& texts)
 {
-    app.add_option("run", texts.run, "The fates of a run, or its folder (required)")
-        ->type_name("RUN");
-    app.add_option("--profile", texts.profile,
-                   "What the run was to do (default: profile.toml in RUN)")
-        ->type_name("FILE");
+    app.add_option("run", texts.run, "What a run has written (required)")->type_name("RUN");
+    app.add_option("--profile", texts.profile, "What the run was to do (default: what RUN says)")
+        ->type_name("FILE|NAME");
     app.add_option("--seed", texts.seed, "Of the run (default: the one in the profile)")
         ->type_name("NUMBER");
     app.add_option(
@@ -78,7 +77,7 @@ void add_options(CLI::App& app, Texts& texts)
 
 base::Result<Request> request_from(const Texts& texts)
 {
-    if (!texts.run) return base::fail("RUN is required: hapnet-emulator verify run.csv");
+    if (!texts.run) return base::fail("RUN is required: hapnet-emulator verify run.json");
     Request request{.run = *texts.run, .profile = texts.profile, .json = texts.json};
     if (texts.seed) {
         const auto seed = base::parse_count(*texts.seed, std::numeric_limits<std::uint64_t>::max());
@@ -113,24 +112,6 @@ net::CommandLine<Request> parse(std::span<char*> words)
     return *request;
 }
 
-base::Result<std::string> read_file(const std::string& path)
-{
-    std::ifstream file{path, std::ios::binary};
-    std::string text{std::istreambuf_iterator<char>{file}, {}};
-    if (!file) return base::fail(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
-    return text;
-}
-
-/// Files that a profile names lie beside it.
-base::Result<Profile> read_profile(const std::string& path)
-{
-    const auto text = read_file(path);
-    if (!text) return base::fail(text.error().message);
-    const auto folder = std::filesystem::path{path}.parent_path();
-    return parse_profile(*text, path,
-                         [&](const std::string& name) { return read_file(folder / name); });
-}
-
 nlohmann::json json_of(const std::vector<TestResult>& results)
 {
     auto list = nlohmann::json::array();
@@ -153,32 +134,75 @@ std::string json_of(const Verification& verification)
     return json.dump(2) + "\n";
 }
 
+/// The fates of a run, and the profile that they are to follow.
+struct Evidence {
+    Fates fates;
+    Profile profile;
+};
+
+base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<Profile> profile)
+{
+    if (!profile) return tl::unexpected{profile.error()};
+    auto fates = read_fates(fates_path);
+    if (!fates) return tl::unexpected{fates.error()};
+    return Evidence{*std::move(fates), *std::move(profile)};
+}
+
+/// What --stats has written: it holds the profile and names the fates.
+base::Result<Evidence> evidence_of_statistics(const std::string& path, const std::string& text)
+{
+    const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions*/ false);
+    const auto text_at = [&](const char* key) -> std::string {
+        return json.is_object() && json.contains(key) && json[key].is_string()
+                   ? json[key].get<std::string>()
+                   : "";
+    };
+    const std::string fates = text_at("fates");
+    if (fates.empty()) {
+        return base::fail(fmt::format("{} names no fates: run with --fates and --stats", path));
+    }
+    if (json.contains("generation") && json["generation"] != 1) {
+        return base::fail("the conditions changed during the run: only what holds from the first "
+                          "datagram to the last can be verified");
+    }
+    const auto beside = path_beside(std::filesystem::path{fates}.filename().string(), path);
+    auto profile = parse_profile(text_at("profile"), path, [&](const std::string& name) {
+        return text_of_file(path_beside(name, path));
+    });
+    return evidence_in(std::filesystem::exists(fates) ? fates : beside, std::move(profile));
+}
+
+base::Result<Evidence> evidence_of(const Request& request)
+{
+    if (std::filesystem::is_directory(request.run)) {
+        const auto inside = [&](const char* name) {
+            return (std::filesystem::path{request.run} / name).string();
+        };
+        return evidence_in(inside("fates.csv"),
+                           load_profile(request.profile.value_or(inside("profile.toml"))));
+    }
+    const auto text = text_of_file(request.run);
+    if (!text) return tl::unexpected{text.error()};
+    if (text->starts_with("{")) return evidence_of_statistics(request.run, *text);
+    if (request.profile) return evidence_in(request.run, load_profile(*request.profile));
+    return base::fail(fmt::format("--profile is required: {} is neither what --stats has written "
+                                  "nor a folder with a profile.toml",
+                                  request.run));
+}
+
 base::Result<int> verify_run(const Request& request)
 {
-    const bool is_folder = std::filesystem::is_directory(request.run);
-    const auto inside = [&](const char* name) {
-        return (std::filesystem::path{request.run} / name).string();
-    };
-    if (!is_folder && !request.profile) {
-        return base::fail(fmt::format("--profile is required: {} is not a folder with a "
-                                      "profile.toml",
-                                      request.run));
-    }
-    const auto fates_path = is_folder ? inside("fates.csv") : request.run;
-    const auto text = read_file(fates_path);
-    if (!text) return base::fail(text.error().message);
-    const auto fates = parse_fates(*text);
-    if (!fates) return base::fail(fmt::format("{}: {}", fates_path, fates.error().message));
-    const auto profile = read_profile(request.profile.value_or(inside("profile.toml")));
-    if (!profile) return base::fail(profile.error().message);
-    if (!profile->timeline.empty()) {
+    const auto evidence = evidence_of(request);
+    if (!evidence) return tl::unexpected{evidence.error()};
+    const Profile& profile = evidence->profile;
+    if (!profile.timeline.empty()) {
         return base::fail("the profile changes during the run: only what holds from the first "
                           "datagram to the last can be verified");
     }
-    const Claim claim{.path = profile->path,
-                      .seed = request.seed ? request.seed : profile->seed,
+    const Claim claim{.path = profile.path,
+                      .seed = request.seed ? request.seed : profile.seed,
                       .spacing = request.spacing};
-    const auto verification = verify(claim, fates->up, fates->down);
+    const auto verification = verify(claim, evidence->fates.up, evidence->fates.down);
     fmt::print("{}", request.json ? json_of(verification) : to_text(verification));
     return verification.failed() ? net::exit_failed : 0;
 }
