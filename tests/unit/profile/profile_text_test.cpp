@@ -175,7 +175,7 @@ TEST(ProfileText, NestingHasABound)
 TEST(ProfileText, WhatTomlPlusPlusWouldNotSurviveIsAnError)
 {
     EXPECT_EQ(refusal("[@''tter\n").substr(0, 14), "test.toml:1:2:");
-    EXPECT_EQ(refusal("[\xef\xbb\x9f)\n"), "test.toml:1:2: a letter that may only stand in quotes");
+    EXPECT_EQ(refusal("[\xef\xbb\x9f)\n").substr(0, 14), "test.toml:1:2:");
     EXPECT_EQ(parsed("\xef\xbb\xbfname = \"\xc3\xa4\" # \xc3\xa4\n").name, "\xc3\xa4");
 }
 
