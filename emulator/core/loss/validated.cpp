@@ -32,7 +32,8 @@ Complaint complaint(const RandomLoss&) { return {}; }
 Complaint complaint(const BlockLoss& law)
 {
     if (law.lost > 0 && law.lost <= law.of) return {};
-    return fmt::format("loses {} of {}: at least 1 is lost, and at most all", law.lost, law.of);
+    return fmt::format("loses {} of {}: at least 1 is lost, and at most all, as in 40/100",
+                       law.lost, law.of);
 }
 
 Complaint complaint(const PeriodicLoss& law)
@@ -46,7 +47,8 @@ Complaint complaint(const PeriodicLoss& law)
 Complaint complaint(const Burst& law)
 {
     if (law.lost == 0 || law.lost > law.of) {
-        return fmt::format("loses {} of {}: at least 1 is lost, and at most all", law.lost, law.of);
+        return fmt::format("loses {} of {}: at least 1 is lost, and at most all, as in 40/100",
+                           law.lost, law.of);
     }
     if (!law.phase || *law.phase < law.of) return {};
     return fmt::format("the phase {} is not within the period: write 0 to {}", *law.phase,

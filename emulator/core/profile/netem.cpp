@@ -336,9 +336,8 @@ void warn_of_limit(Said& said)
 base::Result<NetemProfile> parse_netem(std::string_view sentence)
 {
     NetemWords words{sentence};
-    if (words.at_end()) {
-        return base::fail("nothing is said: write, for instance, delay 80ms loss 1%");
-    }
+    if (words.at_end())
+        return base::fail("nothing is said: write delay 80ms loss 1%, for instance");
     Said said;
     while (!words.at_end() && !words.complaint()) read_option(words, said);
     NetemProfile profile;

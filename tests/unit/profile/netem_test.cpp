@@ -125,7 +125,7 @@ TEST(Netem, WhatCannotBeDoneIsRefusedByItsWord)
     EXPECT_EQ(refusal("reorder 5%"), "word 2: reorder needs a delay");
     EXPECT_EQ(refusal("delay 10ms 1ms distribution experimental").substr(0, 8), "word 5: ");
     EXPECT_EQ(refusal("rate 10mbit 0 53").substr(0, 8), "word 4: ");
-    EXPECT_EQ(refusal(""), "nothing is said: write, for instance, delay 80ms loss 1%");
+    EXPECT_EQ(refusal(""), "nothing is said: write delay 80ms loss 1%, for instance");
 }
 
 } // namespace

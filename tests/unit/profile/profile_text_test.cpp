@@ -172,6 +172,13 @@ TEST(ProfileText, NestingHasABound)
               "test.toml:1:10: a string over several lines has no place here");
 }
 
+TEST(ProfileText, WhatTomlPlusPlusWouldNotSurviveIsAnError)
+{
+    EXPECT_EQ(refusal("[@''tter\n").substr(0, 14), "test.toml:1:2:");
+    EXPECT_EQ(refusal("[\xef\xbb\x9f)\n").substr(0, 14), "test.toml:1:2:");
+    EXPECT_EQ(parsed("\xef\xbb\xbfname = \"\xc3\xa4\" # \xc3\xa4\n").name, "\xc3\xa4");
+}
+
 TEST(ProfileText, ASettingReadsWithoutQuotesAndItsErrorsNameIt)
 {
     const auto delay = parse_setting("up.delay", "300ms", {});
