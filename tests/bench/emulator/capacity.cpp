@@ -120,24 +120,26 @@ std::vector<Row> compare(const Plan& plan, const Case& given, Standing standing)
         reordered += static_cast<double>(own.reordered);
         theirs.push_back(search.run(poll_relay).rate);
     }
-    Row rate{.name = given.name() + (by_sender ? " (the sender's limit)" : ""),
-             .subject = std::string{precise.name},
-             .baseline = std::string{poll_relay.name},
-             .metric = "highest_rate_ratio",
-             .value = median(ours),
-             .baseline_value = median(theirs),
-             // The ratio is baseline / value: 1.2 times and 3 times the rate of the baseline.
-             .target = given.sending == Sending::ordinary ? 1.0 / 1.2 : 1.0 / 3.0,
-             .direction = Direction::at_most};
-    Row in_order{.name = given.name(),
-                 .subject = std::string{precise.name},
-                 .baseline = "",
-                 .metric = "reordered",
-                 .value = reordered,
-                 .baseline_value = std::nullopt,
-                 .target = 0.0,
-                 .direction = Direction::at_most};
-    return {rate, in_order};
+    const auto row = [&](std::string_view metric, double value) {
+        return Row{.name = given.name(),
+                   .subject = std::string{precise.name},
+                   .baseline = "",
+                   .metric = std::string{metric},
+                   .value = value,
+                   .baseline_value = std::nullopt,
+                   .target = std::nullopt};
+    };
+    Row rate = row("highest_rate_ratio", median(ours));
+    rate.baseline = poll_relay.name;
+    rate.baseline_value = median(theirs);
+    // The ratio is baseline / value: 1.2 times and 3 times the rate of the baseline.
+    rate.target = given.sending == Sending::ordinary ? 1.0 / 1.2 : 1.0 / 3.0;
+    // 1: the sender could not do more, and the relay might.
+    const Row limit = row("limited_by_sender", by_sender ? 1.0 : 0.0);
+    if (given.sending == Sending::ordinary) return {rate, limit}; // nobody sees the order there
+    Row in_order = row("reordered", reordered);
+    in_order.target = 0.0;
+    return {rate, limit, in_order};
 }
 
 } // namespace
