@@ -142,9 +142,9 @@ struct Evidence {
 
 base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<Profile> profile)
 {
-    if (!profile) return tl::unexpected{profile.error()};
     auto fates = read_fates(fates_path);
     if (!fates) return tl::unexpected{fates.error()};
+    if (!profile) return tl::unexpected{profile.error()};
     return Evidence{*std::move(fates), *std::move(profile)};
 }
 

@@ -62,7 +62,7 @@ TEST(EmulatorVerify, NamesTheFileThatItCannotUse)
     const TemporaryFolder folder;
     const auto outcome = verify(folder);
     EXPECT_EQ(outcome.exit, 2);
-    EXPECT_NE(outcome.err.find("fates.csv: No such file"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("fates.csv"), std::string::npos) << outcome.err;
 }
 
 } // namespace hapnet::e2e
