@@ -136,7 +136,7 @@ Result<Duration> parse_duration(std::string_view text)
 Result<Duration> parse_signed_duration(std::string_view text)
 {
     const bool is_negative = text.starts_with('-');
-    const auto size = parse_duration(is_negative || text.starts_with('+') ? text.substr(1) : text);
+    auto size = parse_duration(is_negative || text.starts_with('+') ? text.substr(1) : text);
     if (!size) return size;
     return is_negative ? -*size : *size;
 }
@@ -175,7 +175,7 @@ std::string to_text(Probability probability)
         const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
                                                 percent, std::chars_format::fixed, decimals);
         ensure(error == std::errc{});
-        const std::string text = std::string{buffer.data(), end} + '%';
+        std::string text = std::string{buffer.data(), end} + '%';
         const auto again = parse_probability(text);
         if (again && *again == probability) return text;
     }
