@@ -81,7 +81,7 @@ bool Link::passes_untouched(const Deliver& deliver) const
 {
     return deliver.after == base::Duration{0} && !deliver.copy && deliver.flips.count == 0 &&
            deliver.displacement == Displacement{} && !bottleneck_.is_on() &&
-           bottleneck_.is_idle() && line_.size() == 0;
+           bottleneck_.is_idle() && line_.size() == 0 && displaced_.empty();
 }
 
 bool Link::hold(std::span<const std::byte> bytes, std::uint64_t number, const Deliver& deliver)
