@@ -226,8 +226,10 @@ void Link::on_failed(const Departure& departure, DropCause cause)
 
 void Link::change(const Conditions& conditions, base::TimePoint now)
 {
-    advance(now);
-    bottleneck_.change(conditions.rate, now);
+    // A change is stamped by what arrives on either side: it may come after a later arrival here.
+    const auto at = std::max(now, last_arrival_);
+    advance(at);
+    bottleneck_.change(conditions.rate, at);
     pipeline_.change(conditions);
     conditions_ = conditions;
 }

@@ -324,6 +324,16 @@ TEST(Link, TakesWhatArrivedJustBeforeTheRateOfAFullQueueWasTakenAway)
     EXPECT_EQ(link.statistics().in_flight, 0U);
 }
 
+TEST(Link, LetsNothingLeaveBeforeItCameWhenAChangeIsStampedBeforeIt)
+{
+    Link link = link_of({.rate = {8, 0, 1 << 20}});
+    link.on_packet(payload, start + 2us);
+    link.change({}, start + 1us);
+    const auto departures = all_of(link);
+    ASSERT_EQ(departures.size(), 1U);
+    EXPECT_EQ(departures[0].due, start + 2us);
+}
+
 TEST(Link, KeepsTheTimesOfWhatIsScheduledWhenConditionsChange)
 {
     Link link = link_of({.delay = constant(10ms)});
