@@ -211,6 +211,26 @@ base::Result<net::HostPort> parse_peer(const std::string& text)
     return peer;
 }
 
+/// Two results in one file: the second would take the place of the first, after the run. Devices
+/// such as /dev/null take many.
+std::optional<std::string> shared_file(const Texts& texts)
+{
+    using Named = std::pair<const char*, const Text&>;
+    const std::array<Named, 4> files{Named{"--stats", texts.stats}, Named{"--fates", texts.fates},
+                                     Named{"--pcap", texts.capture},
+                                     Named{"--control", texts.control}};
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const auto& [option, file] = files[i];
+        if (!file || *file == "-" || file->starts_with("/dev/")) continue;
+        for (std::size_t j = i + 1; j < files.size(); ++j) {
+            if (files[j].second != file) continue;
+            return fmt::format("{} and {} name the same file, {}: give each its own", option,
+                               files[j].first, *file);
+        }
+    }
+    return std::nullopt;
+}
+
 net::CommandLine<Options> options_from(const Texts& texts)
 {
     Options options;
@@ -241,6 +261,7 @@ net::CommandLine<Options> options_from(const Texts& texts)
     options.capture = texts.capture;
     options.control = texts.control;
     if (reader.error()) return base::fail(*reader.error());
+    if (const auto trouble = shared_file(texts)) return base::fail(*trouble);
     return options;
 }
 

@@ -3,6 +3,7 @@
 #include "emulator/places.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 
 namespace hapnet::emulator {
 
@@ -36,6 +37,27 @@ base::Result<Side> look_up_side(const char* name, const net::HostPort& listen,
     return side;
 }
 
+/// Whether what is sent to `peer` arrives where the emulator itself listens.
+bool is_own(const net::Endpoint& peer, const net::Endpoint& listen)
+{
+    return peer == listen ||
+           (listen.is_any() && peer.is_loopback() && peer.port() == listen.port());
+}
+
+/// A datagram that is sent to the emulator itself would go round for ever.
+base::Result<Places> without_loop(Places places)
+{
+    for (const auto& [name, peer] : {std::pair{"a", places.a}, std::pair{"b", places.b}}) {
+        for (const auto& listen : {places.listen_a, places.listen_b}) {
+            if (!peer || !is_own(*peer, listen)) continue;
+            return base::fail(fmt::format("--{} {} is where the emulator itself listens: name the "
+                                          "other program's address",
+                                          name, peer->to_text()));
+        }
+    }
+    return places;
+}
+
 } // namespace
 
 base::Result<Places> look_up(const Options& options)
@@ -44,7 +66,7 @@ base::Result<Places> look_up(const Options& options)
     if (!a) return tl::unexpected{a.error()};
     const auto b = look_up_side("b", options.listen_b, options.b);
     if (!b) return tl::unexpected{b.error()};
-    return Places{a->listen, b->listen, a->peer, b->peer};
+    return without_loop({a->listen, b->listen, a->peer, b->peer});
 }
 
 } // namespace hapnet::emulator

@@ -76,9 +76,9 @@ private:
     void on_sent(const Departure& departure, base::TimePoint at, const net::Endpoint& destination)
     {
         if (recorder_.captures()) {
-            recorder_.on_departure(
-                {to_.side, at, to_.local, udp_address_of(destination), departure.bytes},
-                at - departure.due, departure.is_copy);
+            recorder_.on_departure({to_.side, at, udp_address_of(to_.local),
+                                    udp_address_of(destination), departure.bytes},
+                                   at - departure.due, departure.is_copy);
         }
         link_.on_sent(departure, at); // its bytes go
     }
@@ -112,7 +112,10 @@ int Relay::pass(Side& from, Side& to, Director& director)
     const Direction direction = from.side == CaptureSide::a ? Direction::up : Direction::down;
     Batch undelayed{from.link, to, recorder_};
     for (const net::Received& datagram : arrived) {
-        const Sender sender = from.correspondent.judge(datagram.from, datagram.at);
+        // What seems to come from ourselves is forged: adopted, it would go round for ever.
+        const bool is_own = datagram.from == from.local || datagram.from == to.local;
+        const Sender sender =
+            is_own ? Sender::stranger : from.correspondent.judge(datagram.from, datagram.at);
         if (sender == Sender::stranger) {
             ++from.strangers;
             continue;
@@ -122,9 +125,9 @@ int Relay::pass(Side& from, Side& to, Director& director)
         const Admission admission = from.link.on_packet(datagram.bytes, datagram.at);
         recorder_.on_fate(direction, admission.number, admission.fate);
         if (recorder_.captures()) {
-            recorder_.on_arrival(
-                {from.side, datagram.at, udp_address_of(datagram.from), from.local, datagram.bytes},
-                {admission.verdict, {}});
+            recorder_.on_arrival({from.side, datagram.at, udp_address_of(datagram.from),
+                                  udp_address_of(from.local), datagram.bytes},
+                                 {admission.verdict, {}});
         }
         if (admission.departure) undelayed.add(*admission.departure);
     }
@@ -152,7 +155,7 @@ Relay::Side::Side(CaptureSide which, const net::Endpoint& listen,
                   const std::optional<net::Endpoint>& peer, Link from_here)
     : side{which},
       socket{listen, net::Load::bulk},
-      local{udp_address_of(socket.local())},
+      local{socket.local()},
       correspondent{peer},
       link{std::move(from_here)}
 {}

@@ -58,10 +58,10 @@ public:
 
         CaptureSide side;
         net::UdpSocket socket;
-        UdpAddress local;
+        net::Endpoint local;
         Correspondent<net::Endpoint> correspondent;
         Link link;
-        std::uint64_t strangers = 0; // datagrams from any other address
+        std::uint64_t strangers = 0; // datagrams from any other address, our own among them
     };
     [[nodiscard]] const Side& a() const { return a_; }
     [[nodiscard]] const Side& b() const { return b_; }

@@ -4,8 +4,10 @@
 
 #include "emulator/core/profile/netem.hpp"
 #include "emulator/core/profile/text.hpp"
+#include "emulator/core/profile/timeline.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
+#include "proto/base/text.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -59,6 +61,13 @@ base::Result<Scenario> scenario_of(const Options& options)
     auto path = with_typed(scenario.profile.path, options.settings);
     if (!path) return tl::unexpected{path.error()};
     scenario.profile.path = *std::move(path);
+    if (const auto fault = Timeline::fault_of(scenario.profile)) {
+        return base::fail(fmt::format("what is said on the command line does not go with change {} "
+                                      "of the profile's timeline, at {}: {}",
+                                      fault->change + 1,
+                                      base::to_text(scenario.profile.timeline[fault->change].time),
+                                      fault->what));
+    }
     scenario.seed = options.seed.value_or(scenario.profile.seed.value_or(base::Seed{1}));
     scenario.profile.seed = scenario.seed;
     if (options.replay) {

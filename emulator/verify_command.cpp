@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -148,9 +149,26 @@ base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<P
     return Evidence{*std::move(fates), *std::move(profile)};
 }
 
-/// What --stats has written: it holds the profile and names the fates.
-base::Result<Evidence> evidence_of_statistics(const std::string& path, const std::string& text)
+/// Whether the fates are those of all datagrams that the statistics count. Rows that are missing at
+/// the end of the table leave no gap in it.
+base::Result<Evidence> all_there(Evidence evidence, const nlohmann::json& statistics)
 {
+    const auto& [up, down] = evidence.fates;
+    for (const auto& [direction, fates] : {std::pair{"up", &up}, std::pair{"down", &down}}) {
+        const auto way = statistics.value(direction, nlohmann::json::object());
+        const auto received = way.find("received");
+        if (received == way.end() || *received == fates->size()) continue;
+        return base::fail(fmt::format("the statistics count {} datagrams {}, and the fates are "
+                                      "those of {}: they are not complete, or of another run",
+                                      received->dump(), direction, fates->size()));
+    }
+    return evidence;
+}
+
+/// What --stats has written: it holds the profile and names the fates.
+base::Result<Evidence> evidence_of_statistics(const Request& request, const std::string& text)
+{
+    const std::string& path = request.run;
     const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions*/ false);
     const auto text_at = [&](const char* key) -> std::string {
         return json.is_object() && json.contains(key) && json[key].is_string()
@@ -165,11 +183,20 @@ base::Result<Evidence> evidence_of_statistics(const std::string& path, const std
         return base::fail("the conditions changed during the run: only what holds from the first "
                           "datagram to the last can be verified");
     }
+    if (const auto replayed = text_at("replay"); !replayed.empty() && !request.profile) {
+        return base::fail(fmt::format("{} is of a run whose fates were replayed from {}: say with "
+                                      "--profile what they are to follow",
+                                      path, replayed));
+    }
     const auto beside = path_beside(std::filesystem::path{fates}.filename().string(), path);
-    auto profile = parse_profile(text_at("profile"), path, [&](const std::string& name) {
+    const auto open = [&](const std::string& name) {
         return text_of_file(path_beside(name, path));
-    });
-    return evidence_in(std::filesystem::exists(fates) ? fates : beside, std::move(profile));
+    };
+    const auto profile = request.profile ? load_profile(*request.profile)
+                                         : parse_profile(text_at("profile"), path, open);
+    auto evidence = evidence_in(std::filesystem::exists(fates) ? fates : beside, profile);
+    if (!evidence) return evidence;
+    return all_there(*std::move(evidence), json);
 }
 
 base::Result<Evidence> evidence_of(const Request& request)
@@ -181,10 +208,14 @@ base::Result<Evidence> evidence_of(const Request& request)
         return evidence_in(inside("fates.csv"),
                            load_profile(request.profile.value_or(inside("profile.toml"))));
     }
+    // Fates may be larger than what text_of_file() takes.
+    const bool is_json = std::ifstream{request.run}.peek() == '{';
+    if (!is_json && request.profile) {
+        return evidence_in(request.run, load_profile(*request.profile));
+    }
     const auto text = text_of_file(request.run);
     if (!text) return tl::unexpected{text.error()};
-    if (text->starts_with("{")) return evidence_of_statistics(request.run, *text);
-    if (request.profile) return evidence_in(request.run, load_profile(*request.profile));
+    if (is_json) return evidence_of_statistics(request, *text);
     return base::fail(fmt::format("--profile is required: {} is neither what --stats has written "
                                   "nor a folder with a profile.toml",
                                   request.run));

@@ -63,11 +63,12 @@ public:
         return since_ + base::Duration{static_cast<base::Duration::rep>(nanoseconds)};
     }
 
-    /// The next that has left by `now`.
+    /// The next that has left by `now`. What is left over when the rate is taken away leaves at
+    /// once, also for who asks with the time of an arrival just before that.
     [[nodiscard]] std::optional<Sent> pop(base::TimePoint now)
     {
         const auto at = next_sent();
-        if (!base::is_due(at, now)) return std::nullopt;
+        if (!at || (is_on() && *at > now)) return std::nullopt;
         const auto passed = static_cast<std::uint64_t>((*at - since_).count());
         const std::uint64_t spare = is_on() ? passed * rate_.bits_per_second - work_ : 0;
         const Item item = items_.pop();

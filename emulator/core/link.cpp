@@ -81,7 +81,7 @@ bool Link::passes_untouched(const Deliver& deliver) const
 {
     return deliver.after == base::Duration{0} && !deliver.copy && deliver.flips.count == 0 &&
            deliver.displacement == Displacement{} && !bottleneck_.is_on() &&
-           bottleneck_.is_idle() && line_.size() == 0;
+           bottleneck_.is_idle() && line_.size() == 0 && displaced_.empty();
 }
 
 bool Link::hold(std::span<const std::byte> bytes, std::uint64_t number, const Deliver& deliver)
@@ -226,8 +226,10 @@ void Link::on_failed(const Departure& departure, DropCause cause)
 
 void Link::change(const Conditions& conditions, base::TimePoint now)
 {
-    advance(now);
-    bottleneck_.change(conditions.rate, now);
+    // A change is stamped by what arrives on either side: it may come after a later arrival here.
+    const auto at = std::max(now, last_arrival_);
+    advance(at);
+    bottleneck_.change(conditions.rate, at);
     pipeline_.change(conditions);
     conditions_ = conditions;
 }

@@ -6,13 +6,17 @@
 #include "tests/e2e/udp.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <span>
 #include <string>
+#include <sys/socket.h>
 #include <tuple>
+#include <unistd.h>
 #include <vector>
 
 namespace hapnet::e2e {
@@ -56,6 +60,18 @@ std::vector<std::uint64_t> survivors(const std::vector<std::string>& options, st
     EXPECT_EQ(statistics["up"]["received"], count);
     EXPECT_EQ(statistics["up"]["delivered"], numbers.size());
     return numbers;
+}
+
+/// Sends a datagram that names `from` as its sender; false where that is not allowed.
+bool send_forged(const net::Endpoint& from, const net::Endpoint& to)
+{
+    const int raw = socket(AF_INET, SOCK_RAW | SOCK_CLOEXEC, IPPROTO_UDP);
+    if (raw < 0) return false;
+    const std::array<std::uint16_t, 5> datagram{htons(from.port()), htons(to.port()),
+                                                htons(sizeof datagram), 0, 0};
+    const auto sent = sendto(raw, datagram.data(), sizeof datagram, 0, to.address(), to.length());
+    close(raw);
+    return sent == static_cast<ssize_t>(sizeof datagram);
 }
 
 } // namespace
@@ -181,6 +197,22 @@ TEST(Emulator, CountsAndDropsStrangers)
     EXPECT_EQ(statistics["up"]["received"], 1);
     EXPECT_EQ(statistics["down"]["received"], 0);
     EXPECT_TRUE(statistics["down"]["lateness_us"]["p99"].is_null());
+}
+
+TEST(Emulator, TakesNothingThatIsForgedToComeFromItself)
+{
+    Emulator emulator{{"--duplicate", "100%"}};
+    if (!send_forged(emulator.b(), emulator.a())) GTEST_SKIP() << "no raw sockets here";
+    ASSERT_TRUE(send_forged(emulator.a(), emulator.b()));
+    ASSERT_TRUE(send_forged(emulator.b(), emulator.a()));
+    Host a;
+    a.send(emulator.a(), 0); // after the others: once it is known they have been judged
+    ASSERT_TRUE(emulator.process().wait_for_err("a is " + a.endpoint().to_text(), 5s));
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["strangers"], 2);
+    EXPECT_EQ(statistics["up"]["received"], 1);
+    EXPECT_EQ(statistics["down"]["strangers"], 1);
+    EXPECT_EQ(statistics["down"]["received"], 0);
 }
 
 TEST(Emulator, RelaysOverIpv6)

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -84,6 +85,18 @@ TEST(EmulatorUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
     expect_refusal(run_with({"--a", "127.0.0.1:70000"}), 2, {"--a", "65535"});
     expect_refusal(run_with({"--delay", "1ms", "--delay", "2ms"}), 2, {"--delay"});
     expect_refusal(run_with({"--delay"}), 2, {"--delay"});
+    expect_refusal(run_with({"--replay", "/tmp"}), 2, {"cannot read /tmp: it is a folder"});
+}
+
+TEST(EmulatorUsage, RefusesWhatTheRampsOfTheProfileCannotBeginAt)
+{
+    const TemporaryFolder folder;
+    const std::string profile = folder.file("ramp.toml");
+    std::ofstream{profile} << "both.rate = \"1Mbit/s\"\n"
+                              "[[at]]\ntime = \"1s\"\nramp = \"1s\"\nup.rate = \"2Mbit/s\"\n";
+    EXPECT_EQ(run_with({"--profile", profile, "--down.rate", "0"}).exit, 0);
+    expect_refusal(run_with({"--profile", profile, "--up.rate", "0"}), 2,
+                   {"change 1", "at 1s", "rate has no straight way"});
 }
 
 TEST(EmulatorUsage, AdoptsOnLoopbackOnly)
@@ -97,6 +110,22 @@ TEST(EmulatorUsage, AdoptsOnLoopbackOnly)
 TEST(EmulatorUsage, RefusesAPeerThatItsOwnAddressCannotReach)
 {
     expect_refusal(run_with({"--b", "192.0.2.1:7000"}), 2, {"--b", "--listen-b", "0.0.0.0"});
+}
+
+TEST(EmulatorUsage, RefusesItselfAsAPeer)
+{
+    expect_refusal(run("hapnet-emulator", {"--listen-a", "127.0.0.1:7001", "--listen-b",
+                                           "127.0.0.1:7002", "--b", "127.0.0.1:7001"}),
+                   2, {"--b 127.0.0.1:7001", "itself listens"});
+    expect_refusal(run("hapnet-emulator", {"--listen-a", "0.0.0.0:7001", "--a", "127.0.0.1:7001",
+                                           "--listen-b", "127.0.0.1:7002"}),
+                   2, {"--a 127.0.0.1:7001", "itself listens"});
+}
+
+TEST(EmulatorUsage, RefusesTwoResultsInOneFile)
+{
+    expect_refusal(run_with({"--stats", "run.json", "--fates", "run.json"}), 2,
+                   {"--stats", "--fates", "run.json"});
 }
 
 TEST(EmulatorUsage, SaysThatAPortIsInUse)

@@ -57,6 +57,25 @@ TEST(EmulatorVerify, FailsARunThatDidNotAndSaysSoInJson)
     EXPECT_EQ(json.at("up").at(1).at("says"), "1 of 4 datagrams deviate, first number 2");
 }
 
+TEST(EmulatorVerify, TakesOnlyTheFatesOfAllDatagramsThatTheStatisticsCount)
+{
+    const TemporaryFolder folder;
+    write_run(folder, "0101");
+    const std::string path = folder.file("run.json");
+    nlohmann::json statistics{{"fates", folder.file("fates.csv")},
+                              {"profile", "up.loss = { law = \"pattern\", pattern = \"01\" }"},
+                              {"up", {{"received", 4}}},
+                              {"down", {{"received", 0}}}};
+    std::ofstream{path} << statistics;
+    EXPECT_EQ(run("hapnet-emulator", {"verify", path}).exit, 0);
+    EXPECT_EQ(run("hapnet-emulator", {"verify", path, "--profile", "paper-loss-93"}).exit, 1);
+    statistics["up"]["received"] = 5;
+    std::ofstream{path} << statistics;
+    const auto outcome = run("hapnet-emulator", {"verify", path});
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_NE(outcome.err.find("5 datagrams up"), std::string::npos) << outcome.err;
+}
+
 TEST(EmulatorVerify, NamesTheFileThatItCannotUse)
 {
     const TemporaryFolder folder;

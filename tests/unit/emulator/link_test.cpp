@@ -259,6 +259,20 @@ TEST(Link, LetsADisplacedDatagramBeOvertakenByAsManyAsItIsTold)
     EXPECT_EQ(link.statistics().reordered, 1U);
 }
 
+TEST(Link, LetsADisplacedDatagramBeOvertakenByThoseThatNothingDelays)
+{
+    Link link = link_of({.reorder = {100_percent, {2, {}}}});
+    link.on_packet(payload, start);
+    link.change({}, start);
+    for (int i = 1; i < 4; ++i) {
+        const auto admission = link.on_packet(payload, start + i * 1ms);
+        if (admission.departure) link.on_sent(*admission.departure, start + i * 1ms);
+    }
+    const auto departures = all_of(link);
+    EXPECT_EQ(numbers_of(departures), (std::vector<std::uint64_t>{1, 2, 0, 3}));
+    EXPECT_EQ(departures[2].due, start + 2ms);
+}
+
 TEST(Link, LetsADisplacedDatagramGoWhenNothingFollows)
 {
     Link link = link_of({.delay = constant(1ms), .reorder = {100_percent, {2, {}}}});
@@ -297,6 +311,27 @@ TEST(Link, LetsWhatIsLostBehindTheBottleneckTakeItsTimeThere)
     ASSERT_EQ(departures.size(), 1U);
     EXPECT_EQ(departures[0].due, start + 2ms);
     EXPECT_EQ(link.statistics().in_flight, 0U);
+}
+
+TEST(Link, TakesWhatArrivedJustBeforeTheRateOfAFullQueueWasTakenAway)
+{
+    Link link = link_of({.rate = {8, 0, 1 << 20}, .loss = {PatternLoss{{true, false}}}},
+                        {.datagrams_max = 4});
+    for (int i = 0; i < 5; ++i) link.on_packet(payload, start);
+    link.change({}, start + 1ms);
+    link.on_packet(payload, start + 1ms - 1us);
+    EXPECT_EQ(numbers_of(all_of(link)), (std::vector<std::uint64_t>{1, 3, 5}));
+    EXPECT_EQ(link.statistics().in_flight, 0U);
+}
+
+TEST(Link, LetsNothingLeaveBeforeItCameWhenAChangeIsStampedBeforeIt)
+{
+    Link link = link_of({.rate = {8, 0, 1 << 20}});
+    link.on_packet(payload, start + 2us);
+    link.change({}, start + 1us);
+    const auto departures = all_of(link);
+    ASSERT_EQ(departures.size(), 1U);
+    EXPECT_EQ(departures[0].due, start + 2us);
 }
 
 TEST(Link, KeepsTheTimesOfWhatIsScheduledWhenConditionsChange)
