@@ -29,6 +29,9 @@ std::span<const std::byte> payload_of(std::uint64_t number)
     return std::span{payload}.first(place % 11 == 10 ? 1000 : 100);
 }
 
+constexpr base::Duration beginning = 1s;
+constexpr std::int64_t beginning_factor = 4;
+
 net::Endpoint any_port() { return net::resolve({"127.0.0.1", 0}); }
 
 } // namespace
@@ -68,17 +71,19 @@ void Traffic::stop()
 
 void Traffic::run(const Target& target)
 {
+    const auto per_tick = target.per_second / 1000;
     const auto start = net::monotonic_now();
-    auto now = start;
-    for (auto tick = start; !stop_; tick = std::max(tick + 1ms, now - 20ms)) {
+    for (auto tick = start; !stop_; tick += 1ms) {
         net::sleep_until(tick);
-        // What a pause of this thread left behind is sent after it, but not in one flood.
-        const auto due = (now - start) / 1us * target.per_second / 1'000'000;
-        const auto behind = std::max<std::int64_t>(0, due - static_cast<std::int64_t>(number_));
-        send(target, std::min<std::uint64_t>(static_cast<std::uint64_t>(behind),
-                                             net::BatchSender::batch_max));
+        const bool is_beginning = tick < start + beginning;
+        const auto ticks = (tick - start) / 1ms + 1;
+        const auto extra = (beginning_factor - 1) * std::min(ticks, beginning / 1ms);
+        const auto behind = (ticks + extra) * per_tick - static_cast<std::int64_t>(number_);
+        // What a pause left behind is made up for, but never faster than the beginning was.
+        const auto most = (is_beginning ? beginning_factor : beginning_factor / 2) * per_tick;
+        send(target, static_cast<std::uint64_t>(std::min(behind, most)));
         drain();
-        now = net::monotonic_now();
+        tick = std::max(tick, net::monotonic_now() - 1ms);
     }
     for (int i = 0; i < 1000; ++i) {
         net::sleep_until(net::monotonic_now() + 1ms);

@@ -29,6 +29,10 @@ struct Memory {
 /// Both ends of an emulator, on a thread of its own: every millisecond each end sends a share of
 /// the rate to the emulator, A one by one and B merged where the kernel can (UDP_SEGMENT), and
 /// reads away what has come. Of 100 datagrams 90 hold 100 bytes, 9 hold 1000, and one 1500.
+///
+/// The first second is four times as fast: the emulator takes all memory at its start, but the
+/// system gives it only when it is used, and what a later pause of the sender leaves behind (made
+/// up for at twice the rate) shall not use more of it than was used then.
 class Traffic {
 public:
     Traffic();
