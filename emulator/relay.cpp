@@ -30,9 +30,10 @@ DropCause cause_of(net::SendOutcome outcome)
     return DropCause::send_failed;
 }
 
-/// Batches of each direction that one release() sends at most. More than one receive() takes, so
-/// that a flood cannot fill the queue by being taken faster than it is sent.
-constexpr int release_rounds_max = 16;
+/// Batches of each direction that one release() sends at most. Twice what one receive() takes with
+/// a copy of each: a flood cannot fill the queue by being taken faster than it is sent, and what
+/// it left behind there shrinks while it goes on.
+constexpr int release_rounds_max = 32;
 
 /// What leaves in one direction: gathered and sent together. Flush it before the bytes go.
 class Batch {

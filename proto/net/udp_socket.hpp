@@ -24,7 +24,7 @@ struct Received {
 enum class Load : std::uint8_t {
     stream, // one sender at a few thousand datagrams a second
     bulk,   // as many as it can take: the kernel may hand over neighbours of one size together
-            // (UDP_GRO), and the receive buffer is as large as the system allows
+            // (UDP_GRO), and a privileged program gets the receive buffer that it asks for
 };
 
 /// A bound, non-blocking UDP socket with kernel receive stamps. Sends and receives; decides
@@ -61,7 +61,8 @@ public:
     [[nodiscard]] Endpoint local() const;
     [[nodiscard]] int descriptor() const { return descriptor_; }
 
-    /// Datagrams that the kernel dropped because this socket's buffer was full (SO_RXQ_OVFL).
+    /// Datagrams that the kernel dropped because this socket's buffer was full (SO_RXQ_OVFL). With
+    /// Load::bulk neighbours that came merged count as one: the kernel does not say how many.
     [[nodiscard]] std::uint64_t overflowed() const;
 
 private:
