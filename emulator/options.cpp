@@ -16,8 +16,9 @@ namespace hapnet::emulator {
 namespace {
 
 constexpr const char* description =
-    "A UDP relay that stands between two hosts, A and B, and delays, jitters and loses what\n"
-    "passes. What arrives at listen-a from A leaves from listen-b for B, and the other way round.\n"
+    "A UDP relay that stands between two hosts, A and B, and impairs what passes: delay, jitter,\n"
+    "loss, copies, bit errors, reordering, a rate, outages; by a seed, and never early.\n"
+    "What arrives at listen-a from A leaves from listen-b for B, and the other way round.\n"
     "Needs no root. Without --a and --b it takes the first sender on each side, on loopback only;\n"
     "when that one has been silent for 1 s, a new one may take its place.";
 
@@ -44,7 +45,8 @@ Without a network (each has a --help of its own):
   hapnet-emulator verify RUN                      whether a run's fates follow their laws
 
 Prints one line "ready a=... b=..." on stdout when it listens; port 0 takes any free port.
-SIGINT or SIGTERM ends it and writes the files; SIGHUP reads the profile again.
+SIGINT or SIGTERM ends it and writes the files; SIGHUP reads --profile again (and ends
+a run without one).
 Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the system refused (port in use).)";
 
 /// What follows an option, if it was given.

@@ -175,6 +175,11 @@ base::Result<Evidence> evidence_of_statistics(const Request& request, const std:
                    ? json[key].get<std::string>()
                    : "";
     };
+    if (!text_at("replay").empty()) {
+        return base::fail(fmt::format("{} replayed {}: its fates are those, whatever its "
+                                      "conditions say; verify the run that wrote them",
+                                      path, text_at("replay")));
+    }
     const std::string fates = text_at("fates");
     if (fates.empty()) {
         return base::fail(fmt::format("{} names no fates: run with --fates and --stats", path));

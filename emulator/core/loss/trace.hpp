@@ -35,7 +35,7 @@ private:
 /// nothing, and '#' begins a comment. Errors name the line.
 [[nodiscard]] base::Result<LossTrace> parse_loss_trace(std::string_view text);
 
-/// The column `lost` of a table with a header line and commas, such as a file of fates.
+/// The column `lost` (0 or 1) of a table with a header line and commas.
 [[nodiscard]] base::Result<LossTrace> parse_loss_table(std::string_view text);
 
 /// "0010": of every four datagrams the third is lost. At most 10^6 digits.
