@@ -4,7 +4,9 @@
 #include "emulator/core/profile/timeline.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <gtest/gtest.h>
+#include <vector>
 
 namespace hapnet::emulator {
 namespace {
@@ -67,6 +69,18 @@ TEST(Timeline, ALaterChangeTakesOverFromWhereverTheRampIs)
     EXPECT_EQ(delay(line.at(4s).down), 30ms);
     EXPECT_EQ(line.at(4s).up.jitter.law, (DelayLaw{UniformLaw{0ms, 6ms}}));
     EXPECT_EQ(delay(line.at(6s).down), 40ms);
+}
+
+TEST(Timeline, KeepsListsOfLossesInBoundedMemory)
+{
+    Profile profile;
+    profile.path.up.loss = {ListedLoss{std::vector<std::uint64_t>(Timeline::listed_max / 3)}};
+    for (int i = 1; i <= 3; ++i) profile.timeline.push_back({1s * i, {}, {}, {}});
+    EXPECT_FALSE(Timeline::fault_of(profile));
+    profile.timeline.push_back({4s, {}, {}, {}});
+    const auto fault = Timeline::fault_of(profile);
+    ASSERT_TRUE(fault);
+    EXPECT_EQ(fault->change, 3U);
 }
 
 TEST(Timeline, ChangesAtOneTimeHoldInTheirOrder)
