@@ -51,6 +51,21 @@ Crossing cross(const std::string& path, std::vector<std::string> options)
     return crossing;
 }
 
+/// The rows of one direction, up to and with their `columns`-th column.
+std::vector<std::string> rows_of(const std::string& fates, std::string_view direction,
+                                 std::size_t columns)
+{
+    std::vector<std::string> rows;
+    std::istringstream lines{fates};
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(direction)) continue;
+        std::size_t end = 0;
+        for (std::size_t i = 0; i < columns; ++i) end = line.find(',', end + 1);
+        rows.push_back(line.substr(0, end));
+    }
+    return rows;
+}
+
 } // namespace
 
 TEST(EmulatorRecords, FatesThatAreEqualForEqualSeedsAndCanBeReplayed)
@@ -68,6 +83,40 @@ TEST(EmulatorRecords, FatesThatAreEqualForEqualSeedsAndCanBeReplayed)
     EXPECT_EQ(replayed.up, original.up);
     EXPECT_EQ(replayed.down, original.down);
     EXPECT_NE(original.up, original.down);
+}
+
+TEST(EmulatorRecords, FatesThatAreTheSameWhateverElseIsSwitchedOn)
+{
+    constexpr std::size_t all = 10;
+    constexpr std::size_t to_delay = 6; // what follows belongs to the stages after it
+    const TemporaryFolder folder;
+    const std::vector<std::string> options{
+        "--seed",   "7",
+        "--loss",   R"(["20%", { law = "gilbert", share = "10%", mean_burst = 3 }])",
+        "--delay",  "20ms",
+        "--jitter", "5ms"};
+    const auto with = [&](const char* name, const std::vector<std::string>& more) {
+        auto words = options;
+        words.insert(words.end(), more.begin(), more.end());
+        return cross(folder.file(name), words).fates;
+    };
+    const auto plain = with("plain.csv", {});
+    ASSERT_EQ(rows_of(plain, "up,", all).size(), 400U);
+
+    const auto other_way =
+        with("way.csv", {"--pcap", folder.file("run.pcapng"), "--control", folder.file("socket"),
+                         "--timing", "eco", "--down.loss", "80%", "--down.delay", "5ms"});
+    EXPECT_EQ(rows_of(other_way, "up,", all), rows_of(plain, "up,", all));
+    EXPECT_NE(rows_of(other_way, "down,", all), rows_of(plain, "down,", all));
+
+    const auto stages =
+        with("stages.csv",
+             {"--mtu", "1400B", "--rate", "1Gbit/s", "--duplicate", "20%", "--corrupt", "20%",
+              "--reorder", "{ share = \"5%\", displacement = 3 }", "--order", "free"});
+    EXPECT_NE(rows_of(stages, "up,", all), rows_of(plain, "up,", all));
+    for (const char* direction : {"up,", "down,"}) {
+        EXPECT_EQ(rows_of(stages, direction, to_delay), rows_of(plain, direction, to_delay));
+    }
 }
 
 TEST(EmulatorRecords, FatesThatCannotBeReadAreRefusedWithTheirPlace)
