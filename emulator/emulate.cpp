@@ -90,6 +90,7 @@ public:
     /// Writes the files and says how it went; gives the exit code.
     int finish()
     {
+        net::leave_real_time();
         recorder_.finish();
         if (stats_) {
             stats_->commit(statistics_json(run_));
@@ -136,7 +137,9 @@ private:
     /// Reads the profile again. One that is wrong changes nothing.
     void reload(base::TimePoint now)
     {
-        auto scenario = scenario_of(run_.options);
+        Options options = run_.options;
+        options.replay.reset(); // stays as it was read; reading it would hold up the relay
+        auto scenario = scenario_of(options);
         if (!scenario) {
             return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }

@@ -3,6 +3,7 @@
 #include "emulator/fates_file.hpp"
 
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,8 +20,15 @@ base::Result<Fates> read_fates(const std::string& path)
         return base::fail(fmt::format("cannot read {}: it is a folder", path));
     }
     std::ifstream file{path, std::ios::binary};
-    const std::string text{std::istreambuf_iterator<char>{file}, {}};
     if (!file) return base::fail(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+    // Whatever else it is may have no end.
+    std::string text(fates_header.size(), '\0');
+    text.resize(static_cast<std::size_t>(file.read(text.data(), std::ssize(text)).gcount()));
+    if (text == fates_header) {
+        text.append(std::istreambuf_iterator<char>{file}, {});
+    } else if (file) {
+        text += '\n';
+    }
     auto fates = parse_fates(text);
     if (!fates) return base::fail(fmt::format("{}: {}", path, fates.error().message));
     return fates;

@@ -40,8 +40,8 @@ base::Result<Side> look_up_side(const char* name, const net::HostPort& listen,
 /// Whether what is sent to `peer` arrives where the emulator itself listens.
 bool is_own(const net::Endpoint& peer, const net::Endpoint& listen)
 {
-    return peer == listen ||
-           (listen.is_any() && peer.is_loopback() && peer.port() == listen.port());
+    return peer == listen || (listen.is_any() && peer.is_loopback() &&
+                              peer.port() == listen.port() && peer.family() == listen.family());
 }
 
 /// A datagram that is sent to the emulator itself would go round for ever.

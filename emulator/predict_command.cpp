@@ -112,7 +112,12 @@ std::string in_words(std::string_view title, const DirectionPrediction& of,
         text += fmt::format(", runs of {:.4g} on average, {} at most", *of.loss_run_mean(),
                             of.loss_run_max);
     }
-    text += fmt::format("\n  drawn      {}\n", in_words(lens.requested_delay));
+    text += "\n";
+    for (const DropCause cause : {DropCause::rate_queue_full, DropCause::queue_full}) {
+        if (s.dropped_by(cause) == 0) continue;
+        text += fmt::format("  dropped    {} by {}\n", s.dropped_by(cause), to_text(cause));
+    }
+    text += fmt::format("  drawn      {}\n", in_words(lens.requested_delay));
     text += fmt::format("  delay      {}; {:+.4g} ms by the order and the queue\n",
                         in_words(lens.delay), in_ms(of.added_by_queues));
     text += fmt::format("             {}\n", in_words(lens.delay_quantiles));

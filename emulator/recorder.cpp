@@ -5,6 +5,7 @@
 #include "emulator/core/fates/fates.hpp"
 #include "proto/base/version.hpp"
 #include "proto/net/clock.hpp"
+#include "proto/net/real_time.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -14,7 +15,6 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <netinet/in.h>
-#include <sched.h>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
 #include <unistd.h>
@@ -215,9 +215,7 @@ void Recorder::put(const Sight& sight, const std::variant<Fate, Departed>& what)
 /// The thread: writes what waits, and sleeps. Polling, so that the relay need not wake it.
 void Recorder::run()
 {
-    // The relay's real-time priority is inherited; it is not for files.
-    const sched_param normal{};
-    sched_setscheduler(0, SCHED_OTHER, &normal);
+    net::leave_real_time(); // that of the relay may be inherited; it is not for files
     const auto write = [this] {
         if (fates_) fates_->write();
         if (capture_) capture_->write();

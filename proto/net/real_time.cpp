@@ -37,6 +37,12 @@ RealTime request_real_time(int priority)
     return granted;
 }
 
+void leave_real_time()
+{
+    const sched_param normal{};
+    sched_setscheduler(0, SCHED_OTHER, &normal);
+}
+
 std::string RealTime::shortage() const
 {
     if (fifo && locked_memory) return "";

@@ -18,4 +18,7 @@ struct RealTime {
 /// locked memory for the process. Never fails: says what it got.
 [[nodiscard]] RealTime request_real_time(int priority);
 
+/// The calling thread is one of many again: before long work that nothing waits for.
+void leave_real_time();
+
 } // namespace hapnet::net

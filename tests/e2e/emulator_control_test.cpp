@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -154,6 +155,21 @@ TEST_F(Controlled, ReadsItsProfileAgainOnAHangupAndKeepsTheOldOneWhenTheNewOneIs
     emulator.process().signal(SIGHUP);
     EXPECT_EQ(asked({"wait", "--until", "generation>=2", "--timeout", "5s"})["met"], true);
     EXPECT_NE(ctl({"show"}).out.find("delay = \"80ms\""), std::string::npos);
+    std::ignore = emulator.stop();
+}
+
+TEST_F(Controlled, ReadsTheFatesThatItReplaysOnce)
+{
+    const std::string profile = folder.file("profile.toml");
+    const std::string fates = folder.file("fates.csv");
+    std::ofstream{profile} << "both.rate = \"1Mbit/s\"\n";
+    std::ofstream{fates} << "direction,number,verdict,cause,states,delay_ns,copy_after_ns,"
+                            "flipped_bits,displaced_places,displaced_ns\n";
+    Emulator emulator{{"--profile", profile, "--replay", fates, "--control", socket}};
+    std::filesystem::remove(fates);
+    std::ofstream{profile} << "both.rate = \"2Mbit/s\"\n";
+    emulator.process().signal(SIGHUP);
+    EXPECT_EQ(asked({"wait", "--until", "generation>=2", "--timeout", "5s"})["met"], true);
     std::ignore = emulator.stop();
 }
 

@@ -85,6 +85,7 @@ TEST(EmulatorUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
     expect_refusal(run_with({"--a", "127.0.0.1:70000"}), 2, {"--a", "65535"});
     expect_refusal(run_with({"--delay", "1ms", "--delay", "2ms"}), 2, {"--delay"});
     expect_refusal(run_with({"--delay"}), 2, {"--delay"});
+    expect_refusal(run_with({"--replay", "/dev/zero"}), 2, {"line 1: expected 'direction"});
     expect_refusal(run_with({"--replay", "/tmp"}), 2, {"cannot read /tmp: it is a folder"});
 }
 
