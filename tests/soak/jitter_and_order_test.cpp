@@ -143,9 +143,9 @@ std::vector<Row> compare(const std::vector<Row>& batch, std::int64_t packets)
         std::ofstream{profiles.back()} << fmt::format(
             "seed = 42\n[up]\ndelay = \"100ms\"\njitter = {{ {} }}\norder = \"{}\"\n", row.jitter,
             row.order);
-        emulators.emplace_back(std::vector<std::string>{"--profile", profiles.back(), "--budget",
-                                                        "500us", "--a", a.endpoint().to_text(),
-                                                        "--b", b.endpoint().to_text()});
+        emulators.emplace_back(std::vector<std::string>{"--profile", profiles.back(), "--a",
+                                                        a.endpoint().to_text(), "--b",
+                                                        b.endpoint().to_text()});
     }
     std::thread{[&] { send(a, emulators, packets); }}.join();
     net::sleep_until(net::monotonic_now() + 300ms);
