@@ -126,7 +126,12 @@ void send(e2e::Host& a, const std::list<e2e::Emulator>& emulators, std::int64_t 
     }
 }
 
-void compare(const std::vector<Row>& batch, std::int64_t packets)
+/// The machine has stopped the emulator for so long that the row says nothing: a stop of T ms adds
+/// T^3 / 3 ms^2 to the sum of squares, at 10 ms and 5000 datagrams 0.07 ms^2 to the variance.
+bool is_spoilt(const json& up) { return up.at("lateness_us").at("max").get<double>() > 10'000.0; }
+
+/// Gives back the rows that were spoilt.
+std::vector<Row> compare(const std::vector<Row>& batch, std::int64_t packets)
 {
     const e2e::TemporaryFolder folder;
     e2e::Host a;
@@ -144,6 +149,7 @@ void compare(const std::vector<Row>& batch, std::int64_t packets)
     }
     std::thread{[&] { send(a, emulators, packets); }}.join();
     net::sleep_until(net::monotonic_now() + 300ms);
+    std::vector<Row> spoilt;
     auto emulator = emulators.begin();
     for (std::size_t i = 0; i < batch.size(); ++i, ++emulator) {
         SCOPED_TRACE(fmt::format("{}, {}", batch[i].name, batch[i].order));
@@ -152,9 +158,16 @@ void compare(const std::vector<Row>& batch, std::int64_t packets)
         const Outcome expected = predicted(profiles[i], packets);
         const Outcome actual = live(up);
         print(batch[i], expected, actual, up);
-        expect_equal(expected, actual);
+        if (is_spoilt(up)) {
+            fmt::print("  {:26}  again: late by {} us at most\n", "",
+                       up.at("lateness_us").at("max").dump());
+            spoilt.push_back(batch[i]);
+        } else {
+            expect_equal(expected, actual);
+        }
     }
     std::fflush(stdout);
+    return spoilt;
 }
 
 } // namespace
@@ -168,7 +181,11 @@ TEST(JitterAndOrder, DoLiveWhatPredictSays)
     constexpr std::ptrdiff_t at_a_time = 5;
     for (auto first = rows().begin(); first != rows().end();) {
         const auto last = first + std::min(at_a_time, rows().end() - first);
-        compare({first, last}, packets);
+        std::vector<Row> batch{first, last};
+        for (int attempt = 0; attempt < 3 && !batch.empty(); ++attempt) {
+            batch = compare(batch, packets);
+        }
+        EXPECT_TRUE(batch.empty()) << "the machine stopped it three times: " << batch.front().name;
         first = last;
     }
 }

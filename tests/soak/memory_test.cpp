@@ -133,6 +133,17 @@ std::uint64_t lines_of(const std::string& path)
     return lines;
 }
 
+void print(const char* direction, const nlohmann::json& of)
+{
+    const auto& late = of["lateness_us"];
+    fmt::print("  {:4}: {} in, {} out, {} overflowed, late by p50 {} us, p99 {} us, max {} us\n",
+               direction, of["received"].dump(), of["delivered"].dump(), of["overflowed"].dump(),
+               late["p50"].dump(), late["p99"].dump(), late["max"].dump());
+    for (const auto& [cause, count] : of["dropped"].items()) {
+        if (count != 0) fmt::print("        {} {}\n", count.dump(), cause);
+    }
+}
+
 } // namespace
 
 TEST(Soak, MemoryStaysFlatWithEverythingSwitchedOn)
@@ -167,12 +178,7 @@ TEST(Soak, MemoryStaysFlatWithEverythingSwitchedOn)
         EXPECT_GT(of["reordered"], 0);
         EXPECT_GT(of["dropped"]["mtu"], 0);
         EXPECT_EQ(of["in_flight"], 0);
-        fmt::print("  {:4}: {} in, {} out, {} overflowed, lateness p50 {} us, p99 {} us, max {} "
-                   "us, dropped {}\n",
-                   direction, of["received"].dump(), of["delivered"].dump(),
-                   of["overflowed"].dump(), of["lateness_us"]["p50"].dump(),
-                   of["lateness_us"]["p99"].dump(), of["lateness_us"]["max"].dump(),
-                   of["dropped"].dump());
+        print(direction, of);
     }
     EXPECT_EQ(traffic.sent(), received + statistics["overflowed"].get<std::uint64_t>());
     EXPECT_GT(static_cast<double>(traffic.sent()),
