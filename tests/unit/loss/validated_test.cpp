@@ -42,7 +42,7 @@ TEST(ValidatedLoss, WantsBurstsLongEnoughForTheirShare)
 TEST(ValidatedLoss, WantsCountsAndPhasesWithinTheirPeriod)
 {
     EXPECT_EQ(refusal(BlockLoss{101, 100}),
-              "loses 101 of 100: at least 1 is lost, and at most all");
+              "loses 101 of 100: at least 1 is lost, and at most all, as in 40/100");
     EXPECT_NE(refusal(BlockLoss{0, 100}), "");
     EXPECT_NE(refusal(BlockLoss{0, 0}), "");
     EXPECT_EQ(refusal(PeriodicLoss{10, 10}), "the phase 10 is not within the period: write 0 to 9");

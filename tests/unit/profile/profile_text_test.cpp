@@ -106,7 +106,7 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
               "belongs");
     EXPECT_EQ(refusal("[up]\nloss = \"150%\"\n"), "test.toml:2:8: '150%' is more than 100%");
     EXPECT_EQ(refusal("[up]\nloss = \"101/100\"\n"),
-              "test.toml:2:8: loses 101 of 100: at least 1 is lost, and at most all");
+              "test.toml:2:8: loses 101 of 100: at least 1 is lost, and at most all, as in 40/100");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"uniform\" }\n"),
               "test.toml:2:10: 'half_width' is missing here");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"unifrom\" }\n"),
