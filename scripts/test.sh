@@ -53,9 +53,8 @@ check_tidy() {
         xargs -P "$(nproc)" -n 4 clang-tidy-14 -p build/asan --quiet
 }
 
-# Builds a preset and runs its tests but those end to end. Which kinds of tests those are, the preset
-# says. The sanitizers' build is Clang's: so the tests also see whether another compiler gives other
-# bits.
+# Builds a preset and runs its tests but those end to end. Which kinds those are, the preset says.
+# The sanitizers' build is Clang's: so the tests also see whether another compiler gives other bits.
 run_preset() {
     local preset=$1
     step "$preset configure" cmake --preset "$preset" &&
