@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/base/space.hpp"
+
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::scene {
+
+/// How bodies behave where they touch. Of two that touch, friction is the geometric mean and
+/// restitution the greater of the two.
+struct Material {
+    double friction = 0.0;    // Coulomb's coefficient, 0..10
+    double restitution = 0.0; // 0: no bounce, 1: elastic
+};
+
+/// What may turn: everything, nothing, or about one axis of the world alone.
+enum class Turning : std::uint8_t { free, locked, about_x, about_y, about_z };
+
+/// A solid box of even density.
+struct BodyDescription {
+    std::string name;
+    bool movable = true;
+    glm::dvec3 half{0.02}; // half the edges, metres
+    base::Position position;
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // unit, from the body's frame to the world's
+    base::Velocity velocity;
+    glm::dvec3 angular_velocity{0.0}; // rad/s, in the world's frame
+    double mass_kg = 0.1;
+    Turning turning = Turning::free;
+    bool locked_x = false; // its centre keeps this coordinate
+    bool locked_y = false;
+    bool locked_z = false;
+    Material material;
+    double drag_ns_per_m = 0.0; // viscous friction on the plane that carries it, tangential
+};
+
+/// A half-space that carries bodies and is not felt by a hand: the work platform, walls.
+struct PlaneDescription {
+    std::string name;
+    glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, out of the solid side
+    double offset_m = 0.0;            // of its points p: dot(normal, p) = offset
+    Material material;
+};
+
+/// The hands' spheres (haptic interface points), all alike: a spring and a damper, without
+/// friction, between the sphere and what it touches.
+struct HipDescription {
+    double radius_m = 0.005;
+    double stiffness_n_per_m = 500.0;
+    double damping_ns_per_m = 2.0;
+    double force_max_n = 3.3;    // of one contact; infinity: not limited
+    double grip_reach_m = 0.005; // how near the surface a hand must be to take hold
+    std::uint32_t count = 2;     // 0..hips_max
+};
+
+/// What a scene is, before it is frozen: a value that anything may build, print or compare.
+struct Description {
+    std::string name;
+    std::vector<BodyDescription> bodies; // a body's id is its index
+    std::vector<PlaneDescription> planes;
+    HipDescription hips;
+    glm::dvec3 gravity{0.0, -9.81, 0.0}; // m/s^2
+};
+
+inline constexpr std::uint32_t hips_max = 8;
+inline constexpr std::uint32_t bodies_max = 100'000;
+inline constexpr std::uint32_t planes_max = 64;
+
+// The ranges of what a description or an input may say. What is beyond is refused: within them
+// nothing overflows.
+inline constexpr double reach_max_m = 1e3;
+inline constexpr double speed_max_m_per_s = 1e4;
+inline constexpr double turn_max_rad_per_s = 1e4;
+inline constexpr double size_min_m = 1e-4;
+inline constexpr double size_max_m = 1e2;
+inline constexpr double mass_min_kg = 1e-6;
+inline constexpr double mass_max_kg = 1e6;
+inline constexpr double stiffness_max_n_per_m = 1e9;
+inline constexpr double damping_max_ns_per_m = 1e6;
+inline constexpr double force_max_n = 1e6;
+
+/// What is wrong with a description, with the name of the part and what was expected; nothing
+/// when it may be frozen.
+[[nodiscard]] base::Result<void> check(const Description& description);
+
+/// Equal for equal scenes on every machine; peers refuse each other when it differs. Names count
+/// for nothing.
+[[nodiscard]] std::uint64_t hash(const Description& description);
+
+/// The paper's scene with the constants it leaves open chosen so that softness grows
+/// monotonically with delay: drag >= sqrt(2 k m). The static cube stands where it stops the
+/// moving one at x = 74.7 mm, offset in z so that it leaves the right hand its way.
+[[nodiscard]] Description paper_scene();
+
+} // namespace hapnet::scene

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <span>
+
+namespace hapnet::scene {
+
+/// A rigid body in the middle of a tick, in the world's frame.
+struct MovingBody {
+    glm::dvec3 position{0.0};
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 velocity{0.0};
+    glm::dvec3 angular_momentum{0.0};
+};
+
+/// How it answers to forces; held for the tick.
+struct Answer {
+    glm::dvec3 inverse_mass{0.0};
+    glm::dmat3 inverse_inertia{0.0}; // world's frame, at the start of the tick
+    glm::dvec3 acceleration{0.0};    // of everything but the hands
+    glm::dvec3 torque{0.0};          // of everything but the hands, N m
+};
+
+/// A hand's spring on a body: unilateral along its normal, or, when it holds, in all directions.
+struct HipSpring {
+    glm::dvec3 normal{0.0};   // unit, from the body to the hand
+    glm::dvec3 arm{0.0};      // from the body's centre to where the spring acts
+    double gap = 0.0;         // along the normal at the start of the tick; < 0: overlap
+    glm::dvec3 velocity{0.0}; // of the hand, held for the tick
+    double stiffness = 0.0;
+    double damping = 0.0;
+    double force_max = std::numeric_limits<double>::infinity();
+    bool holds = false;      // it also pulls, and `stretch` says how far in every direction
+    glm::dvec3 stretch{0.0}; // hand minus where it is held; used when it holds
+};
+
+/// What a spring did in the tick.
+struct HipWork {
+    glm::dvec3 impulse{0.0}; // on the body, N s
+};
+
+/// Advances a body by one tick under constant other forces and its hands' springs: exact for one
+/// unilateral spring with its normal and arm held (a scalar oscillator with the effective mass),
+/// and for two (its two modes); for more, or springs that hold, by the midpoint rule, which neither
+/// makes nor loses energy, in sub-ticks. A spring that begins or ends to act within the tick does
+/// so at its moment.
+void advance(MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
+             std::span<HipWork> work, double tick);
+
+} // namespace hapnet::scene
