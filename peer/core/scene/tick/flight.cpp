@@ -39,14 +39,14 @@ struct Turns {
 };
 
 /// The turn of every body of the range. Returns how many turn too far for the short series.
-std::int64_t find_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange range,
-                        const double* half_turn_by_momentum)
+double find_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange range,
+                  const double* half_turn_by_momentum)
 {
     const double* const lx = momentum.x.data() + range.begin;
     const double* const ly = momentum.y.data() + range.begin;
     const double* const lz = momentum.z.data() + range.begin;
     const std::size_t count = range.end - range.begin;
-    std::int64_t far = 0;
+    double far = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         const double rate = half_turn_by_momentum[i];
         const double x = rate * lx[i];
@@ -58,7 +58,7 @@ std::int64_t find_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange 
         turns.x[i] = turn.sinc * x;
         turns.y[i] = turn.sinc * y;
         turns.z[i] = turn.sinc * z;
-        far += square <= small_turn_max ? 0 : 1;
+        far += square <= small_turn_max ? 0.0 : 1.0;
     }
     return far;
 }
@@ -123,7 +123,7 @@ void turn_evenly(Bodies& bodies, SlotRange range, std::span<const double> invers
         const SlotRange some{range.begin, range.begin + count};
         for (std::size_t i = 0; i < count; ++i)
             rate[i] = (0.5 * tick) * inverse_inertia[some.begin + i];
-        if (find_turns(turns, bodies.angular_momentum, some, rate.data()) != 0)
+        if (find_turns(turns, bodies.angular_momentum, some, rate.data()) != 0.0)
             find_far_turns(turns, bodies.angular_momentum, some, rate.data());
         apply(turns, bodies.orientation, some);
         range.begin = some.end;
@@ -135,17 +135,10 @@ bool turns_evenly(const BodyForm& form)
     return form.turning != Turning::free || form.is_isotropic;
 }
 
-double even_inverse_inertia(const Bodies& bodies, Slot slot)
+double even_inverse_inertia(const BodyForm& form)
 {
-    const BodyForm& form = bodies.form[slot];
-    switch (form.turning) {
-    case Turning::free: return form.inverse_inertia.x;
-    case Turning::locked: return 0.0;
-    case Turning::about_x: return bodies.turned_by(slot, {1.0, 0.0, 0.0}).x;
-    case Turning::about_y: return bodies.turned_by(slot, {0.0, 1.0, 0.0}).y;
-    case Turning::about_z: return bodies.turned_by(slot, {0.0, 0.0, 1.0}).z;
-    }
-    return 0.0;
+    const glm::dvec3& about = form.inverse_inertia;
+    return std::max(std::max(about.x, about.y), about.z);
 }
 
 void turn_freely(Bodies& bodies, Slot slot, double tick)
@@ -171,7 +164,7 @@ FlightTick::FlightTick(const Description& /*description*/, const Frozen& frozen,
 {
     for (Slot slot = 0; slot < stage.bodies.movable; ++slot) {
         const BodyForm& form = stage.bodies.form[slot];
-        inverse_inertia_[slot] = even_inverse_inertia(stage.bodies, slot);
+        inverse_inertia_[slot] = even_inverse_inertia(form);
         const Kind kind = form.turning == Turning::locked ? Kind::locked
                           : turns_evenly(form)            ? Kind::even
                                                           : Kind::wobbling;
@@ -202,16 +195,9 @@ void FlightTick::tick(const Frozen& frozen, Stage& stage)
         const glm::dvec3 gained = tick * (bodies.form[slot].inverse_mass * stage.pushes[id]);
         bodies.position.put(slot, bodies.position.at(slot) + (0.5 * tick) * gained);
         bodies.velocity.put(slot, bodies.velocity.at(slot) + gained);
-        stage.pushes[id] = glm::dvec3{0.0};
     }
-    stage.pushed.clear();
 }
 
-void FlightTick::disturbed(Stage& stage, BodyId body)
-{
-    // About one axis of the world the inertia depends on how the body was put there.
-    const Slot slot = stage.bodies.slot_of[body];
-    inverse_inertia_[slot] = even_inverse_inertia(stage.bodies, slot);
-}
+void FlightTick::disturbed(Stage& /*stage*/, BodyId /*body*/) {}
 
 } // namespace hapnet::scene

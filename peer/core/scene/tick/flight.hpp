@@ -24,12 +24,11 @@ void fall(Bodies& bodies, SlotRange range, const glm::dvec3& acceleration, doubl
 void turn_evenly(Bodies& bodies, SlotRange range, std::span<const double> inverse_inertia,
                  double tick);
 
-/// What keeps a body from wobbling: the inverse inertia about the only axis that it can turn about
-/// when nothing touches it; 0 when it cannot turn.
-[[nodiscard]] double even_inverse_inertia(const Bodies& bodies, Slot slot);
-
 /// Whether a body turns evenly, or not at all.
 [[nodiscard]] bool turns_evenly(const BodyForm& form);
+
+/// The inverse inertia of a body that turns evenly, about whatever axis it turns; 0 when it cannot.
+[[nodiscard]] double even_inverse_inertia(const BodyForm& form);
 
 /// Turns one body of any kind by one tick in which nothing touches it.
 void turn_freely(Bodies& bodies, Slot slot, double tick);
