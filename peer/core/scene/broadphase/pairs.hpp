@@ -51,9 +51,15 @@ public:
     [[nodiscard]] const Pair& operator[](PairIndex index) const { return pairs_[index]; }
 
     /// By (a, b). Valid until the next settle().
-    [[nodiscard]] std::span<const PairIndex> active() const;
+    [[nodiscard]] std::span<const PairIndex> active() const
+    {
+        return {active_.data(), active_.size()};
+    }
     /// Which of them the last settle() added, by (a, b).
-    [[nodiscard]] std::span<const PairIndex> added() const;
+    [[nodiscard]] std::span<const PairIndex> added() const
+    {
+        return {added_.data(), added_.size()};
+    }
     [[nodiscard]] std::uint32_t size() const { return size_; }
     /// Pairs that did not fit.
     [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
@@ -62,7 +68,10 @@ public:
     void add(std::uint32_t a, std::uint32_t b, bool is_active);
     void remove(PairIndex index);
     void set_active(PairIndex index, bool is_active);
-    [[nodiscard]] bool is_active(PairIndex index) const { return links_[index].is_active; }
+    [[nodiscard]] bool is_active(PairIndex index) const
+    {
+        return (marks_[index] & active_mark) != 0;
+    }
     /// Brings the list of active pairs up to date. Costs nothing when nothing has changed.
     void settle();
 
@@ -96,17 +105,22 @@ private:
         PairIndex previous_first = none;
         PairIndex next_second = none;
         PairIndex previous_second = none;
-        bool is_active = false;
-        bool is_listed = false; // in active_ or coming_
     };
 
-    [[nodiscard]] std::uint64_t key(PairIndex index) const;
+    // Marks: in the list of the active ones (or in it after the next settle()); listed in active_
+    // or coming_.
+    static constexpr std::uint8_t active_mark = 1;
+    static constexpr std::uint8_t listed = 2;
+
+    void link(PairIndex index);
     void unlink(PairIndex index);
     void drop_parked();
     void merge_coming();
 
     Reserved<Pair> pairs_;
     Reserved<Links> links_;
+    Reserved<std::uint64_t> keys_; // a, then b
+    Reserved<std::uint8_t> marks_;
     Reserved<PairIndex> free_;
     std::vector<PairIndex> first_, second_; // heads of the lists
     Reserved<PairIndex> active_, coming_, added_;
