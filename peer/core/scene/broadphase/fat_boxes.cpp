@@ -156,7 +156,7 @@ inline std::uint64_t has_left_at(const Lanes& l, std::size_t i)
 
 } // namespace
 
-void FatBoxes::find_left(const Bodies& bodies, Reserved<Slot>& left) const
+void FatBoxes::find_left(const Bodies& bodies, Bounded<Slot>& left) const
 {
     const auto three = [](const Bodies::Lanes3& l) {
         return std::array<const double*, 3>{l.x.data(), l.y.data(), l.z.data()};
@@ -181,7 +181,7 @@ void FatBoxes::find_left(const Bodies& bodies, Reserved<Slot>& left) const
             any = 1;
         if (any == 0) continue;
         for (std::size_t i = first; i < last; ++i)
-            if (has_left_at(all, i) != 0) left.push_back(static_cast<Slot>(i));
+            if (has_left_at(all, i) != 0) left.add(static_cast<Slot>(i));
     }
 }
 

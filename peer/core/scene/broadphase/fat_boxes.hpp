@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/scene/bounded.hpp"
 #include "peer/core/scene/broadphase/box.hpp"
-#include "peer/core/scene/reserved.hpp"
 #include "peer/core/scene/stage.hpp"
 
 #include <array>
@@ -24,7 +24,7 @@ public:
     FatBoxes(const Frozen& frozen, const Bodies& bodies);
 
     /// Adds the slots of the awake bodies that leave their boxes within this tick, or have.
-    void find_left(const Bodies& bodies, Reserved<Slot>& left) const;
+    void find_left(const Bodies& bodies, Bounded<Slot>& left) const;
     /// A new box around a body and where it is going.
     [[nodiscard]] Box renew(const Bodies& bodies, Slot slot);
     /// Says that another body lies in an awake slot.

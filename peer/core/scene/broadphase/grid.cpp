@@ -99,7 +99,7 @@ void Grid::put_in(BodyId id)
     if (largest_edge(node.box) > cell_) {
         node.key = key_of_large;
         node.previous = static_cast<BodyId>(large_.size());
-        large_.push_back(id);
+        large_.add(id);
         return;
     }
     const glm::dvec3 centre = node.box.centre();
@@ -115,10 +115,9 @@ void Grid::take_out(BodyId id)
 {
     const Node& node = nodes_[id];
     if (node.key == key_of_large) {
-        const BodyId last = large_.back();
-        large_[node.previous] = last;
+        const BodyId last = large_.take_last();
+        if (last != id) large_[node.previous] = last;
         nodes_[last].previous = node.previous;
-        large_.pop_back();
         return;
     }
     if (node.next != none) nodes_[node.next].previous = node.previous;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "peer/core/scene/bodies.hpp"
+#include "peer/core/scene/bounded.hpp"
 #include "peer/core/scene/broadphase/box.hpp"
-#include "peer/core/scene/reserved.hpp"
 
 #include <array>
 #include <span>
@@ -80,7 +80,7 @@ private:
 
     std::vector<Node> nodes_; // by id
     std::vector<BodyId> heads_;
-    Reserved<BodyId> large_;
+    Bounded<BodyId> large_;
     double cell_ = 1.0;
     double cells_per_m_ = 1.0;
     std::uint64_t mask_ = 0;

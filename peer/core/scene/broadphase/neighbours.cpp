@@ -65,7 +65,7 @@ Neighbours<search>::Neighbours(const Frozen& frozen, const Bodies& bodies)
       stamps_(bodies.size(), 0)
 {
     for (std::uint32_t hand = 0; hand < frozen.hips.count; ++hand)
-        hands_.push_back({Box{glm::dvec3{1.0}, glm::dvec3{-1.0}}, Reserved<BodyId>{bodies.size()}});
+        hands_.push_back({Box{glm::dvec3{1.0}, glm::dvec3{-1.0}}, Bounded<BodyId>{bodies.size()}});
     for (Slot slot = 0; slot < bodies.movable; ++slot) meet(bodies, bodies.form[slot].id);
     settle();
 }
@@ -128,18 +128,17 @@ void Neighbours<search>::meet_planes(const Box& box, BodyId id, bool is_awake)
 template <Search search>
 void Neighbours<search>::show(Hand& hand, BodyId id)
 {
-    Reserved<BodyId>& bodies = hand.bodies;
-    const auto place = std::lower_bound(bodies.begin(), bodies.end(), id);
+    Bounded<BodyId>& bodies = hand.bodies;
+    BodyId* const place = std::lower_bound(bodies.begin(), bodies.end(), id);
     const bool is_there = place != bodies.end() && *place == id;
     const bool belongs = overlap(hand.box, found_.box(id));
     if (is_there == belongs) return;
     if (is_there) {
         std::copy(place + 1, bodies.end(), place);
-        bodies.pop_back();
+        bodies.resize(bodies.size() - 1);
     } else {
-        const auto index = place - bodies.begin();
-        bodies.push_back(id);
-        std::rotate(bodies.begin() + index, bodies.end() - 1, bodies.end());
+        bodies.add(id); // its room is for all: `place` stays
+        std::rotate(place, bodies.end() - 1, bodies.end());
     }
 }
 
@@ -159,10 +158,10 @@ std::span<const BodyId> Neighbours<search>::reached_by(std::uint32_t index, cons
         hand.box =
             grown({needed.low + along.low, needed.high + along.high}, glm::dvec3{path.radius});
         hand.bodies.clear();
-        found_.near(hand.box, [&](BodyId id) { hand.bodies.push_back(id); });
+        found_.near(hand.box, [&](BodyId id) { hand.bodies.add(id); });
         std::sort(hand.bodies.begin(), hand.bodies.end());
     }
-    return {hand.bodies.data(), hand.bodies.size()};
+    return hand.bodies.all();
 }
 
 template <Search search>

@@ -79,7 +79,7 @@ private:
     /// A hand's fat box and who lies in it, by their ids.
     struct Hand {
         Box box;
-        Reserved<BodyId> bodies;
+        Bounded<BodyId> bodies;
     };
     using Finder = std::conditional_t<search == Search::scan, Scan, Grid>;
 
@@ -93,7 +93,7 @@ private:
     PairSet pairs_;
     PairSet planes_;
     std::vector<Hand> hands_;
-    Reserved<Slot> left_;
+    Bounded<Slot> left_;
     std::vector<std::uint64_t> stamps_; // by id: who is a pair already with the one that renews
     std::uint64_t stamp_ = 0;
     std::uint64_t renewed_ = 0;

@@ -30,20 +30,19 @@ PairSet::PairSet(Room room)
 
 void PairSet::add(std::uint32_t a, std::uint32_t b, bool is_active)
 {
-    if (pairs_.full() && free_.empty()) {
+    if (pairs_.is_full() && free_.is_empty()) {
         ++left_out_;
         return;
     }
     PairIndex index = 0;
-    if (free_.empty()) {
+    if (free_.is_empty()) {
         index = static_cast<PairIndex>(pairs_.size());
-        pairs_.push_back({});
-        links_.push_back({});
-        keys_.push_back(0);
-        marks_.push_back(0);
+        pairs_.add({});
+        links_.add({});
+        keys_.add(0);
+        marks_.add(0);
     } else {
-        index = free_.back();
-        free_.pop_back();
+        index = free_.take_last();
     }
     pairs_[index] = {a, b, {}};
     keys_[index] = std::uint64_t{a} << 32U | b;
@@ -58,11 +57,11 @@ void PairSet::remove(PairIndex index)
     unlink(index);
     --size_;
     if ((marks_[index] & listed) == 0) {
-        free_.push_back(index);
+        free_.add(index);
         return;
     }
     marks_[index] = listed; // its place is free once it is off the list
-    going_.push_back(index);
+    going_.add(index);
     has_parked_ = true;
 }
 
@@ -73,7 +72,7 @@ void PairSet::set_active(PairIndex index, bool is_active)
         has_parked_ = true;
         return;
     }
-    if ((marks_[index] & listed) == 0) coming_.push_back(index);
+    if ((marks_[index] & listed) == 0) coming_.add(index);
     marks_[index] = active_mark | listed;
 }
 
@@ -81,15 +80,15 @@ void PairSet::settle()
 {
     added_.clear();
     if (has_parked_) drop_parked();
-    if (!coming_.empty()) merge_coming();
-    for (const PairIndex index : going_) free_.push_back(index);
+    if (!coming_.is_empty()) merge_coming();
+    for (const PairIndex index : going_) free_.add(index);
     going_.clear();
 }
 
 void PairSet::drop_parked()
 {
     has_parked_ = false;
-    for (Reserved<PairIndex>* list : {&active_, &coming_}) {
+    for (Bounded<PairIndex>* list : {&active_, &coming_}) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < list->size(); ++i) {
             const PairIndex index = (*list)[i];

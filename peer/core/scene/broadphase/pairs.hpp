@@ -3,8 +3,8 @@
 #pragma once
 
 #include "peer/core/scene/bodies.hpp"
+#include "peer/core/scene/bounded.hpp"
 #include "peer/core/scene/contact/box_box.hpp"
-#include "peer/core/scene/reserved.hpp"
 
 #include <array>
 #include <span>
@@ -51,15 +51,9 @@ public:
     [[nodiscard]] const Pair& operator[](PairIndex index) const { return pairs_[index]; }
 
     /// By (a, b). Valid until the next settle().
-    [[nodiscard]] std::span<const PairIndex> active() const
-    {
-        return {active_.data(), active_.size()};
-    }
+    [[nodiscard]] std::span<const PairIndex> active() const { return active_.all(); }
     /// Which of them the last settle() added, by (a, b).
-    [[nodiscard]] std::span<const PairIndex> added() const
-    {
-        return {added_.data(), added_.size()};
-    }
+    [[nodiscard]] std::span<const PairIndex> added() const { return added_.all(); }
     [[nodiscard]] std::uint32_t size() const { return size_; }
     /// Pairs that did not fit.
     [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
@@ -117,14 +111,14 @@ private:
     void drop_parked();
     void merge_coming();
 
-    Reserved<Pair> pairs_;
-    Reserved<Links> links_;
-    Reserved<std::uint64_t> keys_; // a, then b
-    Reserved<std::uint8_t> marks_;
-    Reserved<PairIndex> free_;
+    Bounded<Pair> pairs_;
+    Bounded<Links> links_;
+    Bounded<std::uint64_t> keys_; // a, then b
+    Bounded<std::uint8_t> marks_;
+    Bounded<PairIndex> free_;
     std::vector<PairIndex> first_, second_; // heads of the lists
-    Reserved<PairIndex> active_, coming_, added_;
-    Reserved<PairIndex> going_; // removed, and still listed
+    Bounded<PairIndex> active_, coming_, added_;
+    Bounded<PairIndex> going_; // removed, and still listed
     std::uint32_t size_ = 0;
     std::uint64_t left_out_ = 0;
     bool has_parked_ = false;
