@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::base {
 
 /// Where something stands in a text; both count from 1.
 struct Place {
@@ -50,4 +50,4 @@ struct DocumentError {
 
 inline constexpr std::size_t document_bytes_max = 1 << 20;
 
-} // namespace hapnet::emulator
+} // namespace hapnet::base

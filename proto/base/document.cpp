@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/core/profile/document.hpp"
+#include "proto/base/document.hpp"
 
 #include "proto/base/ensure.hpp"
 
@@ -28,7 +28,7 @@
 #define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
-namespace hapnet::emulator {
+namespace hapnet::base {
 
 namespace {
 
@@ -152,4 +152,4 @@ tl::expected<Node, DocumentError> parse_document(std::string_view text)
     return convert(parsed.table());
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::base
