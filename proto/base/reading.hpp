@@ -27,8 +27,8 @@ class Reading {
 public:
     /// `source` names the text in complaints, as "FILE:LINE:COLUMN: ...". Without `has_lines` it
     /// is an option and stands alone: "up.delay: ...".
-    Reading(std::string source, const OpenFile& open, bool has_lines = true)
-        : source_{std::move(source)}, open_{open}, has_lines_{has_lines}
+    explicit Reading(std::string source, OpenFile open = {}, bool has_lines = true)
+        : source_{std::move(source)}, open_{std::move(open)}, has_lines_{has_lines}
     {}
 
     void complain(Place place, std::string_view what);
@@ -39,7 +39,7 @@ public:
 
 private:
     std::string source_;
-    const OpenFile& open_;
+    OpenFile open_;
     bool has_lines_;
     std::optional<std::string> complaint_;
 };
