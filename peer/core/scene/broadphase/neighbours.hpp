@@ -8,9 +8,9 @@
 #include "peer/core/scene/broadphase/scan.hpp"
 #include "peer/core/scene/stage.hpp"
 
-#include <array>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace hapnet::scene {
 
@@ -74,6 +74,30 @@ public:
         std::uint64_t pairs_left_out = 0; // beyond the bound; 0 unless bodies are heaped up
     };
     [[nodiscard]] Counts counts() const;
+
+private:
+    /// A hand's fat box and who lies in it, by their ids.
+    struct Hand {
+        Box box;
+        Bounded<BodyId> bodies;
+    };
+    using Finder = std::conditional_t<search == Search::scan, Scan, Grid>;
+
+    void meet(const Bodies& bodies, BodyId id);
+    void meet_planes(const Box& box, BodyId id, bool is_awake);
+    void show(Hand& hand, BodyId id);
+
+    std::vector<PlaneDescription> surfaces_;
+    FatBoxes fat_;
+    Finder found_;
+    PairSet pairs_;
+    PairSet planes_;
+    std::vector<Hand> hands_;
+    Bounded<Slot> left_;
+    std::vector<std::uint64_t> stamps_; // by id: who is a pair already with the one that renews
+    std::uint64_t stamp_ = 0;
+    std::uint64_t renewed_ = 0;
+    std::uint64_t hands_renewed_ = 0;
 };
 
 extern template class Neighbours<Search::scan>;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "peer/core/scene/bodies.hpp"
+#include "peer/core/scene/bounded.hpp"
 #include "peer/core/scene/contact/box_box.hpp"
-#include "peer/core/scene/reserved.hpp"
 
 #include <array>
 #include <span>
@@ -51,9 +51,9 @@ public:
     [[nodiscard]] const Pair& operator[](PairIndex index) const { return pairs_[index]; }
 
     /// By (a, b). Valid until the next settle().
-    [[nodiscard]] std::span<const PairIndex> active() const;
+    [[nodiscard]] std::span<const PairIndex> active() const { return active_.all(); }
     /// Which of them the last settle() added, by (a, b).
-    [[nodiscard]] std::span<const PairIndex> added() const;
+    [[nodiscard]] std::span<const PairIndex> added() const { return added_.all(); }
     [[nodiscard]] std::uint32_t size() const { return size_; }
     /// Pairs that did not fit.
     [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
@@ -62,7 +62,10 @@ public:
     void add(std::uint32_t a, std::uint32_t b, bool is_active);
     void remove(PairIndex index);
     void set_active(PairIndex index, bool is_active);
-    [[nodiscard]] bool is_active(PairIndex index) const { return links_[index].is_active; }
+    [[nodiscard]] bool is_active(PairIndex index) const
+    {
+        return (marks_[index] & active_mark) != 0;
+    }
     /// Brings the list of active pairs up to date. Costs nothing when nothing has changed.
     void settle();
 
@@ -96,21 +99,26 @@ private:
         PairIndex previous_first = none;
         PairIndex next_second = none;
         PairIndex previous_second = none;
-        bool is_active = false;
-        bool is_listed = false; // in active_ or coming_
     };
 
-    [[nodiscard]] std::uint64_t key(PairIndex index) const;
+    // Marks: in the list of the active ones (or in it after the next settle()); listed in active_
+    // or coming_.
+    static constexpr std::uint8_t active_mark = 1;
+    static constexpr std::uint8_t listed = 2;
+
+    void link(PairIndex index);
     void unlink(PairIndex index);
     void drop_parked();
     void merge_coming();
 
-    Reserved<Pair> pairs_;
-    Reserved<Links> links_;
-    Reserved<PairIndex> free_;
+    Bounded<Pair> pairs_;
+    Bounded<Links> links_;
+    Bounded<std::uint64_t> keys_; // a, then b
+    Bounded<std::uint8_t> marks_;
+    Bounded<PairIndex> free_;
     std::vector<PairIndex> first_, second_; // heads of the lists
-    Reserved<PairIndex> active_, coming_, added_;
-    Reserved<PairIndex> going_; // removed, and still listed
+    Bounded<PairIndex> active_, coming_, added_;
+    Bounded<PairIndex> going_; // removed, and still listed
     std::uint32_t size_ = 0;
     std::uint64_t left_out_ = 0;
     bool has_parked_ = false;
