@@ -48,9 +48,10 @@ void set_points(ContactBlock& block, const Manifold& manifold)
         block.along_1[i] = u;
         block.along_2[i] = v;
         block.separation[i] = manifold.points[i].separation;
-        arm += weight[i] * std::sqrt(u * u + v * v);
+        block.feature[i] = manifold.points[i].feature;
+        arm += std::sqrt(u * u + v * v);
     }
-    block.torsion_arm = even_pressure * arm / sum;
+    block.torsion_arm = even_pressure * arm / manifold.count;
 }
 
 void start_from(ContactBlock& block, const Manifold& manifold, const ContactMemory& memory)
@@ -113,13 +114,11 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
     block.arm_b = block.anchor - centres.b;
 }
 
-void remember(const ContactBlock& block, const Manifold& manifold, ContactMemory& memory)
+void remember(const ContactBlock& block, ContactMemory& memory)
 {
-    memory.count = manifold.count;
-    for (std::uint32_t i = 0; i < manifold.count; ++i) {
-        memory.feature[i] = manifold.points[i].feature;
-        memory.normal_impulse[i] = block.impulse.normal[i];
-    }
+    memory.count = block.count;
+    memory.feature = block.feature;
+    memory.normal_impulse = block.impulse.normal;
     memory.friction_impulse = block.impulse.tangent_1 * block.tangent_1 +
                               block.impulse.tangent_2 * block.tangent_2;
     memory.torsion_impulse = block.impulse.torsion;

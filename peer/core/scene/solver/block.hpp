@@ -56,7 +56,10 @@ struct ContactBlock {
     std::array<double, manifold_points_max> along_1{}, along_2{}; // the points from the anchor
     std::array<double, manifold_points_max> separation{};
     std::array<double, manifold_points_max> least{}; // the least normal speed of each point
+    std::array<std::uint32_t, manifold_points_max> feature{};
     ContactImpulse impulse;
+    double restitution = 0.0;
+    ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
 
     bool has_matrix = false;
     Square<6> matrix{}; // from modal impulses to modal velocities
@@ -74,12 +77,6 @@ struct ContactBlock {
     }
 };
 
-/// What two bodies' materials make of a contact.
-struct ContactLaw {
-    double friction = 0.0;
-    double restitution = 0.0;
-};
-
 /// Where the bodies of a contact are.
 struct ContactPlaces {
     glm::dvec3 a{0.0};
@@ -90,7 +87,7 @@ struct ContactPlaces {
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
              const ContactMemory& memory);
 /// Keeps the impulses for the next tick.
-void remember(const ContactBlock& block, const Manifold& manifold, ContactMemory& memory);
+void remember(const ContactBlock& block, ContactMemory& memory);
 
 [[nodiscard]] Modal velocity_at(const ContactBlock& block, const Motion& a, const Motion& b);
 [[nodiscard]] Modal modal(const ContactBlock& block, const ContactImpulse& impulse);
@@ -108,6 +105,9 @@ void build_matrix(ContactBlock& block, const Response& a, const Response& b);
 
 /// Whether the impulses are an answer already, to `quiet` m/s.
 [[nodiscard]] bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet);
+
+/// The same without regard to friction.
+[[nodiscard]] bool is_separated(const ContactBlock& block, const Modal& velocity, double quiet);
 
 /// Finds the impulses for which no point is slower than its least normal speed, none pulls, and
 /// friction holds or opposes the slip at its limit: directly where the contact sticks or slides

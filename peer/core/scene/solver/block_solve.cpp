@@ -49,6 +49,8 @@ public:
         return !(determinant_ > thin * size * size);
     }
 
+    [[nodiscard]] bool is_along_1() const { return uu_ >= vv_; }
+
     /// The modal velocity whose normal speeds at the points are `least`.
     [[nodiscard]] std::array<double, 3> modal_least() const
     {
@@ -253,12 +255,14 @@ void Trial::hold_points(PointSet set)
     const PlaneFit fit{block_, set};
     if (fit.is_flat()) {
         // On a line the outermost two say everything.
-        const auto along = [&](std::uint8_t i) {
-            return block_.along_1[i] + block_.along_2[i];
-        };
-        std::sort(set.at.begin(), set.at.begin() + set.count,
-                  [&](std::uint8_t i, std::uint8_t j) { return along(i) < along(j); });
-        set.at[1] = set.at[set.count - 1];
+        const auto& along = fit.is_along_1() ? block_.along_1 : block_.along_2;
+        std::uint8_t low = set.at[0];
+        std::uint8_t high = set.at[0];
+        for (std::uint32_t i = 1; i < set.count; ++i) {
+            if (along[set.at[i]] < along[low]) low = set.at[i];
+            if (along[set.at[i]] > along[high]) high = set.at[i];
+        }
+        set.at = {low, high};
         set.count = 2;
         return hold_few<2, sticks>(set);
     }
@@ -372,12 +376,19 @@ Modal finish(ContactBlock& block, const ContactImpulse& answer)
 
 } // namespace
 
-bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet)
+bool is_separated(const ContactBlock& block, const Modal& velocity, double quiet)
 {
     for (std::size_t i = 0; i < block.count; ++i) {
         const double excess = block.normal_speed(velocity, i) - block.least[i];
         if (excess < -quiet || (excess > quiet && block.impulse.normal[i] > 0.0)) return false;
+        if (block.impulse.normal[i] < 0.0) return false;
     }
+    return true;
+}
+
+bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet)
+{
+    if (!is_separated(block, velocity, quiet)) return false;
     if (block.friction == 0.0) return true;
     const double arm = block.torsion_arm;
     const double limit = block.friction * block.normal_sum();
