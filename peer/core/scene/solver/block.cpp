@@ -83,8 +83,7 @@ void add_body(Square<6>& matrix, const std::array<Jacobian, 6>& rows, const Resp
         const glm::dvec3 moved = body.inverse_mass * rows[i].linear;
         const glm::dvec3 turned = body.inverse_inertia * rows[i].angular;
         for (std::size_t j = 0; j <= i; ++j) {
-            matrix[i][j] +=
-                glm::dot(moved, rows[j].linear) + glm::dot(turned, rows[j].angular);
+            matrix[i][j] += glm::dot(moved, rows[j].linear) + glm::dot(turned, rows[j].angular);
         }
     }
 }
@@ -119,8 +118,8 @@ void remember(const ContactBlock& block, ContactMemory& memory)
     memory.count = block.count;
     memory.feature = block.feature;
     memory.normal_impulse = block.impulse.normal;
-    memory.friction_impulse = block.impulse.tangent_1 * block.tangent_1 +
-                              block.impulse.tangent_2 * block.tangent_2;
+    memory.friction_impulse =
+        block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
     memory.torsion_impulse = block.impulse.torsion;
 }
 
@@ -154,8 +153,7 @@ Modal modal(const ContactBlock& block, const ContactImpulse& impulse)
 
 Wrench wrench(const ContactBlock& block, const Modal& impulse)
 {
-    return {impulse[0] * block.normal + impulse[3] * block.tangent_1 +
-                impulse[4] * block.tangent_2,
+    return {impulse[0] * block.normal + impulse[3] * block.tangent_1 + impulse[4] * block.tangent_2,
             impulse[1] * block.tangent_1 + impulse[2] * block.tangent_2 +
                 impulse[5] * block.normal};
 }

@@ -52,7 +52,7 @@ struct ContactBlock {
     double torsion_arm = 0.0; // metres: the torsion's limit over the friction's
     glm::dvec3 normal{0.0}, tangent_1{0.0}, tangent_2{0.0};
     glm::dvec3 anchor{0.0};
-    glm::dvec3 arm_a{0.0}, arm_b{0.0}; // from the centres to the anchor
+    glm::dvec3 arm_a{0.0}, arm_b{0.0};                            // from the centres to the anchor
     std::array<double, manifold_points_max> along_1{}, along_2{}; // the points from the anchor
     std::array<double, manifold_points_max> separation{};
     std::array<double, manifold_points_max> least{}; // the least normal speed of each point

@@ -71,7 +71,8 @@ public:
     void spread(const std::array<double, 3>& total,
                 std::array<double, manifold_points_max>& impulse) const
     {
-        const auto [u, v] = slope(-total[2] - total[0] * middle_1_, total[1] - total[0] * middle_2_);
+        const auto [u, v] =
+            slope(-total[2] - total[0] * middle_1_, total[1] - total[0] * middle_2_);
         for (std::uint32_t i = 0; i < set_.count; ++i) {
             impulse[set_.at[i]] = total[0] / set_.count +
                                   u * (block_.along_1[set_.at[i]] - middle_1_) +
@@ -148,7 +149,8 @@ std::array<double, points + frictions> hold(const ContactBlock& block, const Poi
 class Trial {
 public:
     Trial(const ContactBlock& block, const Modal& velocity)
-        : block_{block}, free_{minus(velocity, times(block.matrix, modal(block, block.impulse)))},
+        : block_{block},
+          free_{minus(velocity, times(block.matrix, modal(block, block.impulse)))},
           answer_{block.impulse}
     {}
 
@@ -269,17 +271,17 @@ void Trial::hold_points(PointSet set)
     const std::array<double, 3> least = fit.modal_least();
     answer_.normal = {};
     if constexpr (sticks) {
-        const auto unknown = weld<6>(block_.matrix, {least[0] - free_[0], least[1] - free_[1],
-                                                     least[2] - free_[2], -free_[3], -free_[4],
-                                                     -free_[5]});
+        const auto unknown =
+            weld<6>(block_.matrix, {least[0] - free_[0], least[1] - free_[1], least[2] - free_[2],
+                                    -free_[3], -free_[4], -free_[5]});
         fit.spread({unknown[0], unknown[1], unknown[2]}, answer_.normal);
         answer_.tangent_1 = unknown[3];
         answer_.tangent_2 = unknown[4];
         answer_.torsion = unknown[5];
     } else {
         const Modal given = plus(free_, times(block_.matrix, from_friction()));
-        const auto unknown = weld<3>(
-            block_.matrix, {least[0] - given[0], least[1] - given[1], least[2] - given[2]});
+        const auto unknown =
+            weld<3>(block_.matrix, {least[0] - given[0], least[1] - given[1], least[2] - given[2]});
         fit.spread(unknown, answer_.normal);
     }
 }

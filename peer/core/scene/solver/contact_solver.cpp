@@ -28,10 +28,7 @@ void for_parts(ContactBlock& block, Visit visit)
 } // namespace
 
 ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
-    : responses_{bodies + 1},
-      ending_{bodies + 1},
-      mean_{bodies + 1},
-      blocks_{blocks}
+    : responses_{bodies + 1}, ending_{bodies + 1}, mean_{bodies + 1}, blocks_{blocks}
 {}
 
 void ContactSolver::begin(std::size_t bodies)
@@ -110,8 +107,7 @@ Modal ContactSolver::solve_one(ContactBlock& block, const Modal& velocity, doubl
     return scene::solve(block, velocity, quiet);
 }
 
-void ContactSolver::apply(const ContactBlock& block, const Modal& change,
-                          std::span<Motion> motions)
+void ContactSolver::apply(const ContactBlock& block, const Modal& change, std::span<Motion> motions)
 {
     Wrench push = wrench(block, change);
     if (block.b != 0) scene::apply(push, block.arm_b, responses_[block.b], motions[block.b]);

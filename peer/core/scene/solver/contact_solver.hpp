@@ -25,10 +25,10 @@ struct SolverOutcome {
 
 /// Solves all contacts of a tick for the velocities at its end: block after block (each as a whole:
 /// projected Gauss-Seidel), in turns from the first to the last and back, and when a few sweeps do
-/// not do it, along conjugate directions (nonsmooth nonlinear conjugate gradients, Silcowitz, Niebe,
-/// Erleben, "Nonsmooth Newton method / NNCG for contact problems", VRIPHYS 2010), which is what
-/// carries a heavy body on a light one and a stack. A contact that is in balance already costs a
-/// look.
+/// not do it, along conjugate directions (nonsmooth nonlinear conjugate gradients, Silcowitz,
+/// Niebe, Erleben, "Nonsmooth Newton method / NNCG for contact problems", VRIPHYS 2010), which is
+/// what carries a heavy body on a light one and a stack. A contact that is in balance already costs
+/// a look.
 class ContactSolver {
 public:
     ContactSolver(std::size_t bodies, std::size_t blocks);

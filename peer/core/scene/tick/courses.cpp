@@ -40,8 +40,8 @@ void turn(const Course& course, Bodies& bodies, Slot slot, const Motion& mean, d
         bodies.orientation.put(slot, turned(now, tick * mean.spin));
         return;
     }
-    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) +
-                                0.5 * course.angular_impulse + mean.angular_impulse;
+    const glm::dvec3 momentum =
+        bodies.angular_momentum.at(slot) + 0.5 * course.angular_impulse + mean.angular_impulse;
     bodies.orientation.put(slot, spun(now, {momentum, form.inverse_inertia}, tick));
 }
 
@@ -92,8 +92,7 @@ void follow(Course& course, const Stage& stage, Slot slot, const Response& respo
     const double tick = frozen.tick;
     course.angular_impulse = about_free_axes(form, course.angular_impulse);
     const glm::dvec3 gained = tick * falling(form, frozen.gravity) +
-                              form.inverse_mass *
-                                  (course.impulse + tick * stage.pushes[form.id]);
+                              form.inverse_mass * (course.impulse + tick * stage.pushes[form.id]);
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
     course.start.velocity = bodies.velocity.at(slot);
     course.start.spin = response.inverse_inertia * momentum;
@@ -133,8 +132,7 @@ void arrive(const Course& course, Bodies& bodies, Slot slot, ContactSolver& solv
     bodies.position.put(slot, bodies.position.at(slot) + tick * mean.velocity);
     bodies.velocity.put(slot, ending.velocity);
     bodies.angular_momentum.put(
-        slot, course.angular_momentum +
-                  about_free_axes(bodies.form[slot], ending.angular_impulse));
+        slot, course.angular_momentum + about_free_axes(bodies.form[slot], ending.angular_impulse));
 }
 
 } // namespace hapnet::scene

@@ -22,8 +22,8 @@ struct Course {
     glm::dvec3 impulse{0.0}; // of last tick's contacts, taken as constant forces
     glm::dvec3 angular_impulse{0.0};
     Motion start;
-    Motion tentative; // at the end, without what contacts change
-    Motion mean;      // over the tick, likewise
+    Motion tentative;                 // at the end, without what contacts change
+    Motion mean;                      // over the tick, likewise
     glm::dvec3 angular_momentum{0.0}; // at the end, likewise
     std::uint32_t rubbing = 0;        // contacts with friction that push
 };

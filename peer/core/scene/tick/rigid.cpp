@@ -219,8 +219,7 @@ void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
         const Course& course = courses_[slot + 1];
         const Motion& ending = solver_.ending(slot + 1);
         Motion& mean = solver_.mean(slot + 1);
-        mean.velocity =
-            course.mean.velocity + 0.5 * (ending.velocity - course.tentative.velocity);
+        mean.velocity = course.mean.velocity + 0.5 * (ending.velocity - course.tentative.velocity);
         mean.spin = course.mean.spin + 0.5 * (ending.spin - course.tentative.spin);
         mean.angular_impulse = 0.5 * ending.angular_impulse;
     }
