@@ -11,7 +11,7 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr int phases_max = 64;   // of a tick
+constexpr int phases_max = 64;          // of a tick
 constexpr double part_min = 1.0 / 32.0; // of a tick, that is cut off only because something turns
 // How far a normal may turn in half of what is held: then its mean is right to 1e-5.
 constexpr double turn_max = 0.01;
@@ -22,10 +22,7 @@ glm::dmat3 turned_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& a
     return turn * inverse_inertia * glm::transpose(turn);
 }
 
-bool is_zero(const glm::dmat3& m)
-{
-    return m[0][0] == 0.0 && m[1][1] == 0.0 && m[2][2] == 0.0;
-}
+bool is_zero(const glm::dmat3& m) { return m[0][0] == 0.0 && m[1][1] == 0.0 && m[2][2] == 0.0; }
 
 /// The energy of a spring; beyond its greatest force it grows evenly.
 double energy(const Press& press, double depth)
@@ -66,7 +63,7 @@ void Passage::add(const HipSpring& spring, HipWork& work)
     const std::size_t i = count_++;
     springs_[i] = &spring;
     works_[i] = &work;
-    surfaces_[i] = Surface{spring, axes_};
+    surfaces_[i] = Surface{spring, answer_.half, axes_};
     hands_[i] = spring.arm + (spring.radius + spring.gap) * spring.normal;
     Hold& hold = holds_[i];
     hold = {spring.normal, glm::cross(spring.arm, spring.normal), -spring.gap};
@@ -91,8 +88,8 @@ Passage::Setting Passage::halfway(double time) const
         torque -= pushed * holds_[i].lever;
     }
     const glm::dvec3 moved =
-        half * (body_.velocity +
-                (0.5 * half) * (answer_.acceleration + answer_.inverse_mass * force));
+        half *
+        (body_.velocity + (0.5 * half) * (answer_.acceleration + answer_.inverse_mass * force));
     Setting setting{inverse_inertia_, holds_};
     glm::dmat3 axes = axes_;
     if (turns_) {
@@ -128,9 +125,9 @@ Coupling Passage::couple(const Setting& setting)
             glm::dot(hold.normal, answer_.acceleration) + glm::dot(swung[i], answer_.torque);
     }
     if (count_ == 2)
-        coupling.mutual = glm::dot(setting.holds[0].normal,
-                                   answer_.inverse_mass * setting.holds[1].normal) +
-                          glm::dot(setting.holds[0].lever, swung[1]);
+        coupling.mutual =
+            glm::dot(setting.holds[0].normal, answer_.inverse_mass * setting.holds[1].normal) +
+            glm::dot(setting.holds[0].lever, swung[1]);
     return coupling;
 }
 
@@ -164,8 +161,12 @@ bool Passage::pass()
                 attempt = 3;
                 continue;
             }
+            const auto before = presses_;
             presses_ = presses;
             apply(setting, pressed);
+            for (std::size_t i = 0; i < count_; ++i) {
+                if (before[i].phase == Phase::apart) meet(i);
+            }
             break;
         }
     }
@@ -189,12 +190,11 @@ void Passage::apply(const Setting& setting, const Pressed& pressed)
         twist_moment -= pressed.moment[i] * hold.lever;
         works_[i]->impulse -= pressed.impulse[i] * hold.normal;
     }
-    const glm::dvec3 moved = t * (body_.velocity + (0.5 * t) * answer_.acceleration) +
-                             answer_.inverse_mass * moment;
+    const glm::dvec3 moved =
+        t * (body_.velocity + (0.5 * t) * answer_.acceleration) + answer_.inverse_mass * moment;
     body_.position += moved;
     body_.velocity += t * answer_.acceleration + answer_.inverse_mass * impulse;
-    for (std::size_t i = 0; i < count_; ++i)
-        hands_[i] += t * springs_[i]->velocity - moved;
+    for (std::size_t i = 0; i < count_; ++i) hands_[i] += t * springs_[i]->velocity - moved;
     if (turns_) {
         const glm::dvec3 swept =
             t * (body_.angular_momentum + (0.5 * t) * answer_.torque) + twist_moment;
@@ -210,6 +210,17 @@ void Passage::apply(const Setting& setting, const Pressed& pressed)
     left_ = t < left_ ? left_ - t : 0.0;
 }
 
+void Passage::meet(std::size_t i)
+{
+    // Nothing is stored yet in a spring that was apart: it begins with the true depth, and not a
+    // little before it is reached.
+    Press& press = presses_[i];
+    press.depth = holds_[i].depth;
+    constexpr double near = 1e-9;
+    if (press.phase == Phase::pressing && press.depth < -near * press.closing * tick_)
+        press.phase = Phase::apart;
+}
+
 void Passage::settle()
 {
     if (!turns_) return;
@@ -222,10 +233,10 @@ void Passage::settle()
         const glm::dvec3 momentum{light.x > 0.0 ? velocity.x / light.x : 0.0,
                                   light.y > 0.0 ? velocity.y / light.y : 0.0,
                                   light.z > 0.0 ? velocity.z / light.z : 0.0};
-        const double twice = glm::dot(momentum, velocity) +
-                             glm::dot(body_.angular_momentum,
-                                      inverse_inertia_ * body_.angular_momentum);
-        constexpr double most = 1e-3; // more cannot come from a geometry that is a little off
+        const double twice =
+            glm::dot(momentum, velocity) +
+            glm::dot(body_.angular_momentum, inverse_inertia_ * body_.angular_momentum);
+        constexpr double most = 0.03; // more cannot come from a geometry that is a little off
         if (!(twice > 0.0)) continue;
         const double scale = std::clamp(-missed / twice, -most, most);
         body_.velocity += (scale * light) * momentum;

@@ -38,6 +38,7 @@ private:
     [[nodiscard]] Setting halfway(double time) const;
     [[nodiscard]] Coupling couple(const Setting& setting);
     void apply(const Setting& setting, const Pressed& pressed);
+    void meet(std::size_t i);
     void settle();
 
     MovingBody& body_;

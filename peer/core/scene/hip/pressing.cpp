@@ -120,9 +120,9 @@ void Presses::solve_both()
     const std::array<double, 2> root{std::sqrt(presses_[0].stiffness),
                                      std::sqrt(presses_[1].stiffness)};
     lag_ = presses_[0].damping / presses_[0].stiffness;
-    is_solved_ = root[0] > 0.0 && root[1] > 0.0 &&
-                 std::abs(lag_ * presses_[1].stiffness - presses_[1].damping) <=
-                     1e-14 * presses_[1].damping;
+    is_solved_ =
+        root[0] > 0.0 && root[1] > 0.0 &&
+        std::abs(lag_ * presses_[1].stiffness - presses_[1].damping) <= 1e-14 * presses_[1].damping;
     if (!is_solved_) return;
 
     // In depths times the roots of the stiffnesses the coupling is symmetric: one rotation (after
@@ -172,9 +172,9 @@ void Presses::look(End& end, std::size_t i)
 {
     const Press& press = presses_[i];
     const auto look_for = [&](Phase then, double level, double sign) {
-        const auto found = first_root(watch(i, level, {sign * press.stiffness,
-                                                       sign * press.damping}),
-                                      courses_, 0.0, end.time);
+        const auto found =
+            first_root(watch(i, level, {sign * press.stiffness, sign * press.damping}), courses_,
+                       0.0, end.time);
         if (found && *found < end.time) end = {*found, i, then};
     };
     const double pull = press.stiffness * press.depth;
