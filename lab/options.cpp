@@ -17,7 +17,19 @@ namespace hapnet::lab {
 
 namespace {
 
-/// What the options of `explain` add to the application, and the text of its tick.
+CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
+{
+    auto* command = app.add_subcommand(
+        "demo-report", "The end of scripts/demo.sh: read what it recorded in a folder, print it\n"
+                       "beside the paper's Table 1, write manifest.json. Exit code 1: it misses");
+    command->add_option("FOLDER", demo.folder, "what scripts/demo.sh wrote")->required();
+    command->add_option("--command", demo.command, "what was typed, for the manifest");
+    command->add_option("--start", demo.start, "when it began, for the manifest");
+    command->add_option("--wall-time", demo.wall_time_s, "seconds since, for the manifest");
+    return command;
+}
+
+/// The text of its tick is read afterwards: its complaint is ours.
 CLI::App* add_explain(CLI::App& app, ExplainCommand& explain, std::string& tick)
 {
     std::vector<std::string_view> names;
@@ -84,14 +96,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
         ->check(CLI::IsMember{{"ticks", "messages"}});
 
     DemoReportCommand demo;
-    auto* demo_command = app.add_subcommand(
-        "demo-report", "The end of scripts/demo.sh: read what it recorded in a folder, print it\n"
-                       "beside the paper's Table 1, write manifest.json. Exit code 1: it misses");
-    demo_command->add_option("FOLDER", demo.folder, "what scripts/demo.sh wrote")->required();
-    demo_command->add_option("--command", demo.command, "what was typed, for the manifest");
-    demo_command->add_option("--start", demo.start, "when it began, for the manifest");
-    demo_command->add_option("--wall-time", demo.wall_time_s, "seconds since, for the manifest");
-
+    auto* demo_command = add_demo_report(app, demo);
     ExplainCommand explain;
     std::string tick = "1ms";
     auto* explain_command = add_explain(app, explain, tick);
