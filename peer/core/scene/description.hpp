@@ -27,16 +27,16 @@ struct BodyDescription {
     std::string name;
     bool movable = true;
     glm::dvec3 half{0.02}; // half the edges, metres
-    base::Position position;
+    base::Position position{};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // unit, from the body's frame to the world's
-    base::Velocity velocity;
+    base::Velocity velocity{};
     glm::dvec3 angular_velocity{0.0}; // rad/s, in the world's frame
     double mass_kg = 0.1;
     Turning turning = Turning::free;
     bool locked_x = false; // its centre keeps this coordinate
     bool locked_y = false;
     bool locked_z = false;
-    Material material;
+    Material material{};
     double drag_ns_per_m = 0.0; // viscous friction on the plane that carries it, tangential
 };
 
@@ -45,7 +45,7 @@ struct PlaneDescription {
     std::string name;
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, out of the solid side
     double offset_m = 0.0;            // of its points p: dot(normal, p) = offset
-    Material material;
+    Material material{};
 };
 
 /// The hands' spheres (haptic interface points), all alike: a spring and a damper, without
@@ -62,9 +62,9 @@ struct HipDescription {
 /// What a scene is, before it is frozen: a value that anything may build, print or compare.
 struct Description {
     std::string name;
-    std::vector<BodyDescription> bodies; // a body's id is its index
-    std::vector<PlaneDescription> planes;
-    HipDescription hips;
+    std::vector<BodyDescription> bodies{}; // a body's id is its index
+    std::vector<PlaneDescription> planes{};
+    HipDescription hips{};
     glm::dvec3 gravity{0.0, -9.81, 0.0}; // m/s^2
 };
 

@@ -62,6 +62,8 @@ public:
 
 private:
     World(const Description& description, const FreezeOptions& options, Profile profile);
+    std::optional<Refusal> refuse(Refusal refusal);
+    [[nodiscard]] bool is_movable(BodyId id) const;
 
     Frozen frozen_;
     Profile profile_;
