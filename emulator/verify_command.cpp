@@ -9,6 +9,7 @@
 #include "emulator/profile_file.hpp"
 #include "proto/base/text.hpp"
 #include "proto/net/program.hpp"
+#include "proto/net/text_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -195,7 +196,7 @@ base::Result<Evidence> evidence_of_statistics(const Request& request, const std:
     }
     const auto beside = path_beside(std::filesystem::path{fates}.filename().string(), path);
     const auto open = [&](const std::string& name) {
-        return text_of_file(path_beside(name, path));
+        return net::text_of_file(path_beside(name, path));
     };
     const auto profile = request.profile ? load_profile(*request.profile)
                                          : parse_profile(text_at("profile"), path, open);
@@ -218,7 +219,7 @@ base::Result<Evidence> evidence_of(const Request& request)
     if (!is_json && request.profile) {
         return evidence_in(request.run, load_profile(*request.profile));
     }
-    const auto text = text_of_file(request.run);
+    const auto text = net::text_of_file(request.run);
     if (!text) return tl::unexpected{text.error()};
     if (is_json) return evidence_of_statistics(request, *text);
     return base::fail(fmt::format("--profile is required: {} is neither what --stats has written "

@@ -12,42 +12,70 @@
 namespace hapnet::scene {
 
 /// A list of at most so many elements, for which the memory is taken at construction. Unlike a
-/// vector's reserve, that holds for copies too: a copied world takes no memory in its ticks.
+/// vector's reserve, that holds for copies too: a copied world takes no memory in its ticks. What
+/// was never used is neither touched nor copied.
 template <typename T>
 class Bounded {
 public:
     Bounded() = default;
-    explicit Bounded(std::size_t size_max) : elements_(size_max) {}
+    explicit Bounded(std::size_t size_max) { elements_.reserve(size_max); }
+    Bounded(const Bounded& other) { *this = other; }
+    Bounded(Bounded&&) noexcept = default;
+    Bounded& operator=(const Bounded& other)
+    {
+        if (this == &other) return *this;
+        elements_.reserve(other.size_max());
+        elements_ = other.elements_;
+        return *this;
+    }
+    Bounded& operator=(Bounded&&) noexcept = default;
+    ~Bounded() = default;
 
     /// Whether there was room.
     bool add(T element)
     {
-        if (size_ == elements_.size()) return false;
-        elements_[size_++] = std::move(element);
+        if (is_full()) return false;
+        elements_.push_back(std::move(element));
         return true;
     }
     /// Puts the last one in the place of the one that goes.
     void remove(std::size_t index)
     {
-        base::ensure(index < size_);
-        elements_[index] = std::move(elements_[--size_]);
+        base::ensure(index < size());
+        elements_[index] = std::move(elements_.back());
+        elements_.pop_back();
     }
-    void clear() { size_ = 0; }
+    /// Takes the last one out.
+    T take_last()
+    {
+        base::ensure(!is_empty());
+        T last = std::move(elements_.back());
+        elements_.pop_back();
+        return last;
+    }
+    /// Forgets what is beyond, or fills up with new ones.
+    void resize(std::size_t size)
+    {
+        base::ensure(size <= size_max());
+        elements_.resize(size);
+    }
+    void clear() { elements_.clear(); }
 
-    [[nodiscard]] bool is_empty() const { return size_ == 0; }
-    [[nodiscard]] std::size_t size() const { return size_; }
-    [[nodiscard]] std::size_t size_max() const { return elements_.size(); }
+    [[nodiscard]] bool is_empty() const { return elements_.empty(); }
+    [[nodiscard]] bool is_full() const { return size() == size_max(); }
+    [[nodiscard]] std::size_t size() const { return elements_.size(); }
+    [[nodiscard]] std::size_t size_max() const { return elements_.capacity(); }
     [[nodiscard]] T& operator[](std::size_t index) { return elements_[index]; }
     [[nodiscard]] const T& operator[](std::size_t index) const { return elements_[index]; }
+    [[nodiscard]] std::span<const T> all() const { return elements_; }
 
     [[nodiscard]] T* begin() { return elements_.data(); }
-    [[nodiscard]] T* end() { return elements_.data() + size_; }
+    [[nodiscard]] T* end() { return elements_.data() + size(); }
     [[nodiscard]] const T* begin() const { return elements_.data(); }
-    [[nodiscard]] const T* end() const { return elements_.data() + size_; }
+    [[nodiscard]] const T* end() const { return elements_.data() + size(); }
 
 private:
     std::vector<T> elements_;
-    std::size_t size_ = 0;
 };
 
 } // namespace hapnet::scene
