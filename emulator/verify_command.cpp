@@ -55,7 +55,7 @@ struct Request {
 
 using Text = std::optional<std::string>;
 
-struct Texts {
+struct VerifyTexts {
     Text run;
     Text profile;
     Text seed;
@@ -63,7 +63,7 @@ struct Texts {
     bool json = false;
 };
 
-void add_options(CLI::App& app, Texts& texts)
+void add_options(CLI::App& app, VerifyTexts& texts)
 {
     app.add_option("run", texts.run, "What a run has written (required)")->type_name("RUN");
     app.add_option("--profile", texts.profile, "What the run was to do (default: what RUN says)")
@@ -77,7 +77,7 @@ void add_options(CLI::App& app, Texts& texts)
     app.add_flag("--json", texts.json, "Print one JSON object instead of a table");
 }
 
-base::Result<Request> request_from(const Texts& texts)
+base::Result<Request> request_from(const VerifyTexts& texts)
 {
     if (!texts.run) return base::fail("RUN is required: hapnet-emulator verify run.json");
     Request request{.run = *texts.run, .profile = texts.profile, .json = texts.json};
@@ -100,7 +100,7 @@ net::CommandLine<Request> parse(std::span<char*> words)
 {
     CLI::App app{description, "hapnet-emulator verify"};
     app.footer(footer);
-    Texts texts;
+    VerifyTexts texts;
     add_options(app, texts);
     try {
         app.parse(static_cast<int>(words.size()), words.data());

@@ -73,6 +73,10 @@ Neighbours<search>::Neighbours(const Frozen& frozen, const Bodies& bodies)
 template <Search search>
 void Neighbours<search>::update(const Bodies& bodies)
 {
+    if (has_unmet_) {
+        has_unmet_ = false;
+        for (Slot slot = 0; slot < bodies.awake; ++slot) meet(bodies, bodies.form[slot].id);
+    }
     left_.clear();
     fat_.find_left(bodies, left_);
     for (const Slot slot : left_) {
@@ -103,7 +107,7 @@ void Neighbours<search>::meet(const Bodies& bodies, BodyId id)
     found_.near(box, [&](BodyId other) {
         if (other == id || stamps_[other] == stamp_) return;
         const bool is_active = is_awake || bodies.slot_of[other] < bodies.awake;
-        pairs_.add(std::min(id, other), std::max(id, other), is_active);
+        if (!pairs_.add(std::min(id, other), std::max(id, other), is_active)) has_unmet_ = true;
     });
     meet_planes(box, id, is_awake);
 }
@@ -121,7 +125,7 @@ void Neighbours<search>::meet_planes(const Box& box, BodyId id, bool is_awake)
     });
     for (std::uint32_t plane = 0; plane < surfaces_.size(); ++plane)
         if ((known >> plane & 1U) == 0 && reaches(box, surfaces_[plane]))
-            planes_.add(id, plane, is_awake);
+            if (!planes_.add(id, plane, is_awake)) has_unmet_ = true;
 }
 
 /// Adds a body to those in a hand's box, or takes it away.
@@ -168,6 +172,7 @@ template <Search search>
 void Neighbours<search>::has_woken(const Bodies& bodies, BodyId body)
 {
     fat_.follow(bodies, bodies.slot_of[body]);
+    if (counts().pairs_left_out != 0) has_unmet_ = true; // perhaps its own, while it slept
     const auto show_it = [this](PairIndex index) { pairs_.set_active(index, true); };
     pairs_.for_first(body, show_it);
     pairs_.for_second(body, show_it);

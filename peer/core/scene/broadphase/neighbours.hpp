@@ -69,9 +69,11 @@ public:
 
     /// What was done, for tests and measurements.
     struct Counts {
-        std::uint64_t renewed = 0;        // bodies that left their fat boxes
-        std::uint64_t hands_renewed = 0;  // hands that did
-        std::uint64_t pairs_left_out = 0; // beyond the bound; 0 unless bodies are heaped up
+        std::uint64_t renewed = 0;       // bodies that left their fat boxes
+        std::uint64_t hands_renewed = 0; // hands that did
+        // For which there was no room (32 for every movable body, 8 with planes), counted anew in
+        // every tick; 0 unless very many bodies overlap. They are looked for until there is room.
+        std::uint64_t pairs_left_out = 0;
     };
     [[nodiscard]] Counts counts() const;
 
@@ -94,6 +96,7 @@ private:
     PairSet planes_;
     std::vector<Hand> hands_;
     Bounded<Slot> left_;
+    bool has_unmet_ = false;            // somebody for whose pairs there was no room
     std::vector<std::uint64_t> stamps_; // by id: who is a pair already with the one that renews
     std::uint64_t stamp_ = 0;
     std::uint64_t renewed_ = 0;

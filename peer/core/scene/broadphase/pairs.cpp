@@ -28,11 +28,12 @@ PairSet::PairSet(Room room)
       going_{room.pairs_max}
 {}
 
-void PairSet::add(std::uint32_t a, std::uint32_t b, bool is_active)
+bool PairSet::add(std::uint32_t a, std::uint32_t b, bool is_active)
 {
+    if (pairs_.is_full() && free_.is_empty()) settle(); // what was removed makes room
     if (pairs_.is_full() && free_.is_empty()) {
         ++left_out_;
-        return;
+        return false;
     }
     PairIndex index = 0;
     if (free_.is_empty()) {
@@ -50,6 +51,7 @@ void PairSet::add(std::uint32_t a, std::uint32_t b, bool is_active)
     link(index);
     if (is_active) set_active(index, true);
     ++size_;
+    return true;
 }
 
 void PairSet::remove(PairIndex index)

@@ -37,7 +37,7 @@ using PairIndex = std::uint32_t;
 /// Pairs with their memories. Those that a tick has to look at, the active ones, are listed in
 /// the order of their ids, whatever the order in which they came and went; the others are parked
 /// and cost nothing. Takes no memory after its construction: a pair beyond `pairs_max` is left
-/// out and counted.
+/// out and counted; which one, depends on the past.
 class PairSet {
 public:
     struct Room {
@@ -55,11 +55,11 @@ public:
     /// Which of them the last settle() added, by (a, b).
     [[nodiscard]] std::span<const PairIndex> added() const { return added_.all(); }
     [[nodiscard]] std::uint32_t size() const { return size_; }
-    /// Pairs that did not fit.
+    /// How often there was no room.
     [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
-    /// Adds a pair that is not there.
-    void add(std::uint32_t a, std::uint32_t b, bool is_active);
+    /// Adds a pair that is not there; false when there is no room for it.
+    bool add(std::uint32_t a, std::uint32_t b, bool is_active);
     void remove(PairIndex index);
     void set_active(PairIndex index, bool is_active);
     [[nodiscard]] bool is_active(PairIndex index) const
