@@ -5,6 +5,7 @@
 #include "peer/core/scene/contact/edge_manifold.hpp"
 #include "peer/core/scene/contact/face_manifold.hpp"
 #include "peer/core/scene/contact/features.hpp"
+#include "peer/core/scene/contact/shadow.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,14 +39,19 @@ double slack(const OrientedBox& a, const OrientedBox& b)
     return slack_of_half * std::min({a.half.x, a.half.y, a.half.z, b.half.x, b.half.y, b.half.z});
 }
 
+/// No points, and none written.
+Manifold apart()
+{
+    Manifold manifold;
+    return manifold;
+}
+
 /// How far `other` is from the face of `owner` that looks at it along one of the owner's axes.
 double face_separation(const OrientedBox& owner, const OrientedBox& other, int axis)
 {
     const glm::dvec3& normal = owner.axes[axis];
     return std::abs(glm::dot(normal, other.centre - owner.centre)) -
-           (owner.half[axis] + (other.half.x * std::abs(glm::dot(normal, other.axes[0])) +
-                                other.half.y * std::abs(glm::dot(normal, other.axes[1])) +
-                                other.half.z * std::abs(glm::dot(normal, other.axes[2]))));
+           (owner.half[axis] + half_shadow(other, normal));
 }
 
 double face_separation_of(const OrientedBox& a, const OrientedBox& b, int axis)
@@ -59,12 +65,9 @@ bool edges_separate(const OrientedBox& a, const OrientedBox& b, EdgePair edges, 
     const glm::dvec3 normal = glm::cross(a.axes[edges.of_a], b.axes[edges.of_b]);
     const double square = glm::dot(normal, normal);
     if (square < parallel) return false;
-    double apart = std::abs(glm::dot(normal, b.centre - a.centre));
-    for (const int k : {0, 1, 2}) {
-        if (k != edges.of_a) apart -= a.half[k] * std::abs(glm::dot(normal, a.axes[k]));
-        if (k != edges.of_b) apart -= b.half[k] * std::abs(glm::dot(normal, b.axes[k]));
-    }
-    return apart > margin * std::sqrt(square);
+    const double separation = std::abs(glm::dot(normal, b.centre - a.centre)) -
+                              (half_shadow(a, normal) + half_shadow(b, normal));
+    return separation > margin * std::sqrt(square);
 }
 
 Manifold exchanged(Manifold manifold)
@@ -229,7 +232,7 @@ Manifold search(const OrientedBox& a, const OrientedBox& b, double margin, BoxBo
     const Separations separations{a, b};
     const Verdict verdict = judge(separations, margin);
     const int last = std::exchange(memory.axis, static_cast<std::int8_t>(verdict.separating));
-    if (verdict.separating >= 0) return {};
+    if (verdict.separating >= 0) return apart();
 
     const double room = slack(a, b);
     const Candidate best = better_face(a, b, verdict);
@@ -257,19 +260,19 @@ Manifold search(const OrientedBox& a, const OrientedBox& b, double margin, BoxBo
         return manifold;
     }
     memory.axis = static_cast<std::int8_t>(face.axis);
-    return {};
+    return apart();
 }
 
 } // namespace
 
 Manifold collide(const OrientedBox& a, const OrientedBox& b, double margin, BoxBoxMemory& memory)
 {
-    const int last = memory.axis;
+    const auto last = int{memory.axis};
     if (last >= first_edge_axis) {
-        if (edges_separate(a, b, edges_of(last), margin)) return {};
+        if (edges_separate(a, b, edges_of(last), margin)) return apart();
     } else if (last >= 0) {
         const double separation = face_separation_of(a, b, last);
-        if (separation > margin) return {};
+        if (separation > margin) return apart();
         if (separation >= -slack(a, b)) { // no other axis can be better by more than the slack
             const Manifold manifold = touching_on_face(a, b, last, margin);
             if (manifold.count > 0) return manifold;

@@ -121,12 +121,11 @@ std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const
 {
     const glm::dvec3 place = seen_from(box, centre);
     const bool was_behind = entered_ && is_behind(*entered_, box.half, before);
-    if (length(place - before) > reach(box.half))
+    const bool was_put = length(place - before) > reach(box.half);
+    if (was_put || (was_behind && !is_behind(*entered_, box.half, place)))
         forget();
     else if (!was_behind)
         entered_ = entry(box.half, before, place);
-    else if (!is_behind(*entered_, box.half, place))
-        forget();
     return find(box, centre, radius);
 }
 
