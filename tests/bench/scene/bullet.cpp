@@ -57,7 +57,9 @@ btScalar damping_of(const btCollisionObject* a, const btCollisionObject* b)
 class Bullet final : public Engine {
 public:
     Bullet(const scene::Description& scene, const EngineOptions& options)
-        : scene_{scene}, options_{options}, dispatcher_{&configuration_},
+        : scene_{scene},
+          options_{options},
+          dispatcher_{&configuration_},
           world_{&dispatcher_, &broadphase_, &solver_, &configuration_}
     {
         gCalculateCombinedFrictionCallback = friction_of;
@@ -127,8 +129,7 @@ private:
         world_.setForceUpdateAllAabbs(false);
     }
 
-    btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass,
-                     const btTransform& place)
+    btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, const btTransform& place)
     {
         btVector3 inertia{0, 0, 0};
         if (mass > 0.0) shape->calculateLocalInertia(scalar_of(mass), inertia);
@@ -184,9 +185,8 @@ private:
         const double half = slab_half(scene_);
         const btVector3 up{0, 1, 0}, normal = bullet_of(n);
         const btQuaternion turn = shortestArcQuat(up, normal);
-        btRigidBody& body =
-            add(std::make_unique<btBoxShape>(bullet_of(glm::dvec3{half})), 0.0,
-                btTransform{turn, bullet_of((plane.offset_m - half) * n)});
+        btRigidBody& body = add(std::make_unique<btBoxShape>(bullet_of(glm::dvec3{half})), 0.0,
+                                btTransform{turn, bullet_of((plane.offset_m - half) * n)});
         give_skin(body, plane.material);
         world_.addRigidBody(&body);
     }
@@ -257,8 +257,9 @@ private:
 
 } // namespace hapnet::bench
 
-extern "C" hapnet::bench::Engine* hapnet_bench_make_engine(
-    const hapnet::scene::Description* scene, const hapnet::bench::EngineOptions* options)
+extern "C" hapnet::bench::Engine*
+hapnet_bench_make_engine(const hapnet::scene::Description* scene,
+                         const hapnet::bench::EngineOptions* options)
 {
     return new hapnet::bench::Bullet{*scene, *options};
 }

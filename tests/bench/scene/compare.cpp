@@ -24,7 +24,10 @@ std::optional<double> best_of(std::string_view family, std::span<const Reading> 
     return best;
 }
 
-std::string number(std::optional<double> value) { return value ? fmt::format("{:.3g}", *value) : ""; }
+std::string number(std::optional<double> value)
+{
+    return value ? fmt::format("{:.3g}", *value) : "";
+}
 
 /// One line of a table.
 struct Line {
@@ -37,7 +40,8 @@ void add(Line& line, const Row& row)
 {
     if (row.metric.ends_with("_ratio") && row.baseline_value) {
         const std::string ratio = row.ratio() ? fmt::format("{:.3g}x", *row.ratio()) : "exact";
-        line.verdict += fmt::format("{}{} {}", line.verdict.empty() ? "" : ", ", row.baseline, ratio);
+        line.verdict +=
+            fmt::format("{}{} {}", line.verdict.empty() ? "" : ", ", row.baseline, ratio);
     } else {
         line.values[row.subject] = row.value;
     }
@@ -58,8 +62,9 @@ std::vector<Row> compare(const Question& question, std::span<const Reading> read
 {
     std::vector<Row> rows;
     for (const Reading& one : readings) {
-        Row row{question.name, one.subject, question.reference, question.metric,
-                one.value,     {},          {},                 question.direction};
+        Row row{
+            question.name,     one.subject, question.reference, question.metric, one.value, {}, {},
+            question.direction};
         if (one.family == own_family) row.target = question.target;
         rows.push_back(std::move(row));
     }
@@ -69,8 +74,8 @@ std::vector<Row> compare(const Question& question, std::span<const Reading> read
     for (const char* family : peer_families) {
         const auto best = best_of(family, readings);
         if (!best) continue;
-        Row row{question.name, own->subject, family, question.metric + "_ratio", own->value,
-                best,          {},           Direction::at_least};
+        Row row{question.name, own->subject, family, question.metric + "_ratio",
+                own->value,    best,         {},     Direction::at_least};
         if (question.ratio_min > 0.0) row.target = question.ratio_min;
         rows.push_back(std::move(row));
     }
@@ -146,7 +151,8 @@ std::string markdown(std::span<const Row> rows)
         const std::pair key{row.name, metric};
         if (!lines.contains(key)) order.push_back(key);
         add(lines[key], row);
-        if (!is_ratio && std::find(subjects.begin(), subjects.end(), row.subject) == subjects.end()) {
+        if (!is_ratio &&
+            std::find(subjects.begin(), subjects.end(), row.subject) == subjects.end()) {
             subjects.push_back(row.subject);
         }
     }
@@ -163,8 +169,8 @@ std::string markdown(std::span<const Row> rows)
         for (const std::string& subject : subjects) {
             const auto found = line.values.find(subject);
             text += fmt::format(
-                " {} |", number(found == line.values.end() ? std::nullopt
-                                                           : std::optional{found->second}));
+                " {} |",
+                number(found == line.values.end() ? std::nullopt : std::optional{found->second}));
         }
         text += fmt::format(" {} | {} |\n", line.target, line.verdict);
     }

@@ -20,14 +20,13 @@ struct Question {
     std::string reference; // "" for none
     std::string metric;
     std::optional<double> target = {}; // for Hapnet's value
-    double ratio_min = 0.0;       // of the best peer's value to Hapnet's; 0: no target
+    double ratio_min = 0.0;            // of the best peer's value to Hapnet's; 0: no target
     Direction direction = Direction::at_most;
 };
 
 /// A row for every subject, and, where less is better, one for Hapnet against the best of each
 /// family of peers.
-[[nodiscard]] std::vector<Row> compare(const Question& question,
-                                       std::span<const Reading> readings);
+[[nodiscard]] std::vector<Row> compare(const Question& question, std::span<const Reading> readings);
 
 /// Measures a scenario at 1 ms with every subject that can run it: the errors, then the cost.
 [[nodiscard]] std::vector<Row> judge(const Scenario& scenario, std::span<const Subject> subjects,

@@ -133,9 +133,9 @@ std::vector<double> race(const Course& course, std::span<const Contender> conten
     for (bool is_going = true; is_going;) {
         is_going = false;
         for (Runner& runner : runners) {
-            const bool has_enough = runner.blocks() >= blocks_min &&
-                                    (runner.used_s() >= seconds_each ||
-                                     runner.blocks() >= blocks_max);
+            const bool has_enough =
+                runner.blocks() >= blocks_min &&
+                (runner.used_s() >= seconds_each || runner.blocks() >= blocks_max);
             if (!runner.can_run() || has_enough) continue;
             runner.sample();
             is_going = true;

@@ -68,7 +68,8 @@ private:
         options.hip_force = HipForce::native;
         std::vector<Entry> native;
         for (const Subject& subject : subjects_) {
-            if (subject.has_native_hips) native.push_back({subject.name + " native", &subject, options});
+            if (subject.has_native_hips)
+                native.push_back({subject.name + " native", &subject, options});
         }
         append(rows_, compare({"paper's scene, locked", "", "p50_ns"},
                               costs_of(paper_course(scene::Turning::locked), native, seconds())));
@@ -95,8 +96,9 @@ private:
             const double own = costs.front().value;
             if (count == 1) single = own;
             if (count == 10000) {
-                append(rows_, compare({question.name, "hapnet alone", "p50_ns_above_one_cube", 150.0},
-                                      std::vector<Reading>{{"hapnet", own_family, own - single}}));
+                append(rows_,
+                       compare({question.name, "hapnet alone", "p50_ns_above_one_cube", 150.0},
+                               std::vector<Reading>{{"hapnet", own_family, own - single}}));
             }
         }
     }

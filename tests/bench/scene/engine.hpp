@@ -37,9 +37,9 @@ enum class HipForce : std::uint8_t {
 
 struct EngineOptions {
     double tick_s = 1e-3;
-    bool sleeping = false;       // whether bodies at rest may fall asleep
-    bool begins_asleep = false;  // peers: all but body 0 sleep from the start
-    bool is_stock = false;       // peers: without the tuning for bodies of centimetres
+    bool sleeping = false;        // whether bodies at rest may fall asleep
+    bool begins_asleep = false;   // peers: all but body 0 sleep from the start
+    bool is_stock = false;        // peers: without the tuning for bodies of centimetres
     bool has_fast_bodies = false; // peers: with continuous collision detection where there is one
     HipForce hip_force = HipForce::held;
     std::optional<scene::Profile> profile; // ours: instead of the cheapest

@@ -28,7 +28,9 @@ std::function<scene::HipInput(std::uint32_t, double)> squeeze(double left_m, dou
 
 scene::HipDescription springs(double stiffness, double damping, std::uint32_t count)
 {
-    return {.stiffness_n_per_m = stiffness, .damping_ns_per_m = damping, .force_max_n = 1e6,
+    return {.stiffness_n_per_m = stiffness,
+            .damping_ns_per_m = damping,
+            .force_max_n = 1e6,
             .count = count};
 }
 
@@ -102,15 +104,17 @@ Scenario symmetric_squeeze(scene::Turning turning)
     scene.gravity = {0.0, -9.81, 0.0};
     scene.planes = {platform()};
     scene.hips = springs(1000.0, 2.0, 2);
-    Scenario scenario{with("d1 symmetric squeeze 10 s", turning), "itself",
-                      {scene, 10.0, squeeze(1e-3, 1e-3)}, {}};
+    Scenario scenario{with("d1 symmetric squeeze 10 s", turning),
+                      "itself",
+                      {scene, 10.0, squeeze(1e-3, 1e-3)},
+                      {}};
     scenario.measure = [](Engine& engine, const Course& course, double tick_s) {
         double drift = 0.0, turned = 0.0;
         run(engine, course, tick_s, [&](double) {
             const scene::BodyState state = engine.state(0);
             drift = std::max({drift, std::abs(state.position.x()), std::abs(state.position.z())});
-            turned = std::max(
-                turned, angle_between(course.scene.bodies[0].orientation, state.orientation));
+            turned = std::max(turned,
+                              angle_between(course.scene.bodies[0].orientation, state.orientation));
         });
         return std::vector<Measure>{{"drift_m", drift, 0.0}, {"turned_rad", turned, 0.0}};
     };
@@ -123,8 +127,10 @@ Scenario squeezed_oscillation(scene::Turning turning)
     scene::Description scene = lone_cube(turning);
     scene.bodies[0].position = {{start_m, 0.0, 0.0}};
     scene.hips = springs(stiffness, 0.0, 2);
-    Scenario scenario{with("d2 squeezed oscillation", turning), "analytic",
-                      {scene, long_s, squeeze(1e-3, 1e-3)}, {}};
+    Scenario scenario{with("d2 squeezed oscillation", turning),
+                      "analytic",
+                      {scene, long_s, squeeze(1e-3, 1e-3)},
+                      {}};
     scenario.measure = [](Engine& engine, const Course& course, double tick_s) {
         const double frequency = std::sqrt(2.0 * stiffness / mass);
         const double periods_end = 10.0 * 2.0 * glm::pi<double>() / frequency;
@@ -151,8 +157,10 @@ Scenario asymmetric_squeeze(scene::Turning turning)
     constexpr double deep_m = 1.5e-3, shallow_m = 5e-4;
     scene::Description scene = lone_cube(turning);
     scene.hips = springs(1000.0, 2.0, 2);
-    Scenario scenario{with("d3 asymmetric squeeze", turning), "analytic",
-                      {scene, 5.0, squeeze(deep_m, shallow_m)}, {}};
+    Scenario scenario{with("d3 asymmetric squeeze", turning),
+                      "analytic",
+                      {scene, 5.0, squeeze(deep_m, shallow_m)},
+                      {}};
     scenario.measure = [](Engine& engine, const Course& course, double tick_s) {
         run(engine, course, tick_s);
         const double expected = (deep_m - shallow_m) / 2.0;

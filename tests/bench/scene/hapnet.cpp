@@ -36,8 +36,8 @@ private:
 
 std::unique_ptr<Engine> make_hapnet(const scene::Description& scene, const EngineOptions& options)
 {
-    const scene::FreezeOptions freeze{
-        base::Duration{std::llround(options.tick_s * 1e9)}, options.sleeping, options.profile};
+    const scene::FreezeOptions freeze{base::Duration{std::llround(options.tick_s * 1e9)},
+                                      options.sleeping, options.profile};
     auto world = scene::World::freeze(scene, freeze);
     if (!world) return nullptr;
     return std::make_unique<Hapnet>(*std::move(world));

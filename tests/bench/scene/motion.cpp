@@ -66,8 +66,8 @@ Scenario slide(double degrees, scene::Turning turning)
     scene.planes = {platform()};
     const glm::dvec3 way{std::cos(glm::radians(degrees)), 0.0, std::sin(glm::radians(degrees))};
     scene.bodies[0].velocity = {speed * way};
-    const std::string name =
-        fmt::format("b slide {:g} deg{}", degrees, turning == scene::Turning::locked ? ", locked" : "");
+    const std::string name = fmt::format("b slide {:g} deg{}", degrees,
+                                         turning == scene::Turning::locked ? ", locked" : "");
     Scenario scenario{name, "analytic", {scene, 0.2, {}}, {}};
     scenario.measure = [way](Engine& engine, const Course& course, double tick_s) {
         run(engine, course, tick_s);
@@ -114,8 +114,8 @@ Scenario off_centre_push()
 {
     scene::Description scene = lone_cube(scene::Turning::free);
     scene.bodies[0].velocity = {{-0.1, 0.0, 0.0}};
-    scene.hips = {.stiffness_n_per_m = 1000.0, .damping_ns_per_m = 0.0, .force_max_n = 1e6,
-                  .count = 1};
+    scene.hips = {
+        .stiffness_n_per_m = 1000.0, .damping_ns_per_m = 0.0, .force_max_n = 1e6, .count = 1};
     Scenario scenario{"h off-centre push", "rk4", {scene, 0.05, {}}, {}};
     scenario.course.hands = [](std::uint32_t, double) {
         return scene::HipInput{{{-0.0251, 0.006, 0.004}}, {}};

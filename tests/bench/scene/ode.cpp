@@ -260,15 +260,16 @@ private:
         surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM | dContactMotionN;
         surface.soft_cfm = 1.0 / (h * k + scene_.hips.damping_ns_per_m);
         surface.soft_erp = h * k * surface.soft_cfm;
-        const double along = glm::dot(vector_of(contact.normal), hips_[index_of(hip)].velocity.value);
+        const double along =
+            glm::dot(vector_of(contact.normal), hips_[index_of(hip)].velocity.value);
         surface.motionN = hip == contact.g1 ? -along : along;
         return surface;
     }
 
     [[nodiscard]] std::size_t index_of(dGeomID hip) const
     {
-        return static_cast<std::size_t>(
-            std::find(hip_geoms_.begin(), hip_geoms_.end(), hip) - hip_geoms_.begin());
+        return static_cast<std::size_t>(std::find(hip_geoms_.begin(), hip_geoms_.end(), hip) -
+                                        hip_geoms_.begin());
     }
 
     void watch(dJointID joint, dGeomID hip)

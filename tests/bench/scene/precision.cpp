@@ -79,9 +79,8 @@ std::vector<WorkPoint> measure_precision(std::span<const Subject> subjects, bool
                                        measure.value, costs[i].value / tick_ms});
             }
         }
-        std::stable_sort(of_scenario.begin(), of_scenario.end(), [&](const auto& a, const auto& b) {
-            return a.subject < b.subject;
-        });
+        std::stable_sort(of_scenario.begin(), of_scenario.end(),
+                         [&](const auto& a, const auto& b) { return a.subject < b.subject; });
         points.insert(points.end(), of_scenario.begin(), of_scenario.end());
     }
     return points;
@@ -106,9 +105,9 @@ std::string precision_svg(std::span<const WorkPoint> points)
             return one.scenario != begin->scenario;
         });
         std::string panel = panel_of({begin, end});
-        panel.insert(panel.find(' '), fmt::format(" y='{}' width='{}' height='{}'",
-                                                  panel_height * count++, panel_width,
-                                                  panel_height));
+        panel.insert(panel.find(' '),
+                     fmt::format(" y='{}' width='{}' height='{}'", panel_height * count++,
+                                 panel_width, panel_height));
         panels += panel;
         begin = end;
     }

@@ -47,9 +47,8 @@ Scenario wall(double restitution, scene::Turning turning)
     Scenario scenario{name, "analytic", {scene, 0.0605, {}}, {}};
     scenario.measure = [restitution](Engine& engine, const Course& course, double tick_s) {
         double deepest = 0.0;
-        run(engine, course, tick_s, [&](double) {
-            deepest = std::max(deepest, engine.state(0).position.x() - gap);
-        });
+        run(engine, course, tick_s,
+            [&](double) { deepest = std::max(deepest, engine.state(0).position.x() - gap); });
         const double rebound = -engine.state(0).velocity.x() / speed;
         return std::vector<Measure>{{"restitution_error", std::abs(rebound - restitution), 1e-9},
                                     {"penetration_m", deepest, 1e-12}};
@@ -70,8 +69,8 @@ Scenario stack(double duration_s)
         scene.bodies.back().position = {
             {i % 2 == 0 ? -1e-4 : 1e-4, 0.04 * i, i % 3 == 0 ? -1e-4 : 5e-5}};
     }
-    Scenario scenario{fmt::format("f stack of ten, {:g} s", duration_s), "itself",
-                      {scene, duration_s, {}}, {}};
+    Scenario scenario{
+        fmt::format("f stack of ten, {:g} s", duration_s), "itself", {scene, duration_s, {}}, {}};
     scenario.measure = [](Engine& engine, const Course& course, double tick_s) {
         constexpr double settled_s = 0.5;
         std::vector<glm::dvec3> start, settled;

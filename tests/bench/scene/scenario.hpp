@@ -19,7 +19,7 @@ struct Scenario {
     std::string reference; // what the error is against: "analytic", "rk4", "itself" at the start
     Course course;
     std::function<std::vector<Measure>(Engine&, const Course&, double tick_s)> measure;
-    bool has_native = false; // also run with the peers' own compliant contact
+    bool has_native = false;     // also run with the peers' own compliant contact
     double cost_ratio_min = 0.0; // a peer's cost over Hapnet's, at least; 0: no target
     double cost_ns_max = 0.0;    // of Hapnet's step; 0: no target
 };

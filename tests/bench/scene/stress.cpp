@@ -63,8 +63,7 @@ double heavy_on_light(const Subject& subject, double ratio)
     if (!engine) return std::numeric_limits<double>::infinity();
     double most = 0.0;
     run(*engine, {scene, 5.0, {}}, tick_s, [&](double) {
-        const glm::dvec3 moved =
-            engine->state(1).position.value - scene.bodies[1].position.value;
+        const glm::dvec3 moved = engine->state(1).position.value - scene.bodies[1].position.value;
         most = std::max(most, length(moved));
     });
     return std::isfinite(most) ? most : std::numeric_limits<double>::infinity();
@@ -74,13 +73,13 @@ std::vector<Row> mass_ratios(std::span<const Subject> subjects)
 {
     constexpr std::array ratios{10.0, 100.0, 1000.0, 10000.0};
     constexpr double stands_m = 5e-3;
-    std::vector<Row> rows = ask({"heavy on light, 5 s", "", "largest_mass_ratio", 1000.0, 0.0,
-                                 Direction::at_least},
-                                subjects, [&](const Subject& subject) {
-                                    return last_held(ratios, [&](double ratio) {
-                                        return heavy_on_light(subject, ratio) < stands_m;
-                                    });
-                                });
+    std::vector<Row> rows =
+        ask({"heavy on light, 5 s", "", "largest_mass_ratio", 1000.0, 0.0, Direction::at_least},
+            subjects, [&](const Subject& subject) {
+                return last_held(ratios, [&](double ratio) {
+                    return heavy_on_light(subject, ratio) < stands_m;
+                });
+            });
     append(rows, ask({"1000:1 on light, 5 s", "itself", "moved_m", 5e-4}, subjects,
                      [](const Subject& subject) { return heavy_on_light(subject, 1000.0); }));
     return rows;
@@ -176,9 +175,9 @@ std::vector<Row> measure_limits(std::span<const Subject> subjects, bool is_quick
     append(rows, mass_ratios(subjects));
     append(rows, long_ticks(subjects, is_quick ? 1.0 : 10.0));
     append(rows, tunnelling(subjects));
-    append(rows, compare({"NaN, infinity, 1e30", "", "refused_share", 1.0, 0.0,
-                          Direction::at_least},
-                         std::vector<Reading>{{"hapnet", own_family, refused_share()}}));
+    append(rows,
+           compare({"NaN, infinity, 1e30", "", "refused_share", 1.0, 0.0, Direction::at_least},
+                   std::vector<Reading>{{"hapnet", own_family, refused_share()}}));
     return rows;
 }
 
