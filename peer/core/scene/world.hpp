@@ -15,7 +15,7 @@ namespace hapnet::scene {
 struct FreezeOptions {
     base::Duration tick{std::chrono::milliseconds{1}}; // 10 us .. 100 ms
     bool sleeping = true;                              // bodies at rest fall asleep
-    std::optional<Profile> profile; // instead of the cheapest; it has to do what the scene needs
+    std::optional<Profile> profile{}; // instead of the cheapest; it has to do what the scene needs
 };
 
 /// A scene that runs. It does no I/O, reads no clock, and after freeze() takes no memory: feed it

@@ -174,8 +174,8 @@ TEST_P(EveryProfile, ACopyRunsOnItsOwn)
 INSTANTIATE_TEST_SUITE_P(World, EveryProfile,
                          testing::Values(Profile::sliding, Profile::sliding_coulomb, Profile::lone,
                                          Profile::few, Profile::many),
-                         [](const auto& info) {
-                             std::string name{name_of(info.param)};
+                         [](const auto& each) {
+                             std::string name{name_of(each.param)};
                              std::erase(name, '-');
                              return name;
                          });

@@ -14,13 +14,13 @@
 namespace hapnet::scene {
 
 /// How a body answers to impulses; nothing moves what is fixed, a plane, or asleep.
-struct Response {
+struct BodyResponse {
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame
 };
 
 /// Linear and angular velocity, in the world's frame.
-struct Motion {
+struct BodyMotion {
     glm::dvec3 velocity{0.0};
     glm::dvec3 spin{0.0};
     glm::dvec3 angular_impulse{0.0}; // about the centre, of all that changed `spin`: N m s
@@ -89,7 +89,8 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
 /// Keeps the impulses for the next tick.
 void remember(const ContactBlock& block, ContactMemory& memory);
 
-[[nodiscard]] Modal velocity_at(const ContactBlock& block, const Motion& a, const Motion& b);
+[[nodiscard]] Modal velocity_at(const ContactBlock& block, const BodyMotion& a,
+                                const BodyMotion& b);
 [[nodiscard]] Modal modal(const ContactBlock& block, const ContactImpulse& impulse);
 
 /// An impulse in the world's frame, about the anchor.
@@ -99,9 +100,10 @@ struct Wrench {
 };
 [[nodiscard]] Wrench wrench(const ContactBlock& block, const Modal& impulse);
 /// On one body: `arm` from its centre to the anchor.
-void apply(const Wrench& wrench, const glm::dvec3& arm, const Response& response, Motion& motion);
+void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
+           BodyMotion& motion);
 
-void build_matrix(ContactBlock& block, const Response& a, const Response& b);
+void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b);
 
 /// Whether the impulses are an answer already, to `quiet` m/s.
 [[nodiscard]] bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet);

@@ -36,11 +36,11 @@ public:
     /// Begins a tick: no contacts, and bodies 1 .. `bodies`.
     void begin(std::size_t bodies);
 
-    [[nodiscard]] Response& response(SolverIndex body) { return responses_[body]; }
+    [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
     /// At the end of the tick.
-    [[nodiscard]] Motion& ending(SolverIndex body) { return ending_[body]; }
+    [[nodiscard]] BodyMotion& ending(SolverIndex body) { return ending_[body]; }
     /// The mean over the tick: what moves the bodies.
-    [[nodiscard]] Motion& mean(SolverIndex body) { return mean_[body]; }
+    [[nodiscard]] BodyMotion& mean(SolverIndex body) { return mean_[body]; }
 
     [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
     ContactBlock& add() { return blocks_.add(); }
@@ -53,16 +53,16 @@ public:
     SolverOutcome separate(const SolverLimits& limits);
     /// What one block changes in velocities that are told.
     Modal solve_one(ContactBlock& block, const Modal& velocity, double quiet);
-    void apply(const ContactBlock& block, const Modal& change, std::span<Motion> motions);
-    [[nodiscard]] std::span<Motion> endings() { return ending_.all(); }
-    [[nodiscard]] std::span<Motion> means() { return mean_.all(); }
+    void apply(const ContactBlock& block, const Modal& change, std::span<BodyMotion> motions);
+    [[nodiscard]] std::span<BodyMotion> endings() { return ending_.all(); }
+    [[nodiscard]] std::span<BodyMotion> means() { return mean_.all(); }
 
 private:
     enum class Mode : std::uint8_t { contacts, separations };
     /// What is solved, and for which velocities.
     struct Task {
         Mode mode = Mode::contacts;
-        std::span<Motion> motions;
+        std::span<BodyMotion> motions;
         double quiet = 0.0;
     };
 
@@ -72,9 +72,9 @@ private:
     void mark();
     double go_on(const Task& task, double was2, bool is_first);
 
-    Scratch<Response> responses_;
-    Scratch<Motion> ending_;
-    Scratch<Motion> mean_;
+    Scratch<BodyResponse> responses_;
+    Scratch<BodyMotion> ending_;
+    Scratch<BodyMotion> mean_;
     Scratch<ContactBlock> blocks_;
 };
 

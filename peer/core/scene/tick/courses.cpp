@@ -31,7 +31,7 @@ bool is_nothing(const glm::dvec3& angle)
            std::abs(angle.z) < nothing;
 }
 
-void turn(const Course& course, Bodies& bodies, Slot slot, const Motion& mean, double tick)
+void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
 {
     const BodyForm& form = bodies.form[slot];
     const glm::dquat now = bodies.orientation.at(slot);
@@ -64,10 +64,10 @@ OrientedBox box_of(const Bodies& bodies, Slot slot)
     return {bodies.position.at(slot), axes_of(bodies.orientation.at(slot)), bodies.form[slot].half};
 }
 
-Response response_of(const BodyForm& form, const OrientedBox& box)
+BodyResponse response_of(const BodyForm& form, const OrientedBox& box)
 {
     const glm::dvec3& about = form.inverse_inertia;
-    Response response{form.inverse_mass, glm::dmat3{0.0}};
+    BodyResponse response{form.inverse_mass, glm::dmat3{0.0}};
     if (turns_evenly(form)) {
         for (int i = 0; i < 3; ++i) response.inverse_inertia[i][i] = about[i];
         return response;
@@ -84,7 +84,7 @@ Response response_of(const BodyForm& form, const OrientedBox& box)
     return response;
 }
 
-void follow(Course& course, const Stage& stage, Slot slot, const Response& response,
+void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
             const Frozen& frozen)
 {
     const Bodies& bodies = stage.bodies;
@@ -103,8 +103,8 @@ void follow(Course& course, const Stage& stage, Slot slot, const Response& respo
                    0.5 * (course.start.spin + course.tentative.spin), glm::dvec3{0.0}};
 }
 
-void stop_in_time(const ContactBlock& block, const Course& course, const BodyForm& form,
-                  const Scales& scales, Motion& mean)
+void stop_in_time(const ContactBlock& block, const BodyCourse& course, const BodyForm& form,
+                  const Scales& scales, BodyMotion& mean)
 {
     const double sign = block.b != 0 ? 1.0 : -1.0;
     const glm::dvec3& start = course.start.velocity;
@@ -123,11 +123,11 @@ void stop_in_time(const ContactBlock& block, const Course& course, const BodyFor
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
-void arrive(const Course& course, Bodies& bodies, Slot slot, ContactSolver& solver, double tick)
+void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver, double tick)
 {
     const SolverIndex index = slot + 1;
-    const Motion& mean = solver.mean(index);
-    const Motion& ending = solver.ending(index);
+    const BodyMotion& mean = solver.mean(index);
+    const BodyMotion& ending = solver.ending(index);
     turn(course, bodies, slot, mean, tick);
     bodies.position.put(slot, bodies.position.at(slot) + tick * mean.velocity);
     bodies.velocity.put(slot, ending.velocity);

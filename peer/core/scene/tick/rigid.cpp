@@ -108,7 +108,7 @@ void RigidTick<crowd>::look(const Frozen& /*frozen*/, const Stage& stage)
         OrientedBox& box = boxes_[form.id];
         box = box_of(bodies, slot);
         solver_.response(slot + 1) = response_of(form, box);
-        Course& course = courses_[slot + 1];
+        BodyCourse& course = courses_[slot + 1];
         course.impulse = glm::dvec3{0.0};
         course.angular_impulse = glm::dvec3{0.0};
         course.rubbing = 0;
@@ -206,7 +206,7 @@ void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
     solver_.ending(0) = {};
     solver_.mean(0) = {};
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        Course& course = courses_[slot + 1];
+        BodyCourse& course = courses_[slot + 1];
         follow(course, stage, slot, solver_.response(slot + 1), frozen);
         solver_.ending(slot + 1) = course.tentative;
     }
@@ -216,9 +216,9 @@ void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        const Course& course = courses_[slot + 1];
-        const Motion& ending = solver_.ending(slot + 1);
-        Motion& mean = solver_.mean(slot + 1);
+        const BodyCourse& course = courses_[slot + 1];
+        const BodyMotion& ending = solver_.ending(slot + 1);
+        BodyMotion& mean = solver_.mean(slot + 1);
         mean.velocity = course.mean.velocity + 0.5 * (ending.velocity - course.tentative.velocity);
         mean.spin = course.mean.spin + 0.5 * (ending.spin - course.tentative.spin);
         mean.angular_impulse = 0.5 * ending.angular_impulse;

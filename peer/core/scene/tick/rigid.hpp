@@ -52,7 +52,7 @@ private:
     Scales scales_;
     Neighbours<search> neighbours_;
     std::vector<OrientedBox> boxes_; // by id
-    Scratch<Course> courses_;        // by solver index
+    Scratch<BodyCourse> courses_;    // by solver index
     ContactSolver solver_;
     Counts counts_;
 };
