@@ -160,8 +160,8 @@ void follow_hands(Course& course, const Stage& stage, Slot slot, const Response&
     const Bodies& bodies = stage.bodies;
     start(course, stage, slot, response);
     const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
-    Answer answer{response.inverse_mass, response.inverse_inertia, rate,
-                  course.angular_impulse / frozen.tick};
+    Answer answer{response.inverse_mass, response.inverse_inertia, turns_evenly(bodies.form[slot]),
+                  rate, course.angular_impulse / frozen.tick};
     MovingBody body;
     const auto advance_against = [&](const glm::dvec3& drag) {
         body = {bodies.position.at(slot), bodies.orientation.at(slot), course.start.velocity,
