@@ -161,8 +161,12 @@ void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyR
     const Bodies& bodies = stage.bodies;
     start(course, stage, slot, response);
     const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
-    Answer answer{response.inverse_mass, response.inverse_inertia, turns_evenly(bodies.form[slot]),
-                  rate, course.angular_impulse / frozen.tick};
+    Answer answer{bodies.form[slot].half,
+                  response.inverse_mass,
+                  response.inverse_inertia,
+                  turns_evenly(bodies.form[slot]),
+                  rate,
+                  course.angular_impulse / frozen.tick};
     MovingBody body;
     const auto advance_against = [&](const glm::dvec3& drag) {
         body = {bodies.position.at(slot), bodies.orientation.at(slot), course.start.velocity,
