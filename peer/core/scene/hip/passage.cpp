@@ -18,7 +18,7 @@ constexpr double turn_max = 0.01;
 
 glm::dmat3 turned_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& angle)
 {
-    const glm::dmat3 turn = axes_of(unit(turn_by(angle)));
+    const glm::dmat3 turn = axes_of(turn_by(angle));
     return turn * inverse_inertia * glm::transpose(turn);
 }
 
@@ -95,7 +95,7 @@ Passage::Setting Passage::halfway(double time) const
     if (turns_) {
         const glm::dvec3 angle =
             half * (inverse_inertia_ * (body_.angular_momentum + (0.5 * half) * torque));
-        axes = axes_of(unit(turn_by(angle) * body_.orientation));
+        axes = axes_of(turn_by(angle) * body_.orientation);
         if (!answer_.turns_evenly)
             setting.inverse_inertia = turned_inertia(inverse_inertia_, angle);
     }
@@ -219,6 +219,19 @@ void Passage::meet(std::size_t i)
     constexpr double near = 1e-9;
     if (press.phase == Phase::pressing && press.depth < -near * press.closing * tick_)
         press.phase = Phase::apart;
+}
+
+std::array<HipSpring, 2> Passage::now() const
+{
+    std::array<HipSpring, 2> springs;
+    for (std::size_t i = 0; i < count_; ++i) {
+        HipSpring& spring = springs[i];
+        spring = *springs_[i];
+        spring.normal = holds_[i].normal;
+        spring.gap = -presses_[i].depth;
+        spring.arm = hands_[i] - (spring.radius + spring.gap) * spring.normal;
+    }
+    return springs;
 }
 
 void Passage::settle()

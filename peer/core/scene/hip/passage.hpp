@@ -26,6 +26,9 @@ public:
     /// form, or phases end again and again.
     [[nodiscard]] bool pass();
     [[nodiscard]] double left() const { return left_; }
+    [[nodiscard]] const glm::dmat3& inverse_inertia() const { return inverse_inertia_; }
+    /// The springs as they are now.
+    [[nodiscard]] std::array<HipSpring, 2> now() const;
 
 private:
     /// What is held for a time.

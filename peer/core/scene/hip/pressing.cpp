@@ -168,8 +168,34 @@ Watch Presses::watch(std::size_t i, double level, const std::array<double, 2>& w
     return watch;
 }
 
+bool Presses::is_settled(std::size_t i) const
+{
+    const Press& press = presses_[i];
+    if (press.phase == Phase::apart) {
+        if (modes_ > 0) return false;
+        const Course& course = courses_[i];
+        return press.depth + time_ * (std::abs(course.speed) + time_ * std::abs(course.push)) < 0.0;
+    }
+    if (press.phase == Phase::capped) return false;
+    double change = 0.0;
+    for (std::size_t mode = 0; mode < modes_; ++mode) {
+        const Course& course = courses_[mode];
+        const Law& law = course.kernel->law;
+        const double acceleration = course.push - law.damping * course.speed;
+        const double jerk = -law.damping * acceleration - law.stiffness * course.speed;
+        const double rate = std::abs(course.speed + lag_ * acceleration);
+        const double bend = std::abs(acceleration + lag_ * jerk);
+        change +=
+            std::abs(weight_[i][mode]) * (rate + time_ * (bend + course.kernel->frequency * rate));
+    }
+    change *= time_;
+    const double drive = press.drive();
+    return drive - change > 0.0 && drive + change < press.force_max;
+}
+
 void Presses::look(End& end, std::size_t i)
 {
+    if (is_settled(i)) return;
     const Press& press = presses_[i];
     const auto look_for = [&](Phase then, double level, double sign) {
         const auto found =

@@ -75,7 +75,8 @@ private:
     void solve_one(std::size_t pressing);
     void solve_both();
     [[nodiscard]] Watch watch(std::size_t i, double level, const std::array<double, 2>& weights);
-    void look(End& end, Phase then, const Watch& watch) const;
+    /// Whether a bound of how fast the force changes rules out that the phase ends.
+    [[nodiscard]] bool is_settled(std::size_t i) const;
     void look(End& end, std::size_t i);
     void add_work(Pressed& pressed) const;
 
