@@ -163,6 +163,7 @@ bool Passage::pass()
             }
             const auto before = presses_;
             presses_ = presses;
+            turned_ = std::max(turned_, setting.turned);
             apply(setting, pressed);
             for (std::size_t i = 0; i < count_; ++i) {
                 if (before[i].phase == Phase::apart) meet(i);
@@ -236,7 +237,9 @@ std::array<HipSpring, 2> Passage::now() const
 
 void Passage::settle()
 {
-    if (!turns_) return;
+    // Rounding alone is nothing to correct: a symmetric squeeze shall stay where it is.
+    constexpr double unturned = 1e-10;
+    if (turned_ < unturned * unturned) return;
     for (std::size_t i = 0; i < count_; ++i) {
         const Press& press = presses_[i];
         if (press.phase == Phase::apart) continue;

@@ -49,6 +49,7 @@ private:
     double tick_;
     double left_;
     bool turns_;
+    double turned_ = 0.0;        // the farthest that a normal turned in half of a phase, squared
     glm::dmat3 inverse_inertia_; // now
     glm::dmat3 axes_;            // of the body, now
     std::size_t count_ = 0;
