@@ -56,8 +56,9 @@ void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
         for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * push[i];
     }
     slide.near = obstacles_.near(slide.place, 0.0);
-    slide.place = obstacles_.out_of(slide.near, slide.place);
-    slide.near = obstacles_.near(slide.place, 0.0);
+    if (obstacles_.put_out(slide.near, slide.place)) {
+        slide.near = obstacles_.near(slide.place, 0.0);
+    }
 
     hands_.gather(frozen, stage, slide);
     run(frozen, slide);

@@ -13,18 +13,26 @@ bool is_between(const Obstacle& obstacle, std::size_t axis, double place, double
     return gap < 0.0 || (gap == 0.0 && obstacle.side(axis, place) * speed < 0.0);
 }
 
+void touch_face(Slide& slide, const Obstacle& obstacle, std::size_t i)
+{
+    if (slide.place[i] == obstacle.high[i]) slide.axes[i].below = &obstacle;
+    if (slide.place[i] == obstacle.low[i]) slide.axes[i].above = &obstacle;
+}
+
 void touch(Slide& slide, const Obstacle& obstacle)
 {
+    if (obstacle.is_plane) {
+        touch_face(slide, obstacle, obstacle.normal_axis);
+        return;
+    }
     for (std::size_t i = 0; i < 3; ++i) {
-        const double place = slide.place[i];
-        if (place != obstacle.high[i] && place != obstacle.low[i]) continue;
+        if (obstacle.gap(i, slide.place[i]) != 0.0) continue;
         const std::size_t j = (i + 1) % 3;
         const std::size_t k = (i + 2) % 3;
-        if (!is_between(obstacle, j, slide.place[j], slide.velocity[j]) ||
-            !is_between(obstacle, k, slide.place[k], slide.velocity[k])) {
-            continue;
+        if (is_between(obstacle, j, slide.place[j], slide.velocity[j]) &&
+            is_between(obstacle, k, slide.place[k], slide.velocity[k])) {
+            touch_face(slide, obstacle, i);
         }
-        (place == obstacle.high[i] ? slide.axes[i].below : slide.axes[i].above) = &obstacle;
     }
 }
 
