@@ -55,6 +55,28 @@ Picked pick(std::span<const HipSpring> springs, double within)
     return picked;
 }
 
+struct Task {
+    MovingBody& body;
+    const Answer& answer;
+    std::span<const HipSpring> springs;
+    std::span<HipWork> work;
+};
+template <std::size_t count>
+void pass(const Task& task, const Picked& picked, double tick)
+{
+    Passage<count> passage{task.body, task.answer, tick};
+    for (std::size_t i = 0; i < count; ++i)
+        passage.set(i, task.springs[picked.which[i]], task.work[picked.which[i]]);
+    if (passage.pass()) return;
+
+    const auto now = passage.now();
+    std::array<HipWork, count> rest;
+    Answer turned = task.answer;
+    turned.inverse_inertia = passage.inverse_inertia();
+    Midpoint{task.body, turned, now, rest}.pass(passage.left());
+    for (std::size_t i = 0; i < count; ++i) task.work[picked.which[i]].impulse += rest[i].impulse;
+}
+
 } // namespace
 
 void advance(MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
@@ -75,17 +97,11 @@ void advance(MovingBody& body, const Answer& answer, std::span<const HipSpring> 
         advance_freely(body, answer, tick);
         return;
     }
-    Passage passage{body, answer, tick};
-    for (std::size_t i = 0; i < picked.count; ++i)
-        passage.add(springs[picked.which[i]], work[picked.which[i]]);
-    if (passage.pass()) return;
-
-    const std::array<HipSpring, 2> now = passage.now();
-    std::array<HipWork, 2> rest;
-    Answer turned = answer;
-    turned.inverse_inertia = passage.inverse_inertia();
-    Midpoint{body, turned, std::span{now}.first(picked.count), rest}.pass(passage.left());
-    for (std::size_t i = 0; i < picked.count; ++i) work[picked.which[i]].impulse += rest[i].impulse;
+    if (picked.count == 1) {
+        pass<1>({body, answer, springs, work}, picked, tick);
+    } else {
+        pass<2>({body, answer, springs, work}, picked, tick);
+    }
 }
 
 } // namespace hapnet::scene
