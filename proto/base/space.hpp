@@ -5,6 +5,7 @@
 #include "proto/base/time.hpp"
 
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 namespace hapnet::base {
@@ -93,6 +94,14 @@ template <typename Kind>
 {
     const double length = norm(v);
     return length > length_max ? (length_max / length) * v : v;
+}
+
+/// A rotation brought back to length 1 by a square root and a division: the same bits everywhere,
+/// which the math library's own way does not promise.
+[[nodiscard]] inline glm::dquat normalized(const glm::dquat& q)
+{
+    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
 
 } // namespace hapnet::base

@@ -23,7 +23,7 @@ struct BodyForm {
     double mass = 0.0;               // kg; 0: fixed
     Turning turning = Turning::locked;
     bool is_isotropic = false; // the three moments of inertia are equal, as a cube's
-    Material material;
+    Material material{};
     double drag = 0.0; // N s/m
 };
 

@@ -15,8 +15,8 @@ using BodyId = std::uint32_t;
 /// Where a hand is at the start of a tick. During the tick it moves on at its velocity (first-order
 /// hold), so that a steady push has no lag of one tick.
 struct HipInput {
-    base::Position position;
-    base::Velocity velocity;
+    base::Position position{};
+    base::Velocity velocity{};
     bool present = true; // false: it touches nothing
     bool gripping = false;
 };
@@ -32,18 +32,18 @@ using RefusalCounts = std::array<std::uint64_t, refusals>;
 struct HipTouch {
     bool touching = false; // pushed or held a movable body
     bool holding = false;
-    BodyId body = 0;             // the movable one that it touched
-    base::Force on_body;         // on the movable body: the mean over the tick
-    base::Force on_hip;          // by everything it touched: the mean over the tick
-    double depth_m = 0.0;        // at the start of the tick, of the deepest contact
-    base::Force on_hip_at_start; // the spring and damper at the start of the tick
+    BodyId body = 0;               // the movable one that it touched
+    base::Force on_body{};         // on the movable body: the mean over the tick
+    base::Force on_hip{};          // by everything it touched: the mean over the tick
+    double depth_m = 0.0;          // at the start of the tick, of the deepest contact
+    base::Force on_hip_at_start{}; // the spring and damper at the start of the tick
 };
 
 /// A rigid body's place and motion.
 struct BodyState {
-    base::Position position;
+    base::Position position{};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
-    base::Velocity velocity;
+    base::Velocity velocity{};
     glm::dvec3 angular_velocity{0.0}; // rad/s, in the world's frame
 };
 

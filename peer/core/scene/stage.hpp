@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/scene/bodies.hpp"
+#include "peer/core/scene/bounded.hpp"
 
 #include <array>
 #include <vector>
@@ -11,8 +12,8 @@ namespace hapnet::scene {
 
 /// What holds for a frozen scene from its first tick to its last.
 struct Frozen {
-    std::vector<PlaneDescription> planes;
-    HipDescription hips;
+    std::vector<PlaneDescription> planes{};
+    HipDescription hips{};
     glm::dvec3 gravity{0.0};
     double tick = 1e-3;   // seconds
     bool sleeping = true; // whether bodies at rest may fall asleep
@@ -23,10 +24,11 @@ struct Frozen {
 /// memory: a copy of both is a snapshot.
 struct Stage {
     Bodies bodies;
-    std::array<HipInput, hips_max> hips;
-    std::array<HipTouch, hips_max> touches;
-    std::vector<glm::dvec3> pushes; // newtons by id, held for the next tick, then cleared
-    std::vector<BodyId> pushed;     // whose push is not zero
+    std::array<HipInput, hips_max> hips{};
+    std::array<HipTouch, hips_max> touches{};
+    std::vector<glm::dvec3> pushes{};      // newtons by id, held for the next tick, then cleared
+    Bounded<BodyId> pushed{};              // those of whom there is a push, each once
+    std::vector<std::uint8_t> is_pushed{}; // by id
     std::uint64_t ticks = 0;
 };
 

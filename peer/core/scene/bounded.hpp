@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/ensure.hpp"
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace hapnet::scene {
+
+/// A list of at most so many elements, for which the memory is taken at construction. Unlike a
+/// vector's reserve, that holds for copies too: a copied world takes no memory in its ticks. What
+/// was never used is neither touched nor copied.
+template <typename T>
+class Bounded {
+public:
+    Bounded() = default;
+    explicit Bounded(std::size_t size_max) { elements_.reserve(size_max); }
+    Bounded(const Bounded& other) { *this = other; }
+    Bounded(Bounded&&) noexcept = default;
+    Bounded& operator=(const Bounded& other)
+    {
+        if (this == &other) return *this;
+        elements_.reserve(other.size_max());
+        elements_ = other.elements_;
+        return *this;
+    }
+    Bounded& operator=(Bounded&&) noexcept = default;
+    ~Bounded() = default;
+
+    /// Whether there was room.
+    bool add(T element)
+    {
+        if (is_full()) return false;
+        elements_.push_back(std::move(element));
+        return true;
+    }
+    /// Puts the last one in the place of the one that goes.
+    void remove(std::size_t index)
+    {
+        base::ensure(index < size());
+        elements_[index] = std::move(elements_.back());
+        elements_.pop_back();
+    }
+    /// Takes the last one out.
+    T take_last()
+    {
+        base::ensure(!is_empty());
+        T last = std::move(elements_.back());
+        elements_.pop_back();
+        return last;
+    }
+    /// Forgets what is beyond, or fills up with new ones.
+    void resize(std::size_t size)
+    {
+        base::ensure(size <= size_max());
+        elements_.resize(size);
+    }
+    void clear() { elements_.clear(); }
+
+    [[nodiscard]] bool is_empty() const { return elements_.empty(); }
+    [[nodiscard]] bool is_full() const { return size() == size_max(); }
+    [[nodiscard]] std::size_t size() const { return elements_.size(); }
+    [[nodiscard]] std::size_t size_max() const { return elements_.capacity(); }
+    [[nodiscard]] T& operator[](std::size_t index) { return elements_[index]; }
+    [[nodiscard]] const T& operator[](std::size_t index) const { return elements_[index]; }
+    [[nodiscard]] std::span<const T> all() const { return elements_; }
+
+    [[nodiscard]] T* begin() { return elements_.data(); }
+    [[nodiscard]] T* end() { return elements_.data() + size(); }
+    [[nodiscard]] const T* begin() const { return elements_.data(); }
+    [[nodiscard]] const T* end() const { return elements_.data() + size(); }
+
+private:
+    std::vector<T> elements_;
+};
+
+} // namespace hapnet::scene
