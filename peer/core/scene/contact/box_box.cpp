@@ -73,7 +73,8 @@ bool edges_separate(const OrientedBox& a, const OrientedBox& b, EdgePair edges, 
 Manifold exchanged(Manifold manifold)
 {
     manifold.normal = -manifold.normal;
-    for (ContactPoint& point : manifold.points) point.feature = meeting_exchanged(point.feature);
+    for (ContactPoint& point : manifold.touching())
+        point.feature = meeting_exchanged(point.feature);
     return manifold;
 }
 

@@ -42,8 +42,7 @@ struct Polygon {
 
 /// The reference face's rectangle, and the incident face's parallelogram seen from it.
 struct Faces {
-    int axis = 0; // of the reference face; the plane's u and v are the next two, cyclically
-    int axis_u = 1;
+    int axis_u = 1; // of the reference box: the two next to the face's own, cyclically
     int axis_v = 2;
     double half_u = 0.0;
     double half_v = 0.0;
@@ -164,7 +163,6 @@ Polygon cut_to_reference(const Polygon& polygon, const Faces& faces)
 Faces facing(const OrientedBox& reference, const OrientedBox& incident, int axis)
 {
     Faces faces;
-    faces.axis = axis;
     faces.axis_u = (axis + 1) % 3;
     faces.axis_v = (axis + 2) % 3;
     faces.half_u = reference.half[faces.axis_u];
