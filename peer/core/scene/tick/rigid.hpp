@@ -2,7 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/scene/broadphase/neighbours.hpp"
+#include "peer/core/scene/solver/contact_solver.hpp"
+#include "peer/core/scene/solver/sleep.hpp"
 #include "peer/core/scene/stage.hpp"
+#include "peer/core/scene/tick/courses.hpp"
+#include "peer/core/scene/tick/hand_springs.hpp"
+
+#include <type_traits>
+#include <vector>
 
 namespace hapnet::scene {
 
@@ -10,6 +18,12 @@ namespace hapnet::scene {
 enum class Crowd : std::uint8_t { lone, few, many };
 
 /// Bodies that turn, rest on each other and are pushed by hands.
+///
+/// A tick: contacts where the bodies are; everyone's course under gravity, pushes, hands, and last
+/// tick's contact forces, held constant; what these have to change so that nothing goes into
+/// anything at the tick's end, again as constant forces: so what rests, slides or is pushed
+/// steadily moves exactly. Bounces happen at their moment within the tick. What overlaps is moved
+/// apart without gaining speed.
 template <Crowd crowd>
 class RigidTick {
 public:
@@ -17,6 +31,47 @@ public:
 
     void tick(const Frozen& frozen, Stage& stage);
     void disturbed(Stage& stage, BodyId body);
+
+    /// What was done, for tests and measurements.
+    struct Counts {
+        std::uint64_t contacts_left_out = 0; // beyond the bound
+        std::uint32_t contacts = 0;          // of the last tick
+        std::uint32_t sweeps = 0;            // of the last tick
+        double change = 0.0;                 // m/s, of the last sweep
+    };
+    [[nodiscard]] const Counts& counts() const { return counts_; }
+
+private:
+    static constexpr Search search = crowd == Crowd::many ? Search::grid : Search::scan;
+    static constexpr bool sleeps = crowd != Crowd::lone;
+    struct NoSleep {
+        NoSleep(const Frozen& /*frozen*/, const Bodies& /*bodies*/) {}
+    };
+
+    void feel(const Frozen& frozen, Stage& stage);
+    void wake(Stage& stage);
+    void look(const Stage& stage);
+    void meet_planes(const Frozen& frozen, const Stage& stage);
+    void meet_bodies(const Stage& stage);
+    [[nodiscard]] Manifold between(const Stage& stage, Pair& pair) const;
+    ContactBlock* meet(const Manifold& manifold, const ContactPlaces& centres,
+                       ContactMemory& memory);
+    void carry();
+    void set_out(const Frozen& frozen, const Stage& stage);
+    void push_by_hands(const Frozen& frozen, const Stage& stage);
+    void solve(const Stage& stage);
+    void move_apart();
+    [[nodiscard]] double reach(const Stage& stage, Slot slot) const;
+
+    Scales scales_;
+    bool bounces_ = false;
+    Neighbours<search> neighbours_;
+    std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
+    HandSprings hands_;
+    std::vector<OrientedBox> boxes_; // by id, where they are
+    Scratch<BodyCourse> courses_;    // by solver index
+    ContactSolver solver_;
+    Counts counts_;
 };
 
 using LoneTick = RigidTick<Crowd::lone>;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "tests/bench/emulator/rows.hpp"
+#include "tests/bench/common/rows.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/scene/solver/block.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace hapnet::scene {
+
+namespace {
+
+/// Of a face under even pressure: the mean distance from the middle of a square over the distance
+/// of its corners is (sqrt(2) + log(1 + sqrt(2))) / (3 sqrt(2)).
+constexpr double even_pressure = 0.5410;
+
+void set_tangents(ContactBlock& block)
+{
+    const glm::dvec3& n = block.normal;
+    // The axis that the normal is farthest from: the cross product is never short.
+    const glm::dvec3 size = glm::abs(n);
+    glm::dvec3 axis{0.0};
+    axis[size.x <= size.z ? (size.x <= size.y ? 0 : 1) : (size.z <= size.y ? 2 : 1)] = 1.0;
+    const glm::dvec3 t = glm::cross(axis, n);
+    block.tangent_1 = t / std::sqrt(glm::dot(t, t));
+    block.tangent_2 = glm::cross(n, block.tangent_1);
+}
+
+void set_points(ContactBlock& block, const Manifold& manifold)
+{
+    std::array<double, manifold_points_max> weight = block.impulse.normal;
+    double sum = block.normal_sum();
+    if (!(sum > 0.0)) {
+        for (std::uint32_t i = 0; i < manifold.count; ++i) weight[i] = 1.0;
+        sum = manifold.count;
+    }
+    // From the first point, so that a contact far from the origin loses nothing.
+    const glm::dvec3 first = manifold.points[0].position;
+    glm::dvec3 centre{0.0};
+    for (std::uint32_t i = 1; i < manifold.count; ++i) {
+        centre += weight[i] * (manifold.points[i].position - first);
+    }
+    block.anchor = first + centre / sum;
+    double arm = 0.0;
+    for (std::uint32_t i = 0; i < manifold.count; ++i) {
+        const glm::dvec3 from = manifold.points[i].position - block.anchor;
+        const double u = glm::dot(from, block.tangent_1);
+        const double v = glm::dot(from, block.tangent_2);
+        block.along_1[i] = u;
+        block.along_2[i] = v;
+        block.separation[i] = manifold.points[i].separation;
+        block.feature[i] = manifold.points[i].feature;
+        arm += std::sqrt(u * u + v * v);
+    }
+    block.torsion_arm = even_pressure * arm / manifold.count;
+}
+
+void start_from(ContactBlock& block, const Manifold& manifold, const ContactMemory& memory)
+{
+    block.impulse = {};
+    bool any = false;
+    for (std::uint32_t i = 0; i < manifold.count; ++i) {
+        for (std::uint32_t j = 0; j < memory.count; ++j) {
+            if (memory.feature[j] != manifold.points[i].feature) continue;
+            block.impulse.normal[i] = memory.normal_impulse[j];
+            any = any || memory.normal_impulse[j] > 0.0;
+            break;
+        }
+    }
+    if (!any) return;
+    block.impulse.tangent_1 = glm::dot(memory.friction_impulse, block.tangent_1);
+    block.impulse.tangent_2 = glm::dot(memory.friction_impulse, block.tangent_2);
+    block.impulse.torsion = memory.torsion_impulse;
+}
+
+struct Jacobian {
+    glm::dvec3 linear;
+    glm::dvec3 angular;
+};
+
+void add_body(Square<6>& matrix, const std::array<Jacobian, 6>& rows, const BodyResponse& body)
+{
+    for (std::size_t i = 0; i < 6; ++i) {
+        const glm::dvec3 moved = body.inverse_mass * rows[i].linear;
+        const glm::dvec3 turned = body.inverse_inertia * rows[i].angular;
+        for (std::size_t j = 0; j <= i; ++j) {
+            matrix[i][j] += glm::dot(moved, rows[j].linear) + glm::dot(turned, rows[j].angular);
+        }
+    }
+}
+
+std::array<Jacobian, 6> jacobian(const ContactBlock& block, const glm::dvec3& arm)
+{
+    const glm::dvec3 none{0.0};
+    const auto push = [&](const glm::dvec3& along) {
+        return Jacobian{along, glm::cross(arm, along)};
+    };
+    return {push(block.normal),    Jacobian{none, block.tangent_1}, Jacobian{none, block.tangent_2},
+            push(block.tangent_1), push(block.tangent_2),           Jacobian{none, block.normal}};
+}
+
+} // namespace
+
+void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
+             const ContactMemory& memory)
+{
+    block.normal = manifold.normal;
+    block.count = manifold.count;
+    block.has_matrix = false;
+    set_tangents(block);
+    start_from(block, manifold, memory);
+    set_points(block, manifold);
+    block.arm_a = block.anchor - centres.a;
+    block.arm_b = block.anchor - centres.b;
+}
+
+void remember(const ContactBlock& block, ContactMemory& memory)
+{
+    memory.count = block.count;
+    memory.feature = block.feature;
+    memory.normal_impulse = block.impulse.normal;
+    memory.friction_impulse =
+        block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
+    memory.torsion_impulse = block.impulse.torsion;
+}
+
+Modal velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
+{
+    glm::dvec3 velocity{0.0};
+    glm::dvec3 spin{0.0};
+    if (block.b != 0) {
+        velocity = b.velocity + glm::cross(b.spin, block.arm_b);
+        spin = b.spin;
+    }
+    if (block.a != 0) {
+        velocity -= a.velocity + glm::cross(a.spin, block.arm_a);
+        spin -= a.spin;
+    }
+    return {glm::dot(velocity, block.normal),    glm::dot(spin, block.tangent_1),
+            glm::dot(spin, block.tangent_2),     glm::dot(velocity, block.tangent_1),
+            glm::dot(velocity, block.tangent_2), glm::dot(spin, block.normal)};
+}
+
+Modal modal(const ContactBlock& block, const ContactImpulse& impulse)
+{
+    Modal sum{0.0, 0.0, 0.0, impulse.tangent_1, impulse.tangent_2, impulse.torsion};
+    for (std::size_t i = 0; i < block.count; ++i) {
+        sum[0] += impulse.normal[i];
+        sum[1] += block.along_2[i] * impulse.normal[i];
+        sum[2] -= block.along_1[i] * impulse.normal[i];
+    }
+    return sum;
+}
+
+Wrench wrench(const ContactBlock& block, const Modal& impulse)
+{
+    return {impulse[0] * block.normal + impulse[3] * block.tangent_1 + impulse[4] * block.tangent_2,
+            impulse[1] * block.tangent_1 + impulse[2] * block.tangent_2 +
+                impulse[5] * block.normal};
+}
+
+void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
+           BodyMotion& motion)
+{
+    const glm::dvec3 angular = glm::cross(arm, wrench.impulse) + wrench.angular;
+    motion.velocity += response.inverse_mass * wrench.impulse;
+    motion.spin += response.inverse_inertia * angular;
+    motion.angular_impulse += angular;
+}
+
+void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b)
+{
+    block.matrix = {};
+    if (block.a != 0) add_body(block.matrix, jacobian(block, block.arm_a), a);
+    if (block.b != 0) add_body(block.matrix, jacobian(block, block.arm_b), b);
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = i + 1; j < 6; ++j) block.matrix[i][j] = block.matrix[j][i];
+    }
+    block.has_matrix = true;
+}
+
+Modal times(const Square<6>& matrix, const Modal& impulse)
+{
+    Modal velocity{};
+    for (std::size_t j = 0; j < 6; ++j) {
+        for (std::size_t i = 0; i < 6; ++i) velocity[i] += matrix[i][j] * impulse[j];
+    }
+    return velocity;
+}
+
+} // namespace hapnet::scene

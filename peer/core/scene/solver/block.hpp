@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/scene/broadphase/pairs.hpp"
+#include "peer/core/scene/contact/manifold.hpp"
+#include "peer/core/scene/solver/ldl.hpp"
+
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace hapnet::scene {
+
+/// How a body answers to impulses; nothing moves what is fixed, a plane, or asleep.
+struct BodyResponse {
+    glm::dvec3 inverse_mass{0.0};
+    glm::dmat3 inverse_inertia{0.0}; // world's frame
+};
+
+/// Linear and angular velocity, in the world's frame.
+struct BodyMotion {
+    glm::dvec3 velocity{0.0};
+    glm::dvec3 spin{0.0};
+    glm::dvec3 angular_impulse{0.0}; // about the centre, of all that changed `spin`: N m s
+};
+
+/// Where the solver keeps a body; 0 stands for everything that does not move.
+using SolverIndex = std::uint32_t;
+
+/// Six numbers of a contact in its own frame, about its anchor: along the normal, about the first
+/// and the second tangent; along the first and the second tangent, about the normal. The first
+/// three are what points that only push can do, the others are friction.
+using Modal = std::array<double, 6>;
+
+/// The impulses of a contact, N s and N m s.
+struct ContactImpulse {
+    std::array<double, manifold_points_max> normal{};
+    double tangent_1 = 0.0;
+    double tangent_2 = 0.0;
+    double torsion = 0.0;
+};
+
+/// One manifold to be solved as a whole: up to four points that push, and friction as one vector
+/// and a torsion at the anchor, which is where the pressure's centre was last tick.
+struct ContactBlock {
+    SolverIndex a = 0;
+    SolverIndex b = 0;
+    std::uint32_t count = 0;
+    double friction = 0.0;
+    double torsion_arm = 0.0; // metres: the torsion's limit over the friction's
+    glm::dvec3 normal{0.0}, tangent_1{0.0}, tangent_2{0.0};
+    glm::dvec3 anchor{0.0};
+    glm::dvec3 arm_a{0.0}, arm_b{0.0};                            // from the centres to the anchor
+    std::array<double, manifold_points_max> along_1{}, along_2{}; // the points from the anchor
+    std::array<double, manifold_points_max> separation{};
+    std::array<double, manifold_points_max> least{}; // the least normal speed of each point
+    std::array<std::uint32_t, manifold_points_max> feature{};
+    ContactImpulse impulse;
+    double restitution = 0.0;
+    ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
+
+    bool has_matrix = false;
+    Square<6> matrix{}; // from modal impulses to modal velocities
+
+    // What the conjugate directions remember between sweeps.
+    ContactImpulse before, direction;
+
+    [[nodiscard]] double normal_speed(const Modal& velocity, std::size_t point) const
+    {
+        return velocity[0] + along_2[point] * velocity[1] - along_1[point] * velocity[2];
+    }
+    [[nodiscard]] double normal_sum() const
+    {
+        return impulse.normal[0] + impulse.normal[1] + impulse.normal[2] + impulse.normal[3];
+    }
+};
+
+/// Where the bodies of a contact are.
+struct ContactPlaces {
+    glm::dvec3 a{0.0};
+    glm::dvec3 b{0.0};
+};
+
+/// Sets the geometry, and starts from last tick's impulses.
+void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
+             const ContactMemory& memory);
+/// Keeps the impulses for the next tick.
+void remember(const ContactBlock& block, ContactMemory& memory);
+
+[[nodiscard]] Modal velocity_at(const ContactBlock& block, const BodyMotion& a,
+                                const BodyMotion& b);
+[[nodiscard]] Modal modal(const ContactBlock& block, const ContactImpulse& impulse);
+
+/// An impulse in the world's frame, about the anchor.
+struct Wrench {
+    glm::dvec3 impulse{0.0};
+    glm::dvec3 angular{0.0};
+};
+[[nodiscard]] Wrench wrench(const ContactBlock& block, const Modal& impulse);
+/// On one body: `arm` from its centre to the anchor.
+void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
+           BodyMotion& motion);
+
+void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b);
+
+/// Whether the impulses are an answer already, to `quiet` m/s.
+[[nodiscard]] bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet);
+
+/// The same without regard to friction.
+[[nodiscard]] bool is_separated(const ContactBlock& block, const Modal& velocity, double quiet);
+
+/// Finds the impulses for which no point is slower than its least normal speed, none pulls, and
+/// friction holds or opposes the slip at its limit: directly where the contact sticks or slides
+/// without friction, by iterations where it slips. Needs the matrix. Returns the change.
+[[nodiscard]] Modal solve(ContactBlock& block, const Modal& velocity, double quiet);
+
+/// The same for the normal impulses alone, friction held.
+[[nodiscard]] Modal solve_normals(ContactBlock& block, const Modal& velocity, double quiet);
+
+[[nodiscard]] Modal times(const Square<6>& matrix, const Modal& impulse);
+
+} // namespace hapnet::scene

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/scene/tick/flight.hpp"
+
+#include "peer/core/scene/motion/rotation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hapnet::scene {
+
+namespace {
+
+/// One coordinate of a parabola.
+struct Step {
+    double tick = 0.0;
+    double gained = 0.0; // velocity
+    double fallen = 0.0; // displacement
+};
+
+void fall_along(std::vector<double>& position, std::vector<double>& velocity, SlotRange range,
+                const Step& by)
+{
+    const Step step = by;
+    double* const x = position.data();
+    double* const v = velocity.data();
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+        x[i] += v[i] * step.tick + step.fallen;
+        v[i] += step.gained;
+    }
+}
+
+/// The turns of some bodies, in lanes on the stack: the compiler sees that they overlap nothing,
+/// so that the loops become vector instructions.
+struct Turns {
+    static constexpr std::size_t room = 128;
+    std::array<double, room> w, x, y, z;
+};
+
+/// The turn of every body of the range. Returns how many turn too far for the short series.
+double find_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange range,
+                  const double* half_turn_by_momentum)
+{
+    const double* const lx = momentum.x.data() + range.begin;
+    const double* const ly = momentum.y.data() + range.begin;
+    const double* const lz = momentum.z.data() + range.begin;
+    const std::size_t count = range.end - range.begin;
+    double far = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double rate = half_turn_by_momentum[i];
+        const double x = rate * lx[i];
+        const double y = rate * ly[i];
+        const double z = rate * lz[i];
+        const double square = x * x + y * y + z * z;
+        const HalfTurn turn = small_half_turn(square);
+        turns.w[i] = turn.cosine;
+        turns.x[i] = turn.sinc * x;
+        turns.y[i] = turn.sinc * y;
+        turns.z[i] = turn.sinc * z;
+        far += square <= small_turn_max ? 0.0 : 1.0;
+    }
+    return far;
+}
+
+/// As find_turns, one by one and for turns of any size.
+void find_far_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange range,
+                    const double* half_turn_by_momentum)
+{
+    for (Slot slot = range.begin; slot < range.end; ++slot) {
+        const std::size_t i = slot - range.begin;
+        const glm::dquat turn = turn_by((2.0 * half_turn_by_momentum[i]) * momentum.at(slot));
+        turns.w[i] = turn.w;
+        turns.x[i] = turn.x;
+        turns.y[i] = turn.y;
+        turns.z[i] = turn.z;
+    }
+}
+
+/// orientation = turn * orientation, unit.
+void apply(const Turns& turns, Bodies::Lanes4& orientation, SlotRange range)
+{
+    double* const w = orientation.w.data() + range.begin;
+    double* const x = orientation.x.data() + range.begin;
+    double* const y = orientation.y.data() + range.begin;
+    double* const z = orientation.z.data() + range.begin;
+    const std::size_t count = range.end - range.begin;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double a =
+            turns.w[i] * w[i] - turns.x[i] * x[i] - turns.y[i] * y[i] - turns.z[i] * z[i];
+        const double b =
+            turns.w[i] * x[i] + turns.x[i] * w[i] + turns.y[i] * z[i] - turns.z[i] * y[i];
+        const double c =
+            turns.w[i] * y[i] + turns.y[i] * w[i] + turns.z[i] * x[i] - turns.x[i] * z[i];
+        const double d =
+            turns.w[i] * z[i] + turns.z[i] * w[i] + turns.x[i] * y[i] - turns.y[i] * x[i];
+        const double length = std::sqrt(a * a + b * b + c * c + d * d);
+        w[i] = a / length;
+        x[i] = b / length;
+        y[i] = c / length;
+        z[i] = d / length;
+    }
+}
+
+} // namespace
+
+void fall(Bodies& bodies, SlotRange range, const glm::dvec3& acceleration, double tick)
+{
+    const glm::dvec3 gained = tick * acceleration;
+    const glm::dvec3 fallen = (0.5 * tick) * gained;
+    fall_along(bodies.position.x, bodies.velocity.x, range, {tick, gained.x, fallen.x});
+    fall_along(bodies.position.y, bodies.velocity.y, range, {tick, gained.y, fallen.y});
+    fall_along(bodies.position.z, bodies.velocity.z, range, {tick, gained.z, fallen.z});
+}
+
+void turn_evenly(Bodies& bodies, SlotRange range, std::span<const double> inverse_inertia,
+                 double tick)
+{
+    Turns turns;
+    std::array<double, Turns::room> rate;
+    while (range.begin < range.end) {
+        const Slot count = std::min<Slot>(Turns::room, range.end - range.begin);
+        const SlotRange some{range.begin, range.begin + count};
+        for (std::size_t i = 0; i < count; ++i)
+            rate[i] = (0.5 * tick) * inverse_inertia[some.begin + i];
+        if (find_turns(turns, bodies.angular_momentum, some, rate.data()) != 0.0)
+            find_far_turns(turns, bodies.angular_momentum, some, rate.data());
+        apply(turns, bodies.orientation, some);
+        range.begin = some.end;
+    }
+}
+
+bool turns_evenly(const BodyForm& form)
+{
+    return form.turning != Turning::free || form.is_isotropic;
+}
+
+double even_inverse_inertia(const BodyForm& form)
+{
+    const glm::dvec3& about = form.inverse_inertia;
+    return std::max(std::max(about.x, about.y), about.z);
+}
+
+void turn_freely(Bodies& bodies, Slot slot, double tick)
+{
+    const BodyForm& form = bodies.form[slot];
+    if (form.turning == Turning::locked) return;
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
+    const glm::dquat now = bodies.orientation.at(slot);
+    bodies.orientation.put(slot, turns_evenly(form)
+                                     ? turned(now, tick * bodies.turned_by(slot, momentum))
+                                     : spun(now, {momentum, form.inverse_inertia}, tick));
+}
+
+glm::dvec3 falling(const BodyForm& form, const glm::dvec3& gravity)
+{
+    return {form.inverse_mass.x > 0.0 ? gravity.x : 0.0,
+            form.inverse_mass.y > 0.0 ? gravity.y : 0.0,
+            form.inverse_mass.z > 0.0 ? gravity.z : 0.0};
+}
+
+FlightTick::FlightTick(const Description& /*description*/, const Frozen& frozen, const Stage& stage)
+    : inverse_inertia_(stage.bodies.movable)
+{
+    for (Slot slot = 0; slot < stage.bodies.movable; ++slot) {
+        const BodyForm& form = stage.bodies.form[slot];
+        inverse_inertia_[slot] = even_inverse_inertia(form);
+        const Kind kind = form.turning == Turning::locked ? Kind::locked
+                          : turns_evenly(form)            ? Kind::even
+                                                          : Kind::wobbling;
+        const glm::dvec3 acceleration = falling(form, frozen.gravity);
+        if (runs_.empty() || runs_.back().kind != kind || runs_.back().acceleration != acceleration)
+            runs_.push_back({kind, {slot, slot}, acceleration});
+        runs_.back().range.end = slot + 1;
+    }
+}
+
+void FlightTick::tick(const Frozen& frozen, Stage& stage)
+{
+    Bodies& bodies = stage.bodies;
+    const double tick = frozen.tick;
+    for (const Run& run : runs_) {
+        fall(bodies, run.range, run.acceleration, tick);
+        switch (run.kind) {
+        case Kind::locked: break;
+        case Kind::even: turn_evenly(bodies, run.range, inverse_inertia_, tick); break;
+        case Kind::wobbling:
+            for (Slot slot = run.range.begin; slot < run.range.end; ++slot)
+                turn_freely(bodies, slot, tick);
+            break;
+        }
+    }
+    for (const BodyId id : stage.pushed) {
+        const Slot slot = bodies.slot_of[id];
+        const glm::dvec3 gained = tick * (bodies.form[slot].inverse_mass * stage.pushes[id]);
+        bodies.position.put(slot, bodies.position.at(slot) + (0.5 * tick) * gained);
+        bodies.velocity.put(slot, bodies.velocity.at(slot) + gained);
+    }
+}
+
+void FlightTick::disturbed(Stage& /*stage*/, BodyId /*body*/) {}
+
+} // namespace hapnet::scene
