@@ -27,7 +27,7 @@ void append(std::vector<Row>& rows, std::vector<Row> more)
     rows.insert(rows.end(), more.begin(), more.end());
 }
 
-base::Result<int> run(const Options& options)
+base::Result<int> measure(const Options& options)
 {
     Files files{options};
     const Host machine = host();
@@ -60,5 +60,5 @@ int main(int argc, char** argv)
 {
     namespace bench = hapnet::bench;
     const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
-    return hapnet::net::run_program(bench::program, bench::parse_words, bench::run);
+    return hapnet::net::run_program(bench::program, bench::parse_words(words), bench::measure);
 }
