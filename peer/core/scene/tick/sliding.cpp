@@ -42,16 +42,18 @@ void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
     Slide slide{frozen.hips, laws_, obstacles_};
     slide.inverse_mass = 1.0 / form.mass;
     slide.left = frozen.tick;
-    slide.place = stage.bodies.position.at(slot);
-    slide.velocity = stage.bodies.velocity.at(slot);
-    for (const int i : {0, 1, 2}) {
-        slide.axis(i).locked = form.inverse_mass[i] == 0.0;
-        if (slide.axis(i).locked) slide.velocity[i] = 0.0;
-        slide.axis(i).steady = frozen.gravity[i];
+    slide.place = per_axis(stage.bodies.position.at(slot));
+    slide.velocity = per_axis(stage.bodies.velocity.at(slot));
+    const PerAxis gravity = per_axis(frozen.gravity);
+    const PerAxis mobility = per_axis(form.inverse_mass);
+    for (std::size_t i = 0; i < 3; ++i) {
+        slide.axes[i].locked = mobility[i] == 0.0;
+        if (slide.axes[i].locked) slide.velocity[i] = 0.0;
+        slide.axes[i].steady = gravity[i];
     }
     if (!stage.pushed.is_empty()) {
-        const glm::dvec3 by_pushes = slide.inverse_mass * stage.pushes[body_];
-        for (const int i : {0, 1, 2}) slide.axis(i).steady += by_pushes[i];
+        const PerAxis push = per_axis(stage.pushes[body_]);
+        for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * push[i];
     }
     slide.near = obstacles_.near(slide.place, 0.0);
     slide.place = obstacles_.out_of(slide.near, slide.place);
@@ -59,8 +61,8 @@ void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
 
     hands_.gather(frozen, stage, slide);
     run(frozen, slide);
-    stage.bodies.position.put(slot, slide.place);
-    stage.bodies.velocity.put(slot, slide.velocity);
+    stage.bodies.position.put(slot, vector(slide.place));
+    stage.bodies.velocity.put(slot, vector(slide.velocity));
     SlidingHands::report(frozen, stage, slide);
 }
 

@@ -29,13 +29,13 @@ public:
 
 private:
     struct FixedBox {
-        glm::dvec3 centre;
-        glm::dvec3 half;
+        PerAxis centre;
+        PerAxis half;
     };
     struct Memory {
-        EnteredFace entered;                 // of the movable box
-        std::optional<glm::dvec3> held_at{}; // from the box's centre
-        glm::dvec3 seen_from{0.0};
+        EnteredFace entered;              // of the movable box
+        std::optional<PerAxis> held_at{}; // from the box's centre
+        PerAxis seen_from{};
         double clear = -1.0; // no fixed box is nearer to `seen_from`, along every axis
     };
 
@@ -44,7 +44,7 @@ private:
     void touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index);
 
     BodyId body_;
-    glm::dvec3 half_;
+    PerAxis half_;
     double margin_; // how far the box may come in a tick beyond what the speeds at its start say
     std::vector<FixedBox> fixed_;
     std::vector<EnteredFace> entered_fixed_; // by hand, then by box
