@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <spdlog/fmt/fmt.h>
 
@@ -24,36 +25,78 @@ std::optional<double> best_of(std::string_view family, std::span<const Reading> 
     return best;
 }
 
-std::string number(std::optional<double> value)
+std::string number(double value)
 {
-    return value ? fmt::format("{:.3g}", *value) : "";
+    const bool is_plain = std::abs(value) >= 1000.0 && std::abs(value) < 1e7;
+    return is_plain ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
+
+using Key = std::pair<std::string, std::string>; // case and metric
 
 /// One line of a table.
 struct Line {
-    std::map<std::string, double> values; // by subject
+    Key key;
+    std::vector<std::pair<std::string, double>> values; // by subject
     std::string target;
     std::string verdict;
+
+    [[nodiscard]] std::vector<std::string> columns() const
+    {
+        std::vector<std::string> names;
+        for (const auto& [subject, value] : values) names.push_back(subject);
+        return names;
+    }
 };
+
+bool is_comparison(const Row& row) { return row.metric.ends_with("_ratio") && row.baseline_value; }
+
+std::string metric_of(const Row& row)
+{
+    constexpr std::string_view suffix = "_ratio";
+    return is_comparison(row) ? row.metric.substr(0, row.metric.size() - suffix.size())
+                              : row.metric;
+}
+
+void add_word(std::string& text, const std::string& word)
+{
+    if (text.find(word) != std::string::npos) return;
+    text += (text.empty() ? "" : ", ") + word;
+}
 
 void add(Line& line, const Row& row)
 {
-    if (row.metric.ends_with("_ratio") && row.baseline_value) {
-        const std::string ratio = row.ratio() ? fmt::format("{:.3g}x", *row.ratio()) : "exact";
-        line.verdict +=
-            fmt::format("{}{} {}", line.verdict.empty() ? "" : ", ", row.baseline, ratio);
+    const bool is_ratio = is_comparison(row);
+    std::string said;
+    if (is_ratio) {
+        const std::string ratio = row.ratio() ? number(*row.ratio()) + "x" : "exact";
+        said = fmt::format("{} {}", row.baseline, ratio);
     } else {
-        line.values[row.subject] = row.value;
+        line.values.emplace_back(row.subject, row.value);
     }
-    if (!row.target) return;
-    const bool is_ratio = row.metric.ends_with("_ratio");
-    const std::string target =
-        fmt::format("{}{:.3g}{}", row.direction == Direction::at_least ? "≥ " : "≤ ", *row.target,
-                    is_ratio ? "x" : "");
-    if (line.target.find(target) == std::string::npos) {
-        line.target += (line.target.empty() ? "" : ", ") + target;
+    if (row.target) {
+        add_word(line.target,
+                 fmt::format("{} {}{}", row.direction == Direction::at_least ? "≥" : "≤",
+                             number(*row.target), is_ratio ? "x" : ""));
     }
-    if (row.met() == false) line.verdict += is_ratio ? " **missed**" : " **missed** ";
+    if (row.met() == false) said += said.empty() ? "**missed**" : " **missed**";
+    if (!said.empty()) line.verdict += (line.verdict.empty() ? "" : ", ") + said;
+}
+
+std::string table_of(std::span<const Line> lines, const std::vector<std::string>& columns)
+{
+    std::string text = "| case | metric |", rule = "| --- | --- |";
+    for (const std::string& column : columns) {
+        text += fmt::format(" {} |", column);
+        rule += " ---: |";
+    }
+    text += " target | best peer / Hapnet |\n" + rule + " --- | --- |\n";
+    for (const Line& line : lines) {
+        text += fmt::format("| {} | {} |", line.key.first, line.key.second);
+        for (const auto& [subject, value] : line.values)
+            text += fmt::format(" {} |", number(value));
+        text += fmt::format(" {} | {} |\n", line.target, line.verdict);
+    }
+    return text;
 }
 
 } // namespace
@@ -141,38 +184,21 @@ std::vector<Row> judge(const Scenario& scenario, std::span<const Subject> subjec
 
 std::string markdown(std::span<const Row> rows)
 {
-    std::vector<std::string> subjects;
-    std::vector<std::pair<std::string, std::string>> order; // case and metric
-    std::map<std::pair<std::string, std::string>, Line> lines;
+    std::vector<Line> lines;
     for (const Row& row : rows) {
-        std::string metric = row.metric;
-        const bool is_ratio = metric.ends_with("_ratio") && row.baseline_value;
-        if (is_ratio) metric.resize(metric.size() - std::string_view{"_ratio"}.size());
-        const std::pair key{row.name, metric};
-        if (!lines.contains(key)) order.push_back(key);
-        add(lines[key], row);
-        if (!is_ratio &&
-            std::find(subjects.begin(), subjects.end(), row.subject) == subjects.end()) {
-            subjects.push_back(row.subject);
-        }
+        const Key key{row.name, metric_of(row)};
+        auto line = std::find_if(lines.begin(), lines.end(),
+                                 [&](const Line& one) { return one.key == key; });
+        if (line == lines.end()) line = lines.insert(lines.end(), Line{key, {}, "", ""});
+        add(*line, row);
     }
-    std::string text = "| case | metric |";
-    std::string rule = "| --- | --- |";
-    for (const std::string& subject : subjects) {
-        text += fmt::format(" {} |", subject);
-        rule += " ---: |";
-    }
-    text += " target | best peer / Hapnet |\n" + rule + " --- | --- |\n";
-    for (const auto& key : order) {
-        const Line& line = lines[key];
-        text += fmt::format("| {} | {} |", key.first, key.second);
-        for (const std::string& subject : subjects) {
-            const auto found = line.values.find(subject);
-            text += fmt::format(
-                " {} |",
-                number(found == line.values.end() ? std::nullopt : std::optional{found->second}));
-        }
-        text += fmt::format(" {} | {} |\n", line.target, line.verdict);
+    std::string text;
+    while (!lines.empty()) { // cases with the same columns make one table
+        const std::vector<std::string> columns = lines.front().columns();
+        const auto rest = std::stable_partition(
+            lines.begin(), lines.end(), [&](const Line& one) { return one.columns() == columns; });
+        text += table_of({lines.begin(), rest}, columns) + "\n";
+        lines.erase(lines.begin(), rest);
     }
     return text;
 }

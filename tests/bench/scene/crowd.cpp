@@ -71,9 +71,9 @@ private:
             if (subject.has_native_hips)
                 native.push_back({subject.name + " native", &subject, options});
         }
-        append(rows_, compare({"paper's scene, locked", "", "p50_ns"},
+        append(rows_, compare({"paper's scene, locked, native springs", "", "p50_ns"},
                               costs_of(paper_course(scene::Turning::locked), native, seconds())));
-        append(rows_, compare({"paper's scene, 6-DoF", "", "p50_ns"},
+        append(rows_, compare({"paper's scene, 6-DoF, native springs", "", "p50_ns"},
                               costs_of(paper_course(scene::Turning::free), native, seconds())));
     }
 

@@ -7,8 +7,8 @@
 namespace hapnet::bench {
 
 /// Where the first body of a course is after its duration, with nothing but its own spin, gravity
-/// and the hands' springs acting on it: Runge and Kutta's fourth order at 5 us, in which the error
-/// is far below 1e-10 m and rad.
+/// and the hands' springs acting on it: Runge and Kutta's fourth order in steps so short
+/// that the error is far below 1e-10 m and rad.
 [[nodiscard]] scene::BodyState reference_end(const Course& course);
 
 /// The angle between two orientations, radians.

@@ -73,13 +73,12 @@ std::vector<Row> mass_ratios(std::span<const Subject> subjects)
 {
     constexpr std::array ratios{10.0, 100.0, 1000.0, 10000.0};
     constexpr double stands_m = 5e-3;
-    std::vector<Row> rows =
-        ask({"heavy on light, 5 s", "", "largest_mass_ratio", 1000.0, 0.0, Direction::at_least},
-            subjects, [&](const Subject& subject) {
-                return last_held(ratios, [&](double ratio) {
-                    return heavy_on_light(subject, ratio) < stands_m;
-                });
-            });
+    std::vector<Row> rows = ask(
+        {"heavy on light, 5 s", "", "largest_factor_that_stands", 1000.0, 0.0, Direction::at_least},
+        subjects, [&](const Subject& subject) {
+            return last_held(
+                ratios, [&](double ratio) { return heavy_on_light(subject, ratio) < stands_m; });
+        });
     append(rows, ask({"1000:1 on light, 5 s", "itself", "moved_m", 5e-4}, subjects,
                      [](const Subject& subject) { return heavy_on_light(subject, 1000.0); }));
     return rows;

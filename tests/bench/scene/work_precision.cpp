@@ -20,7 +20,7 @@ net::CommandLine<Options> parse_words(std::span<char*> words)
     return parse(words, {"--csv", "--plot"}, std::string{usage});
 }
 
-base::Result<int> run(const Options& options)
+base::Result<int> measure(const Options& options)
 {
     Files files{options};
     pin(0);
@@ -40,5 +40,5 @@ int main(int argc, char** argv)
 {
     namespace bench = hapnet::bench;
     const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
-    return hapnet::net::run_program(bench::program, bench::parse_words, bench::run);
+    return hapnet::net::run_program(bench::program, bench::parse_words(words), bench::measure);
 }
