@@ -41,18 +41,11 @@ void Anderson::begin(std::size_t size)
     results_.resize(depth * size);
 }
 
-void Anderson::mix(std::span<const double> in, std::span<const double> out, std::span<double> next)
+bool Anderson::mix(std::span<const double> in, std::span<const double> out, std::span<double> next)
 {
-    double length2 = 0.0;
-    for (std::size_t i = 0; i < size_; ++i) length2 += (out[i] - in[i]) * (out[i] - in[i]);
-    // A step that has grown this much says that something opened or began to slip: what was learnt
-    // holds no more.
-    constexpr double grown = 4.0;
-    if (seen_ > 0 && !(length2 <= grown * length2_)) seen_ = 0;
-    length2_ = length2;
     learn(in, out);
     std::copy(out.begin(), out.end(), next.begin());
-    if (seen_ < 2) return;
+    if (seen_ < 2) return false;
     const std::array<double, depth> weight = weights();
     const std::size_t columns = std::min(seen_ - 1, depth);
     for (std::size_t column = 0; column < columns; ++column) {
@@ -60,6 +53,7 @@ void Anderson::mix(std::span<const double> in, std::span<const double> out, std:
         const double* const change = result_change(column);
         for (std::size_t i = 0; i < size_; ++i) next[i] -= weight[column] * change[i];
     }
+    return true;
 }
 
 void Anderson::learn(std::span<const double> in, std::span<const double> out)

@@ -30,8 +30,9 @@ public:
     /// Forgets, for a problem of another size.
     void begin(std::size_t size);
 
-    /// What was put in, and what came out of it; the mixture is in `next`, which may be `out`.
-    void mix(std::span<const double> in, std::span<const double> out, std::span<double> next);
+    /// What was put in, and what came out of it. The mixture is in `next`, which may be `in` or
+    /// `out`; whether it is another than `out`.
+    bool mix(std::span<const double> in, std::span<const double> out, std::span<double> next);
 
 private:
     [[nodiscard]] double* step_change(std::size_t column) { return &steps_[column * size_]; }
@@ -42,7 +43,6 @@ private:
     std::size_t size_max_;
     std::size_t size_ = 0;
     std::size_t seen_ = 0; // results since the beginning
-    double length2_ = 0.0; // of the last step
     std::vector<double> last_step_, last_result_;
     std::vector<double> steps_, results_; // changes from one to the next, a column each
     Square<depth> products_{};            // of the columns of steps_

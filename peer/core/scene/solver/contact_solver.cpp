@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hapnet::scene {
 
@@ -30,6 +31,13 @@ void write(ContactBlock& block, const double* from)
     if (block.torsion_arm > 0.0) impulse.torsion = from[6] * block.torsion_arm;
 }
 
+double distance2(std::span<const double> a, std::span<const double> b)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sum;
+}
+
 } // namespace
 
 ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
@@ -42,6 +50,8 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       order_{blocks},
       before_{parts * blocks},
       after_{parts * blocks},
+      good_{parts * blocks},
+      saved_{bodies + 1},
       anderson_{parts * blocks}
 {}
 
@@ -76,7 +86,7 @@ SolverOutcome ContactSolver::run(const Task& task)
     outcome.change = 0.0;
     std::uint32_t end = 0;
     for (const std::uint32_t next : starts_.all()) {
-        const std::span<const std::uint32_t> island{&order_[end], next - end};
+        const Island island{&order_[end], next - end};
         end = next;
         const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.enough; };
         if (island.size() < 2 || std::none_of(island.begin(), island.end(), moves)) continue;
@@ -87,36 +97,81 @@ SolverOutcome ContactSolver::run(const Task& task)
     return outcome;
 }
 
-SolverOutcome ContactSolver::run_island(const Task& task, std::span<const std::uint32_t> island)
+SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
     before_.resize(parts * island.size());
     after_.resize(parts * island.size());
+    good_.resize(parts * island.size());
     anderson_.begin(parts * island.size());
-    for (std::size_t i = 0; i < island.size(); ++i) read(blocks_[island[i]], &before_[parts * i]);
+    note(island, before_.all());
     SolverOutcome outcome{1, 0.0};
-    while (outcome.sweeps < task.limits.sweeps_max) {
-        double change = 0.0;
-        for (const std::uint32_t i : island) change = std::max(change, visit(blocks_[i], task));
-        for (std::size_t i = island.size(); i-- > 0;) {
-            change = std::max(change, visit(blocks_[island[i]], task));
-        }
-        outcome.change = change;
+    double shortest2 = std::numeric_limits<double>::infinity();
+    bool has_jumped = false;
+    while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
+        outcome.change = sweep(task, island);
         outcome.sweeps += 2;
-        if (change <= task.limits.enough || outcome.sweeps >= task.limits.sweeps_max) break;
-        for (std::size_t i = 0; i < island.size(); ++i) {
-            read(blocks_[island[i]], &after_[parts * i]);
+        if (outcome.change <= task.limits.enough) break;
+        note(island, after_.all());
+        const double step2 = distance2(before_.all(), after_.all());
+        // A mixture that leads astray, because something opens or slips there, is taken back.
+        constexpr double astray = 4.0;
+        if (has_jumped && !(step2 <= astray * shortest2)) {
+            step_back(task, island);
+            anderson_.begin(parts * island.size());
+            std::copy(good_.all().begin(), good_.all().end(), before_.all().begin());
+            has_jumped = false;
+            continue;
         }
-        anderson_.mix(before_.all(), after_.all(), before_.all());
-        for (std::size_t i = 0; i < island.size(); ++i) {
-            ContactBlock& block = blocks_[island[i]];
-            Modal jump = modal(block, block.impulse);
-            write(block, &before_[parts * i]);
-            const Modal now = modal(block, block.impulse);
-            for (std::size_t k = 0; k < jump.size(); ++k) jump[k] = now[k] - jump[k];
-            apply(block, jump, task.motions);
-        }
+        shortest2 = std::min(shortest2, step2);
+        if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
+        has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
+        if (has_jumped) jump(task, island);
     }
     return outcome;
+}
+
+double ContactSolver::sweep(const Task& task, Island island)
+{
+    double change = 0.0;
+    for (const std::uint32_t i : island) change = std::max(change, visit(blocks_[i], task));
+    for (std::size_t i = island.size(); i-- > 0;) {
+        change = std::max(change, visit(blocks_[island[i]], task));
+    }
+    return change;
+}
+
+void ContactSolver::note(Island island, std::span<double> impulses) const
+{
+    for (std::size_t i = 0; i < island.size(); ++i) read(blocks_[island[i]], &impulses[parts * i]);
+}
+
+/// From after_ to before_; the way back is kept.
+void ContactSolver::jump(const Task& task, Island island)
+{
+    std::copy(after_.all().begin(), after_.all().end(), good_.all().begin());
+    saved_.resize(task.motions.size());
+    for (const std::uint32_t i : island) {
+        saved_[blocks_[i].a] = task.motions[blocks_[i].a];
+        saved_[blocks_[i].b] = task.motions[blocks_[i].b];
+    }
+    for (std::size_t i = 0; i < island.size(); ++i) {
+        ContactBlock& block = blocks_[island[i]];
+        Modal change = modal(block, block.impulse);
+        write(block, &before_[parts * i]);
+        const Modal now = modal(block, block.impulse);
+        for (std::size_t k = 0; k < change.size(); ++k) change[k] = now[k] - change[k];
+        apply(block, change, task.motions);
+    }
+}
+
+void ContactSolver::step_back(const Task& task, Island island)
+{
+    for (std::size_t i = 0; i < island.size(); ++i) {
+        ContactBlock& block = blocks_[island[i]];
+        task.motions[block.a] = saved_[block.a];
+        task.motions[block.b] = saved_[block.b];
+        write(block, &good_[parts * i]);
+    }
 }
 
 double ContactSolver::visit(ContactBlock& block, const Task& task)

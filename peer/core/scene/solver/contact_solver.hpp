@@ -62,8 +62,14 @@ private:
         SolverLimits limits;
     };
 
+    using Island = std::span<const std::uint32_t>; // its blocks
+
     SolverOutcome run(const Task& task);
-    SolverOutcome run_island(const Task& task, std::span<const std::uint32_t> island);
+    SolverOutcome run_island(const Task& task, Island island);
+    double sweep(const Task& task, Island island);
+    void note(Island island, std::span<double> impulses) const;
+    void jump(const Task& task, Island island);
+    void step_back(const Task& task, Island island);
     double visit(ContactBlock& block, const Task& task);
     void apply(const ContactBlock& block, const Modal& change, std::span<Motion> motions);
     void find_islands();
@@ -78,7 +84,8 @@ private:
     Scratch<SolverIndex> parents_;
     Scratch<std::uint32_t> starts_;
     Scratch<std::uint32_t> order_;
-    Scratch<double> before_, after_; // impulses of an island
+    Scratch<double> before_, after_, good_; // impulses of an island
+    Scratch<Motion> saved_;                 // of its bodies
     Anderson anderson_;
 };
 
