@@ -70,7 +70,26 @@ SolverOutcome ContactSolver::solve(const SolverLimits& limits)
 
 SolverOutcome ContactSolver::separate(const SolverLimits& limits)
 {
-    for (ContactBlock& block : blocks_.all()) block.impulse = {};
+    const auto overlaps = [&](const ContactBlock& block) {
+        Modal velocity = velocity_at(block, mean_[block.a], mean_[block.b]);
+        for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.bend[i];
+        for (std::size_t i = 0; i < block.count; ++i) {
+            if (block.normal_speed(velocity, i) < block.least[i] - limits.quiet) return true;
+        }
+        return false;
+    };
+    const std::span<ContactBlock> blocks = blocks_.all();
+    if (std::none_of(blocks.begin(), blocks.end(), overlaps)) return {};
+    // What is new in the impulses counts half in the mean velocities, as a force would. Of a hit it
+    // should be all, from the moment when they met: a good start.
+    for (ContactBlock& block : blocks) {
+        ContactImpulse start;
+        for (std::size_t i = 0; i < block.count; ++i) {
+            start.normal[i] = std::max(0.0, 0.5 * (block.impulse.normal[i] - block.begun[i]));
+        }
+        block.impulse = start;
+        apply(block, modal(block, start), mean_.all());
+    }
     return run({Mode::separations, mean_.all(), limits});
 }
 
@@ -176,7 +195,8 @@ void ContactSolver::step_back(const Task& task, Island island)
 
 double ContactSolver::visit(ContactBlock& block, const Task& task)
 {
-    const Modal velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+    Modal velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+    for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.bend[i];
     const double quiet = task.limits.quiet;
     const bool pushes_only = task.mode == Mode::separations;
     if (pushes_only ? is_separated(block, velocity, quiet) : is_solved(block, velocity, quiet)) {

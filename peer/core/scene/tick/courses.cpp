@@ -140,6 +140,12 @@ void follow(Course& course, const Stage& stage, Slot slot, const Response& respo
     const glm::dvec3& before = course.start.velocity;
     course.tentative = {before + tick * rate, response.inverse_inertia * course.angular_momentum,
                         glm::dvec3{0.0}};
+    if (!turns_evenly(stage.bodies.form[slot])) {
+        // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
+        course.tentative.spin +=
+            tick * (response.inverse_inertia *
+                    glm::cross(course.angular_momentum, course.start.spin));
+    }
     course.mean = {before + (0.5 * tick) * rate, 0.5 * (course.start.spin + course.tentative.spin),
                    glm::dvec3{0.0}};
     if (course.drag == 0.0) return;

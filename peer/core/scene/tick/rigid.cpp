@@ -19,7 +19,7 @@ constexpr std::size_t contacts_per_body_max = 8;
 // A contact that misses by less than this share of what gravity adds in a tick is in balance.
 constexpr double quiet = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
-constexpr double enough = 1e-7;
+constexpr double enough = 1e-4;
 // ... or this many sweeps were made. Measured: see the table in docs/BENCHMARKS.md.
 constexpr std::uint32_t sweeps_max = 60;
 
@@ -28,7 +28,7 @@ constexpr std::uint32_t sweeps_max = 60;
 constexpr double overlap_quiet = 1e-9;
 constexpr double overlap_enough = 1e-6;
 constexpr double overlap_most = 0.02;
-constexpr std::uint32_t overlap_sweeps_max = 12;
+constexpr std::uint32_t overlap_sweeps_max = 40;
 // Of an overlap that is there, this share is removed per tick: not all, so that contacts that
 // contradict each other settle.
 constexpr double overlap_share = 0.3;
@@ -327,6 +327,9 @@ void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
     for (SolverIndex i = 1; i <= stage.bodies.awake; ++i) {
         solver_.ending(i) = courses_[i].tentative;
     }
+    for (ContactBlock& block : solver_.blocks()) {
+        set_bend(block, courses_[block.a].mean.spin, courses_[block.b].mean.spin, scales_.tick);
+    }
 }
 
 template <Crowd crowd>
@@ -393,6 +396,7 @@ void RigidTick<crowd>::move_apart()
         for (std::uint32_t i = 0; i < block.count; ++i) {
             block.least[i] = parting(block.separation[i], scales_);
         }
+        for (double& part : block.bend) part *= 0.5; // of the mean over the tick
     }
     const double length = scales_.size / scales_.tick;
     solver_.separate({overlap_quiet * length, overlap_enough * length, overlap_sweeps_max});
