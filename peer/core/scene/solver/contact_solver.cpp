@@ -13,6 +13,10 @@ namespace {
 /// The impulses of a block as numbers of one kind, N s.
 constexpr std::size_t parts = 7;
 
+// What a large island may cost: so many visits to its blocks, but a few sweeps in any case.
+constexpr std::uint32_t visits_max = 1200;
+constexpr std::uint32_t sweeps_min = 7;
+
 void read(const ContactBlock& block, double* to)
 {
     const ContactImpulse& impulse = block.impulse;
@@ -118,6 +122,9 @@ SolverOutcome ContactSolver::run(const Task& task)
 
 SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
+    const std::uint32_t sweeps_max = std::min<std::uint32_t>(
+        task.limits.sweeps_max,
+        std::max<std::uint32_t>(sweeps_min, visits_max / static_cast<std::uint32_t>(island.size())));
     before_.resize(parts * island.size());
     after_.resize(parts * island.size());
     good_.resize(parts * island.size());
@@ -126,7 +133,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
     SolverOutcome outcome{1, 0.0};
     double shortest2 = std::numeric_limits<double>::infinity();
     bool has_jumped = false;
-    while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
+    while (outcome.sweeps + 2 <= sweeps_max) {
         outcome.change = sweep(task, island);
         outcome.sweeps += 2;
         if (outcome.change <= task.limits.enough) break;
@@ -142,7 +149,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
             continue;
         }
         shortest2 = std::min(shortest2, step2);
-        if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
+        if (outcome.sweeps + 2 > sweeps_max) break;
         has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
         if (has_jumped) jump(task, island);
     }

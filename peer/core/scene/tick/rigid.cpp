@@ -19,7 +19,7 @@ constexpr std::size_t contacts_per_body_max = 8;
 // A contact that misses by less than this share of what gravity adds in a tick is in balance.
 constexpr double quiet = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
-constexpr double enough = 1e-4;
+constexpr double enough = 1e-6;
 // ... or this many sweeps were made. Measured: see the table in docs/BENCHMARKS.md.
 constexpr std::uint32_t sweeps_max = 60;
 
@@ -36,10 +36,15 @@ constexpr double overlap_share = 0.3;
 // What comes nearer than this share of the smallest half edge within a tick is looked at.
 constexpr double look_ahead = 0.01;
 
+// Surfaces that push each other and are not farther apart than this, in smallest half edges, touch.
+// What is left of moving overlaps apart is less; chasing it would keep heaps from coming to rest.
+constexpr double touching = 2e-6;
+
 /// The least normal speed for which two surfaces so far apart do not overlap at the tick's end.
-double closing(double separation, double tick)
+double closing(double separation, double impulse, const Scales& scales)
 {
-    return separation > 0.0 ? -separation / tick : 0.0;
+    const double nothing = impulse > 0.0 ? touching * scales.size : 0.0;
+    return separation > nothing ? -separation / scales.tick : 0.0;
 }
 
 double parting(double separation, const Scales& scales)
@@ -218,7 +223,7 @@ ContactBlock* RigidTick<crowd>::meet(const Manifold& manifold, const ContactPlac
     prepare(block, manifold, centres, memory);
     block.memory = &memory;
     for (std::uint32_t i = 0; i < block.count; ++i) {
-        block.least[i] = closing(block.separation[i], scales_.tick);
+        block.least[i] = closing(block.separation[i], block.begun[i], scales_);
     }
     return &block;
 }
