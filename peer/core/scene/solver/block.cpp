@@ -114,7 +114,7 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
     block.arm_b = block.anchor - centres.b;
 }
 
-void remember(const ContactBlock& block, ContactMemory& memory)
+void remember(const ContactBlock& block, double weight, ContactMemory& memory)
 {
     memory.count = block.count;
     memory.feature = block.feature;
@@ -122,6 +122,14 @@ void remember(const ContactBlock& block, ContactMemory& memory)
     memory.friction_impulse =
         block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
     memory.torsion_impulse = block.impulse.torsion;
+    const double most =
+        2.0 * (block.begun[0] + block.begun[1] + block.begun[2] + block.begun[3]) + weight;
+    const double sum = block.normal_sum();
+    if (sum <= most) return;
+    const double share = most / sum;
+    for (double& impulse : memory.normal_impulse) impulse *= share;
+    memory.friction_impulse *= share;
+    memory.torsion_impulse *= share;
 }
 
 Modal velocity_at(const ContactBlock& block, const Motion& a, const Motion& b)

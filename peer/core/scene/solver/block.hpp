@@ -86,8 +86,10 @@ struct ContactPlaces {
 /// Sets the geometry, and starts from last tick's impulses.
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
              const ContactMemory& memory);
-/// Keeps the impulses for the next tick.
-void remember(const ContactBlock& block, ContactMemory& memory);
+/// Keeps the impulses for the next tick, to start from: not those of a hit, which will not come
+/// again. So they at most double from tick to tick, but for `weight` (N s), about what carrying the
+/// two bodies takes.
+void remember(const ContactBlock& block, double weight, ContactMemory& memory);
 
 [[nodiscard]] Modal velocity_at(const ContactBlock& block, const Motion& a, const Motion& b);
 /// While a body turns, the points of it that touch go around its centre: what that adds to their

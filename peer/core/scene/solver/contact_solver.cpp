@@ -124,7 +124,8 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
     const std::uint32_t sweeps_max = std::min<std::uint32_t>(
         task.limits.sweeps_max,
-        std::max<std::uint32_t>(sweeps_min, visits_max / static_cast<std::uint32_t>(island.size())));
+        std::max<std::uint32_t>(sweeps_min,
+                                visits_max / static_cast<std::uint32_t>(island.size())));
     before_.resize(parts * island.size());
     after_.resize(parts * island.size());
     good_.resize(parts * island.size());

@@ -379,8 +379,13 @@ void RigidTick<crowd>::solve(const Stage& stage)
                            course.mean.spin + 0.5 * (ending.spin - course.tentative.spin),
                            course.thrown_mean + 0.5 * ending.angular_impulse};
     }
+    const auto weight_of = [&](const ContactBlock& block) {
+        const double a = block.a != 0 ? bodies.form[block.a - 1].mass : 0.0;
+        const double b = block.b != 0 ? bodies.form[block.b - 1].mass : 0.0;
+        return (a + b) * scales_.speed;
+    };
     for (const ContactBlock& block : blocks) {
-        remember(block, *block.memory);
+        remember(block, weight_of(block), *block.memory);
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
         ++courses_[block.a].rubbing;
         ++courses_[block.b].rubbing;
