@@ -14,7 +14,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-struct Texts {
+struct DryRunTexts {
     std::optional<std::string> profile;
     std::optional<std::string> rate;
     std::optional<std::string> packets;
@@ -58,7 +58,7 @@ base::Result<void> read(const std::optional<std::string>& text, const char* opti
     return {};
 }
 
-net::CommandLine<DryRun> dry_run_from(const Texts& texts)
+net::CommandLine<DryRun> dry_run_from(const DryRunTexts& texts)
 {
     if (texts.is_list) return net::Answer{preset_list('\n')};
     if (!texts.profile) {
@@ -85,7 +85,7 @@ net::CommandLine<DryRun> dry_run_from(const Texts& texts)
     return run;
 }
 
-net::CommandLine<DryRun> parse(CLI::App& app, Texts& texts, std::span<char*> words)
+net::CommandLine<DryRun> parse(CLI::App& app, DryRunTexts& texts, std::span<char*> words)
 {
     app.set_help_flag("-h,--help", "Print this and exit");
     app.add_option("profile", texts.profile, "A profile: a file, or the name of a preset")
@@ -120,7 +120,7 @@ net::CommandLine<DryRun> parse_check(std::span<char*> words)
         "Reads a profile, prints it in canonical form, says what each stage does, and warns\n"
         "of what a stream of datagrams would meet that one may not have meant.",
         "hapnet-emulator check"};
-    Texts texts;
+    DryRunTexts texts;
     texts.packets = "100000";
     return parse(app, texts, words);
 }
@@ -131,7 +131,7 @@ net::CommandLine<DryRun> parse_predict(std::span<char*> words)
         "Plays a profile to a stream of datagrams in virtual time, through the link that real\n"
         "datagrams take, and prints what became of them beside what theory says.",
         "hapnet-emulator predict"};
-    Texts texts;
+    DryRunTexts texts;
     app.add_option("--packets", texts.packets, "How many, each way (default 400000)")
         ->type_name("NUMBER");
     app.add_flag("--json", texts.as_json, "Print JSON");

@@ -18,6 +18,7 @@
 #include "proto/net/real_time.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
+#include "proto/net/text_file.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -120,7 +121,7 @@ private:
                 !std::filesystem::is_regular_file(path, trouble)) {
                 return base::fail(fmt::format("{} is not a regular file", path));
             }
-            return text_of_file(path);
+            return net::text_of_file(path);
         };
         return {
             .director = director_,

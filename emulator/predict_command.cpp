@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/predict.hpp"
 #include "emulator/dry_run.hpp"
+#include "emulator/lens_json.hpp"
 #include "emulator/profile_file.hpp"
 #include "proto/base/version.hpp"
 
@@ -14,32 +15,13 @@ namespace hapnet::emulator {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Milliseconds = std::chrono::duration<double, std::milli>;
 
-double in_ms(base::Duration duration) { return Milliseconds{duration}.count(); }
-
-Json json_of(std::optional<base::Duration> duration)
+double in_ms(base::Duration duration)
 {
-    return duration ? Json(in_ms(*duration)) : Json(nullptr);
+    return std::chrono::duration<double, std::milli>{duration}.count();
 }
 
 Json json_of(std::optional<double> number) { return number ? Json(*number) : Json(nullptr); }
-
-Json json_of(const std::optional<Quantiles>& quantiles)
-{
-    if (!quantiles) return nullptr;
-    return {{"p50", in_ms(quantiles->p50)},
-            {"p90", in_ms(quantiles->p90)},
-            {"p99", in_ms(quantiles->p99)},
-            {"p999", in_ms(quantiles->p999)},
-            {"max", in_ms(quantiles->max)}};
-}
-
-Json json_of(const std::optional<Moments>& moments)
-{
-    if (!moments) return nullptr;
-    return {{"mean", in_ms(moments->mean)}, {"sd", json_of(moments->sd)}};
-}
 
 double share_of(std::uint64_t part, const DirectionPrediction& of)
 {
@@ -55,30 +37,30 @@ Json json_of(const DirectionPrediction& of, const Conditions& conditions, const 
         dropped[std::string{to_text(cause)}] = of.statistics.dropped_by(cause);
     }
     const LensReport& lens = of.lens;
-    return {
-        {"theory", stages_in_words(conditions, stream)},
-        {"warnings", warnings(conditions, stream, of)},
-        {"received", of.statistics.received},
-        {"delivered", of.statistics.delivered},
-        {"duplicated", of.statistics.duplicated},
-        {"corrupted", of.statistics.corrupted},
-        {"dropped", dropped},
-        {"loss",
-         {{"share", of.loss_share()},
-          {"runs", of.loss_runs},
-          {"run_mean", json_of(of.loss_run_mean())},
-          {"run_max", of.loss_run_max}}},
-        {"requested_delay_ms", json_of(lens.requested_delay)},
-        {"delay_ms", json_of(lens.delay)},
-        {"delay_quantiles_ms", json_of(lens.delay_quantiles)},
-        {"added_by_queues_ms", in_ms(of.added_by_queues)},
-        {"jitter_ms", json_of(lens.delay_variation)},
-        {"gap_ms", json_of(lens.gap)},
-        {"clumped_share", json_of(lens.clumped_share)},
-        {"reordered_share", share_of(lens.reordered, of)},
-        {"reorder_extent",
-         {{"mean", json_of(lens.reorder_extent_mean)}, {"max", lens.reorder_extent_max}}},
-        {"age_ms", {{"mean", json_of(lens.age_mean)}, {"peak_max", json_of(lens.peak_age_max)}}}};
+    return {{"theory", stages_in_words(conditions, stream)},
+            {"warnings", warnings(conditions, stream, of)},
+            {"received", of.statistics.received},
+            {"delivered", of.statistics.delivered},
+            {"duplicated", of.statistics.duplicated},
+            {"corrupted", of.statistics.corrupted},
+            {"dropped", dropped},
+            {"loss",
+             {{"share", of.loss_share()},
+              {"runs", of.loss_runs},
+              {"run_mean", json_of(of.loss_run_mean())},
+              {"run_max", of.loss_run_max}}},
+            {"requested_delay_ms", json_in_ms(lens.requested_delay)},
+            {"delay_ms", json_in_ms(lens.delay)},
+            {"delay_quantiles_ms", json_in_ms(lens.delay_quantiles)},
+            {"added_by_queues_ms", in_ms(of.added_by_queues)},
+            {"jitter_ms", json_in_ms(lens.delay_variation)},
+            {"gap_ms", json_in_ms(lens.gap)},
+            {"clumped_share", json_of(lens.clumped_share)},
+            {"reordered_share", share_of(lens.reordered, of)},
+            {"reorder_extent",
+             {{"mean", json_of(lens.reorder_extent_mean)}, {"max", lens.reorder_extent_max}}},
+            {"age_ms",
+             {{"mean", json_in_ms(lens.age_mean)}, {"peak_max", json_in_ms(lens.peak_age_max)}}}};
 }
 
 std::string in_words(const std::optional<Quantiles>& quantiles)

@@ -4,11 +4,9 @@
 
 #include "emulator/core/profile/text.hpp"
 #include "emulator/presets.hpp"
+#include "proto/net/text_file.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <vector>
@@ -32,25 +30,6 @@ base::Result<Profile> load_preset(const std::string& name)
 
 } // namespace
 
-base::Result<std::string> text_of_file(const std::string& path)
-{
-    constexpr std::uintmax_t bytes_max = 64U << 20;
-    const auto refuse = [&](const char* why) {
-        return base::fail(fmt::format("cannot read {}: {}", path, why));
-    };
-    std::error_code trouble;
-    if (std::filesystem::is_directory(path, trouble)) return refuse("it is a folder");
-    const auto size = std::filesystem::file_size(path, trouble);
-    if (!trouble && size > bytes_max) return refuse("it is larger than 64 MiB");
-    std::ifstream file{path, std::ios::binary};
-    if (!file) return refuse(std::strerror(errno));
-    std::string text;
-    for (char c = 0; text.size() <= bytes_max && file.get(c);) text.push_back(c);
-    if (text.size() > bytes_max) return refuse("it is larger than 64 MiB");
-    if (file.bad()) return refuse(std::strerror(errno));
-    return text;
-}
-
 std::string path_beside(const std::string& name, const std::string& beside)
 {
     if (beside.empty()) return name;
@@ -64,10 +43,10 @@ base::Result<Profile> load_profile(const std::string& file_or_name)
                          file_or_name.ends_with(".toml") ||
                          std::filesystem::exists(file_or_name, trouble);
     if (!is_file) return load_preset(file_or_name);
-    const auto text = text_of_file(file_or_name);
+    const auto text = net::text_of_file(file_or_name);
     if (!text) return tl::unexpected{text.error()};
     return parse_profile(*text, file_or_name, [&](const std::string& name) {
-        return text_of_file(path_beside(name, file_or_name));
+        return net::text_of_file(path_beside(name, file_or_name));
     });
 }
 

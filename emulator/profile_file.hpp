@@ -9,9 +9,6 @@
 
 namespace hapnet::emulator {
 
-/// The whole text of a file of at most 64 MiB; the error names it and says why it cannot be read.
-[[nodiscard]] base::Result<std::string> text_of_file(const std::string& path);
-
 /// The path of a file that the profile in `beside` names: relative to that profile's folder; as it
 /// is when `beside` is empty.
 [[nodiscard]] std::string path_beside(const std::string& name, const std::string& beside);

@@ -6,6 +6,7 @@
 #include "emulator/core/profile/settings.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/core/statistics.hpp"
+#include "emulator/lens_json.hpp"
 #include "proto/base/version.hpp"
 
 #include <chrono>
@@ -36,28 +37,6 @@ Json json_of(const base::DurationHistogram& lateness)
             {"max", microseconds(lateness.max())}};
 }
 
-Json milliseconds(std::optional<base::Duration> duration)
-{
-    if (!duration) return nullptr;
-    return std::chrono::duration<double, std::milli>{*duration}.count();
-}
-
-Json json_of(const std::optional<Moments>& moments)
-{
-    if (!moments) return nullptr;
-    return {{"mean", milliseconds(moments->mean)}, {"sd", milliseconds(moments->sd)}};
-}
-
-Json json_of(const std::optional<Quantiles>& quantiles)
-{
-    if (!quantiles) return nullptr;
-    return {{"p50", milliseconds(quantiles->p50)},
-            {"p90", milliseconds(quantiles->p90)},
-            {"p99", milliseconds(quantiles->p99)},
-            {"p999", milliseconds(quantiles->p999)},
-            {"max", milliseconds(quantiles->max)}};
-}
-
 template <typename T>
 Json or_null(const std::optional<T>& value)
 {
@@ -76,12 +55,12 @@ Json json_of(Direction direction, const Conditions& conditions)
 
 Json json_of(const LensReport& lens)
 {
-    Json delay = json_of(lens.delay);
-    if (lens.delay_quantiles) delay.update(json_of(lens.delay_quantiles));
-    return {{"requested_delay_ms", json_of(lens.requested_delay)},
+    Json delay = json_in_ms(lens.delay);
+    if (lens.delay_quantiles) delay.update(json_in_ms(lens.delay_quantiles));
+    return {{"requested_delay_ms", json_in_ms(lens.requested_delay)},
             {"delay_ms", delay},
-            {"delay_variation_ms", json_of(lens.delay_variation)},
-            {"gap_ms", json_of(lens.gap)},
+            {"delay_variation_ms", json_in_ms(lens.delay_variation)},
+            {"gap_ms", json_in_ms(lens.gap)},
             {"clumped", or_null(lens.clumped_share)},
             {"missing_run_updates",
              {{"count", lens.missing_runs},
@@ -93,9 +72,9 @@ Json json_of(const LensReport& lens)
               {"max", lens.reorder_extent_max},
               {"beyond_look_back", lens.beyond_look_back}}},
             {"age_ms",
-             {{"mean", milliseconds(lens.age_mean)},
-              {"peak_mean", milliseconds(lens.peak_age_mean)},
-              {"peak_max", milliseconds(lens.peak_age_max)}}}};
+             {{"mean", json_in_ms(lens.age_mean)},
+              {"peak_mean", json_in_ms(lens.peak_age_mean)},
+              {"peak_max", json_in_ms(lens.peak_age_max)}}}};
 }
 
 Json json_of(const Relay::Side& side, base::Duration budget)
@@ -131,9 +110,9 @@ Json address_of(const Relay::Side& side)
 /// "160.00 ms (sd 2.89)"
 std::string in_words(const Moments& moments)
 {
-    using Milliseconds = std::chrono::duration<double, std::milli>;
-    return fmt::format("{:.2f} ms (sd {:.2f})", Milliseconds{moments.mean}.count(),
-                       Milliseconds{moments.sd.value_or(base::Duration{0})}.count());
+    const auto in_ms = [](base::Duration duration) { return 1e3 * base::to_seconds(duration); };
+    return fmt::format("{:.2f} ms (sd {:.2f})", in_ms(moments.mean),
+                       in_ms(moments.sd.value_or(base::Duration{0})));
 }
 
 /// What is missing in the files that were asked for.

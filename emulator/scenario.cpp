@@ -9,6 +9,7 @@
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
 #include "proto/base/text.hpp"
+#include "proto/net/text_file.hpp"
 
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
@@ -40,7 +41,7 @@ base::Result<Path> with_typed(const Path& path, const std::vector<TypedSetting>&
 {
     std::vector<Setting> settings;
     for (const auto& [key, value] : typed) {
-        auto setting = parse_setting(key, value, text_of_file);
+        auto setting = parse_setting(key, value, net::text_of_file);
         if (!setting) {
             const std::string why = setting.error().message.substr(key.size() + 2);
             const bool quotes = why.find(value) != std::string::npos;

@@ -9,6 +9,7 @@
 #include "emulator/profile_file.hpp"
 #include "proto/base/text.hpp"
 #include "proto/net/program.hpp"
+#include "proto/net/text_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -54,7 +55,7 @@ struct Request {
 
 using Text = std::optional<std::string>;
 
-struct Texts {
+struct VerifyTexts {
     Text run;
     Text profile;
     Text seed;
@@ -62,7 +63,7 @@ struct Texts {
     bool json = false;
 };
 
-void add_options(CLI::App& app, Texts& texts)
+void add_options(CLI::App& app, VerifyTexts& texts)
 {
     app.add_option("run", texts.run, "What a run has written (required)")->type_name("RUN");
     app.add_option("--profile", texts.profile, "What the run was to do (default: what RUN says)")
@@ -76,7 +77,7 @@ void add_options(CLI::App& app, Texts& texts)
     app.add_flag("--json", texts.json, "Print one JSON object instead of a table");
 }
 
-base::Result<Request> request_from(const Texts& texts)
+base::Result<Request> request_from(const VerifyTexts& texts)
 {
     if (!texts.run) return base::fail("RUN is required: hapnet-emulator verify run.json");
     Request request{.run = *texts.run, .profile = texts.profile, .json = texts.json};
@@ -99,7 +100,7 @@ net::CommandLine<Request> parse(std::span<char*> words)
 {
     CLI::App app{description, "hapnet-emulator verify"};
     app.footer(footer);
-    Texts texts;
+    VerifyTexts texts;
     add_options(app, texts);
     try {
         app.parse(static_cast<int>(words.size()), words.data());
@@ -195,7 +196,7 @@ base::Result<Evidence> evidence_of_statistics(const Request& request, const std:
     }
     const auto beside = path_beside(std::filesystem::path{fates}.filename().string(), path);
     const auto open = [&](const std::string& name) {
-        return text_of_file(path_beside(name, path));
+        return net::text_of_file(path_beside(name, path));
     };
     const auto profile = request.profile ? load_profile(*request.profile)
                                          : parse_profile(text_at("profile"), path, open);
@@ -218,7 +219,7 @@ base::Result<Evidence> evidence_of(const Request& request)
     if (!is_json && request.profile) {
         return evidence_in(request.run, load_profile(*request.profile));
     }
-    const auto text = text_of_file(request.run);
+    const auto text = net::text_of_file(request.run);
     if (!text) return tl::unexpected{text.error()};
     if (is_json) return evidence_of_statistics(request, *text);
     return base::fail(fmt::format("--profile is required: {} is neither what --stats has written "

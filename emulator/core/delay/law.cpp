@@ -17,7 +17,7 @@ namespace hapnet::emulator {
 namespace {
 
 using Objection = std::optional<std::string>;
-constexpr base::Duration zero{};
+constexpr base::Duration no_delay{};
 
 Objection unless(bool condition, std::string_view words)
 {
@@ -27,7 +27,7 @@ Objection unless(bool condition, std::string_view words)
 
 Objection not_negative(base::Duration duration, std::string_view name)
 {
-    if (duration >= zero) return std::nullopt;
+    if (duration >= no_delay) return std::nullopt;
     return fmt::format("{} must not be negative", name);
 }
 
@@ -61,7 +61,7 @@ Objection object(const NormalLaw& law)
 Objection object(const LogNormalLaw& law)
 {
     return any({in_range(law.mean, "mean"), not_negative(law.sd, "sd"), in_range(law.sd, "sd"),
-                unless(law.mean > zero, "mean must be more than 0")});
+                unless(law.mean > no_delay, "mean must be more than 0")});
 }
 
 Objection object(const ExponentialLaw& law)
@@ -80,18 +80,19 @@ Objection object(const GammaLaw& law)
 {
     static_assert(GammaQuantile::shape_min == 0.01);
     return any({in_range(law.mean, "mean"), in_range(law.sd, "sd"),
-                unless(law.mean > zero, "mean must be more than 0"),
-                unless(law.sd > zero, "sd must be more than 0"),
+                unless(law.mean > no_delay, "mean must be more than 0"),
+                unless(law.sd > no_delay, "sd must be more than 0"),
                 unless(law.sd <= 10 * law.mean, "sd must be at most 10 times the mean")});
 }
 
 Objection object(const TableLaw& law)
 {
     base::ensure(law.table != nullptr);
-    const bool is_as_measured = law.table->holds_delays() && law.mean == zero && law.sd == zero;
+    const bool is_as_measured =
+        law.table->holds_delays() && law.mean == no_delay && law.sd == no_delay;
     return any({in_range(law.mean, "mean"), not_negative(law.sd, "sd"), in_range(law.sd, "sd"),
-                unless(law.sd > zero || is_as_measured, "sd must be more than 0"),
-                unless(law.sd == zero || law.table->sd() > 0.0,
+                unless(law.sd > no_delay || is_as_measured, "sd must be more than 0"),
+                unless(law.sd == no_delay || law.table->sd() > 0.0,
                        "the values of the table are all the same: they cannot have this sd")});
 }
 
@@ -125,17 +126,17 @@ std::optional<std::string> objection(const Variation& variation)
     const bool is_trace = std::holds_alternative<TraceLaw>(variation.law);
     return any({std::visit([](const auto& law) { return object(law); }, variation.law),
                 not_negative(variation.correlation_time, "correlation_time"),
-                unless(!is_trace || variation.correlation_time == zero,
+                unless(!is_trace || variation.correlation_time == no_delay,
                        "correlation_time is not for traces: they are correlated as recorded")});
 }
 
 bool is_nothing(const Variation& variation)
 {
     if (const auto* constant = std::get_if<ConstantLaw>(&variation.law)) {
-        return constant->value == zero;
+        return constant->value == no_delay;
     }
     if (const auto* uniform = std::get_if<UniformLaw>(&variation.law)) {
-        return uniform->mean == zero && uniform->half_width == zero;
+        return uniform->mean == no_delay && uniform->half_width == no_delay;
     }
     return false;
 }

@@ -13,7 +13,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-struct Moments {
+struct LawMoments {
     base::Duration mean;
     std::optional<base::Duration> sd;
 };
@@ -22,20 +22,20 @@ double count_of(base::Duration duration) { return static_cast<double>(duration.c
 
 base::Duration nanoseconds(double count) { return base::Duration{std::llround(count)}; }
 
-Moments moments(const ConstantLaw& law) { return {law.value, base::Duration{0}}; }
+LawMoments moments(const ConstantLaw& law) { return {law.value, base::Duration{0}}; }
 
-Moments moments(const UniformLaw& law)
+LawMoments moments(const UniformLaw& law)
 {
     return {law.mean, nanoseconds(count_of(law.half_width) / std::sqrt(3.0))};
 }
 
-Moments moments(const NormalLaw& law) { return {law.mean, law.sd}; }
+LawMoments moments(const NormalLaw& law) { return {law.mean, law.sd}; }
 
-Moments moments(const LogNormalLaw& law) { return {law.mean, law.sd}; }
+LawMoments moments(const LogNormalLaw& law) { return {law.mean, law.sd}; }
 
-Moments moments(const ExponentialLaw& law) { return {law.mean, law.mean}; }
+LawMoments moments(const ExponentialLaw& law) { return {law.mean, law.mean}; }
 
-Moments moments(const ParetoLaw& law)
+LawMoments moments(const ParetoLaw& law)
 {
     if (law.shape <= 2.0) return {law.mean, std::nullopt};
     const double variance_of_unit_mean = 1.0 / (law.shape * (law.shape - 2.0));
@@ -44,9 +44,9 @@ Moments moments(const ParetoLaw& law)
     return {law.mean, nanoseconds(sd)};
 }
 
-Moments moments(const GammaLaw& law) { return {law.mean, law.sd}; }
+LawMoments moments(const GammaLaw& law) { return {law.mean, law.sd}; }
 
-Moments moments(const TableLaw& law)
+LawMoments moments(const TableLaw& law)
 {
     const base::Duration zero{0};
     const bool is_as_measured = law.sd == zero && law.mean == zero;
@@ -54,7 +54,7 @@ Moments moments(const TableLaw& law)
     return {nanoseconds(law.table->mean()), nanoseconds(law.table->sd())};
 }
 
-Moments moments(const TraceLaw& law)
+LawMoments moments(const TraceLaw& law)
 {
     const auto& delays = law.trace->delays();
     double mean = 0.0;

@@ -13,11 +13,11 @@ namespace {
 // The draws for one number.
 constexpr std::uint32_t judging = 0;
 constexpr std::uint32_t stepping = 1;
-constexpr std::uint32_t beginning = 2;
+constexpr std::uint32_t beginning_draw = 2;
 
 bool begins_bad(const TwoStateSteps& steps, const base::RandomStream& stream)
 {
-    return stream.uniform(0, beginning) < steps.bad_share();
+    return stream.uniform(0, beginning_draw) < steps.bad_share();
 }
 
 bool is_bad_after(bool is_bad, const TwoStateSteps& steps, double u)
@@ -83,7 +83,7 @@ void TimedTwoStateJudge::change(const TimedGilbertElliott& law, const base::Rand
 }
 
 FourStateJudge::FourStateJudge(const FourState& law, const base::RandomStream& stream)
-    : steps_{steps_of(law)}, state_{four_state_beginning(steps_, stream.uniform(0, beginning))}
+    : steps_{steps_of(law)}, state_{four_state_beginning(steps_, stream.uniform(0, beginning_draw))}
 {}
 
 LossJudgement FourStateJudge::on_packet(const Packet& packet, const base::RandomStream& stream)

@@ -12,7 +12,7 @@ namespace {
 
 using Fault = std::optional<std::string>;
 
-constexpr base::Duration zero{0};
+constexpr base::Duration no_time{0};
 
 Fault unless(bool is_possible, std::string_view what)
 {
@@ -24,7 +24,7 @@ Fault unless(bool is_possible, std::string_view what)
 std::optional<std::string> fault_of(const Variation& variation)
 {
     const auto* constant = std::get_if<ConstantLaw>(&variation.law);
-    if (constant != nullptr && constant->value < zero) {
+    if (constant != nullptr && constant->value < no_time) {
         return "a delay is not negative: nothing leaves before it came";
     }
     return objection(variation);
@@ -44,13 +44,13 @@ std::optional<std::string> fault_of(const Corruption& corruption)
 
 std::optional<std::string> fault_of(const Duplication& duplication)
 {
-    return unless(duplication.spread >= zero, "spread is not negative");
+    return unless(duplication.spread >= no_time, "spread is not negative");
 }
 
 std::optional<std::string> fault_of(const Reordering& reordering)
 {
     const Displacement& displacement = reordering.displacement;
-    if (displacement.time < zero) return "displacement is not negative";
+    if (displacement.time < no_time) return "displacement is not negative";
     return unless(reordering.share == base::Probability{} || displacement != Displacement{},
                   "displacement has to be more than 0");
 }

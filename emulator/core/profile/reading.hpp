@@ -3,14 +3,11 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
-#include "emulator/core/profile/document.hpp"
 #include "emulator/core/profile/form.hpp"
-#include "proto/base/result.hpp"
+#include "proto/base/reading.hpp"
 
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -18,67 +15,22 @@
 
 namespace hapnet::emulator {
 
-/// Gives the text of a file that a profile names, or says why not.
-using OpenFile = std::function<base::Result<std::string>(const std::string& name)>;
-
-/// The reading of one text: keeps the first complaint about it.
-class Reading {
-public:
-    /// `source` names the text in complaints, as "FILE:LINE:COLUMN: ...". Without `has_lines` it
-    /// is an option and stands alone: "up.delay: ...".
-    Reading(std::string source, const OpenFile& open, bool has_lines = true)
-        : source_{std::move(source)}, open_{open}, has_lines_{has_lines}
-    {}
-
-    void complain(Place place, std::string_view what);
-    [[nodiscard]] bool is_good() const { return !complaint_; }
-    [[nodiscard]] const std::optional<std::string>& complaint() const { return complaint_; }
-
-    [[nodiscard]] base::Result<std::string> open(const std::string& name) const;
-
-private:
-    std::string source_;
-    const OpenFile& open_;
-    bool has_lines_;
-    std::optional<std::string> complaint_;
-};
-
-/// "did you mean 'jitter'?" or "one of delay, jitter, ... is possible here".
-[[nodiscard]] std::string suggestion(std::string_view word,
-                                     std::span<const std::string_view> possible);
-
-/// Reads the entries of a table by their keys and complains of those that nobody asked for.
-class TableReader {
-public:
-    TableReader(const Node::Table& table, Place place, Reading& reading)
-        : table_{table}, place_{place}, reading_{reading}
-    {}
-
-    /// nullptr when it is not there.
-    [[nodiscard]] const Node* find(std::string_view key);
-    /// Complains when it is not there.
-    [[nodiscard]] const Node* require(std::string_view key);
-    /// To be called once all keys have been asked for.
-    void finish() const;
-
-    [[nodiscard]] Place place() const { return place_; }
-    [[nodiscard]] Reading& reading() const { return reading_; }
-
-private:
-    const Node::Table& table_;
-    Place place_;
-    Reading& reading_;
-    std::vector<std::string_view> known_;
-};
+using base::DocumentError;
+using base::list_text;
+using base::Node;
+using base::OpenFile;
+using base::parse_document;
+using base::Place;
+using base::quoted;
+using base::read_value;
+using base::Reading;
+using base::suggestion;
+using base::table_text;
+using base::TableReader;
+using base::value_text;
 
 // The values of parameters. What is wrong is complained of, and leaves the target as it was.
 
-void read_value(const Node& node, base::Duration& target, Reading& reading);
-void read_value(const Node& node, base::Probability& target, Reading& reading);
-void read_value(const Node& node, double& target, Reading& reading);
-void read_value(const Node& node, std::uint8_t& target, Reading& reading);
-void read_value(const Node& node, std::uint32_t& target, Reading& reading);
-void read_value(const Node& node, std::string& target, Reading& reading);
 void read_value(const Node& node, std::variant<base::Duration, std::uint32_t>& target,
                 Reading& reading);
 void read_value(const Node& node, Displacement& target, Reading& reading);
@@ -122,13 +74,6 @@ template <typename T>
 
 // How parameters are printed: as TOML that reads back as the same value.
 
-[[nodiscard]] std::string quoted(std::string_view text);
-[[nodiscard]] std::string value_text(base::Duration value);
-[[nodiscard]] std::string value_text(base::Probability value);
-[[nodiscard]] std::string value_text(double value);
-[[nodiscard]] std::string value_text(std::uint8_t value);
-[[nodiscard]] std::string value_text(std::uint32_t value);
-[[nodiscard]] std::string value_text(const std::string& value);
 [[nodiscard]] std::string value_text(const std::variant<base::Duration, std::uint32_t>& value);
 [[nodiscard]] std::string value_text(const Displacement& value);
 [[nodiscard]] std::string value_text(const std::vector<std::uint64_t>& value);
@@ -165,8 +110,5 @@ template <typename T>
     std::apply([&](const auto&... fields) { (add(fields), ...); }, Form<T>::fields);
     return texts;
 }
-
-/// `{ a = 1, b = 2 }`
-[[nodiscard]] std::string table_text(const std::vector<std::string>& entries);
 
 } // namespace hapnet::emulator

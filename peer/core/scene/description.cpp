@@ -56,7 +56,7 @@ double square(const glm::dquat& q) { return q.w * q.w + q.x * q.x + q.y * q.y + 
 
 void check_material(Check& check, const Material& material)
 {
-    check.within("friction", material.friction, 0.0, 10.0);
+    check.within("friction", material.friction, 0.0, friction_max);
     check.within("restitution", material.restitution, 0.0, 1.0);
 }
 
@@ -92,7 +92,8 @@ base::Result<void> check_whole(const Description& description)
                 fmt::format("more than {} bodies", bodies_max));
     check.holds(description.planes.size() <= planes_max,
                 fmt::format("more than {} planes", planes_max));
-    check.within("gravity in m/s^2", description.gravity, -1e3, 1e3);
+    check.within("gravity in m/s^2", description.gravity, -gravity_max_m_per_s2,
+                 gravity_max_m_per_s2);
     return check.result();
 }
 

@@ -15,8 +15,10 @@ namespace hapnet::scene {
 /// How bodies behave where they touch. Of two that touch, friction is the geometric mean and
 /// restitution the greater of the two.
 struct Material {
-    double friction = 0.0;    // Coulomb's coefficient, 0..10
+    double friction = 0.0;    // Coulomb's coefficient, 0..friction_max
     double restitution = 0.0; // 0: no bounce, 1: elastic
+
+    friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// What may turn: everything, nothing, or about one axis of the world alone.
@@ -38,6 +40,8 @@ struct BodyDescription {
     bool locked_z = false;
     Material material{};
     double drag_ns_per_m = 0.0; // viscous friction on the plane that carries it, tangential
+
+    friend bool operator==(const BodyDescription&, const BodyDescription&) = default;
 };
 
 /// A half-space that carries bodies and is not felt by a hand: the work platform, walls.
@@ -46,6 +50,8 @@ struct PlaneDescription {
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, out of the solid side
     double offset_m = 0.0;            // of its points p: dot(normal, p) = offset
     Material material{};
+
+    friend bool operator==(const PlaneDescription&, const PlaneDescription&) = default;
 };
 
 /// The hands' spheres (haptic interface points), all alike: a spring and a damper, without
@@ -57,6 +63,8 @@ struct HipDescription {
     double force_max_n = 3.3;    // of one contact; infinity: not limited
     double grip_reach_m = 0.005; // how near the surface a hand must be to take hold
     std::uint32_t count = 2;     // 0..hips_max
+
+    friend bool operator==(const HipDescription&, const HipDescription&) = default;
 };
 
 /// What a scene is, before it is frozen: a value that anything may build, print or compare.
@@ -66,6 +74,8 @@ struct Description {
     std::vector<PlaneDescription> planes{};
     HipDescription hips{};
     glm::dvec3 gravity{0.0, -9.81, 0.0}; // m/s^2
+
+    friend bool operator==(const Description&, const Description&) = default;
 };
 
 inline constexpr std::uint32_t hips_max = 8;
@@ -84,6 +94,8 @@ inline constexpr double mass_max_kg = 1e6;
 inline constexpr double stiffness_max_n_per_m = 1e9;
 inline constexpr double damping_max_ns_per_m = 1e6;
 inline constexpr double force_max_n = 1e6;
+inline constexpr double friction_max = 10.0;
+inline constexpr double gravity_max_m_per_s2 = 1e3;
 
 /// What is wrong with a description, with the name of the part and what was expected; nothing
 /// when it may be frozen.

@@ -5,6 +5,7 @@
 #include "peer/core/scene/contact/edge_manifold.hpp"
 #include "peer/core/scene/contact/face_manifold.hpp"
 #include "peer/core/scene/contact/features.hpp"
+#include "peer/core/scene/contact/measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,14 @@ EdgePair edges_of(int axis)
 
 double slack(const OrientedBox& a, const OrientedBox& b)
 {
-    return slack_of_half * std::min({a.half.x, a.half.y, a.half.z, b.half.x, b.half.y, b.half.z});
+    return slack_of_half * smallest_half(a, b);
+}
+
+/// No points, and none written.
+Manifold apart()
+{
+    Manifold manifold;
+    return manifold;
 }
 
 /// How far `other` is from the face of `owner` that looks at it along one of the owner's axes.
@@ -43,9 +51,7 @@ double face_separation(const OrientedBox& owner, const OrientedBox& other, int a
 {
     const glm::dvec3& normal = owner.axes[axis];
     return std::abs(glm::dot(normal, other.centre - owner.centre)) -
-           (owner.half[axis] + (other.half.x * std::abs(glm::dot(normal, other.axes[0])) +
-                                other.half.y * std::abs(glm::dot(normal, other.axes[1])) +
-                                other.half.z * std::abs(glm::dot(normal, other.axes[2]))));
+           (owner.half[axis] + half_shadow(other, normal));
 }
 
 double face_separation_of(const OrientedBox& a, const OrientedBox& b, int axis)
@@ -59,18 +65,16 @@ bool edges_separate(const OrientedBox& a, const OrientedBox& b, EdgePair edges, 
     const glm::dvec3 normal = glm::cross(a.axes[edges.of_a], b.axes[edges.of_b]);
     const double square = glm::dot(normal, normal);
     if (square < parallel) return false;
-    double apart = std::abs(glm::dot(normal, b.centre - a.centre));
-    for (const int k : {0, 1, 2}) {
-        if (k != edges.of_a) apart -= a.half[k] * std::abs(glm::dot(normal, a.axes[k]));
-        if (k != edges.of_b) apart -= b.half[k] * std::abs(glm::dot(normal, b.axes[k]));
-    }
-    return apart > margin * std::sqrt(square);
+    const double separation = std::abs(glm::dot(normal, b.centre - a.centre)) -
+                              (half_shadow(a, normal) + half_shadow(b, normal));
+    return separation > margin * std::sqrt(square);
 }
 
 Manifold exchanged(Manifold manifold)
 {
     manifold.normal = -manifold.normal;
-    for (ContactPoint& point : manifold.points) point.feature = meeting_exchanged(point.feature);
+    for (ContactPoint& point : manifold.touching())
+        point.feature = meeting_exchanged(point.feature);
     return manifold;
 }
 
@@ -211,16 +215,16 @@ Candidate better_face(const OrientedBox& a, const OrientedBox& b, const Verdict&
     return is_larger ? face_b : face_a;
 }
 
-/// The edges to try: last tick's while they are nearly as good as the best.
-Candidate better_edges(const Separations& separations, const Candidate& best, double room, int last)
+/// The edges' axis to try: last tick's while it is nearly as good as the best.
+int better_edges(const Separations& separations, const Candidate& best, double room, int last)
 {
-    if (last < first_edge_axis || last == best.axis) return best;
+    if (last < first_edge_axis) return best.axis;
     const auto i = static_cast<std::size_t>(edges_of(last).of_a);
     const auto j = static_cast<std::size_t>(edges_of(last).of_b);
     const double square = separations.square(i, j);
-    if (square < parallel) return best;
+    if (square < parallel) return best.axis;
     const double separation = separations.edges(i, j) / std::sqrt(square);
-    return separation >= best.separation - room ? Candidate{separation, last} : best;
+    return separation >= best.separation - room ? last : best.axis;
 }
 
 /// All 15 axes, and the points where the features meet that they name.
@@ -229,7 +233,7 @@ Manifold search(const OrientedBox& a, const OrientedBox& b, double margin, BoxBo
     const Separations separations{a, b};
     const Verdict verdict = judge(separations, margin);
     const int last = std::exchange(memory.axis, static_cast<std::int8_t>(verdict.separating));
-    if (verdict.separating >= 0) return {};
+    if (verdict.separating >= 0) return apart();
 
     const double room = slack(a, b);
     const Candidate best = better_face(a, b, verdict);
@@ -238,14 +242,17 @@ Manifold search(const OrientedBox& a, const OrientedBox& b, double margin, BoxBo
         const double separation = face_separation_of(a, b, last);
         if (separation >= best.separation - room) face = {separation, last};
     }
-    const Candidate edges = better_edges(separations, verdict.edge, room, last);
     const bool were_edges = last >= first_edge_axis;
-    const bool are_edges =
-        edges.axis >= 0 && edges.separation > face.separation + (were_edges ? 0.5 : 1.0) * room;
+    const double lead = verdict.edge.separation - face.separation;
+    const bool are_edges = lead > (were_edges ? 0.5 : 1.0) * room;
+    const int edges = better_edges(separations, verdict.edge, room, last);
 
-    // The slack may have chosen features that do not meet: then the next best do.
-    const std::array<int, 4> axes{are_edges ? edges.axis : face.axis,
-                                  are_edges ? face.axis : edges.axis, verdict.face_a.axis,
+    // The slack may have chosen features that do not meet: then the next best do, at last the best.
+    const std::array<int, 6> axes{are_edges ? edges : face.axis,
+                                  are_edges ? verdict.edge.axis : edges,
+                                  face.axis,
+                                  verdict.edge.axis,
+                                  verdict.face_a.axis,
                                   verdict.face_b.axis};
     for (const int axis : axes) {
         if (axis < 0) continue;
@@ -257,19 +264,19 @@ Manifold search(const OrientedBox& a, const OrientedBox& b, double margin, BoxBo
         return manifold;
     }
     memory.axis = static_cast<std::int8_t>(face.axis);
-    return {};
+    return apart();
 }
 
 } // namespace
 
 Manifold collide(const OrientedBox& a, const OrientedBox& b, double margin, BoxBoxMemory& memory)
 {
-    const int last = memory.axis;
+    const auto last = int{memory.axis};
     if (last >= first_edge_axis) {
-        if (edges_separate(a, b, edges_of(last), margin)) return {};
+        if (edges_separate(a, b, edges_of(last), margin)) return apart();
     } else if (last >= 0) {
         const double separation = face_separation_of(a, b, last);
-        if (separation > margin) return {};
+        if (separation > margin) return apart();
         if (separation >= -slack(a, b)) { // no other axis can be better by more than the slack
             const Manifold manifold = touching_on_face(a, b, last, margin);
             if (manifold.count > 0) return manifold;

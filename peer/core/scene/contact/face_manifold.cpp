@@ -19,6 +19,7 @@ constexpr std::uint32_t polygon_max = 8;
 struct Vertex {
     double u = 0.0;
     double v = 0.0;
+    double separation = 0.0; // when the polygon is complete
     FeatureBits reference = 0;
     FeatureBits incident = 0;
 };
@@ -28,12 +29,20 @@ struct Polygon {
     std::uint32_t count = 0;
 
     void add(const Vertex& vertex) { at[count++] = vertex; }
+
+    /// In a sliver along an edge a cut may find the same features twice: the first stands.
+    void add_new(const Vertex& vertex)
+    {
+        for (std::uint32_t k = 0; k < count; ++k) {
+            if (at[k].reference == vertex.reference && at[k].incident == vertex.incident) return;
+        }
+        add(vertex);
+    }
 };
 
 /// The reference face's rectangle, and the incident face's parallelogram seen from it.
 struct Faces {
-    int axis = 0; // of the reference face; the plane's u and v are the next two, cyclically
-    int axis_u = 1;
+    int axis_u = 1; // of the reference box: the two next to the face's own, cyclically
     int axis_v = 2;
     double half_u = 0.0;
     double half_v = 0.0;
@@ -56,60 +65,54 @@ struct Faces {
     }
 };
 
-/// One side of the reference face's rectangle.
-struct Side {
+/// Two opposite sides of the reference face's rectangle: where u or v is plus or minus a limit.
+struct Strip {
     bool is_v = false;
-    double sign = 1.0;
+    int axis = 0; // the reference box's that u or v is measured along
     double limit = 0.0;
-    FeatureBits bit = 0;
+    double tolerance = 0.0;
 
-    [[nodiscard]] double excess(const Vertex& vertex) const
+    [[nodiscard]] double place(const Vertex& vertex) const { return is_v ? vertex.v : vertex.u; }
+
+    /// Whether the way from here to there crosses a side, and is not along it.
+    [[nodiscard]] bool is_crossed(double here, double there) const
     {
-        return sign * (is_v ? vertex.v : vertex.u) - limit;
+        return here - limit < -tolerance && there - limit > tolerance;
     }
 };
 
-/// Where the line from a vertex within to one without leaves the rectangle.
-Vertex crossing(const Vertex& within, const Vertex& without, const Side& side)
+/// Where the line from a vertex within a side to one without crosses it.
+Vertex crossing(const Vertex& within, const Vertex& without, const Strip& strip, double sign)
 {
-    const double inner = side.excess(within);
-    const double part = inner / (inner - side.excess(without));
+    const double inner = strip.limit - sign * strip.place(within);
+    const double outer = sign * strip.place(without) - strip.limit;
+    const double part = inner / (inner + outer);
     Vertex result{.u = within.u + part * (without.u - within.u),
                   .v = within.v + part * (without.v - within.v),
-                  .reference = (within.reference & without.reference) | side.bit,
+                  .reference =
+                      (within.reference & without.reference) | face_bit(strip.axis, sign > 0.0),
                   .incident = within.incident & without.incident};
-    (side.is_v ? result.v : result.u) = side.sign * side.limit;
+    (strip.is_v ? result.v : result.u) = sign * strip.limit;
     return result;
 }
 
-Polygon cut(const Polygon& polygon, const Side& side, double tolerance)
+/// What of a polygon lies within a strip. Both sides are cut at once: a mirrored polygon gives the
+/// same bits.
+Polygon cut(const Polygon& polygon, const Strip& strip)
 {
     Polygon result;
     for (std::uint32_t k = 0; k < polygon.count; ++k) {
         const Vertex& here = polygon.at[k];
         const Vertex& next = polygon.at[k + 1 < polygon.count ? k + 1 : 0];
-        const double excess = side.excess(here);
-        const double excess_next = side.excess(next);
-        if (excess <= tolerance) result.add(here);
-        if (excess < -tolerance && excess_next > tolerance)
-            result.add(crossing(here, next, side));
-        else if (excess > tolerance && excess_next < -tolerance)
-            result.add(crossing(next, here, side));
-    }
-    return result;
-}
-
-Polygon cut_to_reference(const Polygon& polygon, const Faces& faces)
-{
-    Polygon result = polygon;
-    for (const bool is_v : {false, true}) {
-        for (const bool is_positive : {true, false}) {
-            const Side side{.is_v = is_v,
-                            .sign = is_positive ? 1.0 : -1.0,
-                            .limit = is_v ? faces.half_v : faces.half_u,
-                            .bit = face_bit(is_v ? faces.axis_v : faces.axis_u, is_positive)};
-            result = cut(result, side, faces.tolerance);
-        }
+        const double place = strip.place(here);
+        const double place_next = strip.place(next);
+        if (std::abs(place) - strip.limit <= strip.tolerance) result.add_new(here);
+        for (const double sign : {1.0, -1.0}) // inwards
+            if (strip.is_crossed(sign * place_next, sign * place))
+                result.add_new(crossing(next, here, strip, sign));
+        for (const double sign : {1.0, -1.0}) // outwards
+            if (strip.is_crossed(sign * place, sign * place_next))
+                result.add_new(crossing(here, next, strip, sign));
     }
     return result;
 }
@@ -135,8 +138,8 @@ Polygon outermost(const Polygon& polygon, const Faces& faces)
         double best_score = -HUGE_VAL;
         for (std::uint32_t k = 0; k < polygon.count; ++k) {
             const Vertex& vertex = polygon.at[k];
-            const double score = weight_u * vertex.u + weight_v * vertex.v -
-                                 depth_weight * faces.separation(vertex.u, vertex.v);
+            const double score =
+                weight_u * vertex.u + weight_v * vertex.v - depth_weight * vertex.separation;
             if (score > best_score) {
                 best_score = score;
                 best = k;
@@ -148,11 +151,18 @@ Polygon outermost(const Polygon& polygon, const Faces& faces)
     return result;
 }
 
+Polygon cut_to_reference(const Polygon& polygon, const Faces& faces)
+{
+    const Strip u{.axis = faces.axis_u, .limit = faces.half_u, .tolerance = faces.tolerance};
+    const Strip v{
+        .is_v = true, .axis = faces.axis_v, .limit = faces.half_v, .tolerance = faces.tolerance};
+    return cut(cut(polygon, u), v);
+}
+
 /// How one box lies on a face of the other.
 Faces facing(const OrientedBox& reference, const OrientedBox& incident, int axis)
 {
     Faces faces;
-    faces.axis = axis;
     faces.axis_u = (axis + 1) % 3;
     faces.axis_v = (axis + 2) % 3;
     faces.half_u = reference.half[faces.axis_u];
@@ -221,17 +231,18 @@ Polygon incident_corners(const Faces& faces)
     return polygon;
 }
 
-/// Those at most `margin` off, brought onto the reference face where they lie on its border.
-Polygon near(const Polygon& polygon, const Faces& faces, double margin)
+/// Leaves those at most `margin` off, brought onto the reference face where they lie on its border.
+void leave_near(Polygon& polygon, const Faces& faces, double margin)
 {
-    Polygon result;
+    std::uint32_t count = 0;
     for (std::uint32_t k = 0; k < polygon.count; ++k) {
         Vertex vertex = polygon.at[k];
         vertex.u = std::clamp(vertex.u, -faces.half_u, faces.half_u);
         vertex.v = std::clamp(vertex.v, -faces.half_v, faces.half_v);
-        if (faces.separation(vertex.u, vertex.v) <= margin) result.add(vertex);
+        vertex.separation = faces.separation(vertex.u, vertex.v);
+        if (vertex.separation <= margin) polygon.at[count++] = vertex;
     }
-    return result;
+    polygon.count = count;
 }
 
 } // namespace
@@ -240,7 +251,9 @@ Manifold face_manifold(const OrientedBox& reference, const OrientedBox& incident
                        double margin)
 {
     const Faces faces = facing(reference, incident, axis);
-    if (faces.beside > margin) return {.normal = faces.normal, .points = {}};
+    Manifold manifold;
+    manifold.normal = faces.normal;
+    if (faces.beside > margin) return manifold;
     Polygon polygon = incident_corners(faces);
     const double reach_u = faces.half_u + faces.tolerance;
     const double reach_v = faces.half_v + faces.tolerance;
@@ -250,20 +263,17 @@ Manifold face_manifold(const OrientedBox& reference, const OrientedBox& incident
         is_within = is_within && std::abs(vertex.u) <= reach_u && std::abs(vertex.v) <= reach_v;
     }
     if (!is_within) polygon = cut_to_reference(polygon, faces);
-    polygon = near(polygon, faces, margin);
+    leave_near(polygon, faces, margin);
     if (polygon.count > manifold_points_max) polygon = outermost(polygon, faces);
 
-    Manifold manifold;
-    manifold.normal = faces.normal;
     manifold.count = polygon.count;
     const glm::dvec3 face = reference.centre + reference.half[axis] * faces.normal;
     for (std::uint32_t k = 0; k < polygon.count; ++k) {
         const Vertex& vertex = polygon.at[k];
-        const double separation = faces.separation(vertex.u, vertex.v);
         manifold.points[k] = {.position = face + (vertex.u * reference.axes[faces.axis_u] +
                                                   vertex.v * reference.axes[faces.axis_v] +
-                                                  (0.5 * separation) * faces.normal),
-                              .separation = separation,
+                                                  (0.5 * vertex.separation) * faces.normal),
+                              .separation = vertex.separation,
                               .feature = meeting(vertex.reference, vertex.incident)};
     }
     return manifold;

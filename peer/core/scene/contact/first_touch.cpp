@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/scene/contact/box_box.hpp"
 
+#include "peer/core/scene/contact/measures.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -18,13 +20,6 @@ constexpr double parallel = 1e-16;
 // Rounding errors of a shadow's length, relative to it: shadows that overlap by less touch.
 constexpr double rounding = 1e-13;
 
-double extent(const OrientedBox& box, const glm::dvec3& direction)
-{
-    return box.half.x * std::abs(glm::dot(direction, box.axes[0])) +
-           box.half.y * std::abs(glm::dot(direction, box.axes[1])) +
-           box.half.z * std::abs(glm::dot(direction, box.axes[2]));
-}
-
 /// While the shadows overlap along all axes so far: from `enter` to `leave`.
 class Sweep {
 public:
@@ -39,7 +34,7 @@ public:
     /// One more axis, of any length; false when the boxes do not meet because of it.
     bool consider(const glm::dvec3& direction)
     {
-        const double reach = extent(a_, direction) + extent(b_, direction);
+        const double reach = half_shadow(a_, direction) + half_shadow(b_, direction);
         const double place = glm::dot(direction, offset_);
         const double speed = glm::dot(direction, velocity_);
         const double apart = std::abs(place) - reach;

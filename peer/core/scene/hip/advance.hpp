@@ -20,6 +20,7 @@ struct MovingBody {
 
 /// How it answers to forces; held for the tick.
 struct Answer {
+    glm::dvec3 half{0.0}; // half the edges of the box, on which its hands slide and turn
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame, at the start of the tick
     bool turns_evenly = false;       // turning does not change it: a cube, or one axis alone

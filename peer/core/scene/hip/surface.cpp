@@ -6,31 +6,28 @@
 
 namespace hapnet::scene {
 
-Surface::Surface(const HipSpring& spring, const glm::dmat3& axes)
-    : point_{spring.arm * axes}, normal_{spring.normal * axes}, radius_{spring.radius}
+Surface::Surface(const HipSpring& spring, const glm::dvec3& half, const glm::dmat3& axes)
+    : half_{half}, radius_{spring.radius}
 {
-    constexpr double none = 1e-9; // rounding of a part that is 0
-    for (const int axis : {0, 1, 2}) {
-        if (std::abs(normal_[axis]) <= none) continue;
-        is_bound_[axis] = 1.0;
-        ++bound_;
-    }
-    if (bound_ == 1) normal_ = {std::copysign(is_bound_.x, normal_.x),
-                                std::copysign(is_bound_.y, normal_.y),
-                                std::copysign(is_bound_.z, normal_.z)};
+    const glm::dvec3 normal = spring.normal * axes;
+    const glm::dvec3 size = glm::abs(normal);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    face_[axis] = normal[axis] < 0.0 ? -1.0 : 1.0;
+    constexpr double rounding = 1e-9;
+    is_face_ = size.x + size.y + size.z - size[axis] <= rounding;
 }
 
 Hold Surface::at(const glm::dmat3& axes, const glm::dvec3& hand) const
 {
-    const glm::dvec3 away = is_bound_ * (hand * axes - point_);
-    double distance = glm::dot(normal_, away);
-    glm::dvec3 normal = normal_;
-    if (bound_ > 1) {
-        const double length = std::sqrt(glm::dot(away, away));
-        // Nearer to an edge than any surface is, a direction means nothing.
-        if (length > 1e-9 * radius_) {
-            distance = length;
-            normal = away / length;
+    const glm::dvec3 centre = hand * axes;
+    double distance = glm::dot(face_, centre) - glm::dot(glm::abs(face_), half_);
+    glm::dvec3 normal = face_;
+    if (distance >= 0.0 || !is_face_) {
+        const glm::dvec3 away = centre - glm::clamp(centre, -half_, half_);
+        const double square = glm::dot(away, away);
+        if (square > 0.0) {
+            distance = std::sqrt(square);
+            normal = away / distance;
         }
     }
     Hold hold;

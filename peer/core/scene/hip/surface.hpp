@@ -4,7 +4,6 @@
 
 #include "peer/core/scene/hip/advance.hpp"
 
-#include <array>
 #include <glm/geometric.hpp>
 
 namespace hapnet::scene {
@@ -16,27 +15,26 @@ struct Hold {
     double depth = 0.0;     // > 0: overlap
 };
 
-/// The face, edge or corner of a box that a hand's sphere is at, in the body's frame: what of a
-/// contact stays while the body turns and the hand slides on. Which of them it is the normal says:
-/// along the box's axes on which the normal has no part, the contact follows the hand.
+/// A box and a hand's sphere near it, in the box's frame: where they touch while the box turns and
+/// the hand moves on. The nearest point of the box; a sphere whose centre is within it stays at the
+/// face where it was at the start.
 class Surface {
 public:
     Surface() = default;
-    /// `axes` are the body's, in the world.
-    Surface(const HipSpring& spring, const glm::dmat3& axes);
+    /// `axes` are the box's, in the world.
+    Surface(const HipSpring& spring, const glm::dvec3& half, const glm::dmat3& axes);
 
-    /// Whether it is a face: then the normal turns with the body, and only with it.
-    [[nodiscard]] bool is_face() const { return bound_ == 1; }
+    /// Whether it was a face at the start.
+    [[nodiscard]] bool is_face() const { return is_face_; }
 
-    /// With the hand's centre at `hand`, seen from the body's centre in the world's frame.
+    /// With the hand's centre at `hand`, seen from the box's centre in the world's frame.
     [[nodiscard]] Hold at(const glm::dmat3& axes, const glm::dvec3& hand) const;
 
 private:
-    glm::dvec3 point_{0.0};
-    glm::dvec3 normal_{0.0};    // at the start
-    glm::dvec3 is_bound_{0.0};  // 1 on the axes on which the contact does not follow the hand
-    int bound_ = 0;             // how many they are
+    glm::dvec3 half_{0.0};
     double radius_ = 0.0;
+    glm::dvec3 face_{0.0}; // its normal
+    bool is_face_ = false;
 };
 
 } // namespace hapnet::scene

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/scene/motion/course.hpp"
+#include "peer/core/scene/motion/per_axis.hpp"
 
 #include <array>
 #include <optional>
@@ -17,8 +18,8 @@ using Courses = std::array<Course, 3>;
 struct Watch {
     double level = 0.0;
     double slope = 0.0;
-    std::array<double, 3> way_weight{};
-    std::array<double, 3> speed_weight{};
+    PerAxis way_weight{};
+    PerAxis speed_weight{};
     bool leaves_zero = false; // it starts at 0 up to rounding, and is known to grow
 };
 

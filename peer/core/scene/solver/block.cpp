@@ -77,7 +77,7 @@ struct Jacobian {
     glm::dvec3 angular;
 };
 
-void add_body(Square<6>& matrix, const std::array<Jacobian, 6>& rows, const Response& body)
+void add_body(Square<6>& matrix, const std::array<Jacobian, 6>& rows, const BodyResponse& body)
 {
     for (std::size_t i = 0; i < 6; ++i) {
         const glm::dvec3 moved = body.inverse_mass * rows[i].linear;
@@ -132,7 +132,7 @@ void remember(const ContactBlock& block, double weight, ContactMemory& memory)
     memory.torsion_impulse *= share;
 }
 
-Modal velocity_at(const ContactBlock& block, const Motion& a, const Motion& b)
+Modal velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
 {
     glm::dvec3 velocity{0.0};
     glm::dvec3 spin{0.0};
@@ -186,7 +186,8 @@ Wrench wrench(const ContactBlock& block, const Modal& impulse)
                 impulse[5] * block.normal};
 }
 
-void apply(const Wrench& wrench, const glm::dvec3& arm, const Response& response, Motion& motion)
+void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
+           BodyMotion& motion)
 {
     const glm::dvec3 angular = glm::cross(arm, wrench.impulse) + wrench.angular;
     motion.velocity += response.inverse_mass * wrench.impulse;
@@ -194,7 +195,7 @@ void apply(const Wrench& wrench, const glm::dvec3& arm, const Response& response
     motion.angular_impulse += angular;
 }
 
-void build_matrix(ContactBlock& block, const Response& a, const Response& b)
+void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b)
 {
     block.matrix = {};
     if (block.a != 0) add_body(block.matrix, jacobian(block, block.arm_a), a);

@@ -14,13 +14,13 @@
 namespace hapnet::scene {
 
 /// How a body answers to impulses; nothing moves what is fixed, a plane, or asleep.
-struct Response {
+struct BodyResponse {
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame
 };
 
 /// Linear and angular velocity, in the world's frame.
-struct Motion {
+struct BodyMotion {
     glm::dvec3 velocity{0.0};
     glm::dvec3 spin{0.0};
     glm::dvec3 angular_impulse{0.0}; // about the centre, of all that changed `spin`: N m s
@@ -91,7 +91,8 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
 /// two bodies takes.
 void remember(const ContactBlock& block, double weight, ContactMemory& memory);
 
-[[nodiscard]] Modal velocity_at(const ContactBlock& block, const Motion& a, const Motion& b);
+[[nodiscard]] Modal velocity_at(const ContactBlock& block, const BodyMotion& a,
+                                const BodyMotion& b);
 /// While a body turns, the points of it that touch go around its centre: what that adds to their
 /// velocity within a tick. Without it, a box that tips over an edge would gain energy. Second
 /// order.
@@ -106,9 +107,10 @@ struct Wrench {
 };
 [[nodiscard]] Wrench wrench(const ContactBlock& block, const Modal& impulse);
 /// On one body: `arm` from its centre to the anchor.
-void apply(const Wrench& wrench, const glm::dvec3& arm, const Response& response, Motion& motion);
+void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
+           BodyMotion& motion);
 
-void build_matrix(ContactBlock& block, const Response& a, const Response& b);
+void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b);
 
 /// Whether the impulses are an answer already, to `quiet` m/s.
 [[nodiscard]] bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet);

@@ -227,7 +227,8 @@ Modal ContactSolver::solve_one(ContactBlock& block, const Modal& velocity, doubl
     return scene::solve(block, velocity, quiet);
 }
 
-void ContactSolver::apply(const ContactBlock& block, const Modal& change, std::span<Motion> motions)
+void ContactSolver::apply(const ContactBlock& block, const Modal& change,
+                          std::span<BodyMotion> motions)
 {
     Wrench push = wrench(block, change);
     if (block.b != 0) scene::apply(push, block.arm_b, responses_[block.b], motions[block.b]);

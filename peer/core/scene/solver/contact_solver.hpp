@@ -36,11 +36,11 @@ public:
     /// Begins a tick: no contacts, and bodies 1 .. `bodies`.
     void begin(std::size_t bodies);
 
-    [[nodiscard]] Response& response(SolverIndex body) { return responses_[body]; }
+    [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
     /// At the end of the tick.
-    [[nodiscard]] Motion& ending(SolverIndex body) { return ending_[body]; }
+    [[nodiscard]] BodyMotion& ending(SolverIndex body) { return ending_[body]; }
     /// The mean over the tick: what moves the bodies.
-    [[nodiscard]] Motion& mean(SolverIndex body) { return mean_[body]; }
+    [[nodiscard]] BodyMotion& mean(SolverIndex body) { return mean_[body]; }
 
     [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
     ContactBlock& add() { return blocks_.add(); }
@@ -58,7 +58,7 @@ private:
     /// What is solved, and for which velocities.
     struct Task {
         Mode mode = Mode::contacts;
-        std::span<Motion> motions;
+        std::span<BodyMotion> motions;
         SolverLimits limits;
     };
 
@@ -71,13 +71,13 @@ private:
     void jump(const Task& task, Island island);
     void step_back(const Task& task, Island island);
     double visit(ContactBlock& block, const Task& task);
-    void apply(const ContactBlock& block, const Modal& change, std::span<Motion> motions);
+    void apply(const ContactBlock& block, const Modal& change, std::span<BodyMotion> motions);
     void find_islands();
     [[nodiscard]] SolverIndex root_of(SolverIndex body);
 
-    Scratch<Response> responses_;
-    Scratch<Motion> ending_;
-    Scratch<Motion> mean_;
+    Scratch<BodyResponse> responses_;
+    Scratch<BodyMotion> ending_;
+    Scratch<BodyMotion> mean_;
     Scratch<ContactBlock> blocks_;
 
     // Islands: of which body, by body; the blocks in the order of their islands; where each ends.
@@ -85,7 +85,7 @@ private:
     Scratch<std::uint32_t> starts_;
     Scratch<std::uint32_t> order_;
     Scratch<double> before_, after_, good_; // impulses of an island
-    Scratch<Motion> saved_;                 // of its bodies
+    Scratch<BodyMotion> saved_;             // of its bodies
     Anderson anderson_;
 };
 

@@ -50,8 +50,8 @@ Hit first_hit(const ContactBlock& block, const Modal& from, const Modal& to, dou
 }
 
 struct Throw {
-    Course& course;
-    const Response& response;
+    BodyCourse& course;
+    const BodyResponse& response;
     glm::dvec3 arm;
 };
 
@@ -59,9 +59,9 @@ struct Throw {
 /// left of the tick.
 void add(const Throw& thrown, const Wrench& push, double share_left)
 {
-    Motion change;
+    BodyMotion change;
     apply(push, thrown.arm, thrown.response, change);
-    Course& course = thrown.course;
+    BodyCourse& course = thrown.course;
     course.rebound.velocity += change.velocity;
     course.rebound.spin += change.spin;
     course.tentative.velocity += change.velocity;
@@ -72,7 +72,7 @@ void add(const Throw& thrown, const Wrench& push, double share_left)
     course.thrown_mean += share_left * change.angular_impulse;
 }
 
-void bounce_one(ContactBlock& block, ContactSolver& solver, std::span<Course> courses,
+void bounce_one(ContactBlock& block, ContactSolver& solver, std::span<BodyCourse> courses,
                 const Scales& scales)
 {
     const Modal from = velocity_at(block, courses[block.a].rebound, courses[block.b].rebound);
@@ -107,9 +107,9 @@ void bounce_one(ContactBlock& block, ContactSolver& solver, std::span<Course> co
 
 } // namespace
 
-void bounce(ContactSolver& solver, std::span<Course> courses, const Scales& scales)
+void bounce(ContactSolver& solver, std::span<BodyCourse> courses, const Scales& scales)
 {
-    for (Course& course : courses) course.rebound = course.start;
+    for (BodyCourse& course : courses) course.rebound = course.start;
     for (ContactBlock& block : solver.blocks()) {
         if (block.restitution > 0.0) bounce_one(block, solver, courses, scales);
     }

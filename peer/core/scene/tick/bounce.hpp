@@ -12,6 +12,6 @@ namespace hapnet::scene {
 /// Lets bodies bounce at the moment within the tick at which they hit each other, when they do so
 /// fast enough to be seen. `courses` by solver index. One hit of each contact per tick; of several
 /// contacts of a body, one after the other.
-void bounce(ContactSolver& solver, std::span<Course> courses, const Scales& scales);
+void bounce(ContactSolver& solver, std::span<BodyCourse> courses, const Scales& scales);
 
 } // namespace hapnet::scene

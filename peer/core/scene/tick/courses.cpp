@@ -38,14 +38,15 @@ glm::dvec3 along_plane(const glm::dvec3& v, const glm::dvec3& normal)
 }
 
 /// Of everything but the hands and the drag.
-glm::dvec3 acceleration(const Course& course, const Stage& stage, Slot slot, const Frozen& frozen)
+glm::dvec3 acceleration(const BodyCourse& course, const Stage& stage, Slot slot,
+                        const Frozen& frozen)
 {
     const BodyForm& form = stage.bodies.form[slot];
     return falling(form, frozen.gravity) +
            form.inverse_mass * (course.impulse / frozen.tick + stage.pushes[form.id]);
 }
 
-void start(Course& course, const Stage& stage, Slot slot, const Response& response)
+void start(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response)
 {
     const Bodies& bodies = stage.bodies;
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
@@ -54,7 +55,7 @@ void start(Course& course, const Stage& stage, Slot slot, const Response& respon
     course.angular_momentum = momentum + course.angular_impulse;
 }
 
-void turn(const Course& course, Bodies& bodies, Slot slot, const Motion& mean, double tick)
+void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
 {
     const BodyForm& form = bodies.form[slot];
     if (course.has_hands) {
@@ -76,7 +77,7 @@ void turn(const Course& course, Bodies& bodies, Slot slot, const Motion& mean, d
 
 /// What a body meets was looked for on its straight way through the tick. When it is thrown far off
 /// that, it goes only so far that it cannot pass through anything that was not looked for.
-void keep_to_path(const Course& course, Motion& mean, const Scales& scales)
+void keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scales)
 {
     constexpr double strays_most = 0.5;
     const double most = strays_most * scales.least / scales.tick;
@@ -111,10 +112,10 @@ OrientedBox box_of(const Bodies& bodies, Slot slot)
     return {bodies.position.at(slot), axes_of(bodies.orientation.at(slot)), bodies.form[slot].half};
 }
 
-Response response_of(const BodyForm& form, const OrientedBox& box)
+BodyResponse response_of(const BodyForm& form, const OrientedBox& box)
 {
     const glm::dvec3& about = form.inverse_inertia;
-    Response response{form.inverse_mass, glm::dmat3{0.0}};
+    BodyResponse response{form.inverse_mass, glm::dmat3{0.0}};
     if (turns_evenly(form)) {
         for (int i = 0; i < 3; ++i) response.inverse_inertia[i][i] = about[i];
         return response;
@@ -131,7 +132,7 @@ Response response_of(const BodyForm& form, const OrientedBox& box)
     return response;
 }
 
-void follow(Course& course, const Stage& stage, Slot slot, const Response& response,
+void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
             const Frozen& frozen)
 {
     const double tick = frozen.tick;
@@ -158,15 +159,19 @@ void follow(Course& course, const Stage& stage, Slot slot, const Response& respo
         lost / (course.drag * tick) - excess - (0.5 * tick) * along_plane(rate, course.carrier);
 }
 
-void follow_hands(Course& course, const Stage& stage, Slot slot, const Response& response,
+void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
                   const HandsOn& hands)
 {
     const Frozen& frozen = hands.frozen;
     const Bodies& bodies = stage.bodies;
     start(course, stage, slot, response);
     const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
-    Answer answer{response.inverse_mass, response.inverse_inertia, turns_evenly(bodies.form[slot]),
-                  rate, course.angular_impulse / frozen.tick};
+    Answer answer{bodies.form[slot].half,
+                  response.inverse_mass,
+                  response.inverse_inertia,
+                  turns_evenly(bodies.form[slot]),
+                  rate,
+                  course.angular_impulse / frozen.tick};
     MovingBody body;
     const auto advance_against = [&](const glm::dvec3& drag) {
         body = {bodies.position.at(slot), bodies.orientation.at(slot), course.start.velocity,
@@ -197,8 +202,8 @@ void follow_hands(Course& course, const Stage& stage, Slot slot, const Response&
                    0.5 * (course.start.spin + course.tentative.spin), glm::dvec3{0.0}};
 }
 
-void stop_in_time(const ContactBlock& block, const Course& course, const BodyForm& form,
-                  const Scales& scales, Motion& mean)
+void stop_in_time(const ContactBlock& block, const BodyCourse& course, const BodyForm& form,
+                  const Scales& scales, BodyMotion& mean)
 {
     const double sign = block.b != 0 ? 1.0 : -1.0;
     const glm::dvec3& start = course.start.velocity;
@@ -217,13 +222,13 @@ void stop_in_time(const ContactBlock& block, const Course& course, const BodyFor
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
-void arrive(const Course& course, Bodies& bodies, Slot slot, ContactSolver& solver,
+void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
             const Scales& scales)
 {
     const double tick = scales.tick;
     const SolverIndex index = slot + 1;
-    Motion& mean = solver.mean(index);
-    const Motion& ending = solver.ending(index);
+    BodyMotion& mean = solver.mean(index);
+    const BodyMotion& ending = solver.ending(index);
     turn(course, bodies, slot, mean, tick);
     const glm::dvec3 from = bodies.position.at(slot);
     if (course.has_hands) {

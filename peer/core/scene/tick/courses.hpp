@@ -22,14 +22,14 @@ struct Scales {
 [[nodiscard]] Scales scales_of(const Frozen& frozen, const Bodies& bodies);
 
 /// A body's way through a tick.
-struct Course {
+struct BodyCourse {
     glm::dvec3 impulse{0.0}; // of last tick's contacts, taken as constant forces
     glm::dvec3 angular_impulse{0.0};
-    Motion start;
-    Motion tentative;                 // at the end, without what contacts change
-    Motion mean;                      // over the tick, likewise
+    BodyMotion start;
+    BodyMotion tentative;             // at the end, without what contacts change
+    BodyMotion mean;                  // over the tick, likewise
     glm::dvec3 angular_momentum{0.0}; // at the end, likewise
-    Motion rebound;                   // at the start, as if it had bounced before
+    BodyMotion rebound;               // at the start, as if it had bounced before
     glm::dvec3 thrown{0.0};           // angular impulse of bounces
     glm::dvec3 thrown_mean{0.0};      // ... its mean over the tick
     std::uint32_t rubbing = 0;        // contacts with friction that push
@@ -43,7 +43,7 @@ struct Course {
 };
 
 [[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
-[[nodiscard]] Response response_of(const BodyForm& form, const OrientedBox& box);
+[[nodiscard]] BodyResponse response_of(const BodyForm& form, const OrientedBox& box);
 
 /// The springs on one body.
 struct HandsOn {
@@ -53,20 +53,20 @@ struct HandsOn {
 };
 
 /// Gravity, pushes and last tick's contact impulses, without hands: a parabola.
-void follow(Course& course, const Stage& stage, Slot slot, const Response& response,
+void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
             const Frozen& frozen);
 
 /// The same with the hands' springs on it, which tell their work.
-void follow_hands(Course& course, const Stage& stage, Slot slot, const Response& response,
+void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
                   const HandsOn& hands);
 
 /// A contact that stops slipping within the tick does so at its moment: until then friction has
 /// its full strength, and not a mean one until the end. For a body whose only friction it is.
-void stop_in_time(const ContactBlock& block, const Course& course, const BodyForm& form,
-                  const Scales& scales, Motion& mean);
+void stop_in_time(const ContactBlock& block, const BodyCourse& course, const BodyForm& form,
+                  const Scales& scales, BodyMotion& mean);
 
 /// Moves the body by what was solved.
-void arrive(const Course& course, Bodies& bodies, Slot slot, ContactSolver& solver,
+void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
             const Scales& scales);
 
 } // namespace hapnet::scene

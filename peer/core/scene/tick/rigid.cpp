@@ -195,7 +195,7 @@ void RigidTick<crowd>::look(const Stage& stage)
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
         const BodyForm& form = bodies.form[slot];
         solver_.response(slot + 1) = response_of(form, boxes_[form.id]);
-        Course& course = courses_[slot + 1];
+        BodyCourse& course = courses_[slot + 1];
         course.impulse = glm::dvec3{0.0};
         course.angular_impulse = glm::dvec3{0.0};
         course.thrown = glm::dvec3{0.0};
@@ -275,7 +275,7 @@ Manifold RigidTick<crowd>::between(const Stage& stage, Pair& pair) const
     shift(there_a, impact->time * bodies.velocity.at(a));
     shift(there_b, impact->time * bodies.velocity.at(b));
     Manifold manifold = collide(there_a, there_b, look_ahead * near, pair.memory.axis);
-    for (ContactPoint& point : manifold.points) {
+    for (ContactPoint& point : manifold.touching()) {
         point.separation -= impact->time * glm::dot(velocity, manifold.normal);
     }
     return manifold;
@@ -308,10 +308,10 @@ void RigidTick<crowd>::carry()
 {
     for (const ContactBlock& block : solver_.blocks()) {
         const Wrench push = wrench(block, modal(block, block.impulse));
-        Course& b = courses_[block.b];
+        BodyCourse& b = courses_[block.b];
         b.impulse += push.impulse;
         b.angular_impulse += glm::cross(block.arm_b, push.impulse) + push.angular;
-        Course& a = courses_[block.a];
+        BodyCourse& a = courses_[block.a];
         a.impulse -= push.impulse;
         a.angular_impulse -= glm::cross(block.arm_a, push.impulse) + push.angular;
     }
@@ -325,7 +325,7 @@ void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
     solver_.ending(0) = {};
     solver_.mean(0) = {};
     for (Slot slot = 0; slot < stage.bodies.awake; ++slot) {
-        Course& course = courses_[slot + 1];
+        BodyCourse& course = courses_[slot + 1];
         if (!course.has_hands) follow(course, stage, slot, solver_.response(slot + 1), frozen);
     }
     if (bounces_) bounce(solver_, courses_.all(), scales_);
@@ -372,8 +372,8 @@ void RigidTick<crowd>::solve(const Stage& stage)
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
     for (SolverIndex i = 1; i <= bodies.awake; ++i) {
-        const Course& course = courses_[i];
-        const Motion& ending = solver_.ending(i);
+        const BodyCourse& course = courses_[i];
+        const BodyMotion& ending = solver_.ending(i);
         solver_.mean(i) = {course.mean.velocity +
                                0.5 * (ending.velocity - course.tentative.velocity),
                            course.mean.spin + 0.5 * (ending.spin - course.tentative.spin),

@@ -69,7 +69,7 @@ private:
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
     HandSprings hands_;
     std::vector<OrientedBox> boxes_; // by id, where they are
-    Scratch<Course> courses_;        // by solver index
+    Scratch<BodyCourse> courses_;    // by solver index
     ContactSolver solver_;
     Counts counts_;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/core/profile/document.hpp"
+#include "proto/base/document.hpp"
 
 #include "proto/base/ensure.hpp"
 
@@ -28,7 +28,7 @@
 #define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
-namespace hapnet::emulator {
+namespace hapnet::base {
 
 namespace {
 
@@ -38,8 +38,8 @@ Place place_of(const toml::source_region& region)
 }
 
 /// Finds what the library would not survive: a key of so many parts that the tables in each other
-/// exhaust the stack, as its own bound counts values only. Strings over several lines are not for
-/// profiles; without them, a line can be read on its own.
+/// exhaust the stack, as its own bound counts values only. Strings over several lines have no
+/// place in what we read; without them, a line can be read on its own.
 class TextCheck {
 public:
     [[nodiscard]] std::optional<DocumentError> run(std::string_view text)
@@ -138,10 +138,11 @@ tl::expected<Node, DocumentError> convert(const toml::node& node)
 
 } // namespace
 
-tl::expected<Node, DocumentError> parse_document(std::string_view text)
+tl::expected<Node, DocumentError> parse_document(std::string_view text, std::size_t bytes_max)
 {
-    if (text.size() > document_bytes_max) {
-        return tl::unexpected{DocumentError{{}, "longer than 1 MiB"}};
+    if (text.size() > bytes_max) {
+        return tl::unexpected{
+            DocumentError{{}, fmt::format("longer than {} MiB", bytes_max >> 20U)}};
     }
     if (auto error = TextCheck{}.run(text)) return tl::unexpected{*std::move(error)};
     const toml::parse_result parsed = toml::parse(text);
@@ -152,4 +153,4 @@ tl::expected<Node, DocumentError> parse_document(std::string_view text)
     return convert(parsed.table());
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::base

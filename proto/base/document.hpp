@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::base {
 
 /// Where something stands in a text; both count from 1.
 struct Place {
@@ -23,7 +23,7 @@ struct Place {
 struct Entry;
 
 /// A value of a TOML document and where it stands. The entries of a table are in the order of the
-/// text. Dates and times are not part of it: no profile has any.
+/// text. Dates and times are not part of it: nothing that we read has any.
 struct Node {
     using List = std::vector<Node>;
     using Table = std::vector<Entry>;
@@ -38,16 +38,17 @@ struct Entry {
     Node value;
 };
 
-/// A text that is not TOML, or more of it than a profile can be.
+/// A text that is not TOML, or more of it than is read.
 struct DocumentError {
     Place place;
     std::string message;
 };
 
-/// Reads TOML 1.0 into a tree. The text is at most `document_bytes_max` long and nests at most so
-/// deep that no text can exhaust the stack.
-[[nodiscard]] tl::expected<Node, DocumentError> parse_document(std::string_view text);
-
 inline constexpr std::size_t document_bytes_max = 1 << 20;
 
-} // namespace hapnet::emulator
+/// Reads TOML 1.0 into a tree. The text is at most `bytes_max` long, in whole MiB, and nests at
+/// most so deep that no text can exhaust the stack.
+[[nodiscard]] tl::expected<Node, DocumentError>
+parse_document(std::string_view text, std::size_t bytes_max = document_bytes_max);
+
+} // namespace hapnet::base

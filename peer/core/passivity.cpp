@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/passivity.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <cmath>
+
+namespace hapnet::peer {
+
+double damping_for_passivity(const VirtualWall& wall, double tick_s)
+{
+    base::ensure(tick_s > 0.0);
+    return wall.stiffness_n_per_m * tick_s / 2.0 + std::abs(wall.damping_ns_per_m);
+}
+
+double passive_share(const VirtualWall& wall, double tick_s, double port_damping_ns_per_m)
+{
+    base::ensure(port_damping_ns_per_m >= 0.0);
+    const double needed = damping_for_passivity(wall, tick_s);
+    return needed <= port_damping_ns_per_m ? 1.0 : port_damping_ns_per_m / needed;
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/scene/tick/sliding.hpp"
+
+#include "peer/core/scene/tick/sliding/events.hpp"
+#include "proto/base/ensure.hpp"
+
+namespace hapnet::scene {
+
+namespace {
+
+const BodyForm& the_movable(const Bodies& bodies)
+{
+    base::ensure(bodies.movable == 1);
+    return bodies.form[0];
+}
+
+template <bool coulomb>
+void arrange(Slide& slide)
+{
+    set_courses(slide);
+    if constexpr (coulomb) with_friction(slide);
+    with_bounds(slide);
+}
+
+} // namespace
+
+template <bool coulomb>
+SlidingTick<coulomb>::SlidingTick(const Description& /*description*/, const Frozen& frozen,
+                                  const Stage& stage)
+    : body_{the_movable(stage.bodies).id},
+      laws_{frozen.hips, the_movable(stage.bodies), frozen.tick},
+      obstacles_{frozen, stage.bodies, the_movable(stage.bodies)},
+      hands_{frozen, stage.bodies, the_movable(stage.bodies)}
+{}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
+{
+    const Slot slot = stage.bodies.slot_of[body_];
+    const BodyForm& form = stage.bodies.form[slot];
+    Slide slide{frozen.hips, laws_, obstacles_};
+    slide.inverse_mass = 1.0 / form.mass;
+    slide.left = frozen.tick;
+    slide.place = per_axis(stage.bodies.position.at(slot));
+    slide.velocity = per_axis(stage.bodies.velocity.at(slot));
+    const PerAxis gravity = per_axis(frozen.gravity);
+    const PerAxis mobility = per_axis(form.inverse_mass);
+    for (std::size_t i = 0; i < 3; ++i) {
+        slide.axes[i].locked = mobility[i] == 0.0;
+        if (slide.axes[i].locked) slide.velocity[i] = 0.0;
+        slide.axes[i].steady = gravity[i];
+    }
+    if (!stage.pushed.is_empty()) {
+        const PerAxis push = per_axis(stage.pushes[body_]);
+        for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * push[i];
+    }
+    slide.near = obstacles_.near(slide.place, 0.0);
+    if (obstacles_.put_out(slide.near, slide.place)) {
+        slide.near = obstacles_.near(slide.place, 0.0);
+    }
+
+    hands_.gather(frozen, stage, slide);
+    if (slide.grip_count == 0) {
+        run(frozen, slide);
+        conclude(frozen, stage, slide);
+    } else {
+        try_holding(frozen, stage, slide);
+    }
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::try_holding(const Frozen& frozen, Stage& stage, Slide& start)
+{
+    for (;;) { // each time a hand holds less
+        Slide slide = start.copy();
+        run(frozen, slide);
+        if (SlidingHands::weaken(frozen, stage, slide, start)) continue;
+        conclude(frozen, stage, slide);
+        return;
+    }
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const
+{
+    const Slot slot = stage.bodies.slot_of[body_];
+    stage.bodies.position.put(slot, vector(slide.place));
+    stage.bodies.velocity.put(slot, vector(slide.velocity));
+    SlidingHands::report(frozen, stage, slide);
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::run(const Frozen& frozen, Slide& slide)
+{
+    arrange<coulomb>(slide);
+    if (slide.slanted_count > 0) {
+        SlidingHands::press_slanted(slide);
+        arrange<coulomb>(slide);
+    }
+    for (int events = 1;; ++events) {
+        const double reach =
+            std::max(std::max(slide.axes[0].reach, slide.axes[1].reach), slide.axes[2].reach);
+        slide.near = obstacles_.near(slide.place, reach);
+        SlideEvent event = next_event(slide);
+        if constexpr (coulomb) friction_event(slide, event);
+        advance(slide, event.time);
+        if (event.kind == SlideEvent::Kind::none) return;
+        apply(slide, event, frozen.tick);
+        if (events == events_max) {
+            slide.calm = true;
+            ++crowded_ticks_;
+        }
+        if (slide.left <= 0.0) return;
+        arrange<coulomb>(slide);
+    }
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::disturbed(Stage& /*stage*/, BodyId /*body*/)
+{
+    hands_.forget_box();
+}
+
+template class SlidingTick<false>;
+template class SlidingTick<true>;
+
+} // namespace hapnet::scene

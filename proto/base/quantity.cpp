@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/base/quantity.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::base {
+
+namespace {
+
+constexpr std::string_view digit_letters = "0123456789";
+
+/// The length of a prefix of `text` that is an exponent, "e-3"; 0: there is none.
+std::size_t exponent_size(std::string_view text)
+{
+    if (!text.starts_with('e') && !text.starts_with('E')) return 0;
+    const std::size_t sign = text.size() > 1 && (text[1] == '-' || text[1] == '+') ? 1 : 0;
+    const auto end = std::min(text.find_first_not_of(digit_letters, 1 + sign), text.size());
+    return end > 1 + sign ? end : 0;
+}
+
+struct Written {
+    std::string_view digits; // with the sign
+    int exponent = 0;
+    std::string_view unit;
+};
+
+/// "-1.5e3N" into "-1.5", 3 and "N"; nullopt when there are no such three.
+std::optional<Written> written_in(std::string_view text)
+{
+    const std::size_t sign = text.starts_with('-') ? 1 : 0;
+    const auto end = std::min(text.find_first_not_of("0123456789.", sign), text.size());
+    Written written{text.substr(0, end), 0, text.substr(end)};
+    if (const std::size_t size = exponent_size(written.unit); size > 0) {
+        auto power = written.unit.substr(1, size - 1);
+        if (power.starts_with('+')) power.remove_prefix(1);
+        const auto [rest, error] =
+            std::from_chars(power.data(), power.data() + power.size(), written.exponent);
+        constexpr int exponent_max = 10'000; // far beyond all doubles, and safe to add to
+        if (error != std::errc{} || std::abs(written.exponent) > exponent_max) return std::nullopt;
+        written.unit.remove_prefix(size);
+    }
+    return written;
+}
+
+std::optional<double> shifted(std::string_view digits, int exponent)
+{
+    const auto text = fmt::format("{}e{}", digits, exponent);
+    double value = 0.0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || rest != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+/// A decimal number: 0.d1d2d3... times 10^point.
+struct Decimal {
+    bool is_negative = false;
+    std::string digits;
+    int point = 0;
+};
+
+/// The shortest that reads as `value`.
+Decimal decimal_of(double value)
+{
+    std::array<char, 64> buffer{};
+    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                            std::chars_format::scientific);
+    ensure(error == std::errc{});
+    const std::string_view text{buffer.data(), static_cast<std::size_t>(end - buffer.data())};
+    const auto mark = text.find('e');
+    Decimal decimal{text.starts_with('-'), {}, 0};
+    for (const char c : text.substr(0, mark)) {
+        if (c >= '0' && c <= '9') decimal.digits += c;
+    }
+    auto power = text.substr(mark + 1);
+    if (power.starts_with('+')) power.remove_prefix(1);
+    std::from_chars(power.data(), power.data() + power.size(), decimal.point);
+    ++decimal.point;
+    return decimal;
+}
+
+/// Plain where that is short, otherwise with an exponent.
+std::string text_of(const Decimal& decimal)
+{
+    constexpr int point_min = -3;
+    constexpr int point_max = 12;
+    const std::string_view digits = decimal.digits;
+    const std::string_view sign = decimal.is_negative ? "-" : "";
+    const int size = static_cast<int>(digits.size());
+    const int point = decimal.point;
+    if (point < point_min || point > point_max) {
+        const std::string_view dot = size > 1 ? "." : "";
+        return fmt::format("{}{}{}{}e{}", sign, digits.substr(0, 1), dot, digits.substr(1),
+                           point - 1);
+    }
+    if (point <= 0) return fmt::format("{}0.{:0<{}}{}", sign, "", -point, digits);
+    if (point >= size) return fmt::format("{}{:0<{}}", sign, digits, point);
+    const auto whole = static_cast<std::size_t>(point);
+    return fmt::format("{}{}.{}", sign, digits.substr(0, whole), digits.substr(whole));
+}
+
+} // namespace
+
+Result<double> parse_quantity(std::string_view text, const QuantityKind& kind)
+{
+    const auto written = written_in(text);
+    if (written && written->unit.empty()) {
+        const auto value = shifted(written->digits, 0);
+        if (value && *value == 0.0) return *value;
+    }
+    for (const PhysicalUnit& unit : kind.units) {
+        if (!written || written->unit.empty() || unit.name != written->unit) continue;
+        const auto value = shifted(written->digits, written->exponent + unit.exponent);
+        if (value) return *value * unit.factor;
+    }
+    return fail(fmt::format("'{}' is not {}: write a number and its unit, such as {}", text,
+                            kind.name, kind.examples));
+}
+
+std::string quantity_text(double value, const QuantityKind& kind)
+{
+    ensure(std::isfinite(value));
+    Decimal decimal = decimal_of(value);
+    const PhysicalUnit* chosen = &kind.units[0];
+    for (const PhysicalUnit& unit : kind.units) {
+        const bool is_enough = value == 0.0 || decimal.point > chosen->exponent;
+        if (!is_enough && unit.is_printed) chosen = &unit;
+    }
+    decimal.point -= value == 0.0 ? 0 : chosen->exponent;
+    return text_of(decimal) + std::string{chosen->name};
+}
+
+} // namespace hapnet::base

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/base/reading.hpp"
+
+#include "proto/base/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::base {
+
+namespace {
+
+/// How many letters have to be changed, added or left out to make one word of the other
+/// (Levenshtein, 1966).
+std::size_t distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+template <typename Target>
+void read_count(const Node& node, Target& target, Reading& reading)
+{
+    constexpr std::uint64_t most = std::numeric_limits<Target>::max();
+    const auto count = count_of(node, most);
+    if (!count) return complain_of(node, fmt::format("a whole number from 0 to {}", most), reading);
+    target = static_cast<Target>(*count);
+}
+
+} // namespace
+
+void Reading::complain(Place place, std::string_view what)
+{
+    if (complaint_) return;
+    complaint_ = has_lines_ ? fmt::format("{}:{}:{}: {}", source_, place.line, place.column, what)
+                            : fmt::format("{}: {}", source_, what);
+}
+
+Result<std::string> Reading::open(const std::string& name) const
+{
+    if (!open_) return fail("no file can be opened here");
+    return open_(name);
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> possible)
+{
+    std::string_view nearest;
+    std::size_t least = 1 + word.substr(0, 40).size() / 3;
+    std::string all;
+    for (const std::string_view candidate : possible) {
+        const auto changes = distance(word.substr(0, 40), candidate);
+        if (changes <= least && changes < candidate.size()) {
+            least = changes - std::min<std::size_t>(changes, 1);
+            nearest = candidate;
+        }
+        all += fmt::format("{}{}", all.empty() ? "" : ", ", candidate);
+    }
+    if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
+    return fmt::format("possible here: {}", all);
+}
+
+const Node* TableReader::find(std::string_view key)
+{
+    known_.push_back(key);
+    const auto entry = std::find_if(table_.begin(), table_.end(),
+                                    [&](const Entry& one) { return one.key == key; });
+    return entry == table_.end() ? nullptr : &entry->value;
+}
+
+const Node* TableReader::require(std::string_view key)
+{
+    const Node* node = find(key);
+    if (node == nullptr) reading_.complain(place_, fmt::format("'{}' is missing here", key));
+    return node;
+}
+
+void TableReader::finish() const
+{
+    for (const Entry& entry : table_) {
+        if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+        reading_.complain(entry.place, fmt::format("{} is not known here: {}", quoted(entry.key),
+                                                   suggestion(entry.key, known_)));
+    }
+}
+
+std::string what_it_is(const Node& node)
+{
+    if (const auto* boolean = std::get_if<bool>(&node.value)) return *boolean ? "true" : "false";
+    if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
+        return fmt::format("{}", *integer);
+    }
+    if (const auto* real = std::get_if<double>(&node.value)) return fmt::format("{}", *real);
+    if (const auto* text = std::get_if<std::string>(&node.value)) return quoted(*text);
+    return std::holds_alternative<Node::List>(node.value) ? "a list" : "a table";
+}
+
+void complain_of(const Node& node, std::string_view expected, Reading& reading)
+{
+    reading.complain(node.place,
+                     fmt::format("{} stands where {} belongs", what_it_is(node), expected));
+}
+
+std::optional<std::string_view> quantity(const Node& node)
+{
+    if (const auto* text = std::get_if<std::string>(&node.value)) return *text;
+    const auto* integer = std::get_if<std::int64_t>(&node.value);
+    if (integer != nullptr && *integer == 0) return "0";
+    return std::nullopt;
+}
+
+std::optional<std::uint64_t> count_of(const Node& node, std::uint64_t most)
+{
+    const auto* integer = std::get_if<std::int64_t>(&node.value);
+    if (integer == nullptr || *integer < 0) return std::nullopt;
+    const auto count = static_cast<std::uint64_t>(*integer);
+    return count <= most ? std::optional{count} : std::nullopt;
+}
+
+void read_value(const Node& node, Duration& target, Reading& reading)
+{
+    read_quantity(node, target, parse_signed_duration, reading);
+}
+
+void read_value(const Node& node, Probability& target, Reading& reading)
+{
+    read_quantity(node, target, parse_probability, reading);
+}
+
+void read_value(const Node& node, double& target, Reading& reading)
+{
+    if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
+        target = static_cast<double>(*integer);
+    } else if (const auto* real = std::get_if<double>(&node.value); real && std::isfinite(*real)) {
+        target = *real;
+    } else {
+        complain_of(node, "a number without a unit, such as 2.5,", reading);
+    }
+}
+
+void read_value(const Node& node, std::uint8_t& target, Reading& reading)
+{
+    read_count(node, target, reading);
+}
+
+void read_value(const Node& node, std::uint32_t& target, Reading& reading)
+{
+    read_count(node, target, reading);
+}
+
+void read_value(const Node& node, std::string& target, Reading& reading)
+{
+    const auto* text = std::get_if<std::string>(&node.value);
+    if (text == nullptr) return complain_of(node, "a text in quotes", reading);
+    target = *text;
+}
+
+std::string quoted(std::string_view text)
+{
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            out += '\\';
+            out += c;
+        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+            out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+        } else {
+            out += c;
+        }
+    }
+    return out + "\"";
+}
+
+std::string value_text(Duration value) { return quoted(to_text(value)); }
+std::string value_text(Probability value) { return quoted(to_text(value)); }
+std::string value_text(double value) { return fmt::format("{}", value); }
+std::string value_text(std::uint8_t value) { return fmt::format("{}", value); }
+std::string value_text(std::uint32_t value) { return fmt::format("{}", value); }
+std::string value_text(const std::string& value) { return quoted(value); }
+
+std::string list_text(const std::vector<std::string>& elements)
+{
+    std::string text;
+    for (const std::string& element : elements) text += (text.empty() ? "" : ", ") + element;
+    return text;
+}
+
+std::string table_text(const std::vector<std::string>& entries)
+{
+    return fmt::format("{{ {} }}", list_text(entries));
+}
+
+} // namespace hapnet::base

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/document.hpp"
+#include "proto/base/probability.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace hapnet::base {
+
+/// Gives the text of a file that a text names, or says why not.
+using OpenFile = std::function<Result<std::string>(const std::string& name)>;
+
+/// The reading of one text: keeps the first complaint about it.
+class Reading {
+public:
+    /// `source` names the text in complaints, as "FILE:LINE:COLUMN: ...". Without `has_lines` it
+    /// is an option and stands alone: "up.delay: ...".
+    explicit Reading(std::string source, OpenFile open = {}, bool has_lines = true)
+        : source_{std::move(source)}, open_{std::move(open)}, has_lines_{has_lines}
+    {}
+
+    void complain(Place place, std::string_view what);
+    [[nodiscard]] bool is_good() const { return !complaint_; }
+    [[nodiscard]] const std::optional<std::string>& complaint() const { return complaint_; }
+
+    [[nodiscard]] Result<std::string> open(const std::string& name) const;
+
+private:
+    std::string source_;
+    OpenFile open_;
+    bool has_lines_;
+    std::optional<std::string> complaint_;
+};
+
+/// "did you mean 'jitter'?" or "one of delay, jitter, ... is possible here".
+[[nodiscard]] std::string suggestion(std::string_view word,
+                                     std::span<const std::string_view> possible);
+
+/// Reads the entries of a table by their keys and complains of those that nobody asked for.
+class TableReader {
+public:
+    TableReader(const Node::Table& table, Place place, Reading& reading)
+        : table_{table}, place_{place}, reading_{reading}
+    {}
+
+    /// nullptr when it is not there.
+    [[nodiscard]] const Node* find(std::string_view key);
+    /// Complains when it is not there.
+    [[nodiscard]] const Node* require(std::string_view key);
+    /// To be called once all keys have been asked for.
+    void finish() const;
+
+    [[nodiscard]] Place place() const { return place_; }
+    [[nodiscard]] Reading& reading() const { return reading_; }
+
+private:
+    const Node::Table& table_;
+    Place place_;
+    Reading& reading_;
+    std::vector<std::string_view> known_;
+};
+
+/// Complains that what stands here is not what is expected: "a text in quotes".
+void complain_of(const Node& node, std::string_view expected, Reading& reading);
+
+/// The text of a quantity with a unit; a bare 0 needs none.
+[[nodiscard]] std::optional<std::string_view> quantity(const Node& node);
+
+/// What a value is, in words that a complaint can quote.
+[[nodiscard]] std::string what_it_is(const Node& node);
+
+/// A whole number from 0 to `most`; nullopt when it is something else.
+[[nodiscard]] std::optional<std::uint64_t> count_of(const Node& node, std::uint64_t most);
+
+/// A quantity with its unit, by a parser whose errors say what to "write".
+template <typename Target, typename Parse>
+void read_quantity(const Node& node, Target& target, Parse parse, Reading& reading)
+{
+    const auto text = quantity(node);
+    const bool is_number = std::holds_alternative<std::int64_t>(node.value) ||
+                           std::holds_alternative<double>(node.value);
+    // The parser says best what it expects: a number without a unit is wrong text to it.
+    if (!text && !is_number) {
+        const auto example = parse("?");
+        const std::string message = example.error().message;
+        return complain_of(node, message.substr(message.find("write ") + 6), reading);
+    }
+    const auto value = parse(text ? *text : std::string_view{what_it_is(node)});
+    if (!value) return reading.complain(node.place, value.error().message);
+    target = static_cast<Target>(*value);
+}
+
+// The values of keys. What is wrong is complained of, and leaves the target as it was.
+
+void read_value(const Node& node, Duration& target, Reading& reading);
+void read_value(const Node& node, Probability& target, Reading& reading);
+void read_value(const Node& node, double& target, Reading& reading);
+void read_value(const Node& node, std::uint8_t& target, Reading& reading);
+void read_value(const Node& node, std::uint32_t& target, Reading& reading);
+void read_value(const Node& node, std::string& target, Reading& reading);
+
+// How values are printed: as TOML that reads back as the same value.
+
+[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string value_text(Duration value);
+[[nodiscard]] std::string value_text(Probability value);
+[[nodiscard]] std::string value_text(double value);
+[[nodiscard]] std::string value_text(std::uint8_t value);
+[[nodiscard]] std::string value_text(std::uint32_t value);
+[[nodiscard]] std::string value_text(const std::string& value);
+
+/// `a, b, c`
+[[nodiscard]] std::string list_text(const std::vector<std::string>& elements);
+
+/// `{ a = 1, b = 2 }`
+[[nodiscard]] std::string table_text(const std::vector<std::string>& entries);
+
+} // namespace hapnet::base

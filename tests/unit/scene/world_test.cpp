@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/scene/world.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace hapnet::scene {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+World paper_world() { return World::freeze(paper_scene()).value(); }
+
+/// Ten cubes side by side on a platform, the first of which a hand pushes.
+Description row_of_cubes()
+{
+    Description scene = paper_scene();
+    scene.bodies.clear();
+    for (int i = 0; i < 10; ++i) {
+        BodyDescription cube;
+        cube.position = {{0.05 * i, 0.0, 0.0}};
+        cube.material.friction = 0.3;
+        scene.bodies.push_back(cube);
+    }
+    scene.planes[0].material.friction = 0.3;
+    return scene;
+}
+
+HipInput hand_at(double x, double speed = 0.0)
+{
+    return {.position = {{x, 0.0, 0.0}}, .velocity = {{speed, 0.0, 0.0}}};
+}
+
+void expect_refused(World& world, Refusal why, const std::optional<Refusal>& answer)
+{
+    const std::size_t cause = static_cast<std::size_t>(why);
+    EXPECT_EQ(answer, why);
+    EXPECT_GT(world.refused()[cause], 0U);
+}
+
+TEST(World, RefusesAndCountsWhatIsNotFiniteOrOutOfRangeAndStaysAsItWas)
+{
+    World world = paper_world();
+    ASSERT_FALSE(world.hip(0, hand_at(-0.0245)));
+    for (int i = 0; i < 10; ++i) world.tick();
+    const auto before = world.hash();
+    for (const double bad : {nan, infinity, -infinity, 1e30, -1e30}) {
+        const Refusal why = std::abs(bad) == 1e30 ? Refusal::out_of_range : Refusal::not_finite;
+        expect_refused(world, why, world.hip(0, hand_at(bad)));
+        expect_refused(world, why, world.hip(0, hand_at(0.0, bad)));
+        expect_refused(world, why, world.push(0, {{0.0, bad, 0.0}}));
+        BodyState state = world.body(0);
+        state.position.value.z = bad;
+        expect_refused(world, why, world.place(0, state));
+        state = world.body(0);
+        state.angular_velocity.x = bad;
+        expect_refused(world, why, world.place(0, state));
+        state = world.body(0);
+        state.orientation.w = bad;
+        EXPECT_TRUE(world.place(0, state));
+    }
+    EXPECT_EQ(world.hash(), before);
+    World undisturbed = paper_world();
+    ASSERT_FALSE(undisturbed.hip(0, hand_at(-0.0245)));
+    for (int i = 0; i < 10; ++i) undisturbed.tick();
+    world.tick();
+    undisturbed.tick();
+    EXPECT_EQ(world.hash(), undisturbed.hash());
+}
+
+TEST(World, RefusesBodiesAndHandsThatAreNotThere)
+{
+    World world = paper_world();
+    expect_refused(world, Refusal::no_such_hip, world.hip(2, hand_at(0.0)));
+    expect_refused(world, Refusal::no_such_body, world.push(1, {})); // fixed
+    expect_refused(world, Refusal::no_such_body, world.place(2, {}));
+}
+
+TEST(World, PushesOfOneTickAddUpAndAreGoneInTheNext)
+{
+    Description scene = paper_scene();
+    scene.bodies[0].drag_ns_per_m = 0.0;
+    scene.planes.clear();
+    scene.gravity = glm::dvec3{0.0};
+    World world = World::freeze(scene).value();
+    ASSERT_FALSE(world.push(0, {{1.0, 0.0, 0.0}}));
+    ASSERT_FALSE(world.push(0, {{1.0, 0.0, 0.0}}));
+    world.tick();
+    const double gained = 2.0 / 0.1 * 1e-3;
+    EXPECT_NEAR(world.body(0).velocity.x(), gained, 1e-15);
+    world.tick();
+    EXPECT_NEAR(world.body(0).velocity.x(), gained, 1e-15);
+}
+
+TEST(World, ALockedBodyCannotBePlacedTurned)
+{
+    World world = paper_world();
+    BodyState turned = world.body(0);
+    turned.orientation = {0.8, 0.0, 0.6, 0.0};
+    expect_refused(world, Refusal::out_of_range, world.place(0, turned));
+}
+
+TEST(World, FreezeSaysWhatIsWrong)
+{
+    Description scene = paper_scene();
+    scene.bodies[0].mass_kg = 0.0;
+    const auto without_mass = World::freeze(scene);
+    ASSERT_FALSE(without_mass);
+    EXPECT_EQ(without_mass.error().message,
+              "body 1 'cube': mass in kg is 0; it can be 1e-06 to 1000000");
+    EXPECT_FALSE(World::freeze(paper_scene(), {.tick = 1us}));
+    const auto too_little = World::freeze(paper_scene(), {.profile = Profile::flight});
+    ASSERT_FALSE(too_little);
+    EXPECT_EQ(too_little.error().message,
+              "the tick profile 'flight' cannot do what the scene needs; 'sliding' can");
+}
+
+/// Drives a hand to and fro into the first body.
+void play(World& world, int ticks)
+{
+    for (int i = 0; i < ticks; ++i) {
+        const double phase = 0.002 * static_cast<double>(world.ticks() % 3000);
+        const double x = -0.027 + 0.012 * std::abs(phase - 3.0);
+        ASSERT_FALSE(world.hip(0, hand_at(x, phase < 3.0 ? -0.024 : 0.024)));
+        world.tick();
+    }
+}
+
+class EveryProfile : public testing::TestWithParam<Profile> {
+protected:
+    [[nodiscard]] static World world()
+    {
+        const bool slides = GetParam() <= Profile::lone;
+        FreezeOptions options;
+        options.profile = GetParam();
+        return World::freeze(slides ? paper_scene() : row_of_cubes(), options).value();
+    }
+};
+
+TEST_P(EveryProfile, ASnapshotBringsBackTheSameFuture)
+{
+    World world = this->world();
+    play(world, 500);
+    const World::Snapshot snapshot = world.snapshot();
+    play(world, 700);
+    const auto future = world.hash();
+    world.restore(snapshot);
+    play(world, 700);
+    EXPECT_EQ(world.hash(), future);
+
+    World other = this->world();
+    other.restore(snapshot);
+    play(other, 700);
+    EXPECT_EQ(other.hash(), future);
+}
+
+TEST_P(EveryProfile, ACopyRunsOnItsOwn)
+{
+    World world = this->world();
+    play(world, 300);
+    World copy = world;
+    const auto before = world.hash();
+    play(copy, 300);
+    EXPECT_EQ(world.hash(), before);
+    play(world, 300);
+    EXPECT_EQ(world.hash(), copy.hash());
+}
+
+INSTANTIATE_TEST_SUITE_P(World, EveryProfile,
+                         testing::Values(Profile::sliding, Profile::sliding_coulomb, Profile::lone,
+                                         Profile::few, Profile::many),
+                         [](const auto& each) {
+                             std::string name{name_of(each.param)};
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+} // namespace
+} // namespace hapnet::scene
