@@ -25,6 +25,7 @@ if(HAPNET_WARNINGS_AS_ERRORS)
     target_compile_options(hapnet_options INTERFACE -Werror)
 endif()
 if(HAPNET_SANITIZE)
+    target_compile_definitions(hapnet_options INTERFACE HAPNET_SANITIZED)
     target_compile_options(hapnet_options INTERFACE
         -fsanitize=${HAPNET_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(hapnet_options INTERFACE -fsanitize=${HAPNET_SANITIZE})

@@ -61,7 +61,30 @@ void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
     }
 
     hands_.gather(frozen, stage, slide);
-    run(frozen, slide);
+    if (slide.grip_count == 0) {
+        run(frozen, slide);
+        conclude(frozen, stage, slide);
+    } else {
+        try_holding(frozen, stage, slide);
+    }
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::try_holding(const Frozen& frozen, Stage& stage, Slide& start)
+{
+    for (;;) { // each time a hand holds less
+        Slide slide = start.copy();
+        run(frozen, slide);
+        if (SlidingHands::weaken(frozen, stage, slide, start)) continue;
+        conclude(frozen, stage, slide);
+        return;
+    }
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const
+{
+    const Slot slot = stage.bodies.slot_of[body_];
     stage.bodies.position.put(slot, vector(slide.place));
     stage.bodies.velocity.put(slot, vector(slide.velocity));
     SlidingHands::report(frozen, stage, slide);

@@ -44,6 +44,15 @@ double force_at(const HipDescription& hips, double depth, double closing)
                       hips.force_max_n);
 }
 
+/// A hand that holds with the same force throughout the tick.
+void hold_steadily(HipTouch& touch, Slide& slide, base::Force force)
+{
+    touch.on_body = force;
+    touch.on_hip += -force;
+    const PerAxis held = per_axis(force.value);
+    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * held[i];
+}
+
 } // namespace
 
 SlidingHands::SlidingHands(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable)
@@ -121,10 +130,7 @@ void SlidingHands::hold(const Frozen& frozen, Stage& stage, Slide& slide, std::u
         slide.grips[slide.grip_count++] = grip;
         return;
     }
-    touch.on_body = force; // held for the tick
-    touch.on_hip += -force;
-    const PerAxis held = per_axis(force.value);
-    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * held[i];
+    hold_steadily(touch, slide, force);
 }
 
 void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index)
@@ -250,6 +256,22 @@ void SlidingHands::press_slanted(Slide& slide)
             if (slide.courses[i].moves()) slide.axes[i].acceleration += change;
         }
     }
+}
+
+bool SlidingHands::weaken(const Frozen& frozen, Stage& stage, const Slide& slide, Slide& again)
+{
+    constexpr double rounding = 1e-12;
+    const double most = frozen.tick * frozen.hips.force_max_n;
+    for (std::uint32_t n = 0; n < slide.grip_count; ++n) {
+        const PerAxis& impulse = slide.grips[n].impulse;
+        const double size = std::sqrt(dot(impulse, impulse));
+        if (size <= (1.0 + rounding) * most) continue;
+        const base::Force force{(frozen.hips.force_max_n / size) * vector(impulse)};
+        hold_steadily(stage.touches[slide.grips[n].hip], again, force);
+        again.grips[n] = again.grips[--again.grip_count];
+        return true;
+    }
+    return false;
 }
 
 void SlidingHands::report(const Frozen& frozen, Stage& stage, const Slide& slide)

@@ -22,6 +22,9 @@ public:
     /// Adds the forces of hands at edges and corners, once the courses of the axes are known.
     /// Midpoint rule: second order, and it neither makes nor loses energy.
     static void press_slanted(Slide& slide);
+    /// Whether a hand held with more than its greatest force in the tick that `slide` has run. Then
+    /// `again`, the tick before it ran, has that force held throughout instead.
+    static bool weaken(const Frozen& frozen, Stage& stage, const Slide& slide, Slide& again);
     /// Tells what the springs did in the tick.
     static void report(const Frozen& frozen, Stage& stage, const Slide& slide);
     /// The box has been put somewhere else.

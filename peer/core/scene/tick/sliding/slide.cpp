@@ -93,6 +93,27 @@ SlideLaws::SlideLaws(const HipDescription& hips, const BodyForm& body, double ti
     }
 }
 
+Slide Slide::copy() const
+{
+    Slide other{hips, laws, obstacles};
+    other.near = near;
+    other.inverse_mass = inverse_mass;
+    other.left = left;
+    other.calm = calm;
+    other.place = place;
+    other.velocity = velocity;
+    other.axes = axes;
+    other.courses = courses;
+    other.rubbing = rubbing;
+    other.spring_count = spring_count;
+    other.grip_count = grip_count;
+    other.slanted_count = slanted_count;
+    std::copy_n(springs.begin(), spring_count, other.springs.begin());
+    std::copy_n(grips.begin(), grip_count, other.grips.begin());
+    std::copy_n(slanted.begin(), slanted_count, other.slanted.begin());
+    return other;
+}
+
 void set_courses(Slide& slide)
 {
     for (std::size_t i = 0; i < 3; ++i) {
