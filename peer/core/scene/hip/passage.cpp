@@ -18,7 +18,7 @@ constexpr double turn_max = 0.01;
 
 glm::dmat3 turned_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& angle)
 {
-    const glm::dmat3 turn = axes_of(unit(turn_by(angle)));
+    const glm::dmat3 turn = axes_of(turn_by(angle));
     return turn * inverse_inertia * glm::transpose(turn);
 }
 
@@ -48,7 +48,8 @@ void advance_freely(MovingBody& body, const Answer& answer, double tick)
     body.angular_momentum += tick * answer.torque;
 }
 
-Passage::Passage(MovingBody& body, const Answer& answer, double tick)
+template <std::size_t count>
+Passage<count>::Passage(MovingBody& body, const Answer& answer, double tick)
     : body_{body},
       answer_{answer},
       tick_{tick},
@@ -58,9 +59,9 @@ Passage::Passage(MovingBody& body, const Answer& answer, double tick)
       axes_{axes_of(body.orientation)}
 {}
 
-void Passage::add(const HipSpring& spring, HipWork& work)
+template <std::size_t count>
+void Passage<count>::set(std::size_t i, const HipSpring& spring, HipWork& work)
 {
-    const std::size_t i = count_++;
     springs_[i] = &spring;
     works_[i] = &work;
     surfaces_[i] = Surface{spring, answer_.half, axes_};
@@ -77,12 +78,13 @@ void Passage::add(const HipSpring& spring, HipWork& work)
     press.phase = press.due();
 }
 
-Passage::Setting Passage::halfway(double time) const
+template <std::size_t count>
+typename Passage<count>::Setting Passage<count>::halfway(double time) const
 {
     const double half = 0.5 * time;
     glm::dvec3 force{0.0};
     glm::dvec3 torque = answer_.torque;
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const double pushed = presses_[i].force();
         force -= pushed * holds_[i].normal;
         torque -= pushed * holds_[i].lever;
@@ -95,11 +97,11 @@ Passage::Setting Passage::halfway(double time) const
     if (turns_) {
         const glm::dvec3 angle =
             half * (inverse_inertia_ * (body_.angular_momentum + (0.5 * half) * torque));
-        axes = axes_of(unit(turn_by(angle) * body_.orientation));
+        axes = axes_of(turn_by(angle) * body_.orientation);
         if (!answer_.turns_evenly)
             setting.inverse_inertia = turned_inertia(inverse_inertia_, angle);
     }
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         Hold& hold = setting.holds[i];
         if (!turns_ && surfaces_[i].is_face()) continue;
         hold = surfaces_[i].at(axes, hands_[i] + half * springs_[i]->velocity - moved);
@@ -109,11 +111,12 @@ Passage::Setting Passage::halfway(double time) const
     return setting;
 }
 
-Coupling Passage::couple(const Setting& setting)
+template <std::size_t count>
+Coupling Passage<count>::couple(const Setting& setting)
 {
     Coupling coupling;
-    std::array<glm::dvec3, 2> swung;
-    for (std::size_t i = 0; i < count_; ++i) {
+    std::array<glm::dvec3, count> swung;
+    for (std::size_t i = 0; i < count; ++i) {
         const Hold& hold = setting.holds[i];
         Press& press = presses_[i];
         swung[i] = setting.inverse_inertia * hold.lever;
@@ -124,14 +127,15 @@ Coupling Passage::couple(const Setting& setting)
         press.acceleration =
             glm::dot(hold.normal, answer_.acceleration) + glm::dot(swung[i], answer_.torque);
     }
-    if (count_ == 2)
+    if constexpr (count == 2)
         coupling.mutual =
             glm::dot(setting.holds[0].normal, answer_.inverse_mass * setting.holds[1].normal) +
             glm::dot(setting.holds[0].lever, swung[1]);
     return coupling;
 }
 
-bool Passage::pass()
+template <std::size_t count>
+bool Passage<count>::pass()
 {
     for (int phase = 0; phase < phases_max && left_ > 0.0; ++phase) {
         double time = left_;
@@ -142,7 +146,7 @@ bool Passage::pass()
             double shorter = time;
             if (setting.turned > turn_max * turn_max)
                 shorter = predicted * turn_max / std::sqrt(setting.turned);
-            for (std::size_t i = 0; i < count_ && turns_; ++i) {
+            for (std::size_t i = 0; i < count && turns_; ++i) {
                 const double square = coupling.own[i] * presses_[i].stiffness;
                 if (presses_[i].phase == Phase::pressing && square * time * time > 1.0)
                     shorter = std::min(shorter, 1.0 / std::sqrt(square));
@@ -153,9 +157,9 @@ bool Passage::pass()
                 continue;
             }
             auto presses = presses_;
-            Presses motion{presses, count_, coupling, time};
+            Presses<count> motion{presses, coupling, time};
             if (!motion.is_solved()) return false;
-            const Pressed pressed = motion.pass();
+            const Pressed<count> pressed = motion.pass();
             if (attempt < 3 && pressed.time < 0.75 * predicted && turns_) {
                 predicted = pressed.time;
                 attempt = 3;
@@ -163,8 +167,9 @@ bool Passage::pass()
             }
             const auto before = presses_;
             presses_ = presses;
+            turned_ = std::max(turned_, setting.turned);
             apply(setting, pressed);
-            for (std::size_t i = 0; i < count_; ++i) {
+            for (std::size_t i = 0; i < count; ++i) {
                 if (before[i].phase == Phase::apart) meet(i);
             }
             break;
@@ -175,14 +180,15 @@ bool Passage::pass()
     return true;
 }
 
-void Passage::apply(const Setting& setting, const Pressed& pressed)
+template <std::size_t count>
+void Passage<count>::apply(const Setting& setting, const Pressed<count>& pressed)
 {
     const double t = pressed.time;
     glm::dvec3 impulse{0.0};
     glm::dvec3 moment{0.0};
     glm::dvec3 twist{0.0};
     glm::dvec3 twist_moment{0.0};
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const Hold& hold = setting.holds[i];
         impulse -= pressed.impulse[i] * hold.normal;
         moment -= pressed.moment[i] * hold.normal;
@@ -194,7 +200,7 @@ void Passage::apply(const Setting& setting, const Pressed& pressed)
         t * (body_.velocity + (0.5 * t) * answer_.acceleration) + answer_.inverse_mass * moment;
     body_.position += moved;
     body_.velocity += t * answer_.acceleration + answer_.inverse_mass * impulse;
-    for (std::size_t i = 0; i < count_; ++i) hands_[i] += t * springs_[i]->velocity - moved;
+    for (std::size_t i = 0; i < count; ++i) hands_[i] += t * springs_[i]->velocity - moved;
     if (turns_) {
         const glm::dvec3 swept =
             t * (body_.angular_momentum + (0.5 * t) * answer_.torque) + twist_moment;
@@ -204,13 +210,14 @@ void Passage::apply(const Setting& setting, const Pressed& pressed)
         axes_ = axes_of(body_.orientation);
         if (!answer_.turns_evenly) inverse_inertia_ = turned_inertia(inverse_inertia_, angle);
     }
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         if (turns_ || !surfaces_[i].is_face()) holds_[i] = surfaces_[i].at(axes_, hands_[i]);
     }
     left_ = t < left_ ? left_ - t : 0.0;
 }
 
-void Passage::meet(std::size_t i)
+template <std::size_t count>
+void Passage<count>::meet(std::size_t i)
 {
     // Nothing is stored yet in a spring that was apart: it begins with the true depth, and not a
     // little before it is reached.
@@ -221,10 +228,27 @@ void Passage::meet(std::size_t i)
         press.phase = Phase::apart;
 }
 
-void Passage::settle()
+template <std::size_t count>
+std::array<HipSpring, count> Passage<count>::now() const
 {
-    if (!turns_) return;
-    for (std::size_t i = 0; i < count_; ++i) {
+    std::array<HipSpring, count> springs;
+    for (std::size_t i = 0; i < count; ++i) {
+        HipSpring& spring = springs[i];
+        spring = *springs_[i];
+        spring.normal = holds_[i].normal;
+        spring.gap = -presses_[i].depth;
+        spring.arm = hands_[i] - (spring.radius + spring.gap) * spring.normal;
+    }
+    return springs;
+}
+
+template <std::size_t count>
+void Passage<count>::settle()
+{
+    // Rounding alone is nothing to correct: a symmetric squeeze shall stay where it is.
+    constexpr double unturned = 1e-10;
+    if (turned_ < unturned * unturned) return;
+    for (std::size_t i = 0; i < count; ++i) {
         const Press& press = presses_[i];
         if (press.phase == Phase::apart) continue;
         const double missed = energy(press, holds_[i].depth) - energy(press, press.depth);
@@ -244,5 +268,8 @@ void Passage::settle()
         works_[i]->impulse += scale * momentum;
     }
 }
+
+template class Passage<1>;
+template class Passage<2>;
 
 } // namespace hapnet::scene

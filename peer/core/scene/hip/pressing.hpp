@@ -39,21 +39,22 @@ struct Coupling {
 };
 
 /// What the springs did in a time.
+template <std::size_t count>
 struct Pressed {
     double time = 0.0;
-    std::array<double, 2> impulse{}; // of the force, N s
-    std::array<double, 2> moment{};  // the integral of the impulse, N s^2
+    std::array<double, count> impulse{}; // of the force, N s
+    std::array<double, count> moment{};  // the integral of the impulse, N s^2
 };
 
-/// Up to two springs on one body with held normals and arms: everything until one of them begins
+/// One or two springs on one body with held normals and arms: everything until one of them begins
 /// or ceases to act, or reaches its greatest force, is in closed form. One spring is an oscillator
 /// with the mass that the body has for it; two are two oscillators (the modes of their stiffness),
 /// provided that damping over stiffness is the same for both.
+template <std::size_t count>
 class Presses {
 public:
-    /// `count` of the presses count; `time` is how long at most.
-    Presses(std::array<Press, 2>& presses, std::size_t count, const Coupling& coupling,
-            double time);
+    /// `time` is how long at most.
+    Presses(std::array<Press, count>& presses, const Coupling& coupling, double time);
     Presses(const Presses&) = delete; // the courses point to the kernels
     Presses& operator=(const Presses&) = delete;
 
@@ -61,13 +62,13 @@ public:
     [[nodiscard]] bool is_solved() const { return is_solved_; }
     /// Goes on to the first moment at which a phase ends, or for the whole time: depths, speeds and
     /// phases, too.
-    [[nodiscard]] Pressed pass();
+    [[nodiscard]] Pressed<count> pass();
 
 private:
     /// The end of a phase.
     struct End {
         double time = 0.0;
-        std::size_t press = 2; // 2: none
+        std::size_t press = count; // none
         Phase then = Phase::apart;
     };
 
@@ -75,25 +76,28 @@ private:
     void solve_one(std::size_t pressing);
     void solve_both();
     [[nodiscard]] Watch watch(std::size_t i, double level, const std::array<double, 2>& weights);
-    void look(End& end, Phase then, const Watch& watch) const;
+    /// Whether a bound of how fast the force changes rules out that the phase ends.
+    [[nodiscard]] bool is_settled(std::size_t i) const;
     void look(End& end, std::size_t i);
-    void add_work(Pressed& pressed) const;
+    void add_work(Pressed<count>& pressed) const;
 
-    std::array<Press, 2>& presses_;
-    std::size_t count_;
+    std::array<Press, count>& presses_;
     Coupling coupling_;
     double time_;
     bool is_solved_ = true;
 
     // Each depth is its start plus the sum of two courses, weighted.
-    std::array<Kernel, 2> kernels_;
+    std::array<Kernel, count> kernels_;
     Courses courses_;
-    std::array<std::array<double, 2>, 2> share_{}; // of depth i in course j
+    std::array<std::array<double, count>, count> share_{}; // of depth i in course j
     // Of the springs that press, in the courses that are theirs: one alone, or the two modes.
     std::size_t modes_ = 0;
-    std::array<double, 2> start_{};                 // depth of the mode
-    std::array<std::array<double, 2>, 2> weight_{}; // of force i in mode j
-    double lag_ = 0.0;                              // damping over stiffness
+    std::array<double, count> start_{};                     // depth of the mode
+    std::array<std::array<double, count>, count> weight_{}; // of force i in mode j
+    double lag_ = 0.0;                                      // damping over stiffness
 };
+
+extern template class Presses<1>;
+extern template class Presses<2>;
 
 } // namespace hapnet::scene

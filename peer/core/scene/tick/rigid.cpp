@@ -270,7 +270,7 @@ Manifold RigidTick<crowd>::between(const Stage& stage, Pair& pair) const
     shift(there_a, impact->time * bodies.velocity.at(a));
     shift(there_b, impact->time * bodies.velocity.at(b));
     Manifold manifold = collide(there_a, there_b, look_ahead * near, pair.memory.axis);
-    for (ContactPoint& point : manifold.points) {
+    for (ContactPoint& point : manifold.touching()) {
         point.separation -= impact->time * glm::dot(velocity, manifold.normal);
     }
     return manifold;

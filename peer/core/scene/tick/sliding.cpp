@@ -56,11 +56,35 @@ void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
         for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * push[i];
     }
     slide.near = obstacles_.near(slide.place, 0.0);
-    slide.place = obstacles_.out_of(slide.near, slide.place);
-    slide.near = obstacles_.near(slide.place, 0.0);
+    if (obstacles_.put_out(slide.near, slide.place)) {
+        slide.near = obstacles_.near(slide.place, 0.0);
+    }
 
     hands_.gather(frozen, stage, slide);
-    run(frozen, slide);
+    if (slide.grip_count == 0) {
+        run(frozen, slide);
+        conclude(frozen, stage, slide);
+    } else {
+        try_holding(frozen, stage, slide);
+    }
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::try_holding(const Frozen& frozen, Stage& stage, Slide& start)
+{
+    for (;;) { // each time a hand holds less
+        Slide slide = start.copy();
+        run(frozen, slide);
+        if (SlidingHands::weaken(frozen, stage, slide, start)) continue;
+        conclude(frozen, stage, slide);
+        return;
+    }
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const
+{
+    const Slot slot = stage.bodies.slot_of[body_];
     stage.bodies.position.put(slot, vector(slide.place));
     stage.bodies.velocity.put(slot, vector(slide.velocity));
     SlidingHands::report(frozen, stage, slide);

@@ -42,6 +42,23 @@ struct SpringWatcher {
         first = {.time = *time, .kind = Kind::spring, .spring = index, .phase = next};
     }
 
+    /// Most springs act throughout the tick: whether this is one of them.
+    [[nodiscard]] bool keeps_acting() const
+    {
+        const Spring& spring = slide.springs[index];
+        if (spring.phase != Phase::active) return false;
+        const HipDescription& hips = slide.hips;
+        const SlideAxis& axis = slide.axes[spring.axis];
+        const double closing = spring.closing_at(slide.velocity[spring.axis]);
+        const double k = hips.stiffness_n_per_m;
+        const double c = hips.damping_ns_per_m;
+        const double tension = k * spring.depth + c * closing;
+        const double rate = std::abs(k * closing + c * spring.sign * axis.acceleration);
+        const double bend = k * axis.most.acceleration + c * axis.most.jerk;
+        const double change = first.time * (rate + 0.5 * first.time * bend);
+        return tension >= change && hips.force_max_n - tension >= change;
+    }
+
     void look() const
     {
         const Spring& spring = slide.springs[index];
@@ -94,14 +111,18 @@ Watch of_gap(const Slide& slide, std::size_t axis, double side, double face)
 }
 
 /// Whether the box cannot come to an obstacle in what is left of the tick: one axis keeps it away.
+bool keeps_away(const Slide& slide, const Obstacle& obstacle, std::size_t i)
+{
+    const double gap = obstacle.gap(i, slide.place[i]);
+    const double reach = slide.axes[i].reach;
+    return gap > reach || (reach == 0.0 && gap >= 0.0);
+}
+
 bool is_out_of_reach(const Slide& slide, const Obstacle& obstacle)
 {
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double gap = obstacle.gap(i, slide.place[i]);
-        const double reach = slide.axes[i].reach;
-        if (gap > reach || (reach == 0.0 && gap >= 0.0)) return true;
-    }
-    return false;
+    if (obstacle.is_plane) return keeps_away(slide, obstacle, obstacle.normal_axis);
+    return keeps_away(slide, obstacle, 0) || keeps_away(slide, obstacle, 1) ||
+           keeps_away(slide, obstacle, 2);
 }
 
 constexpr std::size_t nothing = 3;
@@ -197,7 +218,8 @@ SlideEvent next_event(const Slide& slide)
     SlideEvent first{.time = slide.left};
     if (!slide.calm) {
         for (std::uint32_t i = 0; i < slide.spring_count; ++i) {
-            SpringWatcher{slide, i, first}.look();
+            const SpringWatcher watcher{slide, i, first};
+            if (!watcher.keeps_acting()) watcher.look();
         }
         for (std::size_t i = 0; i < 3; ++i) {
             if (slide.axes[i].carrier) look_at_carrier(slide, i, first);

@@ -29,12 +29,28 @@ PerAxis difference(const glm::dvec3& a, const PerAxis& b)
     return {a.x - b[0], a.y - b[1], a.z - b[2]};
 }
 
+/// One part of a vector.
+template <typename Vector>
+auto& part(Vector& v, std::size_t axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
 /// The spring and damper alone, at one moment.
 double force_at(const HipDescription& hips, double depth, double closing)
 {
     if (depth <= 0.0) return 0.0;
     return std::clamp(hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing, 0.0,
                       hips.force_max_n);
+}
+
+/// A hand that holds with the same force throughout the tick.
+void hold_steadily(HipTouch& touch, Slide& slide, base::Force force)
+{
+    touch.on_body = force;
+    touch.on_hip += -force;
+    const PerAxis held = per_axis(force.value);
+    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * held[i];
 }
 
 } // namespace
@@ -51,6 +67,17 @@ SlidingHands::SlidingHands(const Frozen& frozen, const Bodies& bodies, const Bod
     entered_fixed_.resize(frozen.hips.count * fixed_.size());
 }
 
+bool SlidingHands::is_clear(const Frozen& frozen, const HipInput& hip, const Memory& memory)
+{
+    const PerAxis gone = difference(hip.position.value, memory.seen_from);
+    const PerAxis velocity = per_axis(hip.velocity.value);
+    double reach = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        reach = std::max(reach, std::abs(gone[i]) + frozen.tick * std::abs(velocity[i]));
+    }
+    return reach + frozen.hips.radius_m < memory.clear;
+}
+
 void SlidingHands::gather(const Frozen& frozen, Stage& stage, Slide& slide)
 {
     for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
@@ -62,7 +89,7 @@ void SlidingHands::gather(const Frozen& frozen, Stage& stage, Slide& slide)
             memory.held_at.reset();
             continue;
         }
-        if (!fixed_.empty()) touch_fixed(frozen, stage, i);
+        if (!is_clear(frozen, hip, memory)) touch_fixed(frozen, stage, i);
         if (!hip.gripping) {
             memory.held_at.reset();
         } else if (!memory.held_at) {
@@ -95,7 +122,7 @@ void SlidingHands::hold(const Frozen& frozen, Stage& stage, Slide& slide, std::u
     }
     const base::Force force = base::limited(wanted, hips.force_max_n);
     HipTouch& touch = stage.touches[index];
-    touch.holding = true;
+    touch.holding = touch.touching = true;
     touch.depth_m =
         std::max(touch.depth_m, std::max(hips.radius_m - distance(from_centre, half_), 0.0));
     touch.on_hip_at_start += -force;
@@ -103,50 +130,65 @@ void SlidingHands::hold(const Frozen& frozen, Stage& stage, Slide& slide, std::u
         slide.grips[slide.grip_count++] = grip;
         return;
     }
-    touch.on_body = force; // held for the tick
-    const PerAxis held = per_axis(force.value);
-    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * held[i];
+    hold_steadily(touch, slide, force);
 }
 
 void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index)
 {
     const HipDescription& hips = frozen.hips;
     const HipInput& hip = stage.hips[index];
-    const Approach approach{.from_centre = difference(hip.position.value, slide.place),
+    EnteredFace& entered = memory_[index].entered;
+    const PerAxis from_centre = difference(hip.position.value, slide.place);
+    const Outside out{from_centre, half_};
+    if (out.directions == 1 && out.length() < hips.radius_m) { // as nearly always when it pushes
+        entered = out.face();
+        const std::size_t axis = out.axis;
+        push_face(stage, slide, index, {entered, hips.radius_m - std::abs(out.away[axis]), {}});
+        return;
+    }
+    const Approach approach{.from_centre = from_centre,
                             .velocity = difference(hip.velocity.value, slide.velocity),
                             .radius = hips.radius_m,
                             .tick = frozen.tick};
     const double far = hips.radius_m + margin_;
     for (std::size_t i = 0; i < 3; ++i) {
         const double swept = 2.0 * frozen.tick * std::abs(approach.velocity[i]);
-        if (std::abs(approach.from_centre[i]) > half_[i] + far + swept) {
-            memory_[index].entered = {};
+        if (std::abs(from_centre[i]) > half_[i] + far + swept) {
+            entered = {};
             return;
         }
     }
-    const auto meeting = meet(approach, half_, memory_[index].entered);
+    const auto meeting = meet(approach, half_, entered);
     if (!meeting) return;
-    HipTouch& touch = stage.touches[index];
-    touch.depth_m = std::max(touch.depth_m, meeting->depth);
-    double force = 0.0;
-    if (meeting->axis != no_axis) {
-        const std::size_t axis = meeting->axis;
-        Spring& spring = slide.springs[slide.spring_count++];
-        spring.hip = index;
-        spring.axis = axis;
-        spring.sign = meeting->normal[axis];
-        spring.depth = meeting->depth;
-        spring.closing = -spring.sign * (approach.velocity[axis] + slide.velocity[axis]);
-        spring.phase = spring.phase_now(hips, slide.velocity[axis]);
-        spring.impulse = 0.0;
-        force = spring.force(hips, slide.velocity[axis]);
-    } else {
-        const double closing = -dot(meeting->normal, per_axis(hip.velocity.value));
-        slide.slanted[slide.slanted_count++] = {index, meeting->normal, meeting->depth, closing,
-                                                0.0};
-        force = force_at(hips, meeting->depth, -dot(meeting->normal, approach.velocity));
+    if (meeting->face.axis != no_axis) {
+        push_face(stage, slide, index, *meeting);
+        return;
     }
-    touch.on_hip_at_start.value += force * vector(meeting->normal);
+    HipTouch& touch = stage.touches[index];
+    const PerAxis& normal = meeting->oblique;
+    const double closing = -dot(normal, per_axis(hip.velocity.value));
+    slide.slanted[slide.slanted_count++] = {index, normal, meeting->depth, closing, 0.0};
+    touch.depth_m = std::max(touch.depth_m, meeting->depth);
+    touch.on_hip_at_start.value +=
+        force_at(hips, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
+}
+
+void SlidingHands::push_face(Stage& stage, Slide& slide, std::uint32_t index,
+                             const Meeting& meeting)
+{
+    const std::size_t axis = meeting.face.axis;
+    const double speed = slide.velocity[axis];
+    Spring& spring = slide.springs[slide.spring_count++];
+    spring.hip = index;
+    spring.axis = axis;
+    spring.sign = meeting.face.sign;
+    spring.depth = meeting.depth;
+    spring.closing = -spring.sign * part(stage.hips[index].velocity.value, axis);
+    spring.impulse = 0.0;
+    const double force = spring.settle(slide.hips, speed);
+    HipTouch& touch = stage.touches[index];
+    touch.depth_m = std::max(touch.depth_m, meeting.depth);
+    part(touch.on_hip_at_start.value, axis) += spring.sign * force;
 }
 
 void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index)
@@ -158,8 +200,6 @@ void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t
     const PerAxis place = per_axis(hip.position.value);
     const PerAxis velocity = per_axis(hip.velocity.value);
     const double sweep = frozen.tick * largest(beyond(velocity, {})) + hips.radius_m;
-    const PerAxis gone = beyond(difference(hip.position.value, memory.seen_from), {});
-    if (largest(gone) + sweep < memory.clear) return;
     memory.seen_from = place;
     memory.clear = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < fixed_.size(); ++i) {
@@ -176,13 +216,14 @@ void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t
         }
         const auto meeting = meet(approach, fixed_[i].half, entered);
         if (!meeting) continue;
-        const double closing = -dot(meeting->normal, velocity);
+        PerAxis normal = meeting->oblique;
+        if (meeting->face.axis != no_axis) normal[meeting->face.axis] = meeting->face.sign;
+        const double closing = -dot(normal, velocity);
         const double mean =
             steady_impulse(hips, meeting->depth, closing, frozen.tick) / frozen.tick;
         touch.depth_m = std::max(touch.depth_m, meeting->depth);
-        touch.on_hip.value += mean * vector(meeting->normal);
-        touch.on_hip_at_start.value +=
-            force_at(hips, meeting->depth, closing) * vector(meeting->normal);
+        touch.on_hip.value += mean * vector(normal);
+        touch.on_hip_at_start.value += force_at(hips, meeting->depth, closing) * vector(normal);
     }
 }
 
@@ -217,22 +258,44 @@ void SlidingHands::press_slanted(Slide& slide)
     }
 }
 
+bool SlidingHands::weaken(const Frozen& frozen, Stage& stage, const Slide& slide, Slide& again)
+{
+    constexpr double rounding = 1e-12;
+    const double most = frozen.tick * frozen.hips.force_max_n;
+    for (std::uint32_t n = 0; n < slide.grip_count; ++n) {
+        const PerAxis& impulse = slide.grips[n].impulse;
+        const double size = std::sqrt(dot(impulse, impulse));
+        if (size <= (1.0 + rounding) * most) continue;
+        const base::Force force{(frozen.hips.force_max_n / size) * vector(impulse)};
+        hold_steadily(stage.touches[slide.grips[n].hip], again, force);
+        again.grips[n] = again.grips[--again.grip_count];
+        return true;
+    }
+    return false;
+}
+
 void SlidingHands::report(const Frozen& frozen, Stage& stage, const Slide& slide)
 {
+    const double per_tick = 1.0 / frozen.tick;
     for (const Spring& spring : slide.active_springs()) {
-        stage.touches[spring.hip].on_body.value[static_cast<int>(spring.axis)] -=
-            spring.sign * std::max(spring.impulse / frozen.tick, 0.0);
+        if (spring.impulse <= 0.0) continue;
+        HipTouch& touch = stage.touches[spring.hip];
+        const double force = spring.sign * (spring.impulse * per_tick);
+        touch.touching = true;
+        part(touch.on_body.value, spring.axis) -= force;
+        part(touch.on_hip.value, spring.axis) += force;
     }
     for (const SlantedSpring& spring : slide.active_slanted()) {
-        stage.touches[spring.hip].on_body.value -= spring.force * vector(spring.normal);
+        if (spring.force <= 0.0) continue;
+        HipTouch& touch = stage.touches[spring.hip];
+        touch.touching = true;
+        touch.on_body.value -= spring.force * vector(spring.normal);
+        touch.on_hip.value += spring.force * vector(spring.normal);
     }
     for (const Grip& grip : slide.active_grips()) {
-        stage.touches[grip.hip].on_body.value += vector(grip.impulse) / frozen.tick;
-    }
-    for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
-        HipTouch& touch = stage.touches[i];
-        touch.touching = touch.holding || touch.on_body != base::Force{};
-        touch.on_hip += -touch.on_body;
+        HipTouch& touch = stage.touches[grip.hip];
+        touch.on_body.value += per_tick * vector(grip.impulse);
+        touch.on_hip.value -= per_tick * vector(grip.impulse);
     }
 }
 

@@ -14,14 +14,6 @@ EnteredFace face_at(std::size_t axis, double place)
     return {static_cast<std::uint8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};
 }
 
-Meeting at_face(const Approach& hand, const PerAxis& half, EnteredFace face)
-{
-    Meeting meeting{.axis = face.axis};
-    meeting.normal[face.axis] = face.sign;
-    meeting.depth = hand.radius + half[face.axis] - face.sign * hand.from_centre[face.axis];
-    return meeting;
-}
-
 EnteredFace nearest_face(const PerAxis& place, const PerAxis& half)
 {
     std::size_t nearest = 0;
@@ -30,37 +22,6 @@ EnteredFace nearest_face(const PerAxis& place, const PerAxis& half)
     }
     return face_at(nearest, place[nearest]);
 }
-
-/// The vector to a place from the closest point of the box.
-struct Outside {
-    PerAxis away{};
-    std::size_t axis = 0;       // along which it is longest
-    std::size_t directions = 0; // that take part: 0 inside, 1 before a face
-
-    Outside(const PerAxis& place, const PerAxis& half)
-    {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double beyond = std::abs(place[i]) - half[i];
-            if (!(beyond > 0.0)) continue;
-            away[i] = place[i] < 0.0 ? -beyond : beyond;
-            if (directions == 0 || beyond > std::abs(away[axis])) axis = i;
-            ++directions;
-        }
-    }
-    [[nodiscard]] bool is_along(std::size_t i) const
-    {
-        return directions == 0 || (directions == 1 && axis == i);
-    }
-    [[nodiscard]] double length() const
-    {
-        return directions == 1 ? std::abs(away[axis]) : std::sqrt(dot(away, away));
-    }
-    [[nodiscard]] PerAxis direction() const
-    {
-        const double distance = length();
-        return {away[0] / distance, away[1] / distance, away[2] / distance};
-    }
-};
 
 /// When and through which face of the box grown by the radius the hand comes in.
 struct Arrival {
@@ -96,23 +57,23 @@ std::optional<Meeting> approaching(const Approach& hand, const PerAxis& half, En
     const auto found = arrival(hand, half);
     if (!found) { // the box may still come to it
         if (out.directions > 1) return std::nullopt;
-        return at_face(hand, half, face_at(out.axis, hand.from_centre[out.axis]));
+        return at_face(hand.from_centre, half, out.face(), hand.radius);
     }
     const std::size_t axis = found->axis == no_axis ? out.axis : found->axis;
     const EnteredFace face = face_at(axis, hand.from_centre[axis]);
     if (Outside{place_after(hand, found->time), half}.is_along(axis)) {
         entered = face;
-        return at_face(hand, half, face);
+        return at_face(hand.from_centre, half, face, hand.radius);
     }
     // Towards an edge or a corner: the closest point at the end of the tick gives the normal.
     const PerAxis last = place_after(hand, hand.tick);
     const Outside end{last, half};
     if (end.length() >= hand.radius) return std::nullopt;
     entered = face;
-    if (end.is_along(axis)) return at_face(hand, half, face);
-    Meeting meeting{.normal = end.direction(), .depth = hand.radius};
+    if (end.is_along(axis)) return at_face(hand.from_centre, half, face, hand.radius);
+    Meeting meeting{.face = {}, .depth = hand.radius, .oblique = end.direction()};
     for (std::size_t i = 0; i < 3; ++i) {
-        meeting.depth -= meeting.normal[i] * (hand.from_centre[i] - (last[i] - end.away[i]));
+        meeting.depth -= meeting.oblique[i] * (hand.from_centre[i] - (last[i] - end.away[i]));
     }
     return meeting;
 }
@@ -124,16 +85,16 @@ std::optional<Meeting> meet(const Approach& hand, const PerAxis& half, EnteredFa
     const Outside out{hand.from_centre, half};
     if (out.directions == 0) {
         if (entered.axis == no_axis) entered = nearest_face(hand.from_centre, half);
-        return at_face(hand, half, entered);
+        return at_face(hand.from_centre, half, entered, hand.radius);
     }
     const double distance = out.length();
     if (distance >= hand.radius) {
         entered = {};
         return approaching(hand, half, entered);
     }
-    entered = face_at(out.axis, hand.from_centre[out.axis]);
-    if (out.directions == 1) return at_face(hand, half, entered);
-    return Meeting{.normal = out.direction(), .depth = hand.radius - distance};
+    entered = out.face();
+    if (out.directions == 1) return at_face(hand.from_centre, half, entered, hand.radius);
+    return Meeting{{}, hand.radius - distance, out.direction()};
 }
 
 } // namespace hapnet::scene

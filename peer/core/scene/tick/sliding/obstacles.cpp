@@ -28,6 +28,7 @@ Obstacle in_the_way(const PlaneDescription& plane, const BodyForm& movable)
     obstacle.high.fill(infinity);
     for (std::size_t i = 0; i < 3; ++i) { // a unit vector along one of the axes
         const auto axis = static_cast<int>(i);
+        if (std::abs(plane.normal[axis]) > 0.5) obstacle.normal_axis = i;
         if (plane.normal[axis] > 0.5) obstacle.high[i] = plane.offset_m + movable.half[axis];
         if (plane.normal[axis] < -0.5) obstacle.low[i] = -plane.offset_m - movable.half[axis];
     }
@@ -72,10 +73,12 @@ void Obstacles::look(const PerAxis& centre, double reach)
     }
 }
 
-PerAxis Obstacles::out_of(std::span<const std::uint32_t> those, PerAxis centre) const
+bool Obstacles::put_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const
 {
-    for (const std::uint32_t id : those) {
+    bool was_inside = false;
+    for (const std::uint32_t id : of_those) {
         const Obstacle& one = all_[id];
+        if (one.is_plane && one.gap(one.normal_axis, centre[one.normal_axis]) >= 0.0) continue;
         PerAxis gaps{};
         for (std::size_t i = 0; i < 3; ++i) gaps[i] = one.gap(i, centre[i]);
         if (gaps[0] >= 0.0 || gaps[1] >= 0.0 || gaps[2] >= 0.0) continue;
@@ -85,8 +88,9 @@ PerAxis Obstacles::out_of(std::span<const std::uint32_t> those, PerAxis centre) 
         }
         if (nearest == 3) continue;
         centre[nearest] = one.face(nearest, one.side(nearest, centre[nearest]));
+        was_inside = true;
     }
-    return centre;
+    return was_inside;
 }
 
 } // namespace hapnet::scene

@@ -20,6 +20,7 @@ struct Obstacle {
     double friction = 0.0; // of the pair
     double restitution = 0.0;
     bool is_plane = false;
+    std::size_t normal_axis = 0; // of a plane
 
     /// How far a centre is outside of it along an axis; < 0: between its two faces.
     [[nodiscard]] double gap(std::size_t axis, double place) const
@@ -55,9 +56,9 @@ public:
     }
     [[nodiscard]] const Obstacle& operator[](std::uint32_t index) const { return all_[index]; }
 
-    /// The centre, put out of everything that it is in: to the nearest face of each, along an
-    /// axis that is not locked.
-    [[nodiscard]] PerAxis out_of(std::span<const std::uint32_t> those, PerAxis centre) const;
+    /// Puts the centre out of everything that it is in: to the nearest face of each, along an axis
+    /// that is not locked. Whether it was in anything.
+    bool put_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const;
 
 private:
     void look(const PerAxis& centre, double reach);

@@ -13,18 +13,26 @@ bool is_between(const Obstacle& obstacle, std::size_t axis, double place, double
     return gap < 0.0 || (gap == 0.0 && obstacle.side(axis, place) * speed < 0.0);
 }
 
+void touch_face(Slide& slide, const Obstacle& obstacle, std::size_t i)
+{
+    if (slide.place[i] == obstacle.high[i]) slide.axes[i].below = &obstacle;
+    if (slide.place[i] == obstacle.low[i]) slide.axes[i].above = &obstacle;
+}
+
 void touch(Slide& slide, const Obstacle& obstacle)
 {
+    if (obstacle.is_plane) {
+        touch_face(slide, obstacle, obstacle.normal_axis);
+        return;
+    }
     for (std::size_t i = 0; i < 3; ++i) {
-        const double place = slide.place[i];
-        if (place != obstacle.high[i] && place != obstacle.low[i]) continue;
+        if (obstacle.gap(i, slide.place[i]) != 0.0) continue;
         const std::size_t j = (i + 1) % 3;
         const std::size_t k = (i + 2) % 3;
-        if (!is_between(obstacle, j, slide.place[j], slide.velocity[j]) ||
-            !is_between(obstacle, k, slide.place[k], slide.velocity[k])) {
-            continue;
+        if (is_between(obstacle, j, slide.place[j], slide.velocity[j]) &&
+            is_between(obstacle, k, slide.place[k], slide.velocity[k])) {
+            touch_face(slide, obstacle, i);
         }
-        (place == obstacle.high[i] ? slide.axes[i].below : slide.axes[i].above) = &obstacle;
     }
 }
 
@@ -83,6 +91,27 @@ SlideLaws::SlideLaws(const HipDescription& hips, const BodyForm& body, double ti
                 Kernel{{.damping = damping / body.mass, .stiffness = stiffness / body.mass}, tick};
         }
     }
+}
+
+Slide Slide::copy() const
+{
+    Slide other{hips, laws, obstacles};
+    other.near = near;
+    other.inverse_mass = inverse_mass;
+    other.left = left;
+    other.calm = calm;
+    other.place = place;
+    other.velocity = velocity;
+    other.axes = axes;
+    other.courses = courses;
+    other.rubbing = rubbing;
+    other.spring_count = spring_count;
+    other.grip_count = grip_count;
+    other.slanted_count = slanted_count;
+    std::copy_n(springs.begin(), spring_count, other.springs.begin());
+    std::copy_n(grips.begin(), grip_count, other.grips.begin());
+    std::copy_n(slanted.begin(), slanted_count, other.slanted.begin());
+    return other;
 }
 
 void set_courses(Slide& slide)

@@ -63,6 +63,9 @@ struct Slide {
         : hips{of_hips}, laws{of_laws}, obstacles{those}
     {}
 
+    /// Another one like it, to try the tick again.
+    [[nodiscard]] Slide copy() const;
+
     const HipDescription& hips;
     const SlideLaws& laws;
     Obstacles& obstacles;

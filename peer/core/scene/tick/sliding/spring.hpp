@@ -35,17 +35,16 @@ struct Spring {
     {
         return hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing_at(speed);
     }
-    [[nodiscard]] Phase phase_now(const HipDescription& hips, double speed) const
+    /// Takes the phase that belongs to the present state; returns the force.
+    double settle(const HipDescription& hips, double speed)
     {
-        if (depth <= 0.0) return Phase::apart;
+        phase = Phase::apart;
+        if (depth <= 0.0) return 0.0;
         const double wanted = tension(hips, speed);
-        if (wanted >= hips.force_max_n) return Phase::limited;
-        return wanted > 0.0 ? Phase::active : Phase::slack;
-    }
-    [[nodiscard]] double force(const HipDescription& hips, double speed) const
-    {
-        if (phase == Phase::active) return tension(hips, speed);
-        return phase == Phase::limited ? hips.force_max_n : 0.0;
+        phase = wanted >= hips.force_max_n ? Phase::limited
+                : wanted > 0.0             ? Phase::active
+                                           : Phase::slack;
+        return std::clamp(wanted, 0.0, hips.force_max_n);
     }
 };
 
