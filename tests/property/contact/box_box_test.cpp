@@ -11,10 +11,7 @@
 namespace hapnet::scene {
 namespace {
 
-#ifndef HAPNET_CONTACT_PAIRS
-#define HAPNET_CONTACT_PAIRS 300
-#endif
-constexpr std::uint64_t pairs = HAPNET_CONTACT_PAIRS;
+constexpr std::uint64_t pairs = 200;
 // What the choice of features may cost, in smallest half edges: see collide().
 constexpr double slack = 1.0 / 128.0;
 constexpr double flush = 1.0 / 256.0;

@@ -155,7 +155,7 @@ inline BoxPair near_pair(BoxesDrawn& drawn, double size_ratio, double gap)
     const glm::dvec3 reach = pair.a.half + pair.b.half;
     double low = 0.0;
     double high = 4.0 * (reach.x + reach.y + reach.z);
-    for (int k = 0; k < 30; ++k) {
+    for (int k = 0; k < 20; ++k) {
         const double middle = 0.5 * (low + high);
         pair.b.centre = pair.a.centre + middle * direction;
         const bool is_apart = Exhaustive::separation(pair.a, pair.b) > gap * pair.smallest_half();

@@ -9,10 +9,7 @@
 namespace hapnet::scene {
 namespace {
 
-#ifndef HAPNET_CONTACT_PAIRS
-#define HAPNET_CONTACT_PAIRS 200
-#endif
-constexpr std::uint64_t pairs = HAPNET_CONTACT_PAIRS;
+constexpr std::uint64_t pairs = 200;
 
 struct Flight {
     OrientedBox a;

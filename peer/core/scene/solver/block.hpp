@@ -60,12 +60,10 @@ struct ContactBlock {
     ContactImpulse impulse;
     double restitution = 0.0;
     ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
+    double change = 0.0;             // m/s, what the last sweep changed in its speeds
 
     bool has_matrix = false;
     Square<6> matrix{}; // from modal impulses to modal velocities
-
-    // What the conjugate directions remember between sweeps.
-    ContactImpulse before, direction;
 
     [[nodiscard]] double normal_speed(const Modal& velocity, std::size_t point) const
     {
