@@ -91,7 +91,7 @@ void add_options(CLI::App& app, Texts& texts)
 /// A damping that leaves something to be felt.
 base::Result<double> parse_grip_damping(const std::string& text)
 {
-    const auto damping = base::parse_quantity(text, base::damping_kind);
+    auto damping = base::parse_quantity(text, base::damping_kind);
     if (damping && !(*damping > 0.0 && *damping <= scene::damping_max_ns_per_m)) {
         return base::fail(
             fmt::format("'{}' is out of range: more than 0, and at most {}, is possible", text,

@@ -131,21 +131,27 @@ TEST(PeerUsage, SaysWhyTwoPeersCannotPlayTogetherAndHowTheyCould)
     struct Case {
         std::string id;
         std::string task;
+        std::string scene;
         std::string cure;
     };
-    for (const Case& c : {Case{"2", "P1", "--task"}, Case{"1", "T3", "--id"}}) {
+    const std::string heavy = testing::TempDir() + "hapnet-heavy.toml";
+    std::ofstream{heavy} << "[[body]]\nsize = \"40mm\"\nmass = \"1kg\"\nturning = \"locked\"\n";
+    for (const Case& c : {Case{"2", "P1", "paper", "--task"}, Case{"1", "T3", "paper", "--id"},
+                          Case{"2", "T3", heavy, "--scene"}}) {
         const std::string place_a = free_place();
         const std::string place_b = free_place();
         Process a{"hapnet-peer",
                   {"--id", "1", "--task", "T3", "--listen", place_a, "--remote", place_b}};
         Process b{"hapnet-peer",
-                  {"--id", c.id, "--task", c.task, "--listen", place_b, "--remote", place_a}};
+                  {"--id", c.id, "--task", c.task, "--scene", c.scene, "--listen", place_b,
+                   "--remote", place_a}};
         for (Process* peer : {&a, &b}) {
             EXPECT_EQ(peer->wait_exit(10s), 1);
             EXPECT_TRUE(peer->wait_for_err("refused", 1s)) << peer->err();
             EXPECT_NE(peer->err().find(c.cure), std::string::npos) << peer->err();
         }
     }
+    std::filesystem::remove(heavy);
 }
 
 } // namespace hapnet::e2e
