@@ -25,13 +25,14 @@ if(HAPNET_WARNINGS_AS_ERRORS)
     target_compile_options(hapnet_options INTERFACE -Werror)
 endif()
 if(HAPNET_SANITIZE)
+    target_compile_definitions(hapnet_options INTERFACE HAPNET_SANITIZED)
     target_compile_options(hapnet_options INTERFACE
         -fsanitize=${HAPNET_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(hapnet_options INTERFACE -fsanitize=${HAPNET_SANITIZE})
 endif()
 
-# What most files include is read once instead of once a file: a quarter of an unoptimised build, and
-# of clang-tidy's time. Off by default, so that a file that forgets an include is found.
+# What most files include is read once instead of once a file: a quarter of an unoptimised build.
+# Off by default, so that a file that forgets an include is found.
 option(HAPNET_PRECOMPILED "Precompile the headers that most files include" OFF)
 function(hapnet_precompile name)
     if(NOT HAPNET_PRECOMPILED OR NOT TARGET hapnet_base OR name STREQUAL hapnet_base)

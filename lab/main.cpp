@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/analysis.hpp"
 #include "lab/core/csv.hpp"
+#include "lab/core/explain.hpp"
 #include "lab/core/report.hpp"
 #include "lab/demo_command.hpp"
 #include "lab/options.hpp"
+#include "peer/core/scene/text/text.hpp"
+#include "proto/net/text_file.hpp"
 #include "proto/record/reader.hpp"
 
 #include <cerrno>
@@ -70,6 +73,15 @@ base::Result<int> run(const ExportCommand& command)
 base::Result<int> run(const DemoReportCommand& command)
 {
     return conclude_demo(command).map([](bool is_met) { return is_met ? 0 : net::exit_failed; });
+}
+
+base::Result<int> run(const ExplainCommand& command)
+{
+    const auto scene = scene::load_scene(command.scene, net::text_of_file);
+    if (!scene) return tl::unexpected{scene.error()};
+    const auto explanation = explain(*scene, command.tick, command.sleeping);
+    print(command.json ? to_json(explanation).dump(2) + '\n' : to_table(explanation));
+    return 0;
 }
 
 base::Result<int> execute(const Command& command)

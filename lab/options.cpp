@@ -2,16 +2,75 @@
 // SPDX-License-Identifier: MIT
 #include "lab/options.hpp"
 
+#include "peer/core/scene/text/text.hpp"
+#include "peer/core/scene/world.hpp"
+#include "proto/base/text.hpp"
 #include "proto/base/version.hpp"
 
 #include <CLI/CLI.hpp>
+#include <spdlog/fmt/fmt.h>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace hapnet::lab {
 
+namespace {
+
+CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
+{
+    auto* command = app.add_subcommand(
+        "demo-report", "The end of scripts/demo.sh: read what it recorded in a folder, print it\n"
+                       "beside the paper's Table 1, write manifest.json. Exit code 1: it misses");
+    command->add_option("FOLDER", demo.folder, "what scripts/demo.sh wrote")->required();
+    command->add_option("--command", demo.command, "what was typed, for the manifest");
+    command->add_option("--start", demo.start, "when it began, for the manifest");
+    command->add_option("--wall-time", demo.wall_time_s, "seconds since, for the manifest");
+    return command;
+}
+
+/// The text of its tick is read afterwards: its complaint is ours.
+CLI::App* add_explain(CLI::App& app, ExplainCommand& explain, std::string& tick)
+{
+    std::vector<std::string_view> names;
+    for (const scene::BuiltInScene& built_in : scene::built_in_scenes()) {
+        names.push_back(built_in.name);
+    }
+    auto* command = app.add_subcommand(
+        "explain", "Say what a scene is, what it needs of a tick and why, and which tick it\n"
+                   "therefore gets: what it does not need costs nothing");
+    command
+        ->add_option("SCENE", explain.scene,
+                     fmt::format("a file (docs/SCENES.md), or one of {}", fmt::join(names, ", ")))
+        ->required();
+    command->add_option("--tick", tick, "how long a tick is, from 10us to 100ms")
+        ->option_text("TIME [1ms]");
+    command->add_flag_callback(
+        "--no-sleeping", [&explain] { explain.sleeping = false; },
+        "bodies at rest do not fall asleep");
+    command->add_flag("--json", explain.json, "print one JSON object instead of lines");
+    return command;
+}
+
+net::CommandLine<Command> command_of(ExplainCommand explain, const std::string& tick)
+{
+    const auto duration = base::parse_duration(tick);
+    if (!duration) return base::fail("--tick: " + duration.error().message);
+    if (*duration < scene::tick_min || *duration > scene::tick_max) {
+        return base::fail(fmt::format("--tick: '{}' is out of range: {} to {} is possible", tick,
+                                      base::to_text(scene::tick_min),
+                                      base::to_text(scene::tick_max)));
+    }
+    explain.tick = *duration;
+    return Command{explain};
+}
+
+} // namespace
+
 net::CommandLine<Command> parse_command_line(std::span<char*> words)
 {
-    CLI::App app{"Reads the records that hapnet-peer --record writes", "hapnet-lab"};
+    CLI::App app{"Reads the records that hapnet-peer --record writes, and explains scenes",
+                 "hapnet-lab"};
     app.set_version_flag("--version", base::version_line("hapnet-lab"));
     app.require_subcommand(1);
     app.footer("Exit codes: 0 done, 1 failed, 2 usage or bad input, 3 the environment.");
@@ -37,13 +96,10 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
         ->check(CLI::IsMember{{"ticks", "messages"}});
 
     DemoReportCommand demo;
-    auto* demo_command = app.add_subcommand(
-        "demo-report", "The end of scripts/demo.sh: read what it recorded in a folder, print it\n"
-                       "beside the paper's Table 1, write manifest.json. Exit code 1: it misses");
-    demo_command->add_option("FOLDER", demo.folder, "what scripts/demo.sh wrote")->required();
-    demo_command->add_option("--command", demo.command, "what was typed, for the manifest");
-    demo_command->add_option("--start", demo.start, "when it began, for the manifest");
-    demo_command->add_option("--wall-time", demo.wall_time_s, "seconds since, for the manifest");
+    auto* demo_command = add_demo_report(app, demo);
+    ExplainCommand explain;
+    std::string tick = "1ms";
+    auto* explain_command = add_explain(app, explain, tick);
 
     try {
         app.parse(static_cast<int>(words.size()), words.data());
@@ -55,13 +111,15 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     } catch (const CLI::RequiredError& error) {
         const bool names_one = words.size() > 1 && app.get_subcommands().empty();
         if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
-        return base::fail(std::string{"'"} + words[1] +
-                          "' is not a command; use analyse or export, see hapnet-lab --help");
+        return base::fail(
+            std::string{"'"} + words[1] +
+            "' is not a command; use analyse, export or explain, see hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }
     if (analyse_command->parsed()) return Command{analyse};
     if (demo_command->parsed()) return Command{demo};
+    if (explain_command->parsed()) return command_of(explain, tick);
     exported.rows = rows == "messages" ? ExportRows::messages : ExportRows::ticks;
     return Command{exported};
 }

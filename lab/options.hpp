@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/time.hpp"
 #include "proto/net/program.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -34,7 +36,15 @@ struct DemoReportCommand {
     double wall_time_s = 0.0;
 };
 
-using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand>;
+/// `hapnet-lab explain SCENE [--tick 1ms] [--no-sleeping] [--json]`
+struct ExplainCommand {
+    std::string scene; // a file, or the name of a built-in one
+    base::Duration tick{std::chrono::milliseconds{1}};
+    bool sleeping = true;
+    bool json = false;
+};
+
+using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

@@ -5,11 +5,13 @@
 # Measures one part of the project against its baselines.
 set -euo pipefail
 
-usage="usage: scripts/bench.sh emulator [--quick] [--json FILE] [--plot FILE.svg]
+usage="usage: scripts/bench.sh emulator|scene [--quick] [--json FILE] [--plot FILE.svg]
+       scripts/bench.sh scene [... the same ...] [--csv FILE] [--markdown FILE]
 Installs what is missing, builds the release preset's benchmark, and runs it: a table on stdout, and
-the same numbers in FILE. --quick ends within a minute of measuring. Run it as root, or where
-SCHED_FIFO is allowed, to measure real-time scheduling too. Exits 0 when it has measured, also when
-a target was missed; 2 for an unknown subject or argument."
+the same numbers in FILE; of the scene --csv and --plot are its work-precision diagram. --quick ends
+within a minute of measuring. Run the emulator's as root, or where SCHED_FIFO is allowed, to measure
+real-time scheduling too. Exits 0 when it has measured, also when a target was missed; 2 for an
+unknown subject or argument."
 
 refuse() {
     echo "bench: $1"$'\n'"$usage" >&2
@@ -21,8 +23,8 @@ subject=$1
 shift
 case $subject in
 -h | --help) echo "$usage" && exit 0 ;;
-emulator) ;;
-scene | lab) refuse "there is no benchmark of '$subject' yet" ;;
+emulator | scene) ;;
+lab) refuse "there is no benchmark of '$subject' yet" ;;
 *) refuse "unknown subject '$subject'" ;;
 esac
 
@@ -30,7 +32,7 @@ arguments=()
 while (($# > 0)); do
     case $1 in
     --quick) arguments+=(--quick) && shift ;;
-    --json | --plot)
+    --csv | --json | --markdown | --plot)
         (($# > 1)) || refuse "$1: which file?"
         arguments+=("$1" "$(realpath -m "$2")") && shift 2
         ;;

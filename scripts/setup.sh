@@ -12,8 +12,8 @@ when nothing is missing."
 
 packages=(g++ cmake ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
     librandom123-dev libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev nlohmann-json3-dev)
-test_packages=(clang-14 clang-format-14 clang-tidy-14 jq libclang-rt-14-dev libgtest-dev shellcheck
-    tshark)
+test_packages=(clang-14 clang-format-14 clang-tidy-14 jq libbenchmark-dev libbullet-dev
+    libclang-rt-14-dev libgtest-dev libode-dev shellcheck tshark valgrind)
 
 for argument in "$@"; do
     case $argument in

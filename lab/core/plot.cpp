@@ -51,6 +51,38 @@ Range usable(Range range)
     return range;
 }
 
+/// Whole powers of ten around what went in; the values are their exponents.
+Range decades(Range range)
+{
+    if (!(range.low <= range.high)) return {0.0, 1.0};
+    const double low = std::floor(range.low);
+    return {low, std::max(std::ceil(range.high), low + 1.0)};
+}
+
+/// Where the marks of an axis stand, and what they say.
+struct Marks {
+    Scale scale;
+    double step;
+
+    Marks(Scale of, const Range& range, double wanted)
+        : scale{of},
+          step{of == Scale::linear ? round_step(range, wanted)
+                                   : std::ceil((range.high - range.low) / (2.0 * wanted))}
+    {}
+
+    [[nodiscard]] std::string text(double at) const
+    {
+        if (scale == Scale::logarithmic) return fmt::format("1e{:g}", at);
+        return fmt::format("{:g}", at);
+    }
+};
+
+/// What is drawn of a value.
+double drawn(Scale scale, double value)
+{
+    return scale == Scale::linear ? value : value > 0.0 ? std::log10(value) : std::nan("");
+}
+
 double legend_width(const Curve& curve)
 {
     return 8.0 * static_cast<double>(curve.name.size()) + 16.0;
@@ -58,7 +90,11 @@ double legend_width(const Curve& curve)
 
 class Canvas {
 public:
-    Canvas(Range x, Range y) : x_{x}, y_{y} {}
+    Canvas(Range x, Range y, Scales scales)
+        : x_{scales.x == Scale::linear ? usable(x) : decades(x)},
+          y_{scales.y == Scale::linear ? usable(y) : decades(y)},
+          scales_{scales}
+    {}
 
     [[nodiscard]] double across(double x) const
     {
@@ -72,16 +108,18 @@ public:
     [[nodiscard]] std::string marks() const
     {
         std::string out;
-        const double x_step = round_step(x_, 10.0), y_step = round_step(y_, 5.0);
+        const Marks x_marks{scales_.x, x_, 10.0}, y_marks{scales_.y, y_, 5.0};
+        const double x_step = x_marks.step, y_step = y_marks.step;
         for (double x = std::ceil(x_.low / x_step) * x_step; x <= x_.high; x += x_step) {
-            out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g}</text>\n",
-                               across(x), height - bottom + 16.0, x);
+            out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>\n",
+                               across(x), height - bottom + 16.0, x_marks.text(x));
         }
         for (double y = std::ceil(y_.low / y_step) * y_step; y <= y_.high; y += y_step) {
             const double mark = std::abs(y) < 1e-9 * y_step ? 0.0 : y;
             out += fmt::format("<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='#ddd'/>\n"
-                               "<text x='{3}' y='{4:.1f}' text-anchor='end'>{5:g}</text>\n",
-                               left, width - right, down(y), left - 6.0, down(y) + 4.0, mark);
+                               "<text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
+                               left, width - right, down(y), left - 6.0, down(y) + 4.0,
+                               y_marks.text(mark));
         }
         return out;
     }
@@ -99,21 +137,24 @@ public:
 private:
     Range x_;
     Range y_;
+    Scales scales_;
 };
 
 } // namespace
 
-std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves)
+std::string svg_plot(const PlotTitles& titles, std::span<const Curve> given, Scales scales)
 {
     Range x, y;
-    for (const Curve& curve : curves) {
-        for (const Point& p : curve.points) {
+    std::vector<Curve> curves{given.begin(), given.end()};
+    for (Curve& curve : curves) {
+        for (Point& p : curve.points) {
+            p = {drawn(scales.x, p.x), drawn(scales.y, p.y)};
             if (!is_finite(p)) continue;
             x.include(p.x);
             y.include(p.y);
         }
     }
-    const Canvas canvas{usable(x), usable(y)};
+    const Canvas canvas{x, y, scales};
     std::string out = fmt::format(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' role='img'>\n"
         "<text x='{2}' y='16' font-weight='bold'>{3}</text>\n"

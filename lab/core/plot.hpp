@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,8 +28,17 @@ struct PlotTitles {
     std::string_view y;
 };
 
+enum class Scale : std::uint8_t { linear, logarithmic };
+
+/// How the two axes are divided. On a logarithmic one what is not above zero is left out.
+struct Scales {
+    Scale x = Scale::linear;
+    Scale y = Scale::linear;
+};
+
 /// A plot as one SVG element with axes, round tick marks and a legend. Titles and names must not
 /// contain <, > or &.
-[[nodiscard]] std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves);
+[[nodiscard]] std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
+                                   Scales scales = {});
 
 } // namespace hapnet::lab

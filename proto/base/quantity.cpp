@@ -32,7 +32,7 @@ struct Written {
 };
 
 /// "-1.5e3N" into "-1.5", 3 and "N"; nullopt when there are no such three.
-std::optional<Written> split(std::string_view text)
+std::optional<Written> written_in(std::string_view text)
 {
     const std::size_t sign = text.starts_with('-') ? 1 : 0;
     const auto end = std::min(text.find_first_not_of("0123456789.", sign), text.size());
@@ -109,7 +109,7 @@ std::string text_of(const Decimal& decimal)
 
 Result<double> parse_quantity(std::string_view text, const QuantityKind& kind)
 {
-    const auto written = split(text);
+    const auto written = written_in(text);
     if (written && written->unit.empty()) {
         const auto value = shifted(written->digits, 0);
         if (value && *value == 0.0) return *value;

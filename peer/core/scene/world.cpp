@@ -13,9 +13,6 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr base::Duration tick_min{std::chrono::microseconds{10}};
-constexpr base::Duration tick_max{std::chrono::milliseconds{100}};
-
 /// Why a vector cannot be taken.
 std::optional<Refusal> objection(const glm::dvec3& v, double most)
 {

@@ -11,9 +11,12 @@
 
 namespace hapnet::scene {
 
+inline constexpr base::Duration tick_min{std::chrono::microseconds{10}};
+inline constexpr base::Duration tick_max{std::chrono::milliseconds{100}};
+
 /// How a scene is frozen.
 struct FreezeOptions {
-    base::Duration tick{std::chrono::milliseconds{1}}; // 10 us .. 100 ms
+    base::Duration tick{std::chrono::milliseconds{1}}; // tick_min..tick_max
     bool sleeping = true;                              // bodies at rest fall asleep
     std::optional<Profile> profile{}; // instead of the cheapest; it has to do what the scene needs
 };

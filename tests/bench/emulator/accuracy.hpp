@@ -3,7 +3,7 @@
 #pragma once
 
 #include "proto/base/time.hpp"
-#include "tests/bench/emulator/rows.hpp"
+#include "tests/bench/common/rows.hpp"
 #include "tests/bench/emulator/subjects.hpp"
 
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "tests/bench/emulator/rows.hpp"
+#include "tests/bench/common/rows.hpp"
 #include "tests/bench/emulator/subjects.hpp"
 
 #include <vector>

@@ -2,23 +2,20 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/emulator/machine.hpp"
 
+#include "tests/bench/common/host.hpp"
+
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <fcntl.h>
-#include <fstream>
 #include <linux/capability.h>
-#include <sched.h>
 #include <stdexcept>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/utsname.h>
 #include <sys/wait.h>
 #include <system_error>
-#include <thread>
 #include <unistd.h>
 
 namespace hapnet::bench {
@@ -27,21 +24,6 @@ namespace {
 
 constexpr int relay_priority = 40; // what hapnet-emulator asks for
 constexpr int prober_priority = 30;
-
-void pin(unsigned int processor)
-{
-    if (std::thread::hardware_concurrency() < 2) return;
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    CPU_SET(processor, &set);
-    sched_setaffinity(0, sizeof set, &set);
-}
-
-bool set_fifo(int priority)
-{
-    const sched_param parameters{.sched_priority = priority};
-    return sched_setscheduler(0, priority > 0 ? SCHED_FIFO : SCHED_OTHER, &parameters) == 0;
-}
 
 /// What root may do and an ordinary user may not, as far as timing goes.
 void give_up_privileges()
@@ -90,33 +72,7 @@ std::string first_line(int descriptor)
     return line;
 }
 
-std::string processor_name()
-{
-    std::ifstream file{"/proc/cpuinfo"};
-    for (std::string line; std::getline(file, line);) {
-        const auto colon = line.find(": ");
-        if (line.starts_with("model name") && colon != std::string::npos) {
-            return line.substr(colon + 2);
-        }
-    }
-    return "unknown";
-}
-
 } // namespace
-
-Host host()
-{
-    Host host;
-    host.cpu = processor_name();
-    utsname system{};
-    if (uname(&system) == 0) host.kernel = system.release;
-    host.cores = static_cast<int>(std::thread::hardware_concurrency());
-    host.fifo = set_fifo(prober_priority);
-    set_fifo(0);
-    std::array<double, 1> loads{};
-    if (getloadavg(loads.data(), 1) == 1) host.load = loads[0];
-    return host;
-}
 
 void pin_prober() { pin(0); }
 

@@ -15,16 +15,6 @@ namespace hapnet::bench {
 /// privilege at all.
 enum class Standing : std::uint8_t { real_time, ordinary };
 
-/// The machine that is measured on.
-struct Host {
-    std::string cpu;
-    std::string kernel;
-    int cores = 0;
-    bool fifo = false; // SCHED_FIFO may be used
-    double load = 0.0; // of the last minute, when it was asked
-};
-[[nodiscard]] Host host();
-
 /// The prober gets the first processor, the relay the second, where there are two.
 void pin_prober();
 

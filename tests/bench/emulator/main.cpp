@@ -4,11 +4,12 @@
 #include "proto/base/text.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
+#include "tests/bench/common/host.hpp"
+#include "tests/bench/common/rows.hpp"
 #include "tests/bench/emulator/accuracy.hpp"
 #include "tests/bench/emulator/baseline_relay.hpp"
 #include "tests/bench/emulator/capacity.hpp"
 #include "tests/bench/emulator/machine.hpp"
-#include "tests/bench/emulator/rows.hpp"
 
 #include <algorithm>
 #include <array>

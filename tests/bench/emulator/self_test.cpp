@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "tests/bench/common/rows.hpp"
 #include "tests/bench/emulator/probe.hpp"
-#include "tests/bench/emulator/rows.hpp"
 
 #include <chrono>
 #include <cmath>

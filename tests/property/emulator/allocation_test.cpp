@@ -1,38 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Counts the allocations of this whole test program by replacing the global operator new.
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/link.hpp"
+#include "tests/support/allocations.hpp"
 
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <gtest/gtest.h>
-#include <new>
 #include <span>
-
-namespace {
-
-std::uint64_t allocations = 0;
-
-} // namespace
-
-// NOLINTBEGIN(cppcoreguidelines-no-malloc): this is where new and delete are made.
-// Not inline: GCC would see malloc() on one side and delete on the other, and object.
-[[gnu::noinline]] void* operator new(std::size_t size)
-{
-    ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc{};
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept
-{
-    std::free(memory);
-}
-// NOLINTEND(cppcoreguidelines-no-malloc)
 
 namespace hapnet::emulator {
 
@@ -59,7 +36,7 @@ TEST(Link, AllocatesNothingOnceItIsMade)
     Link link{conditions, {base::Seed{42}, Direction::up, start, {}}};
     const std::array<std::byte, 1400> bytes{};
 
-    const auto before = allocations;
+    const auto before = test::allocations();
     EXPECT_GT(before, 0U); // the counter is in place
     for (int i = 0; i < 100'000; ++i) {
         const auto now = start + i * 100us;
@@ -67,7 +44,7 @@ TEST(Link, AllocatesNothingOnceItIsMade)
         link.on_packet(std::span{bytes}.first(static_cast<std::size_t>(i) % bytes.size()), now);
         while (const auto departure = link.poll(now)) link.on_sent(*departure, now);
     }
-    EXPECT_EQ(allocations - before, 0U);
+    EXPECT_EQ(test::allocations() - before, 0U);
     EXPECT_GT(link.statistics().duplicated, 1000U);
     EXPECT_GT(link.statistics().reordered, 1000U);
 }

@@ -1,38 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Counts the allocations of this whole test program by replacing the global operator new.
 #include "emulator/core/delay/process.hpp"
+#include "tests/support/allocations.hpp"
 
 #include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <gtest/gtest.h>
 #include <memory>
-#include <new>
 #include <string>
 #include <vector>
-
-namespace {
-
-std::uint64_t allocations = 0;
-
-} // namespace
-
-// NOLINTBEGIN(cppcoreguidelines-no-malloc): this is where new and delete are made.
-// Not inline: GCC would see malloc() on one side and delete on the other, and object.
-[[gnu::noinline]] void* operator new(std::size_t size)
-{
-    ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc{};
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept
-{
-    std::free(memory);
-}
-// NOLINTEND(cppcoreguidelines-no-malloc)
 
 namespace hapnet::emulator {
 namespace {
@@ -58,12 +33,12 @@ TEST(Allocation, ADelayProcessNeitherDrawsNorChangesWithOne)
     }
     DelayProcess process{{}, base::Seed{42}.stream("up/jitter")};
     base::Duration sum{};
-    const auto before = allocations;
+    const auto before = test::allocations();
     for (std::uint64_t n = 0; n < 1000; ++n) {
         process.change(laws[n % laws.size()]);
         sum += process.on_packet({n, 96, static_cast<base::Duration::rep>(n) * 1'000us});
     }
-    const auto after = allocations;
+    const auto after = test::allocations();
     EXPECT_EQ(after, before);
     EXPECT_GT(sum, 0ms);
 }

@@ -31,9 +31,11 @@ public:
     void follow(const Bodies& bodies, Slot slot);
 
 private:
-    /// How far a body may go without leaving its box.
+    /// How far a body may go without leaving its box: its centre, with what it moves in a tick,
+    /// no farther than `room` from `middle` along each axis.
     struct Leash {
-        Box region; // of the centre
+        glm::dvec3 middle{0.0};
+        glm::dvec3 room{0.0};
         glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
         double likeness_min = -1.0;     // of the squared scalar product of orientations
         double angular_momentum2 = 0.0; // at most, squared
@@ -48,12 +50,11 @@ private:
 
     [[nodiscard]] Size size_of(const BodyForm& form) const;
     [[nodiscard]] Box path(const Bodies& bodies, Slot slot, double wander) const;
-    [[nodiscard]] bool has_left(const Bodies& bodies, Slot slot) const;
 
     double tick_;
     glm::dvec3 gravity_;
     std::vector<Leash> leashes_; // by id
-    // By slot, in the order of Leash: low, high, orientation w x y z, likeness, angular momentum.
+    // By slot, in the order of Leash: middle, room, orientation w x y z, likeness, momentum.
     static constexpr std::size_t lanes = 12;
     std::array<std::vector<double>, lanes> lanes_;
 };

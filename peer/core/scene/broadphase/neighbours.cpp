@@ -104,7 +104,7 @@ void Neighbours<search>::meet(const Bodies& bodies, BodyId id)
     };
     pairs_.for_first(id, [&](PairIndex index) { keep_if_near(index, pairs_[index].b); });
     pairs_.for_second(id, [&](PairIndex index) { keep_if_near(index, pairs_[index].a); });
-    found_.near(box, [&](BodyId other) {
+    found_.near(id, [&](BodyId other) {
         if (other == id || stamps_[other] == stamp_) return;
         const bool is_active = is_awake || bodies.slot_of[other] < bodies.awake;
         if (!pairs_.add(std::min(id, other), std::max(id, other), is_active)) has_unmet_ = true;

@@ -25,6 +25,7 @@ PairSet::PairSet(Room room)
       active_{room.pairs_max},
       coming_{room.pairs_max},
       added_{room.pairs_max},
+      parked_{room.pairs_max},
       going_{room.pairs_max}
 {}
 
@@ -62,61 +63,84 @@ void PairSet::remove(PairIndex index)
         free_.add(index);
         return;
     }
-    marks_[index] = listed; // its place is free once it is off the list
-    going_.add(index);
-    has_parked_ = true;
+    set_active(index, false);
+    going_.add(index); // its place is free once it is off the list
 }
 
 void PairSet::set_active(PairIndex index, bool is_active)
 {
-    if (!is_active) {
-        marks_[index] &= listed;
-        has_parked_ = true;
+    std::uint8_t& mark = marks_[index];
+    if (is_active) {
+        if ((mark & listed) == 0) coming_.add(index);
+        mark |= active_mark | listed;
         return;
     }
-    if ((marks_[index] & listed) == 0) coming_.add(index);
-    marks_[index] = active_mark | listed;
+    if ((mark & listed) != 0 && (mark & parking) == 0) {
+        parked_.add(index);
+        mark |= parking;
+    }
+    mark &= static_cast<std::uint8_t>(~active_mark);
 }
 
 void PairSet::settle()
 {
     added_.clear();
-    if (has_parked_) drop_parked();
+    if (!parked_.is_empty()) drop_parked();
     if (!coming_.is_empty()) merge_coming();
     for (const PairIndex index : going_) free_.add(index);
     going_.clear();
 }
 
+/// Where a pair is in the list of the active ones, or would be.
+PairIndex* PairSet::find(PairIndex* first, PairIndex* last, PairIndex index) const
+{
+    return std::lower_bound(first, last, index,
+                            [this](PairIndex x, PairIndex y) { return keys_[x] < keys_[y]; });
+}
+
+/// Moves what lies between those that go, piece by piece: most of a long list stays as it is.
 void PairSet::drop_parked()
 {
-    has_parked_ = false;
-    for (Bounded<PairIndex>* list : {&active_, &coming_}) {
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < list->size(); ++i) {
-            const PairIndex index = (*list)[i];
-            if (is_active(index))
-                (*list)[kept++] = index;
-            else
-                marks_[index] = 0;
-        }
-        list->resize(kept);
+    std::sort(parked_.begin(), parked_.end(),
+              [this](PairIndex x, PairIndex y) { return keys_[x] < keys_[y]; });
+    PairIndex* to = nullptr;
+    PairIndex* from = active_.begin();
+    for (const PairIndex index : parked_) {
+        marks_[index] &= static_cast<std::uint8_t>(~parking);
+        if (is_active(index)) continue; // it came back
+        PairIndex* const place = find(from, active_.end(), index);
+        if (place == active_.end() || *place != index) continue; // it was still to come
+        to = to == nullptr ? place : std::copy(from, place, to);
+        from = place + 1;
+        marks_[index] = 0;
     }
+    if (to != nullptr) to = std::copy(from, active_.end(), to);
+    if (to != nullptr) active_.resize(static_cast<std::size_t>(to - active_.begin()));
+    parked_.clear();
+    std::size_t kept = 0;
+    for (const PairIndex index : coming_) {
+        if (is_active(index))
+            coming_[kept++] = index;
+        else
+            marks_[index] = 0;
+    }
+    coming_.resize(kept);
 }
 
 void PairSet::merge_coming()
 {
-    const auto before = [this](PairIndex x, PairIndex y) { return keys_[x] < keys_[y]; };
-    std::sort(coming_.begin(), coming_.end(), before);
-    // From the back, so that what lies before the first to come is not touched.
-    std::size_t from = active_.size();
-    std::size_t coming = coming_.size();
-    std::size_t to = from + coming;
-    active_.resize(to);
-    while (coming > 0) {
-        if (from > 0 && before(coming_[coming - 1], active_[from - 1]))
-            active_[--to] = active_[--from];
-        else
-            active_[--to] = coming_[--coming];
+    std::sort(coming_.begin(), coming_.end(),
+              [this](PairIndex x, PairIndex y) { return keys_[x] < keys_[y]; });
+    // From the back, so that what lies before the first to come stays as it is.
+    PairIndex* from = active_.begin() + active_.size();
+    active_.resize(active_.size() + coming_.size());
+    PairIndex* to = active_.end();
+    for (std::size_t i = coming_.size(); i > 0; --i) {
+        const PairIndex index = coming_[i - 1];
+        PairIndex* const place = find(active_.begin(), from, index);
+        to = std::copy_backward(place, from, to);
+        *--to = index;
+        from = place;
     }
     std::swap(added_, coming_);
     coming_.clear();

@@ -105,9 +105,11 @@ private:
     // or coming_.
     static constexpr std::uint8_t active_mark = 1;
     static constexpr std::uint8_t listed = 2;
+    static constexpr std::uint8_t parking = 4; // in parked_
 
     void link(PairIndex index);
     void unlink(PairIndex index);
+    [[nodiscard]] PairIndex* find(PairIndex* first, PairIndex* last, PairIndex index) const;
     void drop_parked();
     void merge_coming();
 
@@ -118,10 +120,10 @@ private:
     Bounded<PairIndex> free_;
     std::vector<PairIndex> first_, second_; // heads of the lists
     Bounded<PairIndex> active_, coming_, added_;
-    Bounded<PairIndex> going_; // removed, and still listed
+    Bounded<PairIndex> parked_; // no longer active, and still listed
+    Bounded<PairIndex> going_;  // of those the removed ones
     std::uint32_t size_ = 0;
     std::uint64_t left_out_ = 0;
-    bool has_parked_ = false;
 };
 
 } // namespace hapnet::scene

@@ -25,6 +25,12 @@ public:
     }
     void move(BodyId id, const Box& box);
 
+    /// Calls visit(id), of the body itself too, for every body whose box overlaps a body's.
+    template <typename Visit>
+    void near(BodyId id, Visit visit) const
+    {
+        near(box(id), visit);
+    }
     /// Calls visit(id) for every body whose box overlaps the given.
     template <typename Visit>
     void near(const Box& box, Visit visit) const

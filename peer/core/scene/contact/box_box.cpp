@@ -5,7 +5,7 @@
 #include "peer/core/scene/contact/edge_manifold.hpp"
 #include "peer/core/scene/contact/face_manifold.hpp"
 #include "peer/core/scene/contact/features.hpp"
-#include "peer/core/scene/contact/shadow.hpp"
+#include "peer/core/scene/contact/measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ EdgePair edges_of(int axis)
 
 double slack(const OrientedBox& a, const OrientedBox& b)
 {
-    return slack_of_half * std::min({a.half.x, a.half.y, a.half.z, b.half.x, b.half.y, b.half.z});
+    return slack_of_half * smallest_half(a, b);
 }
 
 /// No points, and none written.
@@ -73,7 +73,8 @@ bool edges_separate(const OrientedBox& a, const OrientedBox& b, EdgePair edges, 
 Manifold exchanged(Manifold manifold)
 {
     manifold.normal = -manifold.normal;
-    for (ContactPoint& point : manifold.points) point.feature = meeting_exchanged(point.feature);
+    for (ContactPoint& point : manifold.touching())
+        point.feature = meeting_exchanged(point.feature);
     return manifold;
 }
 
@@ -214,16 +215,16 @@ Candidate better_face(const OrientedBox& a, const OrientedBox& b, const Verdict&
     return is_larger ? face_b : face_a;
 }
 
-/// The edges to try: last tick's while they are nearly as good as the best.
-Candidate better_edges(const Separations& separations, const Candidate& best, double room, int last)
+/// The edges' axis to try: last tick's while it is nearly as good as the best.
+int better_edges(const Separations& separations, const Candidate& best, double room, int last)
 {
-    if (last < first_edge_axis || last == best.axis) return best;
+    if (last < first_edge_axis) return best.axis;
     const auto i = static_cast<std::size_t>(edges_of(last).of_a);
     const auto j = static_cast<std::size_t>(edges_of(last).of_b);
     const double square = separations.square(i, j);
-    if (square < parallel) return best;
+    if (square < parallel) return best.axis;
     const double separation = separations.edges(i, j) / std::sqrt(square);
-    return separation >= best.separation - room ? Candidate{separation, last} : best;
+    return separation >= best.separation - room ? last : best.axis;
 }
 
 /// All 15 axes, and the points where the features meet that they name.
@@ -241,14 +242,17 @@ Manifold search(const OrientedBox& a, const OrientedBox& b, double margin, BoxBo
         const double separation = face_separation_of(a, b, last);
         if (separation >= best.separation - room) face = {separation, last};
     }
-    const Candidate edges = better_edges(separations, verdict.edge, room, last);
     const bool were_edges = last >= first_edge_axis;
-    const bool are_edges =
-        edges.axis >= 0 && edges.separation > face.separation + (were_edges ? 0.5 : 1.0) * room;
+    const double lead = verdict.edge.separation - face.separation;
+    const bool are_edges = lead > (were_edges ? 0.5 : 1.0) * room;
+    const int edges = better_edges(separations, verdict.edge, room, last);
 
-    // The slack may have chosen features that do not meet: then the next best do.
-    const std::array<int, 4> axes{are_edges ? edges.axis : face.axis,
-                                  are_edges ? face.axis : edges.axis, verdict.face_a.axis,
+    // The slack may have chosen features that do not meet: then the next best do, at last the best.
+    const std::array<int, 6> axes{are_edges ? edges : face.axis,
+                                  are_edges ? verdict.edge.axis : edges,
+                                  face.axis,
+                                  verdict.edge.axis,
+                                  verdict.face_a.axis,
                                   verdict.face_b.axis};
     for (const int axis : axes) {
         if (axis < 0) continue;

@@ -15,8 +15,13 @@ struct BoxBoxMemory {
 };
 
 /// Where two boxes touch: separating axes, then clipping of the faces (or two edges' closest
-/// points), reduced to four points in a fixed order. Points up to `margin` apart count; no points
-/// when the boxes are farther apart. All tolerances are relative to the boxes' sizes.
+/// points), reduced to four points in a fixed order. Points up to `margin` >= 0 apart count; no
+/// points when the boxes are farther apart, though within the margin there may be none either,
+/// where corners pass each other. Boxes that overlap have one at least. All tolerances are relative
+/// to the smallest half edge of the two: an axis is kept, and a face taken before an edge, unless
+/// another is better by more than 1/128; edges of faces that lie flush count as one within 1/256.
+/// A feature is face, edge or corner of each box, see features.hpp. Mirrored boxes give the same
+/// points mirrored, to the bit.
 [[nodiscard]] Manifold collide(const OrientedBox& a, const OrientedBox& b, double margin,
                                BoxBoxMemory& memory);
 

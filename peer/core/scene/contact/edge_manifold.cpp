@@ -3,14 +3,16 @@
 #include "peer/core/scene/contact/edge_manifold.hpp"
 
 #include "peer/core/scene/contact/features.hpp"
+#include "peer/core/scene/contact/measures.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace hapnet::scene {
 
 namespace {
+
+constexpr double passing_of_half = 1.0 / 256.0;
 
 /// The edge along an axis that lies farthest in a direction.
 struct Edge {
@@ -47,17 +49,18 @@ Manifold edge_manifold(const OrientedBox& a, const OrientedBox& b, EdgePair edge
     const double cosine = glm::dot(along_a, along_b);
     const double gap_a = glm::dot(gap, along_a);
     const double gap_b = glm::dot(gap, along_b);
-    const double half_a = a.half[edges.of_a];
-    const double half_b = b.half[edges.of_b];
-    const double s = std::clamp((gap_a - cosine * gap_b) / square, -half_a, half_a);
-    const double t = std::clamp((cosine * gap_a - gap_b) / square, -half_b, half_b);
+    const double s = (gap_a - cosine * gap_b) / square;
+    const double t = (cosine * gap_a - gap_b) / square;
     const glm::dvec3 point_a = edge_a.centre + s * along_a;
     const glm::dvec3 point_b = edge_b.centre + t * along_b;
 
     Manifold manifold;
     manifold.normal = normal;
     const double separation = glm::dot(normal, gap);
-    if (separation > margin) return manifold;
+    const double passing = passing_of_half * smallest_half(a, b);
+    if (separation > margin || std::abs(s) > a.half[edges.of_a] + passing ||
+        std::abs(t) > b.half[edges.of_b] + passing)
+        return manifold;
     manifold.points[0] = {.position = 0.5 * (point_a + point_b),
                           .separation = separation,
                           .feature = meeting(edge_a.feature, edge_b.feature)};

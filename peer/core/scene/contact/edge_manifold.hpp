@@ -13,8 +13,8 @@ struct EdgePair {
 };
 
 /// Where two edges cross, the outermost of their axes towards each other: one point between the
-/// nearest points of the two, or none when they are farther apart than `margin`. The edges must
-/// not be parallel.
+/// nearest points of the two, or none when they are farther apart than `margin` or pass each other
+/// by more than 1/256 of the boxes' smallest half edge. The edges must not be parallel.
 [[nodiscard]] Manifold edge_manifold(const OrientedBox& a, const OrientedBox& b, EdgePair edges,
                                      double margin);
 

@@ -29,12 +29,20 @@ struct Polygon {
     std::uint32_t count = 0;
 
     void add(const Vertex& vertex) { at[count++] = vertex; }
+
+    /// In a sliver along an edge a cut may find the same features twice: the first stands.
+    void add_new(const Vertex& vertex)
+    {
+        for (std::uint32_t k = 0; k < count; ++k) {
+            if (at[k].reference == vertex.reference && at[k].incident == vertex.incident) return;
+        }
+        add(vertex);
+    }
 };
 
 /// The reference face's rectangle, and the incident face's parallelogram seen from it.
 struct Faces {
-    int axis = 0; // of the reference face; the plane's u and v are the next two, cyclically
-    int axis_u = 1;
+    int axis_u = 1; // of the reference box: the two next to the face's own, cyclically
     int axis_v = 2;
     double half_u = 0.0;
     double half_v = 0.0;
@@ -90,21 +98,23 @@ Vertex crossing(const Vertex& within, const Vertex& without, const Strip& strip,
 
 /// What of a polygon lies within a strip. Both sides are cut at once: a mirrored polygon gives the
 /// same bits.
-void cut(const Polygon& polygon, const Strip& strip, Polygon& result)
+Polygon cut(const Polygon& polygon, const Strip& strip)
 {
+    Polygon result;
     for (std::uint32_t k = 0; k < polygon.count; ++k) {
         const Vertex& here = polygon.at[k];
         const Vertex& next = polygon.at[k + 1 < polygon.count ? k + 1 : 0];
         const double place = strip.place(here);
         const double place_next = strip.place(next);
-        if (std::abs(place) - strip.limit <= strip.tolerance) result.add(here);
+        if (std::abs(place) - strip.limit <= strip.tolerance) result.add_new(here);
         for (const double sign : {1.0, -1.0}) // inwards
             if (strip.is_crossed(sign * place_next, sign * place))
-                result.add(crossing(next, here, strip, sign));
+                result.add_new(crossing(next, here, strip, sign));
         for (const double sign : {1.0, -1.0}) // outwards
             if (strip.is_crossed(sign * place, sign * place_next))
-                result.add(crossing(here, next, strip, sign));
+                result.add_new(crossing(here, next, strip, sign));
     }
+    return result;
 }
 
 /// Four of more vertices: the outermost towards the four corners of the reference face, those that
@@ -143,21 +153,16 @@ Polygon outermost(const Polygon& polygon, const Faces& faces)
 
 Polygon cut_to_reference(const Polygon& polygon, const Faces& faces)
 {
-    Polygon between;
-    cut(polygon, {.axis = faces.axis_u, .limit = faces.half_u, .tolerance = faces.tolerance},
-        between);
-    Polygon result;
-    cut(between,
-        {.is_v = true, .axis = faces.axis_v, .limit = faces.half_v, .tolerance = faces.tolerance},
-        result);
-    return result;
+    const Strip u{.axis = faces.axis_u, .limit = faces.half_u, .tolerance = faces.tolerance};
+    const Strip v{
+        .is_v = true, .axis = faces.axis_v, .limit = faces.half_v, .tolerance = faces.tolerance};
+    return cut(cut(polygon, u), v);
 }
 
 /// How one box lies on a face of the other.
 Faces facing(const OrientedBox& reference, const OrientedBox& incident, int axis)
 {
     Faces faces;
-    faces.axis = axis;
     faces.axis_u = (axis + 1) % 3;
     faces.axis_v = (axis + 2) % 3;
     faces.half_u = reference.half[faces.axis_u];

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/scene/contact/box_box.hpp"
 
-#include "peer/core/scene/contact/shadow.hpp"
+#include "peer/core/scene/contact/measures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -35,6 +35,7 @@ struct Manifold {
     std::uint32_t count = 0;
 
     [[nodiscard]] std::span<const ContactPoint> touching() const { return {points.data(), count}; }
+    [[nodiscard]] std::span<ContactPoint> touching() { return {points.data(), count}; }
 };
 
 } // namespace hapnet::scene

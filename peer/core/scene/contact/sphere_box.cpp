@@ -83,12 +83,15 @@ Face outward_face(const glm::dvec3& outward)
     return face_towards(farthest, outward[farthest]);
 }
 
-SphereOverlap behind(const Face& face, const OrientedBox& box, const glm::dvec3& centre,
+SphereOverlap behind(const Face& face, const OrientedBox& box, const glm::dvec3& place,
                      double radius)
 {
-    const double depth = box.half[face.axis] - along(face, seen_from(box, centre)); // of the centre
-    const glm::dvec3 normal = static_cast<double>(face.sign) * box.axes[face.axis];
-    return {.depth = radius + depth, .normal = normal, .point = centre + depth * normal};
+    const double side = face.sign;
+    glm::dvec3 surface = place;
+    surface[face.axis] = side * box.half[face.axis];
+    return {.depth = radius + (box.half[face.axis] - along(face, place)),
+            .normal = side * box.axes[face.axis],
+            .point = box.centre + box.axes * surface};
 }
 
 } // namespace
@@ -98,7 +101,7 @@ std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const
 {
     const glm::dvec3 place = seen_from(box, centre);
     if (entered_ && is_behind(*entered_, box.half, place))
-        return behind(*entered_, box, centre, radius);
+        return behind(*entered_, box, place, radius);
     const glm::dvec3 closest = closest_point(box.half, place);
     const glm::dvec3 outward = place - closest;
     const double gap = length(outward);
@@ -113,7 +116,7 @@ std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const
                              .point = box.centre + box.axes * closest};
     }
     entered_ = nearest_face(box.half, place);
-    return behind(*entered_, box, centre, radius);
+    return behind(*entered_, box, place, radius);
 }
 
 std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const glm::dvec3& centre,

@@ -20,8 +20,10 @@ struct MovingBody {
 
 /// How it answers to forces; held for the tick.
 struct Answer {
+    glm::dvec3 half{0.0}; // half the edges of the box, on which its hands slide and turn
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame, at the start of the tick
+    bool turns_evenly = false;       // turning does not change it: a cube, or one axis alone
     glm::dvec3 acceleration{0.0};    // of everything but the hands
     glm::dvec3 torque{0.0};          // of everything but the hands, N m
 };
@@ -29,7 +31,8 @@ struct Answer {
 /// A hand's spring on a body: unilateral along its normal, or, when it holds, in all directions.
 struct HipSpring {
     glm::dvec3 normal{0.0};   // unit, from the body to the hand
-    glm::dvec3 arm{0.0};      // from the body's centre to where the spring acts
+    glm::dvec3 arm{0.0};      // from the body's centre to the point of its surface that is pushed
+    double radius = 0.0;      // of the hand's sphere, about whose centre the contact turns
     double gap = 0.0;         // along the normal at the start of the tick; < 0: overlap
     glm::dvec3 velocity{0.0}; // of the hand, held for the tick
     double stiffness = 0.0;

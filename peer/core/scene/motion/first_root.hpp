@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/scene/motion/course.hpp"
+#include "peer/core/scene/motion/per_axis.hpp"
 
 #include <array>
 #include <optional>
@@ -17,8 +18,8 @@ using Courses = std::array<Course, 3>;
 struct Watch {
     double level = 0.0;
     double slope = 0.0;
-    std::array<double, 3> way_weight{};
-    std::array<double, 3> speed_weight{};
+    PerAxis way_weight{};
+    PerAxis speed_weight{};
     bool leaves_zero = false; // it starts at 0 up to rounding, and is known to grow
 };
 
@@ -30,7 +31,8 @@ struct Watch {
 
 /// When the quantity first falls to 0, in [from, to); nullopt when it does not. No root is missed:
 /// the search goes on by steps within which a bound of the second derivative rules one out, and
-/// approaches the root from before it as fast as Newton's method does.
+/// approaches the root from before it as fast as Newton's method does. After 200 steps, which take
+/// a wave of some hundred periods, it only asks for the sign at the end.
 [[nodiscard]] std::optional<double> first_root(const Watch& watch, const Courses& courses,
                                                double from, double to);
 

@@ -4,31 +4,59 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hapnet::scene {
 
 namespace {
 
-/// Sweeps that a scene at rest or nearly so is done with: before that, no book is kept.
-constexpr std::uint32_t plain_sweeps = 2;
+/// The impulses of a block as numbers of one kind, N s.
+constexpr std::size_t parts = 7;
 
-/// The impulses as seven numbers of one kind, N s.
-template <typename Visit>
-void for_parts(ContactBlock& block, Visit visit)
+// What a large island may cost: so many visits to its blocks, but a few sweeps in any case.
+constexpr std::uint32_t visits_max = 1200;
+constexpr std::uint32_t sweeps_min = 7;
+
+void read(const ContactBlock& block, double* to)
 {
-    for (std::size_t i = 0; i < block.count; ++i) {
-        visit(block.impulse.normal[i], block.before.normal[i], block.direction.normal[i], 1.0);
-    }
-    visit(block.impulse.tangent_1, block.before.tangent_1, block.direction.tangent_1, 1.0);
-    visit(block.impulse.tangent_2, block.before.tangent_2, block.direction.tangent_2, 1.0);
-    const double arm = block.torsion_arm > 0.0 ? 1.0 / block.torsion_arm : 0.0;
-    visit(block.impulse.torsion, block.before.torsion, block.direction.torsion, arm);
+    const ContactImpulse& impulse = block.impulse;
+    for (std::size_t i = 0; i < manifold_points_max; ++i) to[i] = impulse.normal[i];
+    to[4] = impulse.tangent_1;
+    to[5] = impulse.tangent_2;
+    to[6] = block.torsion_arm > 0.0 ? impulse.torsion / block.torsion_arm : 0.0;
+}
+
+void write(ContactBlock& block, const double* from)
+{
+    ContactImpulse& impulse = block.impulse;
+    for (std::size_t i = 0; i < manifold_points_max; ++i) impulse.normal[i] = from[i];
+    impulse.tangent_1 = from[4];
+    impulse.tangent_2 = from[5];
+    if (block.torsion_arm > 0.0) impulse.torsion = from[6] * block.torsion_arm;
+}
+
+double distance2(std::span<const double> a, std::span<const double> b)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sum;
 }
 
 } // namespace
 
 ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
-    : responses_{bodies + 1}, ending_{bodies + 1}, mean_{bodies + 1}, blocks_{blocks}
+    : responses_{bodies + 1},
+      ending_{bodies + 1},
+      mean_{bodies + 1},
+      blocks_{blocks},
+      parents_{bodies + 1},
+      starts_{bodies + 2},
+      order_{blocks},
+      before_{parts * blocks},
+      after_{parts * blocks},
+      good_{parts * blocks},
+      saved_{bodies + 1},
+      anderson_{parts * blocks}
 {}
 
 void ContactSolver::begin(std::size_t bodies)
@@ -41,58 +69,150 @@ void ContactSolver::begin(std::size_t bodies)
 
 SolverOutcome ContactSolver::solve(const SolverLimits& limits)
 {
-    return run({Mode::contacts, ending_.all(), limits.quiet}, limits);
+    return run({Mode::contacts, ending_.all(), limits});
 }
 
 SolverOutcome ContactSolver::separate(const SolverLimits& limits)
 {
-    for (ContactBlock& block : blocks_.all()) block.impulse = {};
-    return run({Mode::separations, mean_.all(), limits.quiet}, limits);
+    const auto overlaps = [&](const ContactBlock& block) {
+        Modal velocity = velocity_at(block, mean_[block.a], mean_[block.b]);
+        for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.bend[i];
+        for (std::size_t i = 0; i < block.count; ++i) {
+            if (block.normal_speed(velocity, i) < block.least[i] - limits.quiet) return true;
+        }
+        return false;
+    };
+    const std::span<ContactBlock> blocks = blocks_.all();
+    if (std::none_of(blocks.begin(), blocks.end(), overlaps)) return {};
+    // What is new in the impulses counts half in the mean velocities, as a force would. Of a hit it
+    // should be all, from the moment when they met: a good start.
+    for (ContactBlock& block : blocks) {
+        ContactImpulse start;
+        for (std::size_t i = 0; i < block.count; ++i) {
+            start.normal[i] = std::max(0.0, 0.5 * (block.impulse.normal[i] - block.begun[i]));
+        }
+        block.impulse = start;
+        apply(block, modal(block, start), mean_.all());
+    }
+    return run({Mode::separations, mean_.all(), limits});
 }
 
-SolverOutcome ContactSolver::run(const Task& task, const SolverLimits& limits)
+SolverOutcome ContactSolver::run(const Task& task)
 {
-    SolverOutcome outcome;
-    double was2 = 0.0;
-    while (outcome.sweeps < limits.sweeps_max) {
-        const bool keeps_book = outcome.sweeps >= plain_sweeps;
-        if (keeps_book) mark();
-        const bool forward = outcome.sweeps % 2 == 0 || keeps_book;
-        outcome.change = sweep(task, forward);
-        ++outcome.sweeps;
-        if (outcome.change <= limits.enough) break;
-        if (keeps_book && outcome.sweeps < limits.sweeps_max) {
-            was2 = go_on(task, was2, outcome.sweeps == plain_sweeps + 1);
-        }
+    SolverOutcome outcome{1, 0.0};
+    for (ContactBlock& block : blocks_.all()) {
+        block.change = visit(block, task);
+        outcome.change = std::max(outcome.change, block.change);
+    }
+    if (outcome.change <= task.limits.enough || blocks_.size() < 2) return outcome;
+    find_islands();
+    outcome.change = 0.0;
+    std::uint32_t end = 0;
+    for (const std::uint32_t next : starts_.all()) {
+        const Island island{&order_[end], next - end};
+        end = next;
+        const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.enough; };
+        if (island.size() < 2 || std::none_of(island.begin(), island.end(), moves)) continue;
+        const SolverOutcome its = run_island(task, island);
+        outcome.sweeps = std::max(outcome.sweeps, its.sweeps);
+        outcome.change = std::max(outcome.change, its.change);
     }
     return outcome;
 }
 
-double ContactSolver::sweep(const Task& task, bool forward)
+SolverOutcome ContactSolver::run_island(const Task& task, Island island)
+{
+    const std::uint32_t sweeps_max = std::min<std::uint32_t>(
+        task.limits.sweeps_max,
+        std::max<std::uint32_t>(sweeps_min,
+                                visits_max / static_cast<std::uint32_t>(island.size())));
+    before_.resize(parts * island.size());
+    after_.resize(parts * island.size());
+    good_.resize(parts * island.size());
+    anderson_.begin(parts * island.size());
+    note(island, before_.all());
+    SolverOutcome outcome{1, 0.0};
+    double shortest2 = std::numeric_limits<double>::infinity();
+    bool has_jumped = false;
+    while (outcome.sweeps + 2 <= sweeps_max) {
+        outcome.change = sweep(task, island);
+        outcome.sweeps += 2;
+        if (outcome.change <= task.limits.enough) break;
+        note(island, after_.all());
+        const double step2 = distance2(before_.all(), after_.all());
+        // A mixture that leads astray, because something opens or slips there, is taken back.
+        constexpr double astray = 4.0;
+        if (has_jumped && !(step2 <= astray * shortest2)) {
+            step_back(task, island);
+            anderson_.begin(parts * island.size());
+            std::copy(good_.all().begin(), good_.all().end(), before_.all().begin());
+            has_jumped = false;
+            continue;
+        }
+        shortest2 = std::min(shortest2, step2);
+        if (outcome.sweeps + 2 > sweeps_max) break;
+        has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
+        if (has_jumped) jump(task, island);
+    }
+    return outcome;
+}
+
+double ContactSolver::sweep(const Task& task, Island island)
 {
     double change = 0.0;
-    const std::span<ContactBlock> blocks = blocks_.all();
-    if (forward) {
-        for (ContactBlock& block : blocks) change = std::max(change, visit(block, task));
-    } else {
-        for (std::size_t i = blocks.size(); i-- > 0;) {
-            change = std::max(change, visit(blocks[i], task));
-        }
+    for (const std::uint32_t i : island) change = std::max(change, visit(blocks_[i], task));
+    for (std::size_t i = island.size(); i-- > 0;) {
+        change = std::max(change, visit(blocks_[island[i]], task));
     }
     return change;
 }
 
+void ContactSolver::note(Island island, std::span<double> impulses) const
+{
+    for (std::size_t i = 0; i < island.size(); ++i) read(blocks_[island[i]], &impulses[parts * i]);
+}
+
+/// From after_ to before_; the way back is kept.
+void ContactSolver::jump(const Task& task, Island island)
+{
+    std::copy(after_.all().begin(), after_.all().end(), good_.all().begin());
+    saved_.resize(task.motions.size());
+    for (const std::uint32_t i : island) {
+        saved_[blocks_[i].a] = task.motions[blocks_[i].a];
+        saved_[blocks_[i].b] = task.motions[blocks_[i].b];
+    }
+    for (std::size_t i = 0; i < island.size(); ++i) {
+        ContactBlock& block = blocks_[island[i]];
+        Modal change = modal(block, block.impulse);
+        write(block, &before_[parts * i]);
+        const Modal now = modal(block, block.impulse);
+        for (std::size_t k = 0; k < change.size(); ++k) change[k] = now[k] - change[k];
+        apply(block, change, task.motions);
+    }
+}
+
+void ContactSolver::step_back(const Task& task, Island island)
+{
+    for (std::size_t i = 0; i < island.size(); ++i) {
+        ContactBlock& block = blocks_[island[i]];
+        task.motions[block.a] = saved_[block.a];
+        task.motions[block.b] = saved_[block.b];
+        write(block, &good_[parts * i]);
+    }
+}
+
 double ContactSolver::visit(ContactBlock& block, const Task& task)
 {
-    const Modal velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+    Modal velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+    for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.bend[i];
+    const double quiet = task.limits.quiet;
     const bool pushes_only = task.mode == Mode::separations;
-    if (pushes_only ? is_separated(block, velocity, task.quiet)
-                    : is_solved(block, velocity, task.quiet)) {
+    if (pushes_only ? is_separated(block, velocity, quiet) : is_solved(block, velocity, quiet)) {
         return 0.0;
     }
     if (!block.has_matrix) build_matrix(block, responses_[block.a], responses_[block.b]);
-    const Modal change = pushes_only ? scene::solve_normals(block, velocity, task.quiet)
-                                     : scene::solve(block, velocity, task.quiet);
+    const Modal change = pushes_only ? scene::solve_normals(block, velocity, quiet)
+                                     : scene::solve(block, velocity, quiet);
     apply(block, change, task.motions);
     const Modal gained = times(block.matrix, change);
     const double arm = block.torsion_arm;
@@ -118,37 +238,41 @@ void ContactSolver::apply(const ContactBlock& block, const Modal& change,
     scene::apply(push, block.arm_a, responses_[block.a], motions[block.a]);
 }
 
-void ContactSolver::mark()
+SolverIndex ContactSolver::root_of(SolverIndex body)
 {
-    for (ContactBlock& block : blocks_.all()) block.before = block.impulse;
+    while (parents_[body] != body) {
+        parents_[body] = parents_[parents_[body]];
+        body = parents_[body];
+    }
+    return body;
 }
 
-/// Goes on along the conjugate direction after a sweep; returns the squared length of what the
-/// sweep changed.
-double ContactSolver::go_on(const Task& task, double was2, bool is_first)
+/// Sorts the blocks by islands: first those of the body with the lowest index, each in the order
+/// of its blocks.
+void ContactSolver::find_islands()
 {
-    double now2 = 0.0;
-    for (ContactBlock& block : blocks_.all()) {
-        for_parts(block, [&](double& now, double& before, double&, double per_arm) {
-            const double gone = (now - before) * per_arm;
-            now2 += gone * gone;
-        });
+    const std::size_t bodies = responses_.size();
+    parents_.resize(bodies);
+    for (SolverIndex i = 0; i < bodies; ++i) parents_[i] = i;
+    for (const ContactBlock& block : blocks_.all()) {
+        if (block.a == 0 || block.b == 0) continue;
+        const SolverIndex a = root_of(block.a);
+        const SolverIndex b = root_of(block.b);
+        parents_[std::max(a, b)] = std::min(a, b);
     }
-    const double share = is_first || !(now2 <= was2) ? 0.0 : now2 / was2;
-    for (ContactBlock& block : blocks_.all()) {
-        const Modal old = modal(block, block.impulse);
-        for_parts(block, [&](double& now, double& before, double& direction, double) {
-            const double gone = now - before;
-            const double further = share > 0.0 ? share * direction : 0.0;
-            now += further;
-            direction = further + gone;
-        });
-        if (share == 0.0) continue;
-        Modal change = modal(block, block.impulse);
-        for (std::size_t i = 0; i < change.size(); ++i) change[i] -= old[i];
-        apply(block, change, task.motions);
+    starts_.resize(bodies + 1);
+    for (std::uint32_t& start : starts_.all()) start = 0;
+    const auto root_of_block = [&](const ContactBlock& block) {
+        return root_of(block.a != 0 ? block.a : block.b);
+    };
+    for (const ContactBlock& block : blocks_.all()) ++starts_[root_of_block(block) + 1];
+    for (std::size_t i = 1; i <= bodies; ++i) starts_[i] += starts_[i - 1];
+    order_.resize(blocks_.size());
+    for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
+        order_[starts_[root_of_block(blocks_[i])]++] = i;
     }
-    return now2;
+    // Now every entry has become the end of its island.
+    starts_.resize(bodies);
 }
 
 } // namespace hapnet::scene

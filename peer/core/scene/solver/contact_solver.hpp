@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/scene/solver/anderson.hpp"
 #include "peer/core/scene/solver/block.hpp"
 #include "peer/core/scene/solver/scratch.hpp"
 
@@ -12,23 +13,22 @@ namespace hapnet::scene {
 
 /// When to stop.
 struct SolverLimits {
-    double quiet = 0.0;  // m/s: a contact that misses by less is left alone
-    double enough = 0.0; // m/s: when no contact changed its speed by more, that was it
-    std::uint32_t sweeps_max = 1;
+    double quiet = 0.0;           // m/s: a contact that misses by less is left alone
+    double enough = 0.0;          // m/s: when no contact changed its speed by more, that was it
+    std::uint32_t sweeps_max = 1; // over an island
 };
 
 /// How far it came.
 struct SolverOutcome {
-    std::uint32_t sweeps = 0;
-    double change = 0.0; // m/s, of the last sweep: the largest of a contact's speed
+    std::uint32_t sweeps = 0; // of the island that needed most
+    double change = 0.0;      // m/s, of the last sweep: the largest of a contact's speed
 };
 
-/// Solves all contacts of a tick for the velocities at its end: block after block (each as a whole:
-/// projected Gauss-Seidel), in turns from the first to the last and back, and when a few sweeps do
-/// not do it, along conjugate directions (nonsmooth nonlinear conjugate gradients, Silcowitz,
-/// Niebe, Erleben, "Nonsmooth Newton method / NNCG for contact problems", VRIPHYS 2010), which is
-/// what carries a heavy body on a light one and a stack. A contact that is in balance already costs
-/// a look.
+/// Solves all contacts of a tick for the velocities at its end, block after block, each as a whole
+/// (projected Gauss-Seidel). A contact that is in balance already costs a look, and what is at
+/// rest or nearly so is done with one sweep. Bodies that touch each other and are not are an
+/// island: swept again and again, to and fro, with Anderson's mixing, which is what carries a heavy
+/// body on a light one and a stack.
 class ContactSolver {
 public:
     ContactSolver(std::size_t bodies, std::size_t blocks);
@@ -44,18 +44,14 @@ public:
 
     [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
     ContactBlock& add() { return blocks_.add(); }
-    void take_back() { blocks_.take_back(); }
     [[nodiscard]] std::span<ContactBlock> blocks() { return blocks_.all(); }
 
     /// Changes the impulses of the contacts and the velocities at the end of the tick.
     SolverOutcome solve(const SolverLimits& limits);
     /// The same for the mean velocities, without friction, and impulses that begin at zero.
     SolverOutcome separate(const SolverLimits& limits);
-    /// What one block changes in velocities that are told.
+    /// What one block changes in velocities that are told, which stay as they are.
     Modal solve_one(ContactBlock& block, const Modal& velocity, double quiet);
-    void apply(const ContactBlock& block, const Modal& change, std::span<BodyMotion> motions);
-    [[nodiscard]] std::span<BodyMotion> endings() { return ending_.all(); }
-    [[nodiscard]] std::span<BodyMotion> means() { return mean_.all(); }
 
 private:
     enum class Mode : std::uint8_t { contacts, separations };
@@ -63,19 +59,34 @@ private:
     struct Task {
         Mode mode = Mode::contacts;
         std::span<BodyMotion> motions;
-        double quiet = 0.0;
+        SolverLimits limits;
     };
 
-    SolverOutcome run(const Task& task, const SolverLimits& limits);
-    double sweep(const Task& task, bool forward);
+    using Island = std::span<const std::uint32_t>; // its blocks
+
+    SolverOutcome run(const Task& task);
+    SolverOutcome run_island(const Task& task, Island island);
+    double sweep(const Task& task, Island island);
+    void note(Island island, std::span<double> impulses) const;
+    void jump(const Task& task, Island island);
+    void step_back(const Task& task, Island island);
     double visit(ContactBlock& block, const Task& task);
-    void mark();
-    double go_on(const Task& task, double was2, bool is_first);
+    void apply(const ContactBlock& block, const Modal& change, std::span<BodyMotion> motions);
+    void find_islands();
+    [[nodiscard]] SolverIndex root_of(SolverIndex body);
 
     Scratch<BodyResponse> responses_;
     Scratch<BodyMotion> ending_;
     Scratch<BodyMotion> mean_;
     Scratch<ContactBlock> blocks_;
+
+    // Islands: of which body, by body; the blocks in the order of their islands; where each ends.
+    Scratch<SolverIndex> parents_;
+    Scratch<std::uint32_t> starts_;
+    Scratch<std::uint32_t> order_;
+    Scratch<double> before_, after_, good_; // impulses of an island
+    Scratch<BodyMotion> saved_;             // of its bodies
+    Anderson anderson_;
 };
 
 } // namespace hapnet::scene

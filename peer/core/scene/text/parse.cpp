@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 #include <spdlog/fmt/fmt.h>
+#include <tuple>
 #include <utility>
 
 namespace hapnet::scene {
@@ -52,7 +53,7 @@ void read_material(TableReader& table, Material& material)
          [&](const Node& node) { text::read_share(node, material.restitution, 1.0, reading); });
 }
 
-/// What is written as a mass or as a density; a fixed body needs neither.
+/// What is written as a mass or as a density.
 void read_mass(TableReader& table, BodyDescription& body)
 {
     Reading& reading = table.reading();
@@ -62,13 +63,7 @@ void read_mass(TableReader& table, BodyDescription& body)
         return reading.complain(density->place, "the mass says it already: leave out one of them");
     }
     if (mass != nullptr) return read(*mass, body.mass_kg, mass_span, reading);
-    if (density == nullptr) {
-        if (body.movable) {
-            reading.complain(table.place(), "'mass' or 'density' is missing here: a body that is "
-                                            "not fixed has one, such as mass = \"100g\"");
-        }
-        return;
-    }
+    if (density == nullptr) return;
     double value = 1.0;
     read(*density, value, density_span, reading);
     const double kg = value * 8.0 * body.half.x * body.half.y * body.half.z;
@@ -90,11 +85,11 @@ BodyDescription read_body_keys(TableReader& table)
     bool is_fixed = false;
     with(table, "fixed", [&](const Node& node) { read(node, is_fixed, reading); });
     body.movable = !is_fixed;
-    if (const Node* size = table.require("size")) {
+    with(table, "size", [&](const Node& node) {
         glm::dvec3 edges = 2.0 * body.half;
-        text::read_size(*size, edges, size_span, reading);
+        text::read_size(node, edges, size_span, reading);
         body.half = 0.5 * edges;
-    }
+    });
     const auto read_three = [&](std::string_view key, glm::dvec3& target, const Span& span) {
         with(table, key, [&](const Node& node) { read(node, target, span, reading); });
     };
@@ -110,6 +105,15 @@ BodyDescription read_body_keys(TableReader& table)
     with(table, "drag",
          [&](const Node& node) { read(node, body.drag_ns_per_m, drag_span, reading); });
     return body;
+}
+
+/// To be called once all other keys are known: a misspelt one is the better complaint.
+void require_body_keys(TableReader& table, bool is_movable)
+{
+    std::ignore = table.require("size");
+    if (!is_movable || table.find("mass") != nullptr || table.find("density") != nullptr) return;
+    table.reading().complain(table.place(), "'mass' or 'density' is missing here: a body that is "
+                                            "not fixed has one, such as mass = \"100g\"");
 }
 
 /// A scene that grows body by body, and where each stands in the text.
@@ -148,13 +152,13 @@ void read_array(TableReader& table, Growing& growing)
 {
     Reading& reading = table.reading();
     auto& bodies = growing.scene.bodies;
-    const Node* count_node = table.require("count");
-    const Node* spacing_node = table.require("spacing");
     const BodyDescription first = read_body_keys(table);
+    std::array<std::uint32_t, 3> count{1, 1, 1};
+    with(table, "count",
+         [&](const Node& node) { count = read_count(node, bodies.size(), reading); });
     glm::dvec3 spacing{0.0};
-    if (spacing_node != nullptr) read(*spacing_node, spacing, place_span, reading);
-    if (count_node == nullptr) return;
-    const auto [nx, ny, nz] = read_count(*count_node, bodies.size(), reading);
+    with(table, "spacing", [&](const Node& node) { read(node, spacing, place_span, reading); });
+    const auto [nx, ny, nz] = count;
     std::size_t number = 0;
     for (std::uint32_t y = 0; y < ny; ++y) {
         for (std::uint32_t z = 0; z < nz; ++z) {
@@ -226,6 +230,11 @@ void read_bodies(TableReader& table, Growing& growing)
             growing.scene.bodies.push_back(read_body_keys(keys));
         }
         keys.finish();
+        if (is_array) {
+            std::ignore = keys.require("count");
+            std::ignore = keys.require("spacing");
+        }
+        require_body_keys(keys, growing.scene.bodies.back().movable);
         if (!reading.is_good()) return;
         growing.body_places.resize(growing.scene.bodies.size(), node->place);
     }

@@ -4,6 +4,7 @@
 
 #include "peer/core/scene/motion/rotation.hpp"
 #include "peer/core/scene/tick/flight.hpp"
+#include "proto/base/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +32,38 @@ bool is_nothing(const glm::dvec3& angle)
            std::abs(angle.z) < nothing;
 }
 
+glm::dvec3 along_plane(const glm::dvec3& v, const glm::dvec3& normal)
+{
+    return v - glm::dot(v, normal) * normal;
+}
+
+/// Of everything but the hands and the drag.
+glm::dvec3 acceleration(const BodyCourse& course, const Stage& stage, Slot slot,
+                        const Frozen& frozen)
+{
+    const BodyForm& form = stage.bodies.form[slot];
+    return falling(form, frozen.gravity) +
+           form.inverse_mass * (course.impulse / frozen.tick + stage.pushes[form.id]);
+}
+
+void start(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response)
+{
+    const Bodies& bodies = stage.bodies;
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
+    course.angular_impulse = about_free_axes(bodies.form[slot], course.angular_impulse);
+    course.start = {bodies.velocity.at(slot), response.inverse_inertia * momentum, glm::dvec3{0.0}};
+    course.angular_momentum = momentum + course.angular_impulse;
+}
+
 void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
 {
     const BodyForm& form = bodies.form[slot];
+    if (course.has_hands) {
+        const glm::dvec3 more = tick * (mean.spin - course.mean.spin);
+        bodies.orientation.put(slot, is_nothing(more) ? course.orientation
+                                                      : turned(course.orientation, more));
+        return;
+    }
     const glm::dquat now = bodies.orientation.at(slot);
     if (is_nothing(tick * mean.spin)) return;
     if (turns_evenly(form)) {
@@ -45,18 +75,36 @@ void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion&
     bodies.orientation.put(slot, spun(now, {momentum, form.inverse_inertia}, tick));
 }
 
+/// What a body meets was looked for on its straight way through the tick. When it is thrown far off
+/// that, it goes only so far that it cannot pass through anything that was not looked for.
+void keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scales)
+{
+    constexpr double strays_most = 0.5;
+    const double most = strays_most * scales.least / scales.tick;
+    const glm::dvec3& path = course.start.velocity;
+    const glm::dvec3& way = mean.velocity;
+    const double path2 = glm::dot(path, path);
+    if (path2 <= most * most && glm::dot(way, way) <= most * most) return;
+    const double share = path2 > 0.0 ? std::clamp(glm::dot(way, path) / path2, 0.0, 1.0) : 0.0;
+    const glm::dvec3 off = way - share * path;
+    const double astray = std::sqrt(glm::dot(off, off));
+    if (astray > most) mean.velocity = share * path + (most / astray) * off;
+}
+
 } // namespace
 
 Scales scales_of(const Frozen& frozen, const Bodies& bodies)
 {
     double size = std::numeric_limits<double>::infinity();
-    for (Slot slot = 0; slot < bodies.movable; ++slot) {
+    double least = size;
+    for (Slot slot = 0; slot < bodies.size(); ++slot) {
         const glm::dvec3& half = bodies.form[slot].half;
-        size = std::min(size, std::min(half.x, std::min(half.y, half.z)));
+        least = std::min(least, std::min(half.x, std::min(half.y, half.z)));
+        if (slot < bodies.movable) size = least;
     }
     constexpr double hardly = 1e-6;
     const double fall = frozen.tick * std::sqrt(glm::dot(frozen.gravity, frozen.gravity));
-    return {frozen.tick, size, fall, std::max(fall, hardly * size / frozen.tick)};
+    return {frozen.tick, size, least, fall, std::max(fall, hardly * size / frozen.tick)};
 }
 
 OrientedBox box_of(const Bodies& bodies, Slot slot)
@@ -87,19 +135,70 @@ BodyResponse response_of(const BodyForm& form, const OrientedBox& box)
 void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
             const Frozen& frozen)
 {
-    const Bodies& bodies = stage.bodies;
-    const BodyForm& form = bodies.form[slot];
     const double tick = frozen.tick;
-    course.angular_impulse = about_free_axes(form, course.angular_impulse);
-    const glm::dvec3 gained = tick * falling(form, frozen.gravity) +
-                              form.inverse_mass * (course.impulse + tick * stage.pushes[form.id]);
-    const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
-    course.start.velocity = bodies.velocity.at(slot);
-    course.start.spin = response.inverse_inertia * momentum;
-    course.angular_momentum = momentum + course.angular_impulse;
-    course.tentative = {course.start.velocity + gained,
-                        response.inverse_inertia * course.angular_momentum, glm::dvec3{0.0}};
-    course.mean = {course.start.velocity + 0.5 * gained,
+    start(course, stage, slot, response);
+    const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
+    const glm::dvec3& before = course.start.velocity;
+    course.tentative = {before + tick * rate, response.inverse_inertia * course.angular_momentum,
+                        glm::dvec3{0.0}};
+    if (!turns_evenly(stage.bodies.form[slot])) {
+        // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
+        course.tentative.spin += tick * (response.inverse_inertia *
+                                         glm::cross(course.angular_momentum, course.start.spin));
+    }
+    course.mean = {before + (0.5 * tick) * rate, 0.5 * (course.start.spin + course.tentative.spin),
+                   glm::dvec3{0.0}};
+    if (course.drag == 0.0) return;
+    // Against the drag the velocity along the plane goes exponentially to where it would stay.
+    const double keeps = base::exp(-course.drag * tick);
+    const glm::dvec3 excess =
+        along_plane(before, course.carrier) - along_plane(rate, course.carrier) / course.drag;
+    const glm::dvec3 lost = (1.0 - keeps) * excess;
+    course.tentative.velocity += -lost - tick * along_plane(rate, course.carrier);
+    course.mean.velocity +=
+        lost / (course.drag * tick) - excess - (0.5 * tick) * along_plane(rate, course.carrier);
+}
+
+void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
+                  const HandsOn& hands)
+{
+    const Frozen& frozen = hands.frozen;
+    const Bodies& bodies = stage.bodies;
+    start(course, stage, slot, response);
+    const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
+    Answer answer{bodies.form[slot].half,
+                  response.inverse_mass,
+                  response.inverse_inertia,
+                  turns_evenly(bodies.form[slot]),
+                  rate,
+                  course.angular_impulse / frozen.tick};
+    MovingBody body;
+    const auto advance_against = [&](const glm::dvec3& drag) {
+        body = {bodies.position.at(slot), bodies.orientation.at(slot), course.start.velocity,
+                bodies.angular_momentum.at(slot)};
+        answer.acceleration = rate - drag;
+        advance(body, answer, hands.springs, hands.work, frozen.tick);
+    };
+    // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
+    // says when it is too strong for that.
+    constexpr double strong = 0.5;
+    const glm::dvec3 before = along_plane(course.start.velocity, course.carrier);
+    if (course.drag == 0.0) {
+        advance_against(glm::dvec3{0.0});
+    } else if (course.drag * frozen.tick < strong) {
+        advance_against(course.drag * before);
+        const glm::dvec3 after = along_plane(body.velocity, course.carrier);
+        advance_against((0.5 * course.drag) * (before + after));
+    } else {
+        advance_against(((1.0 - base::exp(-course.drag * frozen.tick)) / frozen.tick) * before);
+    }
+    course.has_hands = true;
+    course.position = body.position;
+    course.orientation = body.orientation;
+    course.angular_momentum = body.angular_momentum;
+    course.tentative = {body.velocity, response.inverse_inertia * body.angular_momentum,
+                        glm::dvec3{0.0}};
+    course.mean = {(body.position - bodies.position.at(slot)) / frozen.tick,
                    0.5 * (course.start.spin + course.tentative.spin), glm::dvec3{0.0}};
 }
 
@@ -123,16 +222,25 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
-void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver, double tick)
+void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
+            const Scales& scales)
 {
+    const double tick = scales.tick;
     const SolverIndex index = slot + 1;
-    const BodyMotion& mean = solver.mean(index);
+    BodyMotion& mean = solver.mean(index);
     const BodyMotion& ending = solver.ending(index);
     turn(course, bodies, slot, mean, tick);
-    bodies.position.put(slot, bodies.position.at(slot) + tick * mean.velocity);
+    const glm::dvec3 from = bodies.position.at(slot);
+    if (course.has_hands) {
+        bodies.position.put(slot, course.position + tick * (mean.velocity - course.mean.velocity));
+    } else {
+        keep_to_path(course, mean, scales);
+        bodies.position.put(slot, from + tick * mean.velocity);
+    }
     bodies.velocity.put(slot, ending.velocity);
     bodies.angular_momentum.put(
-        slot, course.angular_momentum + about_free_axes(bodies.form[slot], ending.angular_impulse));
+        slot, course.angular_momentum +
+                  about_free_axes(bodies.form[slot], ending.angular_impulse + course.thrown));
 }
 
 } // namespace hapnet::scene

@@ -3,8 +3,11 @@
 #pragma once
 
 #include "peer/core/scene/contact/manifold.hpp"
+#include "peer/core/scene/hip/advance.hpp"
 #include "peer/core/scene/solver/contact_solver.hpp"
 #include "peer/core/scene/stage.hpp"
+
+#include <span>
 
 namespace hapnet::scene {
 
@@ -12,6 +15,7 @@ namespace hapnet::scene {
 struct Scales {
     double tick = 1e-3;  // s
     double size = 0.02;  // m: the smallest half edge of a movable body
+    double least = 0.02; // m: the smallest half edge of all
     double fall = 0.0;   // m/s: what gravity adds in a tick
     double speed = 1e-2; // m/s: the above, or what crosses a millionth of the size in a tick
 };
@@ -25,15 +29,36 @@ struct BodyCourse {
     BodyMotion tentative;             // at the end, without what contacts change
     BodyMotion mean;                  // over the tick, likewise
     glm::dvec3 angular_momentum{0.0}; // at the end, likewise
+    BodyMotion rebound;               // at the start, as if it had bounced before
+    glm::dvec3 thrown{0.0};           // angular impulse of bounces
+    glm::dvec3 thrown_mean{0.0};      // ... its mean over the tick
     std::uint32_t rubbing = 0;        // contacts with friction that push
+    double drag = 0.0;                // 1/s, on the plane that carries it
+    glm::dvec3 carrier{0.0};          // its normal
+
+    // Of a body that hands are on, where it would be at the end.
+    bool has_hands = false;
+    glm::dvec3 position{0.0};
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
 };
 
 [[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
 [[nodiscard]] BodyResponse response_of(const BodyForm& form, const OrientedBox& box);
 
+/// The springs on one body.
+struct HandsOn {
+    std::span<const HipSpring> springs;
+    std::span<HipWork> work;
+    const Frozen& frozen;
+};
+
 /// Gravity, pushes and last tick's contact impulses, without hands: a parabola.
 void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
             const Frozen& frozen);
+
+/// The same with the hands' springs on it, which tell their work.
+void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
+                  const HandsOn& hands);
 
 /// A contact that stops slipping within the tick does so at its moment: until then friction has
 /// its full strength, and not a mean one until the end. For a body whose only friction it is.
@@ -42,6 +67,6 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
 
 /// Moves the body by what was solved.
 void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
-            double tick);
+            const Scales& scales);
 
 } // namespace hapnet::scene

@@ -3,6 +3,7 @@
 #include "peer/core/scene/tick/rigid.hpp"
 
 #include "peer/core/scene/contact/box_plane.hpp"
+#include "peer/core/scene/tick/bounce.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr std::size_t contacts_per_body_max = 8;
 // A contact that misses by less than this share of what gravity adds in a tick is in balance.
 constexpr double quiet = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
-constexpr double enough = 1e-7;
+constexpr double enough = 1e-6;
 // ... or this many sweeps were made. Measured: see the table in docs/BENCHMARKS.md.
 constexpr std::uint32_t sweeps_max = 60;
 
@@ -27,7 +28,7 @@ constexpr std::uint32_t sweeps_max = 60;
 constexpr double overlap_quiet = 1e-9;
 constexpr double overlap_enough = 1e-6;
 constexpr double overlap_most = 0.02;
-constexpr std::uint32_t overlap_sweeps_max = 12;
+constexpr std::uint32_t overlap_sweeps_max = 40;
 // Of an overlap that is there, this share is removed per tick: not all, so that contacts that
 // contradict each other settle.
 constexpr double overlap_share = 0.3;
@@ -35,10 +36,15 @@ constexpr double overlap_share = 0.3;
 // What comes nearer than this share of the smallest half edge within a tick is looked at.
 constexpr double look_ahead = 0.01;
 
+// Surfaces that push each other and are not farther apart than this, in smallest half edges, touch.
+// What is left of moving overlaps apart is less; chasing it would keep heaps from coming to rest.
+constexpr double touching = 2e-6;
+
 /// The least normal speed for which two surfaces so far apart do not overlap at the tick's end.
-double closing(double separation, double tick)
+double closing(double separation, double impulse, const Scales& scales)
 {
-    return separation > 0.0 ? -separation / tick : 0.0;
+    const double nothing = impulse > 0.0 ? touching * scales.size : 0.0;
+    return separation > nothing ? -separation / scales.tick : 0.0;
 }
 
 double parting(double separation, const Scales& scales)
@@ -58,13 +64,29 @@ std::size_t blocks_for(const Frozen& frozen, const Bodies& bodies)
     return bodies.movable * std::min(others, contacts_per_body_max);
 }
 
+bool any_bounces(const Frozen& frozen, const Bodies& bodies)
+{
+    const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
+    return std::any_of(bodies.form.begin(), bodies.form.end(), bounces) ||
+           std::any_of(frozen.planes.begin(), frozen.planes.end(), bounces);
+}
+
+double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.y, half.z)); }
+
+double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+void shift(OrientedBox& box, const glm::dvec3& by) { box.centre += by; }
+
 } // namespace
 
 template <Crowd crowd>
 RigidTick<crowd>::RigidTick(const Description& /*description*/, const Frozen& frozen,
                             const Stage& stage)
     : scales_{scales_of(frozen, stage.bodies)},
+      bounces_{any_bounces(frozen, stage.bodies)},
       neighbours_{frozen, stage.bodies},
+      sleep_{frozen, stage.bodies},
+      hands_{frozen},
       boxes_(stage.bodies.size()),
       courses_{stage.bodies.movable + std::size_t{1}},
       solver_{stage.bodies.movable, blocks_for(frozen, stage.bodies)}
@@ -76,42 +98,111 @@ RigidTick<crowd>::RigidTick(const Description& /*description*/, const Frozen& fr
 }
 
 template <Crowd crowd>
-SolverIndex RigidTick<crowd>::index_of(const Stage& stage, Slot slot) const
+void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
 {
-    return slot < stage.bodies.awake ? slot + 1 : 0;
+    Bodies& bodies = stage.bodies;
+    neighbours_.update(bodies);
+    feel(frozen, stage);
+    if constexpr (sleeps) wake(stage);
+    look(stage);
+    meet_planes(frozen, stage);
+    meet_bodies(stage);
+    carry();
+    set_out(frozen, stage);
+    solve(stage);
+    move_apart();
+    for (Slot slot = 0; slot < bodies.awake; ++slot) {
+        arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
+        boxes_[bodies.form[slot].id] = box_of(bodies, slot);
+    }
+    hands_.report(frozen, stage);
+    if constexpr (sleeps) sleep_.rest(bodies, neighbours_, stage.ticks);
 }
 
-/// How far any part of the body may come in the tick.
+template <Crowd crowd>
+void RigidTick<crowd>::disturbed(Stage& stage, BodyId body)
+{
+    // What it left and what it meets wakes.
+    if constexpr (sleeps) sleep_.wake(body, stage.bodies, neighbours_);
+    neighbours_.forget(body);
+    hands_.forget(body);
+    boxes_[body] = box_of(stage.bodies, stage.bodies.slot_of[body]);
+}
+
+/// What the hands touch; they wake it.
+template <Crowd crowd>
+void RigidTick<crowd>::feel(const Frozen& frozen, Stage& stage)
+{
+    Bodies& bodies = stage.bodies;
+    hands_.begin(stage);
+    for (std::uint32_t hand = 0; hand < frozen.hips.count; ++hand) {
+        const HipInput& hip = stage.hips[hand];
+        if (hip.present) {
+            const glm::dvec3& from = hip.position.value;
+            const double radius =
+                frozen.hips.radius_m + (hip.gripping ? frozen.hips.grip_reach_m : 0.0);
+            for (const BodyId id : neighbours_.reached_by(
+                     hand, {from, from + scales_.tick * hip.velocity.value, radius})) {
+                const Slot slot = bodies.slot_of[id];
+                hands_.touch(frozen, stage, hand,
+                             {id, slot < bodies.movable, boxes_[id], bodies.velocity.at(slot),
+                              bodies.angular_velocity(slot)});
+            }
+        }
+        hands_.end(hand);
+    }
+    if constexpr (sleeps) {
+        for (const HandSprings::Spring& spring : hands_.springs()) {
+            sleep_.wake(spring.body, bodies, neighbours_);
+        }
+    }
+}
+
+/// What is pushed, or hit by who is awake, wakes.
+template <Crowd crowd>
+void RigidTick<crowd>::wake(Stage& stage)
+{
+    Bodies& bodies = stage.bodies;
+    if constexpr (sleeps) {
+        for (const BodyId body : stage.pushed) sleep_.wake(body, bodies, neighbours_);
+        const auto touching = [&](PairIndex index) {
+            return between(stage, neighbours_.pair(index)).count > 0;
+        };
+        while (sleep_.wake_touched(bodies, neighbours_, touching)) {}
+    }
+}
+
+/// How far any part of the body may come in the tick, and a little more.
 template <Crowd crowd>
 double RigidTick<crowd>::reach(const Stage& stage, Slot slot) const
 {
     const Bodies& bodies = stage.bodies;
     if (slot >= bodies.awake) return 0.0;
     const glm::dvec3& half = bodies.form[slot].half;
-    const glm::dvec3 v = bodies.velocity.at(slot);
-    const glm::dvec3 w = bodies.angular_velocity(slot);
-    const double speed = std::sqrt(glm::dot(v, v));
-    const double turning = std::sqrt(glm::dot(w, w) * glm::dot(half, half));
-    return scales_.tick * (speed + turning + scales_.fall) +
-           look_ahead * std::min(half.x, std::min(half.y, half.z));
+    const double turning = length(bodies.angular_velocity(slot)) * length(half);
+    return scales_.tick * (length(bodies.velocity.at(slot)) + turning + scales_.fall) +
+           look_ahead * shortest(half);
 }
 
-/// Begins the tick: where everyone is and how he answers.
+/// Begins the tick for those awake.
 template <Crowd crowd>
-void RigidTick<crowd>::look(const Frozen& /*frozen*/, const Stage& stage)
+void RigidTick<crowd>::look(const Stage& stage)
 {
     const Bodies& bodies = stage.bodies;
     solver_.begin(bodies.awake);
     courses_.resize(bodies.awake + std::size_t{1});
+    courses_[0] = {};
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
         const BodyForm& form = bodies.form[slot];
-        OrientedBox& box = boxes_[form.id];
-        box = box_of(bodies, slot);
-        solver_.response(slot + 1) = response_of(form, box);
+        solver_.response(slot + 1) = response_of(form, boxes_[form.id]);
         BodyCourse& course = courses_[slot + 1];
         course.impulse = glm::dvec3{0.0};
         course.angular_impulse = glm::dvec3{0.0};
+        course.thrown = glm::dvec3{0.0};
+        course.thrown_mean = glm::dvec3{0.0};
         course.rubbing = 0;
+        course.drag = 0.0;
+        course.has_hands = false;
     }
 }
 
@@ -132,7 +223,7 @@ ContactBlock* RigidTick<crowd>::meet(const Manifold& manifold, const ContactPlac
     prepare(block, manifold, centres, memory);
     block.memory = &memory;
     for (std::uint32_t i = 0; i < block.count; ++i) {
-        block.least[i] = closing(block.separation[i], scales_.tick);
+        block.least[i] = closing(block.separation[i], block.begun[i], scales_);
     }
     return &block;
 }
@@ -148,111 +239,177 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
         const OrientedBox& box = boxes_[pair.a];
         const Manifold manifold =
             collide(PlaneSurface{plane.normal, plane.offset_m}, box, reach(stage, slot));
+        const bool was_carried = touches(pair.memory);
         ContactBlock* const block = meet(manifold, {box.centre, box.centre}, pair.memory);
         if (block == nullptr) continue;
-        const Material& material = bodies.form[slot].material;
+        const BodyForm& form = bodies.form[slot];
         block->a = 0;
         block->b = slot + 1;
-        block->friction = friction_of(material, plane.material);
-        block->restitution = std::max(material.restitution, plane.material.restitution);
+        block->friction = friction_of(form.material, plane.material);
+        block->restitution = std::max(form.material.restitution, plane.material.restitution);
+        if (form.drag > 0.0 && was_carried) {
+            courses_[block->b].drag = form.drag / form.mass;
+            courses_[block->b].carrier = plane.normal;
+        }
     }
 }
 
+/// Where two bodies touch or will. Of bodies that come far in a tick, where they do when they meet.
 template <Crowd crowd>
-void RigidTick<crowd>::meet_bodies(const Frozen& /*frozen*/, const Stage& stage)
+Manifold RigidTick<crowd>::between(const Stage& stage, Pair& pair) const
 {
     const Bodies& bodies = stage.bodies;
+    const Slot a = bodies.slot_of[pair.a];
+    const Slot b = bodies.slot_of[pair.b];
+    const OrientedBox& box_a = boxes_[pair.a];
+    const OrientedBox& box_b = boxes_[pair.b];
+    const double margin = reach(stage, a) + reach(stage, b);
+    constexpr double far = 0.5;
+    const double near = far * std::min(shortest(box_a.half), shortest(box_b.half));
+    if (margin < near) return collide(box_a, box_b, margin, pair.memory.axis);
+    const glm::dvec3 velocity = bodies.velocity.at(b) - bodies.velocity.at(a);
+    const auto impact = first_touch(box_a, box_b, velocity, scales_.tick);
+    if (!impact) return collide(box_a, box_b, near, pair.memory.axis);
+    OrientedBox there_a = box_a;
+    OrientedBox there_b = box_b;
+    shift(there_a, impact->time * bodies.velocity.at(a));
+    shift(there_b, impact->time * bodies.velocity.at(b));
+    Manifold manifold = collide(there_a, there_b, look_ahead * near, pair.memory.axis);
+    for (ContactPoint& point : manifold.touching()) {
+        point.separation -= impact->time * glm::dot(velocity, manifold.normal);
+    }
+    return manifold;
+}
+
+template <Crowd crowd>
+void RigidTick<crowd>::meet_bodies(const Stage& stage)
+{
+    const Bodies& bodies = stage.bodies;
+    const auto index_of = [&](Slot slot) { return slot < bodies.awake ? slot + 1 : 0; };
     for (const PairIndex index : neighbours_.pairs()) {
         Pair& pair = neighbours_.pair(index);
         const Slot a = bodies.slot_of[pair.a];
         const Slot b = bodies.slot_of[pair.b];
-        const OrientedBox& box_a = boxes_[pair.a];
-        const OrientedBox& box_b = boxes_[pair.b];
-        const Manifold manifold =
-            collide(box_a, box_b, reach(stage, a) + reach(stage, b), pair.memory.axis);
-        ContactBlock* const block = meet(manifold, {box_a.centre, box_b.centre}, pair.memory);
+        ContactBlock* const block =
+            meet(between(stage, pair), {boxes_[pair.a].centre, boxes_[pair.b].centre}, pair.memory);
         if (block == nullptr) continue;
         const Material& one = bodies.form[a].material;
         const Material& other = bodies.form[b].material;
-        block->a = index_of(stage, a);
-        block->b = index_of(stage, b);
+        block->a = index_of(a);
+        block->b = index_of(b);
         block->friction = friction_of(one, other);
         block->restitution = std::max(one.restitution, other.restitution);
     }
 }
 
+/// Sums up what last tick's contacts do to each body.
 template <Crowd crowd>
-void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
+void RigidTick<crowd>::carry()
 {
-    Bodies& bodies = stage.bodies;
-    neighbours_.update(bodies);
-    look(frozen, stage);
-    meet_planes(frozen, stage);
-    meet_bodies(frozen, stage);
-    const std::span<ContactBlock> blocks = solver_.blocks();
-    for (ContactBlock& block : blocks) {
-        Wrench push = wrench(block, modal(block, block.impulse));
-        if (block.b != 0) {
-            courses_[block.b].impulse += push.impulse;
-            courses_[block.b].angular_impulse +=
-                glm::cross(block.arm_b, push.impulse) + push.angular;
-        }
-        if (block.a != 0) {
-            courses_[block.a].impulse -= push.impulse;
-            courses_[block.a].angular_impulse -=
-                glm::cross(block.arm_a, push.impulse) + push.angular;
-        }
+    for (const ContactBlock& block : solver_.blocks()) {
+        const Wrench push = wrench(block, modal(block, block.impulse));
+        BodyCourse& b = courses_[block.b];
+        b.impulse += push.impulse;
+        b.angular_impulse += glm::cross(block.arm_b, push.impulse) + push.angular;
+        BodyCourse& a = courses_[block.a];
+        a.impulse -= push.impulse;
+        a.angular_impulse -= glm::cross(block.arm_a, push.impulse) + push.angular;
     }
+}
+
+/// Where everyone would go.
+template <Crowd crowd>
+void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
+{
+    push_by_hands(frozen, stage);
     solver_.ending(0) = {};
     solver_.mean(0) = {};
-    for (Slot slot = 0; slot < bodies.awake; ++slot) {
+    for (Slot slot = 0; slot < stage.bodies.awake; ++slot) {
         BodyCourse& course = courses_[slot + 1];
-        follow(course, stage, slot, solver_.response(slot + 1), frozen);
-        solver_.ending(slot + 1) = course.tentative;
+        if (!course.has_hands) follow(course, stage, slot, solver_.response(slot + 1), frozen);
     }
+    if (bounces_) bounce(solver_, courses_.all(), scales_);
+    for (SolverIndex i = 1; i <= stage.bodies.awake; ++i) {
+        solver_.ending(i) = courses_[i].tentative;
+    }
+    for (ContactBlock& block : solver_.blocks()) {
+        set_bend(block, courses_[block.a].mean.spin, courses_[block.b].mean.spin, scales_.tick);
+    }
+}
+
+template <Crowd crowd>
+void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
+{
+    const std::span<HandSprings::Spring> all = hands_.springs();
+    for (std::size_t first = 0; first < all.size(); ++first) {
+        const BodyId body = all[first].body;
+        const Slot slot = stage.bodies.slot_of[body];
+        if (courses_[slot + 1].has_hands) continue;
+        std::array<HipSpring, hips_max> springs;
+        std::array<HipWork, hips_max> work;
+        std::size_t count = 0;
+        for (std::size_t i = first; i < all.size(); ++i) {
+            if (all[i].body == body) springs[count++] = all[i].spring;
+        }
+        follow_hands(courses_[slot + 1], stage, slot, solver_.response(slot + 1),
+                     {{springs.data(), count}, {work.data(), count}, frozen});
+        count = 0;
+        for (std::size_t i = first; i < all.size(); ++i) {
+            if (all[i].body == body) all[i].impulse = work[count++].impulse;
+        }
+    }
+}
+
+/// Finds the velocities at the end, and from them the mean ones.
+template <Crowd crowd>
+void RigidTick<crowd>::solve(const Stage& stage)
+{
+    const Bodies& bodies = stage.bodies;
+    const std::span<ContactBlock> blocks = solver_.blocks();
     const SolverOutcome outcome =
         solver_.solve({quiet * scales_.speed, enough * scales_.speed, sweeps_max});
     counts_.contacts = static_cast<std::uint32_t>(blocks.size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
-    for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        const BodyCourse& course = courses_[slot + 1];
-        const BodyMotion& ending = solver_.ending(slot + 1);
-        BodyMotion& mean = solver_.mean(slot + 1);
-        mean.velocity = course.mean.velocity + 0.5 * (ending.velocity - course.tentative.velocity);
-        mean.spin = course.mean.spin + 0.5 * (ending.spin - course.tentative.spin);
-        mean.angular_impulse = 0.5 * ending.angular_impulse;
+    for (SolverIndex i = 1; i <= bodies.awake; ++i) {
+        const BodyCourse& course = courses_[i];
+        const BodyMotion& ending = solver_.ending(i);
+        solver_.mean(i) = {course.mean.velocity +
+                               0.5 * (ending.velocity - course.tentative.velocity),
+                           course.mean.spin + 0.5 * (ending.spin - course.tentative.spin),
+                           course.thrown_mean + 0.5 * ending.angular_impulse};
     }
-    for (ContactBlock& block : blocks) {
-        remember(block, *block.memory);
-        if (block.friction > 0.0 && block.normal_sum() > 0.0) {
-            ++courses_[block.a].rubbing;
-            ++courses_[block.b].rubbing;
-        }
+    const auto weight_of = [&](const ContactBlock& block) {
+        const double a = block.a != 0 ? bodies.form[block.a - 1].mass : 0.0;
+        const double b = block.b != 0 ? bodies.form[block.b - 1].mass : 0.0;
+        return (a + b) * scales_.speed;
+    };
+    for (const ContactBlock& block : blocks) {
+        remember(block, weight_of(block), *block.memory);
+        if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
+        ++courses_[block.a].rubbing;
+        ++courses_[block.b].rubbing;
     }
     for (const ContactBlock& block : blocks) {
-        if (!(block.friction > 0.0) || (block.a != 0) == (block.b != 0)) continue;
+        if (block.friction == 0.0 || (block.a != 0) == (block.b != 0)) continue;
         const SolverIndex index = block.a + block.b;
         if (courses_[index].rubbing != 1) continue;
         stop_in_time(block, courses_[index], bodies.form[index - 1], scales_, solver_.mean(index));
     }
-    for (ContactBlock& block : blocks) {
+}
+
+/// Changes the ways so that nothing overlaps at the end, without a change of velocities.
+template <Crowd crowd>
+void RigidTick<crowd>::move_apart()
+{
+    for (ContactBlock& block : solver_.blocks()) {
         for (std::uint32_t i = 0; i < block.count; ++i) {
             block.least[i] = parting(block.separation[i], scales_);
         }
+        for (double& part : block.bend) part *= 0.5; // of the mean over the tick
     }
     const double length = scales_.size / scales_.tick;
     solver_.separate({overlap_quiet * length, overlap_enough * length, overlap_sweeps_max});
-    for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        arrive(courses_[slot + 1], bodies, slot, solver_, scales_.tick);
-    }
-}
-
-template <Crowd crowd>
-void RigidTick<crowd>::disturbed(Stage& stage, BodyId body)
-{
-    neighbours_.forget(body);
-    boxes_[body] = box_of(stage.bodies, stage.bodies.slot_of[body]);
 }
 
 template class RigidTick<Crowd::lone>;

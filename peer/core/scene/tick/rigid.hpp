@@ -4,9 +4,12 @@
 
 #include "peer/core/scene/broadphase/neighbours.hpp"
 #include "peer/core/scene/solver/contact_solver.hpp"
+#include "peer/core/scene/solver/sleep.hpp"
 #include "peer/core/scene/stage.hpp"
 #include "peer/core/scene/tick/courses.hpp"
+#include "peer/core/scene/tick/hand_springs.hpp"
 
+#include <type_traits>
 #include <vector>
 
 namespace hapnet::scene {
@@ -40,18 +43,32 @@ public:
 
 private:
     static constexpr Search search = crowd == Crowd::many ? Search::grid : Search::scan;
+    static constexpr bool sleeps = crowd != Crowd::lone;
+    struct NoSleep {
+        NoSleep(const Frozen& /*frozen*/, const Bodies& /*bodies*/) {}
+    };
 
-    void look(const Frozen& frozen, const Stage& stage);
+    void feel(const Frozen& frozen, Stage& stage);
+    void wake(Stage& stage);
+    void look(const Stage& stage);
     void meet_planes(const Frozen& frozen, const Stage& stage);
-    void meet_bodies(const Frozen& frozen, const Stage& stage);
+    void meet_bodies(const Stage& stage);
+    [[nodiscard]] Manifold between(const Stage& stage, Pair& pair) const;
     ContactBlock* meet(const Manifold& manifold, const ContactPlaces& centres,
                        ContactMemory& memory);
-    [[nodiscard]] SolverIndex index_of(const Stage& stage, Slot slot) const;
+    void carry();
+    void set_out(const Frozen& frozen, const Stage& stage);
+    void push_by_hands(const Frozen& frozen, const Stage& stage);
+    void solve(const Stage& stage);
+    void move_apart();
     [[nodiscard]] double reach(const Stage& stage, Slot slot) const;
 
     Scales scales_;
+    bool bounces_ = false;
     Neighbours<search> neighbours_;
-    std::vector<OrientedBox> boxes_; // by id
+    std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
+    HandSprings hands_;
+    std::vector<OrientedBox> boxes_; // by id, where they are
     Scratch<BodyCourse> courses_;    // by solver index
     ContactSolver solver_;
     Counts counts_;

@@ -42,25 +42,51 @@ void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
     Slide slide{frozen.hips, laws_, obstacles_};
     slide.inverse_mass = 1.0 / form.mass;
     slide.left = frozen.tick;
-    slide.place = stage.bodies.position.at(slot);
-    slide.velocity = stage.bodies.velocity.at(slot);
-    for (const int i : {0, 1, 2}) {
-        slide.axis(i).locked = form.inverse_mass[i] == 0.0;
-        if (slide.axis(i).locked) slide.velocity[i] = 0.0;
-        slide.axis(i).steady = frozen.gravity[i];
+    slide.place = per_axis(stage.bodies.position.at(slot));
+    slide.velocity = per_axis(stage.bodies.velocity.at(slot));
+    const PerAxis gravity = per_axis(frozen.gravity);
+    const PerAxis mobility = per_axis(form.inverse_mass);
+    for (std::size_t i = 0; i < 3; ++i) {
+        slide.axes[i].locked = mobility[i] == 0.0;
+        if (slide.axes[i].locked) slide.velocity[i] = 0.0;
+        slide.axes[i].steady = gravity[i];
     }
     if (!stage.pushed.is_empty()) {
-        const glm::dvec3 by_pushes = slide.inverse_mass * stage.pushes[body_];
-        for (const int i : {0, 1, 2}) slide.axis(i).steady += by_pushes[i];
+        const PerAxis push = per_axis(stage.pushes[body_]);
+        for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * push[i];
     }
     slide.near = obstacles_.near(slide.place, 0.0);
-    slide.place = obstacles_.out_of(slide.near, slide.place);
-    slide.near = obstacles_.near(slide.place, 0.0);
+    if (obstacles_.put_out(slide.near, slide.place)) {
+        slide.near = obstacles_.near(slide.place, 0.0);
+    }
 
     hands_.gather(frozen, stage, slide);
-    run(frozen, slide);
-    stage.bodies.position.put(slot, slide.place);
-    stage.bodies.velocity.put(slot, slide.velocity);
+    if (slide.grip_count == 0) {
+        run(frozen, slide);
+        conclude(frozen, stage, slide);
+    } else {
+        try_holding(frozen, stage, slide);
+    }
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::try_holding(const Frozen& frozen, Stage& stage, Slide& start)
+{
+    for (;;) { // each time a hand holds less
+        Slide slide = start.copy();
+        run(frozen, slide);
+        if (SlidingHands::weaken(frozen, stage, slide, start)) continue;
+        conclude(frozen, stage, slide);
+        return;
+    }
+}
+
+template <bool coulomb>
+void SlidingTick<coulomb>::conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const
+{
+    const Slot slot = stage.bodies.slot_of[body_];
+    stage.bodies.position.put(slot, vector(slide.place));
+    stage.bodies.velocity.put(slot, vector(slide.velocity));
     SlidingHands::report(frozen, stage, slide);
 }
 

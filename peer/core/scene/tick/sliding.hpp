@@ -18,7 +18,7 @@ namespace hapnet::scene {
 /// moments; impacts and bounces at theirs; dry friction along a straight way, with its exact stop
 /// and slip. Second order in the tick: dry friction while other forces turn the way; hands at edges
 /// and corners (their normals hold for a tick). First order: a hand that holds at its greatest
-/// force, which is held for the tick.
+/// force, at the start of a tick or in the mean over it: that force is held throughout.
 ///
 /// A bounce that would be over before one tick has passed is none. After `events_max` events in a
 /// tick its springs stay as they are and impacts are inelastic, until its end.
@@ -37,6 +37,9 @@ public:
 
 private:
     void run(const Frozen& frozen, Slide& slide);
+    /// Where hands hold the box: again with less, when one held with more than its greatest force.
+    void try_holding(const Frozen& frozen, Stage& stage, Slide& start);
+    void conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const;
 
     BodyId body_;
     SlideLaws laws_;

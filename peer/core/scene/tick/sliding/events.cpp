@@ -11,7 +11,7 @@ using Kind = SlideEvent::Kind;
 /// `factor` times a spring's depth, plus `level`.
 Watch of_depth(const Spring& spring, double factor)
 {
-    const auto axis = static_cast<std::size_t>(spring.axis);
+    const auto axis = spring.axis;
     Watch watch{.level = factor * spring.depth, .slope = factor * spring.closing};
     watch.way_weight[axis] = factor * spring.sign;
     return watch;
@@ -22,7 +22,7 @@ Watch of_tension(const Slide& slide, const Spring& spring, double factor, double
 {
     const double k = factor * slide.hips.stiffness_n_per_m;
     const double c = factor * slide.hips.damping_ns_per_m;
-    const auto axis = static_cast<std::size_t>(spring.axis);
+    const auto axis = spring.axis;
     Watch watch{.level = level + k * spring.depth + c * spring.closing,
                 .slope = k * spring.closing};
     watch.way_weight[axis] = k * spring.sign;
@@ -42,11 +42,28 @@ struct SpringWatcher {
         first = {.time = *time, .kind = Kind::spring, .spring = index, .phase = next};
     }
 
+    /// Most springs act throughout the tick: whether this is one of them.
+    [[nodiscard]] bool keeps_acting() const
+    {
+        const Spring& spring = slide.springs[index];
+        if (spring.phase != Phase::active) return false;
+        const HipDescription& hips = slide.hips;
+        const SlideAxis& axis = slide.axes[spring.axis];
+        const double closing = spring.closing_at(slide.velocity[spring.axis]);
+        const double k = hips.stiffness_n_per_m;
+        const double c = hips.damping_ns_per_m;
+        const double tension = k * spring.depth + c * closing;
+        const double rate = std::abs(k * closing + c * spring.sign * axis.acceleration);
+        const double bend = k * axis.most.acceleration + c * axis.most.jerk;
+        const double change = first.time * (rate + 0.5 * first.time * bend);
+        return tension >= change && hips.force_max_n - tension >= change;
+    }
+
     void look() const
     {
         const Spring& spring = slide.springs[index];
         const HipDescription& hips = slide.hips;
-        const SlideAxis& axis = slide.axis(spring.axis);
+        const SlideAxis& axis = slide.axes[spring.axis];
         const double closing = spring.closing_at(slide.velocity[spring.axis]);
         const double k = hips.stiffness_n_per_m;
         const double c = hips.damping_ns_per_m;
@@ -86,40 +103,45 @@ struct SpringWatcher {
 };
 
 /// `side` times how far the centre is from a face.
-Watch of_gap(const Slide& slide, int axis, double side, double face)
+Watch of_gap(const Slide& slide, std::size_t axis, double side, double face)
 {
     Watch watch{.level = side * (slide.place[axis] - face)};
-    watch.way_weight[static_cast<std::size_t>(axis)] = side;
+    watch.way_weight[axis] = side;
     return watch;
 }
 
 /// Whether the box cannot come to an obstacle in what is left of the tick: one axis keeps it away.
-bool is_out_of_reach(const Slide& slide, const Obstacle& obstacle)
+bool keeps_away(const Slide& slide, const Obstacle& obstacle, std::size_t i)
 {
-    for (const int i : {0, 1, 2}) {
-        const double gap = obstacle.gap(i, slide.place[i]);
-        const double reach = slide.axis(i).reach;
-        if (gap > reach || (reach == 0.0 && gap >= 0.0)) return true;
-    }
-    return false;
+    const double gap = obstacle.gap(i, slide.place[i]);
+    const double reach = slide.axes[i].reach;
+    return gap > reach || (reach == 0.0 && gap >= 0.0);
 }
 
-/// The axis that keeps a box away from an obstacle at some moment: the one with the widest gap; -1
-/// when there is none.
-int keeping_away(const Slide& slide, const Obstacle& obstacle, double time, int but)
+bool is_out_of_reach(const Slide& slide, const Obstacle& obstacle)
 {
-    int widest = -1;
+    if (obstacle.is_plane) return keeps_away(slide, obstacle, obstacle.normal_axis);
+    return keeps_away(slide, obstacle, 0) || keeps_away(slide, obstacle, 1) ||
+           keeps_away(slide, obstacle, 2);
+}
+
+constexpr std::size_t nothing = 3;
+
+/// The axis that keeps a box away from an obstacle at some moment: the one with the widest gap.
+std::size_t keeping_away(const Slide& slide, const Obstacle& obstacle, double time, std::size_t but)
+{
+    std::size_t widest = nothing;
     double most = 0.0;
-    for (const int i : {0, 1, 2}) {
+    for (std::size_t i = 0; i < 3; ++i) {
         if (i == but) continue;
-        const Motion motion = slide.course(i).after(time);
+        const Motion motion = slide.courses[i].after(time);
         const double place = slide.place[i] + motion.way;
         const double gap = obstacle.gap(i, place);
-        const double speed = slide.course(i).moves() ? motion.speed : 0.0;
-        if (gap < 0.0 || (gap == 0.0 && but >= 0 && obstacle.side(i, place) * speed < 0.0)) {
+        const double speed = slide.courses[i].moves() ? motion.speed : 0.0;
+        if (gap < 0.0 || (gap == 0.0 && but != nothing && obstacle.side(i, place) * speed < 0.0)) {
             continue;
         }
-        if (widest < 0 || gap > most) {
+        if (widest == nothing || gap > most) {
             widest = i;
             most = gap;
         }
@@ -131,18 +153,18 @@ int keeping_away(const Slide& slide, const Obstacle& obstacle, double time, int 
 void look_for_impact(const Slide& slide, const Obstacle& obstacle, SlideEvent& first)
 {
     constexpr int turns_max = 8; // an axis may open its gap again while another closes
-    int axis = keeping_away(slide, obstacle, 0.0, -1);
+    std::size_t axis = keeping_away(slide, obstacle, 0.0, nothing);
     double time = 0.0;
-    for (int turn = 0; turn < turns_max && axis >= 0; ++turn) {
-        const double place = slide.place[axis] + slide.course(axis).after(time).way;
+    for (int turn = 0; turn < turns_max && axis != nothing; ++turn) {
+        const double place = slide.place[axis] + slide.courses[axis].after(time).way;
         const double side = obstacle.side(axis, place);
         const double face = obstacle.face(axis, side);
         const auto root =
             first_root(of_gap(slide, axis, side, face), slide.courses, time, first.time);
         if (!root) return;
         time = *root;
-        const int other = keeping_away(slide, obstacle, time, axis);
-        if (other < 0) {
+        const std::size_t other = keeping_away(slide, obstacle, time, axis);
+        if (other == nothing) {
             first = {.time = time, .kind = Kind::impact, .axis = axis};
             first.face = face;
             first.side = side;
@@ -154,15 +176,15 @@ void look_for_impact(const Slide& slide, const Obstacle& obstacle, SlideEvent& f
 }
 
 /// What carries an axis may be lost: by the other forces, or behind its edge.
-void look_at_carrier(const Slide& slide, int i, SlideEvent& first)
+void look_at_carrier(const Slide& slide, std::size_t i, SlideEvent& first)
 {
-    const SlideAxis& axis = slide.axis(i);
+    const SlideAxis& axis = slide.axes[i];
     if (axis.load + axis.load_ramp * first.time < 0.0) {
         first = {.time = axis.load / -axis.load_ramp, .kind = Kind::unloading, .axis = i};
     }
     if (axis.carrier->is_plane) return;
-    for (const int j : {(i + 1) % 3, (i + 2) % 3}) {
-        if (-axis.carrier->gap(j, slide.place[j]) > slide.axis(j).reach) continue;
+    for (const std::size_t j : {(i + 1) % 3, (i + 2) % 3}) {
+        if (-axis.carrier->gap(j, slide.place[j]) > slide.axes[j].reach) continue;
         for (const double side : {1.0, -1.0}) {
             const double face = axis.carrier->face(j, side);
             const auto time =
@@ -178,15 +200,15 @@ void look_at_carrier(const Slide& slide, int i, SlideEvent& first)
 /// box would come to rest by endlessly many.
 void arrive(Slide& slide, const SlideEvent& event, double tick)
 {
-    const int i = event.axis;
-    const Course& course = slide.course(i);
+    const std::size_t i = event.axis;
+    const Course& course = slide.courses[i];
     const double closing = -event.side * slide.velocity[i];
     const double acceleration = course.acceleration(event.time, course.after(event.time));
     const double back = slide.calm ? 0.0 : event.obstacle->restitution * closing;
     const double pressing = -event.side * acceleration;
     const bool is_over = 2.0 * back <= pressing * tick;
     slide.velocity[i] = is_over ? 0.0 : event.side * back;
-    slide.axis(i).stopped = slide.calm;
+    slide.axes[i].stopped = slide.calm;
 }
 
 } // namespace
@@ -196,10 +218,11 @@ SlideEvent next_event(const Slide& slide)
     SlideEvent first{.time = slide.left};
     if (!slide.calm) {
         for (std::uint32_t i = 0; i < slide.spring_count; ++i) {
-            SpringWatcher{slide, i, first}.look();
+            const SpringWatcher watcher{slide, i, first};
+            if (!watcher.keeps_acting()) watcher.look();
         }
-        for (const int i : {0, 1, 2}) {
-            if (slide.axis(i).carrier) look_at_carrier(slide, i, first);
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (slide.axes[i].carrier) look_at_carrier(slide, i, first);
         }
     }
     for (const std::uint32_t id : slide.near) {
@@ -228,11 +251,11 @@ void apply(Slide& slide, const SlideEvent& event, double tick)
         slide.place[event.axis] = event.face;
         arrive(slide, event, tick);
         break;
-    case Kind::unloading: slide.axis(event.axis).leaving = true; break;
+    case Kind::unloading: slide.axes[event.axis].leaving = true; break;
     case Kind::edge: slide.place[event.axis] = event.face; break;
     case Kind::stop:
-        for (const int i : {0, 1, 2}) {
-            if (slide.course(i).moves()) slide.velocity[i] = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (slide.courses[i].moves()) slide.velocity[i] = 0.0;
         }
         break;
     case Kind::slip: slide.rubbing.slips = true; break;

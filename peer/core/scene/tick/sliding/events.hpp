@@ -21,7 +21,7 @@ struct SlideEvent {
     Kind kind = Kind::none;
     std::uint32_t spring = 0;
     Phase phase = Phase::apart;         // the spring's next one
-    int axis = 0;                       // of an impact, an unloading or an edge
+    std::size_t axis = 0;               // of an impact, an unloading or an edge
     double face = 0.0;                  // where the centre is at an impact or an edge
     double side = 0.0;                  // of an impact: +1 at a high face
     const Obstacle* obstacle = nullptr; // of an impact

@@ -12,27 +12,33 @@ namespace {
 
 using State = Rubbing::State;
 
-double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+PerAxis unit(const PerAxis& a)
+{
+    const double length = std::sqrt(dot(a, a));
+    return {a[0] / length, a[1] / length, a[2] / length};
+}
 
 struct Tangential {
-    glm::dvec3 velocity{0.0};
-    glm::dvec3 push{0.0};
-    glm::dvec3 ramp{0.0};
-    std::array<int, 3> axes{};
-    int count = 0;
+    PerAxis velocity{};
+    PerAxis push{};
+    PerAxis ramp{};
+    std::array<std::size_t, 3> all{};
+    std::size_t count = 0;
+
+    [[nodiscard]] std::span<const std::size_t> axes() const { return {all.data(), count}; }
 };
 
 /// What the axes do that nothing but friction holds.
 Tangential tangential(const Slide& slide)
 {
     Tangential found;
-    for (const int i : {0, 1, 2}) {
-        const SlideAxis& axis = slide.axis(i);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const SlideAxis& axis = slide.axes[i];
         if (axis.locked || axis.stopped || axis.carrier) continue;
         found.velocity[i] = slide.velocity[i];
-        found.push[i] = slide.course(i).push;
-        found.ramp[i] = slide.course(i).ramp;
-        found.axes[static_cast<std::size_t>(found.count++)] = i;
+        found.push[i] = slide.courses[i].push;
+        found.ramp[i] = slide.courses[i].ramp;
+        found.all[found.count++] = i;
     }
     return found;
 }
@@ -42,12 +48,12 @@ Tangential tangential(const Slide& slide)
 bool is_straight(const Slide& slide, const Tangential& free)
 {
     if (free.count < 2) return true;
-    const int i = free.axes[0];
-    const int j = free.axes[1];
-    for (const int k : {i, j}) {
+    const std::size_t i = free.all[0];
+    const std::size_t j = free.all[1];
+    for (const std::size_t k : {i, j}) {
         if (free.velocity[k] == 0.0 && free.push[k] == 0.0 && free.ramp[k] == 0.0) return true;
     }
-    if (slide.course(i).kernel != slide.course(j).kernel) return false;
+    if (slide.courses[i].kernel != slide.courses[j].kernel) return false;
     if (free.ramp[i] != 0.0 || free.ramp[j] != 0.0) return false;
     constexpr double rounding = 1e-13;
     const double cross = free.velocity[i] * free.push[j] - free.velocity[j] * free.push[i];
@@ -55,26 +61,24 @@ bool is_straight(const Slide& slide, const Tangential& free)
            rounding * rounding * dot(free.velocity, free.velocity) * dot(free.push, free.push);
 }
 
-void oppose(Slide& slide, const Tangential& free, const glm::dvec3& direction)
+void oppose(Slide& slide, const Tangential& free, const PerAxis& direction)
 {
-    for (int n = 0; n < free.count; ++n) {
-        const int i = free.axes[static_cast<std::size_t>(n)];
-        slide.course(i).push = free.push[i] - slide.rubbing.limit * direction[i];
-        slide.course(i).ramp = free.ramp[i] - slide.rubbing.limit_ramp * direction[i];
+    for (const std::size_t i : free.axes()) {
+        slide.courses[i].push = free.push[i] - slide.rubbing.limit * direction[i];
+        slide.courses[i].ramp = free.ramp[i] - slide.rubbing.limit_ramp * direction[i];
     }
 }
 
 /// The direction in the middle of what is left of the tick, found with the one at its start.
-glm::dvec3 turned(Slide& slide, const Tangential& free, const glm::dvec3& direction)
+PerAxis turned(Slide& slide, const Tangential& free, const PerAxis& direction)
 {
     oppose(slide, free, direction);
-    glm::dvec3 middle{0.0};
-    for (int n = 0; n < free.count; ++n) {
-        const int i = free.axes[static_cast<std::size_t>(n)];
-        middle[i] = slide.course(i).after(0.5 * slide.left).speed;
+    PerAxis middle{};
+    for (const std::size_t i : free.axes()) {
+        middle[i] = slide.courses[i].after(0.5 * slide.left).speed;
     }
     if (!(dot(middle, direction) > 0.0)) return direction;
-    return middle / std::sqrt(dot(middle, middle));
+    return unit(middle);
 }
 
 /// Adds up what presses on the carriers; whether there is any friction.
@@ -108,15 +112,15 @@ void with_friction(Slide& slide)
         const bool holds = push_squared <= rubbing.limit * rubbing.limit && !has_slipped;
         if (holds || push_squared == 0.0) {
             rubbing.state = State::stuck;
-            for (int n = 0; n < free.count; ++n) {
-                slide.course(free.axes[static_cast<std::size_t>(n)]).kernel = nullptr;
+            for (const std::size_t i : free.axes()) {
+                slide.courses[i].kernel = nullptr;
             }
             return;
         }
         rubbing.slips = true;
-        rubbing.direction = free.push / std::sqrt(push_squared);
+        rubbing.direction = unit(free.push);
     } else {
-        rubbing.direction = free.velocity / std::sqrt(speed_squared);
+        rubbing.direction = unit(free.velocity);
     }
     rubbing.state = State::sliding;
     if (!is_straight(slide, free)) rubbing.direction = turned(slide, free, rubbing.direction);
@@ -143,17 +147,17 @@ void look_for_slip(const Slide& slide, SlideEvent& first)
 
 void look_for_stop(const Slide& slide, SlideEvent& first)
 {
-    const glm::dvec3& direction = slide.rubbing.direction;
+    const PerAxis& direction = slide.rubbing.direction;
     Watch watch{.leaves_zero = slide.rubbing.slips};
     double speed = 0.0;
     double rate = 0.0;
     double bend = 0.0;
-    for (const int i : {0, 1, 2}) {
-        if (!slide.course(i).moves()) continue;
-        watch.speed_weight[static_cast<std::size_t>(i)] = direction[i];
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!slide.courses[i].moves()) continue;
+        watch.speed_weight[i] = direction[i];
         speed += direction[i] * slide.velocity[i];
-        rate += direction[i] * slide.axis(i).acceleration;
-        bend += std::abs(direction[i]) * slide.axis(i).most.jerk;
+        rate += direction[i] * slide.axes[i].acceleration;
+        bend += std::abs(direction[i]) * slide.axes[i].most.jerk;
     }
     if (stays_positive(speed, rate, bend, first.time)) return;
     const auto time = first_root(watch, slide.courses, 0.0, first.time);

@@ -8,14 +8,32 @@ namespace hapnet::scene {
 
 namespace {
 
-double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double largest(const PerAxis& a) { return std::max(std::max(a[0], a[1]), a[2]); }
 
-double largest(const glm::dvec3& v) { return std::max(std::max(v.x, v.y), v.z); }
-
-double distance(const glm::dvec3& from_centre, const glm::dvec3& half)
+/// How far a place is outside of a box along each axis; < 0: inside.
+PerAxis beyond(const PerAxis& from_centre, const PerAxis& half)
 {
-    const glm::dvec3 out = glm::max(glm::abs(from_centre) - half, glm::dvec3{0.0});
+    return {std::abs(from_centre[0]) - half[0], std::abs(from_centre[1]) - half[1],
+            std::abs(from_centre[2]) - half[2]};
+}
+
+double distance(const PerAxis& from_centre, const PerAxis& half)
+{
+    PerAxis out = beyond(from_centre, half);
+    for (double& part : out) part = std::max(part, 0.0);
     return std::sqrt(dot(out, out));
+}
+
+PerAxis difference(const glm::dvec3& a, const PerAxis& b)
+{
+    return {a.x - b[0], a.y - b[1], a.z - b[2]};
+}
+
+/// One part of a vector.
+template <typename Vector>
+auto& part(Vector& v, std::size_t axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
 /// The spring and damper alone, at one moment.
@@ -26,18 +44,38 @@ double force_at(const HipDescription& hips, double depth, double closing)
                       hips.force_max_n);
 }
 
+/// A hand that holds with the same force throughout the tick.
+void hold_steadily(HipTouch& touch, Slide& slide, base::Force force)
+{
+    touch.on_body = force;
+    touch.on_hip += -force;
+    const PerAxis held = per_axis(force.value);
+    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * held[i];
+}
+
 } // namespace
 
 SlidingHands::SlidingHands(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable)
     : body_{movable.id},
-      half_{movable.half},
+      half_{per_axis(movable.half)},
       margin_{std::min(std::min(movable.half.x, movable.half.y), movable.half.z)}
 {
     for (const Slot slot : bodies.slot_of) {
         if (bodies.form[slot].mass > 0.0) continue;
-        fixed_.push_back({bodies.position.at(slot), bodies.form[slot].half});
+        fixed_.push_back({per_axis(bodies.position.at(slot)), per_axis(bodies.form[slot].half)});
     }
     entered_fixed_.resize(frozen.hips.count * fixed_.size());
+}
+
+bool SlidingHands::is_clear(const Frozen& frozen, const HipInput& hip, const Memory& memory)
+{
+    const PerAxis gone = difference(hip.position.value, memory.seen_from);
+    const PerAxis velocity = per_axis(hip.velocity.value);
+    double reach = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        reach = std::max(reach, std::abs(gone[i]) + frozen.tick * std::abs(velocity[i]));
+    }
+    return reach + frozen.hips.radius_m < memory.clear;
 }
 
 void SlidingHands::gather(const Frozen& frozen, Stage& stage, Slide& slide)
@@ -51,11 +89,11 @@ void SlidingHands::gather(const Frozen& frozen, Stage& stage, Slide& slide)
             memory.held_at.reset();
             continue;
         }
-        if (!fixed_.empty()) touch_fixed(frozen, stage, i);
+        if (!is_clear(frozen, hip, memory)) touch_fixed(frozen, stage, i);
         if (!hip.gripping) {
             memory.held_at.reset();
         } else if (!memory.held_at) {
-            const glm::dvec3 from_centre = hip.position.value - slide.place;
+            const PerAxis from_centre = difference(hip.position.value, slide.place);
             const double reach = frozen.hips.radius_m + frozen.hips.grip_reach_m;
             if (distance(from_centre, half_) <= reach) memory.held_at = from_centre;
         }
@@ -73,61 +111,84 @@ void SlidingHands::hold(const Frozen& frozen, Stage& stage, Slide& slide, std::u
     const HipInput& hip = stage.hips[index];
     Memory& memory = memory_[index];
     memory.entered = {};
-    const Grip grip{index, hip.position.value - (slide.place + *memory.held_at), hip.velocity.value,
-                    glm::dvec3{0.0}};
-    const base::Force wanted{hips.stiffness_n_per_m * grip.stretch +
-                             hips.damping_ns_per_m * (grip.velocity - slide.velocity)};
+    const PerAxis from_centre = difference(hip.position.value, slide.place);
+    Grip grip{index, from_centre, per_axis(hip.velocity.value), {}};
+    base::Force wanted;
+    for (std::size_t i = 0; i < 3; ++i) {
+        grip.stretch[i] -= (*memory.held_at)[i];
+        wanted.value[static_cast<int>(i)] =
+            hips.stiffness_n_per_m * grip.stretch[i] +
+            hips.damping_ns_per_m * (grip.velocity[i] - slide.velocity[i]);
+    }
     const base::Force force = base::limited(wanted, hips.force_max_n);
-    const double out = distance(hip.position.value - slide.place, half_);
     HipTouch& touch = stage.touches[index];
-    touch.holding = true;
-    touch.depth_m = std::max(touch.depth_m, std::max(hips.radius_m - out, 0.0));
+    touch.holding = touch.touching = true;
+    touch.depth_m =
+        std::max(touch.depth_m, std::max(hips.radius_m - distance(from_centre, half_), 0.0));
     touch.on_hip_at_start += -force;
     if (force == wanted) {
         slide.grips[slide.grip_count++] = grip;
         return;
     }
-    touch.on_body = force; // held for the tick
-    for (const int i : {0, 1, 2}) slide.axis(i).steady += slide.inverse_mass * force.value[i];
+    hold_steadily(touch, slide, force);
 }
 
 void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index)
 {
     const HipDescription& hips = frozen.hips;
     const HipInput& hip = stage.hips[index];
-    const Approach approach{.from_centre = hip.position.value - slide.place,
-                            .velocity = hip.velocity.value - slide.velocity,
-                            .radius = hips.radius_m,
-                            .tick = frozen.tick};
-    const glm::dvec3 apart =
-        glm::abs(approach.from_centre) - half_ - 2.0 * frozen.tick * glm::abs(approach.velocity);
-    if (largest(apart) > hips.radius_m + margin_) {
-        memory_[index].entered = {};
+    EnteredFace& entered = memory_[index].entered;
+    const PerAxis from_centre = difference(hip.position.value, slide.place);
+    const Outside out{from_centre, half_};
+    if (out.directions == 1 && out.length() < hips.radius_m) { // as nearly always when it pushes
+        entered = out.face();
+        const std::size_t axis = out.axis;
+        push_face(stage, slide, index, {entered, hips.radius_m - std::abs(out.away[axis]), {}});
         return;
     }
-    const auto meeting = meet(approach, half_, memory_[index].entered);
-    if (!meeting) return;
-    HipTouch& touch = stage.touches[index];
-    touch.depth_m = std::max(touch.depth_m, meeting->depth);
-    double force = 0.0;
-    if (meeting->axis >= 0) {
-        const int axis = meeting->axis;
-        Spring& spring = slide.springs[slide.spring_count++];
-        spring.hip = index;
-        spring.axis = axis;
-        spring.sign = meeting->normal[axis];
-        spring.depth = meeting->depth;
-        spring.closing = -spring.sign * hip.velocity.value[axis];
-        spring.phase = spring.phase_now(hips, slide.velocity[axis]);
-        spring.impulse = 0.0;
-        force = spring.force(hips, slide.velocity[axis]);
-    } else {
-        const double closing = -dot(meeting->normal, hip.velocity.value);
-        slide.slanted[slide.slanted_count++] = {index, meeting->normal, meeting->depth, closing,
-                                                0.0};
-        force = force_at(hips, meeting->depth, -dot(meeting->normal, approach.velocity));
+    const Approach approach{.from_centre = from_centre,
+                            .velocity = difference(hip.velocity.value, slide.velocity),
+                            .radius = hips.radius_m,
+                            .tick = frozen.tick};
+    const double far = hips.radius_m + margin_;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double swept = 2.0 * frozen.tick * std::abs(approach.velocity[i]);
+        if (std::abs(from_centre[i]) > half_[i] + far + swept) {
+            entered = {};
+            return;
+        }
     }
-    touch.on_hip_at_start.value += force * meeting->normal;
+    const auto meeting = meet(approach, half_, entered);
+    if (!meeting) return;
+    if (meeting->face.axis != no_axis) {
+        push_face(stage, slide, index, *meeting);
+        return;
+    }
+    HipTouch& touch = stage.touches[index];
+    const PerAxis& normal = meeting->oblique;
+    const double closing = -dot(normal, per_axis(hip.velocity.value));
+    slide.slanted[slide.slanted_count++] = {index, normal, meeting->depth, closing, 0.0};
+    touch.depth_m = std::max(touch.depth_m, meeting->depth);
+    touch.on_hip_at_start.value +=
+        force_at(hips, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
+}
+
+void SlidingHands::push_face(Stage& stage, Slide& slide, std::uint32_t index,
+                             const Meeting& meeting)
+{
+    const std::size_t axis = meeting.face.axis;
+    const double speed = slide.velocity[axis];
+    Spring& spring = slide.springs[slide.spring_count++];
+    spring.hip = index;
+    spring.axis = axis;
+    spring.sign = meeting.face.sign;
+    spring.depth = meeting.depth;
+    spring.closing = -spring.sign * part(stage.hips[index].velocity.value, axis);
+    spring.impulse = 0.0;
+    const double force = spring.settle(slide.hips, speed);
+    HipTouch& touch = stage.touches[index];
+    touch.depth_m = std::max(touch.depth_m, meeting.depth);
+    part(touch.on_hip_at_start.value, axis) += spring.sign * force;
 }
 
 void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index)
@@ -136,18 +197,18 @@ void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t
     const HipInput& hip = stage.hips[index];
     HipTouch& touch = stage.touches[index];
     Memory& memory = memory_[index];
-    const glm::dvec3 gone = glm::abs(hip.position.value - memory.seen_from);
-    const double sweep = frozen.tick * largest(glm::abs(hip.velocity.value)) + hips.radius_m;
-    if (largest(gone) + sweep < memory.clear) return;
-    memory.seen_from = hip.position.value;
+    const PerAxis place = per_axis(hip.position.value);
+    const PerAxis velocity = per_axis(hip.velocity.value);
+    const double sweep = frozen.tick * largest(beyond(velocity, {})) + hips.radius_m;
+    memory.seen_from = place;
     memory.clear = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < fixed_.size(); ++i) {
-        const Approach approach{.from_centre = hip.position.value - fixed_[i].centre,
-                                .velocity = hip.velocity.value,
+        const Approach approach{.from_centre = difference(hip.position.value, fixed_[i].centre),
+                                .velocity = velocity,
                                 .radius = hips.radius_m,
                                 .tick = frozen.tick};
         EnteredFace& entered = entered_fixed_[index * fixed_.size() + i];
-        const double apart = largest(glm::abs(approach.from_centre) - fixed_[i].half);
+        const double apart = largest(beyond(approach.from_centre, fixed_[i].half));
         memory.clear = std::min(memory.clear, apart);
         if (apart >= sweep) {
             entered = {};
@@ -155,12 +216,14 @@ void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t
         }
         const auto meeting = meet(approach, fixed_[i].half, entered);
         if (!meeting) continue;
-        const double closing = -dot(meeting->normal, hip.velocity.value);
+        PerAxis normal = meeting->oblique;
+        if (meeting->face.axis != no_axis) normal[meeting->face.axis] = meeting->face.sign;
+        const double closing = -dot(normal, velocity);
         const double mean =
             steady_impulse(hips, meeting->depth, closing, frozen.tick) / frozen.tick;
         touch.depth_m = std::max(touch.depth_m, meeting->depth);
-        touch.on_hip.value += mean * meeting->normal;
-        touch.on_hip_at_start.value += force_at(hips, meeting->depth, closing) * meeting->normal;
+        touch.on_hip.value += mean * vector(normal);
+        touch.on_hip_at_start.value += force_at(hips, meeting->depth, closing) * vector(normal);
     }
 }
 
@@ -169,14 +232,14 @@ void SlidingHands::press_slanted(Slide& slide)
     const HipDescription& hips = slide.hips;
     const double half_tick = 0.5 * slide.left;
     for (SlantedSpring& spring : slide.active_slanted()) {
-        const glm::dvec3& normal = spring.normal;
+        const PerAxis& normal = spring.normal;
         double closing = spring.closing;
         double bend = 0.0; // of the depth, without this spring
         double ease = 0.0; // 1/mass along the normal
-        for (const int i : {0, 1, 2}) {
-            if (!slide.course(i).moves()) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!slide.courses[i].moves()) continue;
             closing += normal[i] * slide.velocity[i];
-            bend += normal[i] * slide.axis(i).acceleration;
+            bend += normal[i] * slide.axes[i].acceleration;
             ease += normal[i] * normal[i] * slide.inverse_mass;
         }
         // depth and closing speed in the middle: linear in the force that acts meanwhile.
@@ -187,30 +250,52 @@ void SlidingHands::press_slanted(Slide& slide)
             hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing + answer * bend;
         spring.force = std::clamp(free_force / (1.0 + answer * ease), 0.0, hips.force_max_n);
         if (depth + half_tick * half_tick * (bend - ease * spring.force) <= 0.0) spring.force = 0.0;
-        for (const int i : {0, 1, 2}) {
+        for (std::size_t i = 0; i < 3; ++i) {
             const double change = -slide.inverse_mass * spring.force * normal[i];
-            slide.axis(i).steady += change;
-            if (slide.course(i).moves()) slide.axis(i).acceleration += change;
+            slide.axes[i].steady += change;
+            if (slide.courses[i].moves()) slide.axes[i].acceleration += change;
         }
     }
 }
 
+bool SlidingHands::weaken(const Frozen& frozen, Stage& stage, const Slide& slide, Slide& again)
+{
+    constexpr double rounding = 1e-12;
+    const double most = frozen.tick * frozen.hips.force_max_n;
+    for (std::uint32_t n = 0; n < slide.grip_count; ++n) {
+        const PerAxis& impulse = slide.grips[n].impulse;
+        const double size = std::sqrt(dot(impulse, impulse));
+        if (size <= (1.0 + rounding) * most) continue;
+        const base::Force force{(frozen.hips.force_max_n / size) * vector(impulse)};
+        hold_steadily(stage.touches[slide.grips[n].hip], again, force);
+        again.grips[n] = again.grips[--again.grip_count];
+        return true;
+    }
+    return false;
+}
+
 void SlidingHands::report(const Frozen& frozen, Stage& stage, const Slide& slide)
 {
+    const double per_tick = 1.0 / frozen.tick;
     for (const Spring& spring : slide.active_springs()) {
-        stage.touches[spring.hip].on_body.value[spring.axis] -=
-            spring.sign * std::max(spring.impulse / frozen.tick, 0.0);
+        if (spring.impulse <= 0.0) continue;
+        HipTouch& touch = stage.touches[spring.hip];
+        const double force = spring.sign * (spring.impulse * per_tick);
+        touch.touching = true;
+        part(touch.on_body.value, spring.axis) -= force;
+        part(touch.on_hip.value, spring.axis) += force;
     }
     for (const SlantedSpring& spring : slide.active_slanted()) {
-        stage.touches[spring.hip].on_body.value -= spring.force * spring.normal;
+        if (spring.force <= 0.0) continue;
+        HipTouch& touch = stage.touches[spring.hip];
+        touch.touching = true;
+        touch.on_body.value -= spring.force * vector(spring.normal);
+        touch.on_hip.value += spring.force * vector(spring.normal);
     }
     for (const Grip& grip : slide.active_grips()) {
-        stage.touches[grip.hip].on_body.value += grip.impulse / frozen.tick;
-    }
-    for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
-        HipTouch& touch = stage.touches[i];
-        touch.touching = touch.holding || touch.on_body != base::Force{};
-        touch.on_hip += -touch.on_body;
+        HipTouch& touch = stage.touches[grip.hip];
+        touch.on_body.value += per_tick * vector(grip.impulse);
+        touch.on_hip.value -= per_tick * vector(grip.impulse);
     }
 }
 

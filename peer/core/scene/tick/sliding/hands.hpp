@@ -22,6 +22,9 @@ public:
     /// Adds the forces of hands at edges and corners, once the courses of the axes are known.
     /// Midpoint rule: second order, and it neither makes nor loses energy.
     static void press_slanted(Slide& slide);
+    /// Whether a hand held with more than its greatest force in the tick that `slide` has run. Then
+    /// `again`, the tick before it ran, has that force held throughout instead.
+    static bool weaken(const Frozen& frozen, Stage& stage, const Slide& slide, Slide& again);
     /// Tells what the springs did in the tick.
     static void report(const Frozen& frozen, Stage& stage, const Slide& slide);
     /// The box has been put somewhere else.
@@ -29,22 +32,25 @@ public:
 
 private:
     struct FixedBox {
-        glm::dvec3 centre;
-        glm::dvec3 half;
+        PerAxis centre;
+        PerAxis half;
     };
     struct Memory {
-        EnteredFace entered;                 // of the movable box
-        std::optional<glm::dvec3> held_at{}; // from the box's centre
-        glm::dvec3 seen_from{0.0};
+        EnteredFace entered;              // of the movable box
+        std::optional<PerAxis> held_at{}; // from the box's centre
+        PerAxis seen_from{};
         double clear = -1.0; // no fixed box is nearer to `seen_from`, along every axis
     };
 
+    /// Whether no fixed box is within reach of a hand in this tick.
+    static bool is_clear(const Frozen& frozen, const HipInput& hip, const Memory& memory);
     void hold(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
     void touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
+    static void push_face(Stage& stage, Slide& slide, std::uint32_t index, const Meeting& meeting);
     void touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index);
 
     BodyId body_;
-    glm::dvec3 half_;
+    PerAxis half_;
     double margin_; // how far the box may come in a tick beyond what the speeds at its start say
     std::vector<FixedBox> fixed_;
     std::vector<EnteredFace> entered_fixed_; // by hand, then by box

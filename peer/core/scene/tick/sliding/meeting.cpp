@@ -9,129 +9,92 @@ namespace hapnet::scene {
 
 namespace {
 
-double sign_of(double value) { return value < 0.0 ? -1.0 : 1.0; }
-
-EnteredFace face_at(int axis, double place)
+EnteredFace face_at(std::size_t axis, double place)
 {
-    return {static_cast<std::int8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};
+    return {static_cast<std::uint8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};
 }
 
-Meeting at_face(const Approach& hand, const glm::dvec3& half, EnteredFace face)
+EnteredFace nearest_face(const PerAxis& place, const PerAxis& half)
 {
-    Meeting meeting{.axis = face.axis};
-    meeting.normal[face.axis] = face.sign;
-    meeting.depth = hand.radius + half[face.axis] - face.sign * hand.from_centre[face.axis];
-    return meeting;
-}
-
-EnteredFace nearest_face(const glm::dvec3& place, const glm::dvec3& half)
-{
-    int nearest = 0;
-    for (const int i : {1, 2}) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
         if (half[i] - std::abs(place[i]) < half[nearest] - std::abs(place[nearest])) nearest = i;
     }
     return face_at(nearest, place[nearest]);
 }
 
-/// The vector from the closest point of the box.
-glm::dvec3 outside(const glm::dvec3& place, const glm::dvec3& half)
-{
-    glm::dvec3 out{0.0};
-    for (const int i : {0, 1, 2}) {
-        if (place[i] > half[i]) out[i] = place[i] - half[i];
-        if (place[i] < -half[i]) out[i] = place[i] + half[i];
-    }
-    return out;
-}
-
-int largest(const glm::dvec3& v)
-{
-    int axis = 0;
-    for (const int i : {1, 2}) {
-        if (std::abs(v[i]) > std::abs(v[axis])) axis = i;
-    }
-    return axis;
-}
-
-bool is_along(const glm::dvec3& v, int axis)
-{
-    return v[(axis + 1) % 3] == 0.0 && v[(axis + 2) % 3] == 0.0;
-}
-
-double length(const glm::dvec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
-
 /// When and through which face of the box grown by the radius the hand comes in.
 struct Arrival {
     double time = 0.0;
-    int axis = -1; // -1: it is inside of the grown box from the start
+    std::size_t axis = no_axis; // none: it is inside of the grown box from the start
 };
 
-std::optional<Arrival> arrival(const Approach& hand, const glm::dvec3& half)
+std::optional<Arrival> arrival(const Approach& hand, const PerAxis& half)
 {
     Arrival found;
-    for (const int i : {0, 1, 2}) {
+    for (std::size_t i = 0; i < 3; ++i) {
         const double gap = std::abs(hand.from_centre[i]) - half[i] - hand.radius;
         if (gap < 0.0) continue;
-        const double closing = -sign_of(hand.from_centre[i]) * hand.velocity[i];
+        const double closing = hand.from_centre[i] < 0.0 ? hand.velocity[i] : -hand.velocity[i];
         if (!(closing * hand.tick > gap)) return std::nullopt;
         const double time = gap / closing;
-        if (found.axis < 0 || time > found.time) found = {time, i};
+        if (found.axis == no_axis || time > found.time) found = {time, i};
     }
     return found;
 }
 
-/// A hand that is apart and outside.
-std::optional<Meeting> approaching(const Approach& hand, const glm::dvec3& half,
-                                   EnteredFace& entered)
+PerAxis place_after(const Approach& hand, double time)
 {
-    const glm::dvec3 out = outside(hand.from_centre, half);
-    const int facing = largest(out);
+    PerAxis place = hand.from_centre;
+    for (std::size_t i = 0; i < 3; ++i) place[i] += time * hand.velocity[i];
+    return place;
+}
+
+/// A hand that is apart and outside.
+std::optional<Meeting> approaching(const Approach& hand, const PerAxis& half, EnteredFace& entered)
+{
+    const Outside out{hand.from_centre, half};
     const auto found = arrival(hand, half);
     if (!found) { // the box may still come to it
-        if (!is_along(out, facing)) return std::nullopt;
-        return at_face(hand, half, face_at(facing, hand.from_centre[facing]));
+        if (out.directions > 1) return std::nullopt;
+        return at_face(hand.from_centre, half, out.face(), hand.radius);
     }
-    const int axis = found->axis < 0 ? facing : found->axis;
+    const std::size_t axis = found->axis == no_axis ? out.axis : found->axis;
     const EnteredFace face = face_at(axis, hand.from_centre[axis]);
-    const glm::dvec3 there = outside(hand.from_centre + found->time * hand.velocity, half);
-    if (is_along(there, axis)) {
+    if (Outside{place_after(hand, found->time), half}.is_along(axis)) {
         entered = face;
-        return at_face(hand, half, face);
+        return at_face(hand.from_centre, half, face, hand.radius);
     }
     // Towards an edge or a corner: the closest point at the end of the tick gives the normal.
-    const glm::dvec3 last = hand.from_centre + hand.tick * hand.velocity;
-    const glm::dvec3 end = outside(last, half);
-    const double distance = length(end);
-    if (distance >= hand.radius) return std::nullopt;
+    const PerAxis last = place_after(hand, hand.tick);
+    const Outside end{last, half};
+    if (end.length() >= hand.radius) return std::nullopt;
     entered = face;
-    if (distance == 0.0 || is_along(end, axis)) return at_face(hand, half, face);
-    Meeting meeting{.normal = end / distance};
-    const glm::dvec3 from_point = hand.from_centre - (last - end);
-    meeting.depth =
-        hand.radius - (meeting.normal.x * from_point.x + meeting.normal.y * from_point.y +
-                       meeting.normal.z * from_point.z);
+    if (end.is_along(axis)) return at_face(hand.from_centre, half, face, hand.radius);
+    Meeting meeting{.face = {}, .depth = hand.radius, .oblique = end.direction()};
+    for (std::size_t i = 0; i < 3; ++i) {
+        meeting.depth -= meeting.oblique[i] * (hand.from_centre[i] - (last[i] - end.away[i]));
+    }
     return meeting;
 }
 
 } // namespace
 
-std::optional<Meeting> meet(const Approach& hand, const glm::dvec3& half, EnteredFace& entered)
+std::optional<Meeting> meet(const Approach& hand, const PerAxis& half, EnteredFace& entered)
 {
-    const glm::dvec3 out = outside(hand.from_centre, half);
-    const int facing = largest(out);
-    if (out[facing] == 0.0) {
-        if (entered.axis < 0) entered = nearest_face(hand.from_centre, half);
-        return at_face(hand, half, entered);
+    const Outside out{hand.from_centre, half};
+    if (out.directions == 0) {
+        if (entered.axis == no_axis) entered = nearest_face(hand.from_centre, half);
+        return at_face(hand.from_centre, half, entered, hand.radius);
     }
-    const bool is_straight = is_along(out, facing);
-    const double distance = is_straight ? std::abs(out[facing]) : length(out);
+    const double distance = out.length();
     if (distance >= hand.radius) {
         entered = {};
         return approaching(hand, half, entered);
     }
-    entered = face_at(facing, hand.from_centre[facing]);
-    if (is_straight) return at_face(hand, half, entered);
-    return Meeting{.normal = out / distance, .depth = hand.radius - distance};
+    entered = out.face();
+    if (out.directions == 1) return at_face(hand.from_centre, half, entered, hand.radius);
+    return Meeting{{}, hand.radius - distance, out.direction()};
 }
 
 } // namespace hapnet::scene

@@ -24,16 +24,13 @@ Obstacle in_the_way(const PlaneDescription& plane, const BodyForm& movable)
 {
     Obstacle obstacle = between(plane.material, movable.material);
     obstacle.is_plane = true;
-    obstacle.low = glm::dvec3{-infinity};
-    obstacle.high = glm::dvec3{infinity};
-    int axis = 0;
-    for (const int i : {1, 2}) {
-        if (std::abs(plane.normal[i]) > std::abs(plane.normal[axis])) axis = i;
-    }
-    if (plane.normal[axis] > 0.0) {
-        obstacle.high[axis] = plane.offset_m + movable.half[axis];
-    } else {
-        obstacle.low[axis] = -plane.offset_m - movable.half[axis];
+    obstacle.low.fill(-infinity);
+    obstacle.high.fill(infinity);
+    for (std::size_t i = 0; i < 3; ++i) { // a unit vector along one of the axes
+        const auto axis = static_cast<int>(i);
+        if (std::abs(plane.normal[axis]) > 0.5) obstacle.normal_axis = i;
+        if (plane.normal[axis] > 0.5) obstacle.high[i] = plane.offset_m + movable.half[axis];
+        if (plane.normal[axis] < -0.5) obstacle.low[i] = -plane.offset_m - movable.half[axis];
     }
     return obstacle;
 }
@@ -49,49 +46,51 @@ Obstacles::Obstacles(const Frozen& frozen, const Bodies& bodies, const BodyForm&
     for (const Slot slot : bodies.slot_of) {
         if (bodies.form[slot].mass > 0.0) continue;
         Obstacle obstacle = between(bodies.form[slot].material, movable.material);
-        const glm::dvec3 reach = bodies.form[slot].half + movable.half;
-        obstacle.low = bodies.position.at(slot) - reach;
-        obstacle.high = bodies.position.at(slot) + reach;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto axis = static_cast<int>(i);
+            const double reach = bodies.form[slot].half[axis] + movable.half[axis];
+            obstacle.low[i] = bodies.position.at(slot)[axis] - reach;
+            obstacle.high[i] = bodies.position.at(slot)[axis] + reach;
+        }
         all_.push_back(obstacle);
     }
     near_ = Bounded<std::uint32_t>{all_.size()};
-    for (const int axis : {0, 1, 2}) {
-        locked_[static_cast<std::size_t>(axis)] = movable.inverse_mass[axis] == 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        locked_[i] = movable.inverse_mass[static_cast<int>(i)] == 0.0;
     }
 }
 
-void Obstacles::look(const glm::dvec3& centre, double reach)
+void Obstacles::look(const PerAxis& centre, double reach)
 {
     seen_from_ = centre;
     margin_ = std::max(usual_margin_, 2.0 * reach);
     near_.clear();
     for (std::uint32_t i = 0; i < all_.size(); ++i) {
         const Obstacle& one = all_[i];
-        const bool is_near = one.gap(0, centre.x) <= margin_ && one.gap(1, centre.y) <= margin_ &&
-                             one.gap(2, centre.z) <= margin_;
+        const bool is_near = one.gap(0, centre[0]) <= margin_ && one.gap(1, centre[1]) <= margin_ &&
+                             one.gap(2, centre[2]) <= margin_;
         if (is_near) near_.add(i);
     }
 }
 
-glm::dvec3 Obstacles::out_of(std::span<const std::uint32_t> those, glm::dvec3 centre) const
+bool Obstacles::put_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const
 {
-    for (const std::uint32_t i : those) {
-        const Obstacle& one = all_[i];
-        int nearest = -1;
-        double least = -infinity; // the gaps are negative where the box is inside
-        bool is_inside = true;
-        for (const int axis : {0, 1, 2}) {
-            const double gap = one.gap(axis, centre[axis]);
-            is_inside = is_inside && gap < 0.0;
-            if (gap > least && !locked_[static_cast<std::size_t>(axis)]) {
-                least = gap;
-                nearest = axis;
-            }
+    bool was_inside = false;
+    for (const std::uint32_t id : of_those) {
+        const Obstacle& one = all_[id];
+        if (one.is_plane && one.gap(one.normal_axis, centre[one.normal_axis]) >= 0.0) continue;
+        PerAxis gaps{};
+        for (std::size_t i = 0; i < 3; ++i) gaps[i] = one.gap(i, centre[i]);
+        if (gaps[0] >= 0.0 || gaps[1] >= 0.0 || gaps[2] >= 0.0) continue;
+        std::size_t nearest = 3;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!locked_[i] && (nearest == 3 || gaps[i] > gaps[nearest])) nearest = i;
         }
-        if (!is_inside || nearest < 0) continue;
+        if (nearest == 3) continue;
         centre[nearest] = one.face(nearest, one.side(nearest, centre[nearest]));
+        was_inside = true;
     }
-    return centre;
+    return was_inside;
 }
 
 } // namespace hapnet::scene

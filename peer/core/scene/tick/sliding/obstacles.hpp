@@ -3,8 +3,11 @@
 #pragma once
 
 #include "peer/core/scene/bounded.hpp"
+#include "peer/core/scene/motion/per_axis.hpp"
 #include "peer/core/scene/stage.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace hapnet::scene {
@@ -12,23 +15,24 @@ namespace hapnet::scene {
 /// Where a box's centre may not go because of one fixed box or plane: that one, grown by the half
 /// edges of the box. A plane reaches to infinity in all directions but one.
 struct Obstacle {
-    glm::dvec3 low{0.0};
-    glm::dvec3 high{0.0};
+    PerAxis low{};
+    PerAxis high{};
     double friction = 0.0; // of the pair
     double restitution = 0.0;
     bool is_plane = false;
+    std::size_t normal_axis = 0; // of a plane
 
     /// How far a centre is outside of it along an axis; < 0: between its two faces.
-    [[nodiscard]] double gap(int axis, double place) const
+    [[nodiscard]] double gap(std::size_t axis, double place) const
     {
         return std::max(low[axis] - place, place - high[axis]);
     }
     /// +1 when the centre is nearer to the high face, else -1.
-    [[nodiscard]] double side(int axis, double place) const
+    [[nodiscard]] double side(std::size_t axis, double place) const
     {
         return place - high[axis] >= low[axis] - place ? 1.0 : -1.0;
     }
-    [[nodiscard]] double face(int axis, double side) const
+    [[nodiscard]] double face(std::size_t axis, double side) const
     {
         return side > 0.0 ? high[axis] : low[axis];
     }
@@ -41,25 +45,28 @@ public:
     Obstacles(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable);
 
     /// At least those within `reach` of the centre, along every axis.
-    [[nodiscard]] std::span<const std::uint32_t> near(const glm::dvec3& centre, double reach)
+    [[nodiscard]] std::span<const std::uint32_t> near(const PerAxis& centre, double reach)
     {
-        const glm::dvec3 gone = glm::abs(centre - seen_from_);
-        if (!(std::max(std::max(gone.x, gone.y), gone.z) + reach <= margin_)) look(centre, reach);
+        double gone = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            gone = std::max(gone, std::abs(centre[i] - seen_from_[i]));
+        }
+        if (!(gone + reach <= margin_)) look(centre, reach);
         return {near_.begin(), near_.size()};
     }
     [[nodiscard]] const Obstacle& operator[](std::uint32_t index) const { return all_[index]; }
 
-    /// The centre, put out of everything that it is in: to the nearest face of each, along an
-    /// axis that is not locked.
-    [[nodiscard]] glm::dvec3 out_of(std::span<const std::uint32_t> those, glm::dvec3 centre) const;
+    /// Puts the centre out of everything that it is in: to the nearest face of each, along an axis
+    /// that is not locked. Whether it was in anything.
+    bool put_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const;
 
 private:
-    void look(const glm::dvec3& centre, double reach);
+    void look(const PerAxis& centre, double reach);
 
     std::vector<Obstacle> all_;
     Bounded<std::uint32_t> near_;
     std::array<bool, 3> locked_{};
-    glm::dvec3 seen_from_{0.0};
+    PerAxis seen_from_{};
     double usual_margin_ = 0.0;
     double margin_ = -1.0; // what is farther from `seen_from_` is not in the list
 };

@@ -7,24 +7,32 @@ namespace hapnet::scene {
 namespace {
 
 /// Whether a centre is between the two faces of an obstacle, or just going in.
-bool is_between(const Obstacle& obstacle, int axis, double place, double speed)
+bool is_between(const Obstacle& obstacle, std::size_t axis, double place, double speed)
 {
     const double gap = obstacle.gap(axis, place);
     return gap < 0.0 || (gap == 0.0 && obstacle.side(axis, place) * speed < 0.0);
 }
 
+void touch_face(Slide& slide, const Obstacle& obstacle, std::size_t i)
+{
+    if (slide.place[i] == obstacle.high[i]) slide.axes[i].below = &obstacle;
+    if (slide.place[i] == obstacle.low[i]) slide.axes[i].above = &obstacle;
+}
+
 void touch(Slide& slide, const Obstacle& obstacle)
 {
-    for (const int i : {0, 1, 2}) {
-        const double place = slide.place[i];
-        if (place != obstacle.high[i] && place != obstacle.low[i]) continue;
-        const int j = (i + 1) % 3;
-        const int k = (i + 2) % 3;
-        if (!is_between(obstacle, j, slide.place[j], slide.velocity[j]) ||
-            !is_between(obstacle, k, slide.place[k], slide.velocity[k])) {
-            continue;
+    if (obstacle.is_plane) {
+        touch_face(slide, obstacle, obstacle.normal_axis);
+        return;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (obstacle.gap(i, slide.place[i]) != 0.0) continue;
+        const std::size_t j = (i + 1) % 3;
+        const std::size_t k = (i + 2) % 3;
+        if (is_between(obstacle, j, slide.place[j], slide.velocity[j]) &&
+            is_between(obstacle, k, slide.place[k], slide.velocity[k])) {
+            touch_face(slide, obstacle, i);
         }
-        (place == obstacle.high[i] ? slide.axis(i).below : slide.axis(i).above) = &obstacle;
     }
 }
 
@@ -51,20 +59,20 @@ std::array<std::size_t, 3> add_springs(Slide& slide)
     const double damping = slide.hips.damping_ns_per_m * slide.inverse_mass;
     std::array<std::size_t, 3> count{};
     for (const Spring& spring : slide.active_springs()) {
-        Course& course = slide.course(spring.axis);
+        Course& course = slide.courses[spring.axis];
         if (spring.phase == Phase::active) {
             course.push -= spring.sign * (stiffness * spring.depth + damping * spring.closing);
             course.ramp -= spring.sign * (stiffness * spring.closing);
-            ++count[static_cast<std::size_t>(spring.axis)];
+            ++count[spring.axis];
         } else if (spring.phase == Phase::limited) {
             course.push -= spring.sign * (slide.hips.force_max_n * slide.inverse_mass);
         }
     }
     for (const Grip& grip : slide.active_grips()) {
-        for (const int i : {0, 1, 2}) {
-            slide.course(i).push += stiffness * grip.stretch[i] + damping * grip.velocity[i];
-            slide.course(i).ramp += stiffness * grip.velocity[i];
-            ++count[static_cast<std::size_t>(i)];
+        for (std::size_t i = 0; i < 3; ++i) {
+            slide.courses[i].push += stiffness * grip.stretch[i] + damping * grip.velocity[i];
+            slide.courses[i].ramp += stiffness * grip.velocity[i];
+            ++count[i];
         }
     }
     return count;
@@ -85,12 +93,33 @@ SlideLaws::SlideLaws(const HipDescription& hips, const BodyForm& body, double ti
     }
 }
 
+Slide Slide::copy() const
+{
+    Slide other{hips, laws, obstacles};
+    other.near = near;
+    other.inverse_mass = inverse_mass;
+    other.left = left;
+    other.calm = calm;
+    other.place = place;
+    other.velocity = velocity;
+    other.axes = axes;
+    other.courses = courses;
+    other.rubbing = rubbing;
+    other.spring_count = spring_count;
+    other.grip_count = grip_count;
+    other.slanted_count = slanted_count;
+    std::copy_n(springs.begin(), spring_count, other.springs.begin());
+    std::copy_n(grips.begin(), grip_count, other.grips.begin());
+    std::copy_n(slanted.begin(), slanted_count, other.slanted.begin());
+    return other;
+}
+
 void set_courses(Slide& slide)
 {
-    for (const int i : {0, 1, 2}) {
-        SlideAxis& axis = slide.axis(i);
+    for (std::size_t i = 0; i < 3; ++i) {
+        SlideAxis& axis = slide.axes[i];
         axis.below = axis.above = axis.carrier = nullptr;
-        slide.course(i) = {nullptr, slide.velocity[i], axis.steady, 0.0};
+        slide.courses[i] = {nullptr, slide.velocity[i], axis.steady, 0.0};
     }
     for (const std::uint32_t id : slide.near) touch(slide, slide.obstacles[id]);
     const auto springs = add_springs(slide);
@@ -130,10 +159,10 @@ void with_bounds(Slide& slide)
 
 void advance(Slide& slide, double time)
 {
-    glm::dvec3 way{0.0};
-    glm::dvec3 way_integral{0.0};
-    for (const int i : {0, 1, 2}) {
-        const Course& course = slide.course(i);
+    PerAxis way{};
+    PerAxis way_integral{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Course& course = slide.courses[i];
         if (!course.moves()) continue;
         const Motion motion = course.after(time);
         const Law& law = course.kernel->law;
@@ -160,11 +189,13 @@ void advance(Slide& slide, double time)
         spring.depth += closed;
     }
     for (Grip& grip : slide.active_grips()) {
-        const glm::dvec3 stretched = time * grip.velocity - way;
-        const glm::dvec3 stretches =
-            time * (grip.stretch + 0.5 * time * grip.velocity) - way_integral;
-        grip.impulse += k * stretches + c * stretched;
-        grip.stretch += stretched;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double stretched = time * grip.velocity[i] - way[i];
+            const double stretches =
+                time * (grip.stretch[i] + 0.5 * time * grip.velocity[i]) - way_integral[i];
+            grip.impulse[i] += k * stretches + c * stretched;
+            grip.stretch[i] += stretched;
+        }
     }
     slide.left -= time;
 }

@@ -48,9 +48,9 @@ struct SlideAxis {
 struct Rubbing {
     enum class State : std::uint8_t { none, stuck, sliding };
     State state = State::none;
-    bool slips = false;        // it has just begun to slide
-    glm::dvec3 direction{0.0}; // of the sliding
-    double limit = 0.0;        // the greatest friction, per mass
+    bool slips = false;  // it has just begun to slide
+    PerAxis direction{}; // of the sliding
+    double limit = 0.0;  // the greatest friction, per mass
     double limit_ramp = 0.0;
 };
 
@@ -63,6 +63,9 @@ struct Slide {
         : hips{of_hips}, laws{of_laws}, obstacles{those}
     {}
 
+    /// Another one like it, to try the tick again.
+    [[nodiscard]] Slide copy() const;
+
     const HipDescription& hips;
     const SlideLaws& laws;
     Obstacles& obstacles;
@@ -71,8 +74,8 @@ struct Slide {
     double inverse_mass = 0.0;
     double left = 0.0; // of the tick, s
     bool calm = false; // too much has happened in this tick: no more changes, no more bounces
-    glm::dvec3 place{0.0};
-    glm::dvec3 velocity{0.0};
+    PerAxis place{};
+    PerAxis velocity{};
     std::array<SlideAxis, 3> axes{};
     Courses courses{};
     Rubbing rubbing{};
@@ -84,10 +87,6 @@ struct Slide {
     std::array<Grip, hips_max> grips;
     std::array<SlantedSpring, hips_max> slanted;
 
-    [[nodiscard]] SlideAxis& axis(int i) { return axes[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] const SlideAxis& axis(int i) const { return axes[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] Course& course(int i) { return courses[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] const Course& course(int i) const { return courses[static_cast<std::size_t>(i)]; }
     [[nodiscard]] std::span<Spring> active_springs() { return {springs.data(), spring_count}; }
     [[nodiscard]] std::span<const Spring> active_springs() const
     {

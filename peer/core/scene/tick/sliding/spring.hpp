@@ -3,10 +3,10 @@
 #pragma once
 
 #include "peer/core/scene/description.hpp"
+#include "peer/core/scene/motion/per_axis.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <glm/vec3.hpp>
 
 namespace hapnet::scene {
 
@@ -22,7 +22,7 @@ enum class Phase : std::uint8_t {
 /// A hand's spring on one face of the box, along one axis.
 struct Spring {
     std::uint32_t hip;
-    int axis;
+    std::size_t axis;
     double sign;    // of the normal, from the box to the hand
     double depth;   // at the start of the stretch of time that is looked at
     double closing; // the hand's share of the closing speed
@@ -35,35 +35,34 @@ struct Spring {
     {
         return hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing_at(speed);
     }
-    [[nodiscard]] Phase phase_now(const HipDescription& hips, double speed) const
+    /// Takes the phase that belongs to the present state; returns the force.
+    double settle(const HipDescription& hips, double speed)
     {
-        if (depth <= 0.0) return Phase::apart;
+        phase = Phase::apart;
+        if (depth <= 0.0) return 0.0;
         const double wanted = tension(hips, speed);
-        if (wanted >= hips.force_max_n) return Phase::limited;
-        return wanted > 0.0 ? Phase::active : Phase::slack;
-    }
-    [[nodiscard]] double force(const HipDescription& hips, double speed) const
-    {
-        if (phase == Phase::active) return tension(hips, speed);
-        return phase == Phase::limited ? hips.force_max_n : 0.0;
+        phase = wanted >= hips.force_max_n ? Phase::limited
+                : wanted > 0.0             ? Phase::active
+                                           : Phase::slack;
+        return std::clamp(wanted, 0.0, hips.force_max_n);
     }
 };
 
 /// A hand that holds the box: a spring and a damper in all directions, which also pull.
 struct Grip {
     std::uint32_t hip;
-    glm::dvec3 stretch; // from where it is held to the hand, at the start of the stretch of time
-    glm::dvec3 velocity;
-    glm::dvec3 impulse; // on the box, so far in the tick
+    PerAxis stretch; // from where it is held to the hand, at the start of the stretch of time
+    PerAxis velocity;
+    PerAxis impulse; // on the box, so far in the tick
 };
 
 /// A hand at an edge or a corner: its force is the midpoint rule's, held for the tick.
 struct SlantedSpring {
     std::uint32_t hip;
-    glm::dvec3 normal; // unit, from the box to the hand
-    double depth;      // along it, at the start of the tick
-    double closing;    // the hand's share of the closing speed
-    double force;      // on the hand along the normal
+    PerAxis normal; // unit, from the box to the hand
+    double depth;   // along it, at the start of the tick
+    double closing; // the hand's share of the closing speed
+    double force;   // on the hand along the normal
 };
 
 /// The impulse of the force of a hand on something that stands still, over `time`: exact, since

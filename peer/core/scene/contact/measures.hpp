@@ -4,6 +4,7 @@
 
 #include "peer/core/scene/contact/manifold.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -15,6 +16,12 @@ namespace hapnet::scene {
     return box.half.x * std::abs(glm::dot(direction, box.axes[0])) +
            box.half.y * std::abs(glm::dot(direction, box.axes[1])) +
            box.half.z * std::abs(glm::dot(direction, box.axes[2]));
+}
+
+/// What tolerances are relative to.
+[[nodiscard]] inline double smallest_half(const OrientedBox& a, const OrientedBox& b)
+{
+    return std::min({a.half.x, a.half.y, a.half.z, b.half.x, b.half.y, b.half.z});
 }
 
 } // namespace hapnet::scene

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "tests/bench/emulator/rows.hpp"
+#include "tests/bench/common/rows.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -36,7 +36,10 @@ Json json_of(const Row& row)
 
 std::string text_of(std::optional<double> value)
 {
-    return value ? fmt::format("{:.{}f}", *value, std::abs(*value) < 1000 ? 2 : 0) : "";
+    if (!value) return "";
+    const double size = std::abs(*value);
+    if (size != 0.0 && (size < 0.01 || size >= 1e7)) return fmt::format("{:.2g}", *value);
+    return fmt::format("{:.{}f}", *value, size < 1000 ? 2 : 0);
 }
 
 } // namespace

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "tests/bench/emulator/machine.hpp"
+#include "tests/bench/common/host.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>

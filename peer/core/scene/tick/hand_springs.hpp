@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/scene/bounded.hpp"
+#include "peer/core/scene/contact/sphere_box.hpp"
+#include "peer/core/scene/hip/advance.hpp"
+#include "peer/core/scene/stage.hpp"
+
+#include <array>
+#include <optional>
+#include <span>
+
+namespace hapnet::scene {
+
+/// Bodies that one hand touches at the same time, at most; those with the lowest ids.
+inline constexpr std::size_t touched_per_hand_max = 8;
+
+/// The hands' springs of one tick, and what has to be remembered of whom they touch.
+class HandSprings {
+public:
+    explicit HandSprings(const Frozen& frozen);
+
+    /// A hand's spring on a movable body.
+    struct Spring {
+        std::uint32_t hand = 0;
+        BodyId body = 0;
+        HipSpring spring;
+        glm::dvec3 impulse{0.0}; // on the body
+    };
+
+    /// Begins a tick: whom did the hands touch, nobody.
+    void begin(Stage& stage);
+    /// How far ahead a hand has to look for bodies.
+    [[nodiscard]] double look_ahead(const Stage& stage, std::uint32_t hand, double tick) const;
+
+    /// Where a body is and how it moves.
+    struct Target {
+        BodyId body = 0;
+        bool is_movable = false;
+        OrientedBox box;
+        glm::dvec3 velocity{0.0};
+        glm::dvec3 spin{0.0};
+    };
+    /// Sees what the hand does to one of the bodies that it may reach.
+    void touch(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
+    /// Forgets whom the hand has left.
+    void end(std::uint32_t hand);
+
+    [[nodiscard]] std::span<Spring> springs() { return {springs_.begin(), springs_.size()}; }
+    /// Tells the hands what the springs did.
+    void report(const Frozen& frozen, Stage& stage);
+
+    void forget(BodyId body);
+
+private:
+    /// What of a body near a hand is remembered.
+    struct Near {
+        BodyId body = 0;
+        bool is_there = false; // in this tick
+        SphereBoxMemory memory;
+        std::optional<glm::dvec3> before{}; // the hand in the body's frame, a tick ago
+    };
+    struct Holding {
+        BodyId body = 0;
+        glm::dvec3 at{0.0}; // in the body's frame
+    };
+    struct Hand {
+        std::array<Near, touched_per_hand_max> near;
+        std::size_t count = 0;
+        std::optional<Holding> holding;
+    };
+
+    bool hold(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
+    void press(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
+    [[nodiscard]] Near* near(Hand& hand, BodyId body);
+
+    std::array<Hand, hips_max> hands_;
+    Bounded<Spring> springs_;
+};
+
+} // namespace hapnet::scene

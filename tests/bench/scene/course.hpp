@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/bench/scene/engine.hpp"
+
+#include <functional>
+#include <span>
+
+namespace hapnet::bench {
+
+/// What is done with a scene: how long, and how its hands move.
+struct Course {
+    scene::Description scene;
+    double duration_s = 1.0;
+    std::function<scene::HipInput(std::uint32_t hand, double time_s)> hands; // empty: none
+    double warm_up_s = 0.0; // before anything is timed
+};
+
+/// Runs a course from its start to its end; `after` gets the time at the end of every step.
+void run(Engine& engine, const Course& course, double tick_s,
+         const std::function<void(double time_s)>& after = {});
+
+/// Who is timed, and how it is set up.
+struct Contender {
+    const Subject* subject = nullptr;
+    EngineOptions options;
+};
+
+/// Nanoseconds per step, hands included: the median over blocks of steps of at least `block_s`
+/// each. The contenders take turns block by block in one thread, so that a busy machine hits all
+/// alike; a course that ends begins again. Not a number for who cannot run it.
+[[nodiscard]] std::vector<double> race(const Course& course, std::span<const Contender> contenders,
+                                       double seconds_each);
+
+} // namespace hapnet::bench

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/scene/world.hpp"
+#include "proto/base/ensure.hpp"
+#include "tests/bench/scene/peers.hpp"
+
+#include <cmath>
+
+namespace hapnet::bench {
+
+namespace {
+
+class Hapnet final : public Engine {
+public:
+    explicit Hapnet(scene::World world) : world_{std::move(world)} {}
+
+    void hip(std::uint32_t index, const scene::HipInput& input) override
+    {
+        base::ensure(!world_.hip(index, input));
+    }
+    void step() override { world_.tick(); }
+    [[nodiscard]] scene::BodyState state(scene::BodyId body) const override
+    {
+        return world_.body(body);
+    }
+    [[nodiscard]] glm::dvec3 hip_force(std::uint32_t index) const override
+    {
+        return world_.touch(index).on_body.value;
+    }
+
+private:
+    scene::World world_;
+};
+
+} // namespace
+
+std::unique_ptr<Engine> make_hapnet(const scene::Description& scene, const EngineOptions& options)
+{
+    const scene::FreezeOptions freeze{base::Duration{std::llround(options.tick_s * 1e9)},
+                                      options.sleeping, options.profile};
+    auto world = scene::World::freeze(scene, freeze);
+    if (!world) return nullptr;
+    return std::make_unique<Hapnet>(*std::move(world));
+}
+
+} // namespace hapnet::bench

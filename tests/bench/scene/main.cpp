@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/bench/scene/crowd.hpp"
+#include "tests/bench/scene/instructions.hpp"
+#include "tests/bench/scene/options.hpp"
+#include "tests/bench/scene/precision.hpp"
+#include "tests/bench/scene/stress.hpp"
+
+#include <cstdlib>
+
+namespace hapnet::bench {
+
+namespace {
+
+constexpr std::string_view program = "bench_scene";
+constexpr std::string_view usage =
+    "usage: bench_scene [--quick] [--json FILE] [--markdown FILE] [--csv FILE] [--plot FILE.svg]\n"
+    "       bench_scene --spin SUBJECT locked|free STEPS\n"
+    "Compares Hapnet's scene with Bullet and ODE: errors against what is known, cost per step, "
+    "and\n"
+    "how far each can be driven. --json: the rows; --markdown: the rows as tables; --csv and\n"
+    "--plot: the work-precision diagram. --quick ends within a minute, and counts no "
+    "instructions.\n"
+    "--spin only runs the paper's scene: it is what Valgrind counts the instructions of.\n";
+
+constexpr int spin_words = 5;
+
+net::CommandLine<Options> parse_words(std::span<char*> words)
+{
+    return parse(words, {"--json", "--markdown", "--csv", "--plot"}, std::string{usage});
+}
+
+void append(std::vector<Row>& rows, std::vector<Row> more)
+{
+    rows.insert(rows.end(), more.begin(), more.end());
+}
+
+std::vector<Row> instructions(std::span<const Subject> all)
+{
+    if (std::system("valgrind --version > /dev/null 2>&1") != 0) {
+        net::say(program, "no valgrind: instructions are not counted");
+        return {};
+    }
+    return count_instructions(all);
+}
+
+base::Result<int> measure(const Options& options)
+{
+    Files files{options};
+    const Host machine = host();
+    pin(0);
+    if (const auto missing = missing_peers(); !missing.empty()) net::say(program, missing);
+    const std::vector<Subject> all = subjects();
+
+    std::vector<Row> rows = measure_costs(all, options.quick);
+    for (const Scenario& scenario : all_scenarios(options.quick)) {
+        append(rows, judge(scenario, all, options.quick ? 0.03 : 0.2));
+    }
+    append(rows, measure_limits(all, options.quick));
+    if (!options.quick) append(rows, instructions(all));
+    fmt::print("{}", rows_table(rows));
+    files.write("--json", rows_json(machine, rows));
+    files.write("--markdown", markdown(rows));
+    if (files.wants("--csv") || files.wants("--plot")) {
+        const auto points = measure_precision(all, options.quick);
+        files.write("--csv", precision_csv(points));
+        files.write("--plot", precision_svg(points));
+    }
+    if (const auto said = complaints_of_peers(); !said.empty()) net::say(program, said);
+    return 0;
+}
+
+} // namespace
+
+} // namespace hapnet::bench
+
+int main(int argc, char** argv)
+{
+    namespace bench = hapnet::bench;
+    const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
+    if (argc == bench::spin_words && std::string_view{argv[1]} == "--spin") {
+        const bool is_locked = std::string_view{argv[3]} == "locked";
+        return bench::spin(argv[2], is_locked, std::atoi(argv[4])) ? 0 : hapnet::net::exit_usage;
+    }
+    return hapnet::net::run_program(bench::program, bench::parse_words(words), bench::measure);
+}

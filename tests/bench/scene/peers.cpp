@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/bench/scene/peers.hpp"
+
+#include <dlfcn.h>
+#include <stdexcept>
+
+namespace hapnet::bench {
+
+namespace {
+
+#ifdef HAPNET_BENCH_BULLET
+/// Loaded into a namespace of its own, and never unloaded.
+MakeEngine* load(const char* path)
+{
+    void* const module = dlmopen(LM_ID_NEWLM, path, RTLD_NOW | RTLD_LOCAL);
+    if (module == nullptr) throw std::runtime_error{dlerror()};
+    void* const symbol = dlsym(module, make_engine_symbol);
+    if (symbol == nullptr) throw std::runtime_error{dlerror()};
+    return reinterpret_cast<MakeEngine*>(symbol);
+}
+#endif
+
+} // namespace
+
+#ifdef HAPNET_BENCH_BULLET
+std::unique_ptr<Engine> make_bullet(const scene::Description& scene, const EngineOptions& options)
+{
+    static MakeEngine* const make = load(HAPNET_BENCH_BULLET);
+    return std::unique_ptr<Engine>{make(&scene, &options)};
+}
+
+std::unique_ptr<Engine> make_bullet_double(const scene::Description& scene,
+                                           const EngineOptions& options)
+{
+    static MakeEngine* const make = load(HAPNET_BENCH_BULLET_DOUBLE);
+    return std::unique_ptr<Engine>{make(&scene, &options)};
+}
+#endif
+
+std::vector<Subject> subjects()
+{
+    std::vector<Subject> all{{"hapnet", own_family, false, make_hapnet}};
+#ifdef HAPNET_BENCH_BULLET
+    all.push_back({"bullet", "bullet", true, make_bullet});
+    all.push_back({"bullet-double", "bullet", true, make_bullet_double});
+#endif
+#ifdef HAPNET_BENCH_ODE
+    all.push_back({"ode-quick", "ode", true, make_ode_quick});
+    all.push_back({"ode-step", "ode", true, make_ode_step});
+#endif
+    return all;
+}
+
+std::string missing_peers()
+{
+    std::string missing;
+#ifndef HAPNET_BENCH_BULLET
+    missing += " Bullet (libbullet-dev)";
+#endif
+#ifndef HAPNET_BENCH_ODE
+    missing += " ODE (libode-dev)";
+#endif
+    return missing.empty() ? "" : "built without" + missing + ": its rows are left out";
+}
+
+std::string complaints_of_peers()
+{
+#ifdef HAPNET_BENCH_ODE
+    if (const long count = ode_complaints(); count > 0) {
+        return "ODE reported " + std::to_string(count) + " internal errors of its direct solver";
+    }
+#endif
+    return "";
+}
+
+} // namespace hapnet::bench

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/bench/scene/engine.hpp"
+
+namespace hapnet::bench {
+
+/// Hapnet's own scene.
+[[nodiscard]] std::unique_ptr<Engine> make_hapnet(const scene::Description& scene,
+                                                  const EngineOptions& options);
+
+/// ODE with dWorldQuickStep (iterative) and dWorldStep (direct); defined when it was found.
+[[nodiscard]] std::unique_ptr<Engine> make_ode_quick(const scene::Description& scene,
+                                                     const EngineOptions& options);
+[[nodiscard]] std::unique_ptr<Engine> make_ode_step(const scene::Description& scene,
+                                                    const EngineOptions& options);
+/// How often ODE has reported an internal error of its direct solver.
+[[nodiscard]] long ode_complaints();
+
+/// Bullet in single and in double precision. Both give their functions the same names, so each
+/// lies in a module of its own that is loaded apart from everything else.
+[[nodiscard]] std::unique_ptr<Engine> make_bullet(const scene::Description& scene,
+                                                  const EngineOptions& options);
+[[nodiscard]] std::unique_ptr<Engine> make_bullet_double(const scene::Description& scene,
+                                                         const EngineOptions& options);
+
+/// What a module of Bullet exports.
+using MakeEngine = Engine*(const scene::Description*, const EngineOptions*);
+inline constexpr const char* make_engine_symbol = "hapnet_bench_make_engine";
+
+} // namespace hapnet::bench

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/bench/scene/precision.hpp"
+
+#include "lab/core/plot.hpp"
+#include "tests/bench/scene/compare.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::bench {
+
+namespace {
+
+constexpr double drawn_error_min = 1e-17; // what is exact is drawn here: a logarithm has no zero
+constexpr int panel_height = 280;         // of lab::svg_plot
+constexpr int panel_width = 900;
+
+std::vector<Scenario> chosen()
+{
+    using scene::Turning;
+    return {ballistic(),
+            slide(0.0, Turning::free),
+            slide(45.0, Turning::free),
+            bounce(1000.0, 0.0, Turning::locked),
+            squeezed_oscillation(Turning::locked),
+            tumble(),
+            off_centre_push()};
+}
+
+const char* colour_of(std::string_view subject)
+{
+    if (subject == "hapnet") return "#1b7837";
+    if (subject == "bullet") return "#b2182b";
+    if (subject == "bullet-double") return "#ef8a62";
+    return subject == "ode-quick" ? "#67a9cf" : "#2166ac";
+}
+
+/// One panel: the points of one scenario, which lie next to each other.
+std::string panel_of(std::span<const WorkPoint> points)
+{
+    std::vector<lab::Curve> curves;
+    for (const WorkPoint& point : points) {
+        if (curves.empty() || curves.back().name != point.subject) {
+            curves.push_back({point.subject, colour_of(point.subject), {}});
+        }
+        curves.back().points.push_back(
+            {point.ns_per_simulated_ms, std::max(point.error, drawn_error_min)});
+    }
+    const std::string title = points.front().scenario + ", tick 4 to 0.25 ms";
+    return lab::svg_plot({title, "cost, ns per simulated ms", points.front().metric}, curves,
+                         {lab::Scale::logarithmic, lab::Scale::logarithmic});
+}
+
+} // namespace
+
+std::vector<WorkPoint> measure_precision(std::span<const Subject> subjects, bool is_quick)
+{
+    constexpr std::array ticks_ms{4.0, 2.0, 1.0, 0.5, 0.25};
+    const double seconds_each = is_quick ? 0.01 : 0.1;
+    std::vector<WorkPoint> points;
+    for (const Scenario& scenario : chosen()) {
+        std::vector<WorkPoint> of_scenario;
+        for (const double tick_ms : ticks_ms) {
+            std::vector<Entry> entries;
+            for (const Subject& subject : subjects) {
+                entries.push_back({subject.name, &subject, {}});
+                entries.back().options.tick_s = tick_ms * 1e-3;
+            }
+            const auto costs = costs_of(scenario.course, entries, seconds_each);
+            for (std::size_t i = 0; i < entries.size(); ++i) {
+                const auto engine = subjects[i].make(scenario.course.scene, entries[i].options);
+                if (!engine) continue;
+                const Measure measure =
+                    scenario.measure(*engine, scenario.course, tick_ms * 1e-3).front();
+                of_scenario.push_back({scenario.name, measure.metric, subjects[i].name, tick_ms,
+                                       measure.value, costs[i].value / tick_ms});
+            }
+        }
+        std::stable_sort(of_scenario.begin(), of_scenario.end(),
+                         [&](const auto& a, const auto& b) { return a.subject < b.subject; });
+        points.insert(points.end(), of_scenario.begin(), of_scenario.end());
+    }
+    return points;
+}
+
+std::string precision_csv(std::span<const WorkPoint> points)
+{
+    std::string csv = "scenario,metric,subject,tick_ms,error,ns_per_simulated_ms\n";
+    for (const WorkPoint& one : points) {
+        csv += fmt::format("\"{}\",{},{},{:g},{:.6g},{:.6g}\n", one.scenario, one.metric,
+                           one.subject, one.tick_ms, one.error, one.ns_per_simulated_ms);
+    }
+    return csv;
+}
+
+std::string precision_svg(std::span<const WorkPoint> points)
+{
+    std::string panels;
+    int count = 0;
+    for (auto begin = points.begin(); begin != points.end();) {
+        const auto end = std::find_if(begin, points.end(), [&](const WorkPoint& one) {
+            return one.scenario != begin->scenario;
+        });
+        std::string panel = panel_of({begin, end});
+        panel.insert(panel.find(' '),
+                     fmt::format(" y='{}' width='{}' height='{}'", panel_height * count++,
+                                 panel_width, panel_height));
+        panels += panel;
+        begin = end;
+    }
+    return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {} {}' "
+                       "font-family='sans-serif' font-size='12'>\n"
+                       "<rect width='100%' height='100%' fill='white'/>\n{}</svg>\n",
+                       panel_width, panel_height * std::max(count, 1), panels);
+}
+
+} // namespace hapnet::bench

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/bench/scene/course.hpp"
+
+namespace hapnet::bench {
+
+/// A number that a run gave, and what Hapnet's has to stay below.
+struct Measure {
+    std::string metric; // with its unit: "error_m"
+    double value = 0.0;
+    std::optional<double> target;
+};
+
+/// A course whose end is known, and how far an engine is from it.
+struct Scenario {
+    std::string name;
+    std::string reference; // what the error is against: "analytic", "rk4", "itself" at the start
+    Course course;
+    std::function<std::vector<Measure>(Engine&, const Course&, double tick_s)> measure;
+    bool has_native = false;     // also run with the peers' own compliant contact
+    double cost_ratio_min = 0.0; // a peer's cost over Hapnet's, at least; 0: no target
+    double cost_ns_max = 0.0;    // of Hapnet's step; 0: no target
+};
+
+/// The cube of every scene here: 40 mm, 0.1 kg, friction 0.3.
+[[nodiscard]] scene::BodyDescription cube();
+/// The platform on which a cube at the origin rests, with friction 0.3.
+[[nodiscard]] scene::PlaneDescription platform();
+/// A cube and no more: no gravity, no hands.
+[[nodiscard]] scene::Description lone_cube(scene::Turning turning);
+
+// The scenarios of each kind; `locked` that the cube cannot turn.
+[[nodiscard]] Scenario ballistic();
+[[nodiscard]] Scenario slide(double degrees, scene::Turning turning);
+[[nodiscard]] Scenario tumble();
+[[nodiscard]] Scenario off_centre_push();
+/// A cube that bounces off a hand of a stiffness, hit off its centre by so much.
+[[nodiscard]] Scenario bounce(double stiffness_n_per_m, double offset_m, scene::Turning turning);
+[[nodiscard]] Scenario steady_push(scene::Turning turning);
+[[nodiscard]] Scenario symmetric_squeeze(scene::Turning turning);
+[[nodiscard]] Scenario squeezed_oscillation(scene::Turning turning);
+[[nodiscard]] Scenario asymmetric_squeeze(scene::Turning turning);
+[[nodiscard]] Scenario wall(double restitution, scene::Turning turning);
+[[nodiscard]] Scenario stack(double duration_s);
+
+/// The paper's scene, pushed to and fro between two hands: as it is, or with a cube that can turn
+/// and has dry friction.
+[[nodiscard]] Course paper_course(scene::Turning turning);
+
+/// All of them, in the order of the specification.
+[[nodiscard]] std::vector<Scenario> all_scenarios(bool is_quick);
+
+} // namespace hapnet::bench

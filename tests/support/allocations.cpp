@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/support/allocations.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<std::uint64_t> count{0};
+
+} // namespace
+
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): this is where new and delete are made.
+// Not inline: GCC would see malloc() on one side and delete on the other, and object.
+[[gnu::noinline]] void* operator new(std::size_t size)
+{
+    count.fetch_add(1, std::memory_order_relaxed);
+    if (void* memory = std::malloc(size)) return memory;
+    throw std::bad_alloc{};
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept
+{
+    std::free(memory);
+}
+// NOLINTEND(cppcoreguidelines-no-malloc)
+
+namespace hapnet::test {
+
+std::uint64_t allocations() { return count.load(std::memory_order_relaxed); }
+
+} // namespace hapnet::test

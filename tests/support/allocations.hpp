@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace hapnet::test {
+
+/// How often this program has taken memory with new so far. Linking it replaces the global operator
+/// new.
+[[nodiscard]] std::uint64_t allocations();
+
+} // namespace hapnet::test
