@@ -159,8 +159,11 @@ void HandSprings::press(const Frozen& frozen, Stage& stage, std::uint32_t index,
         touch.on_hip.value += steady_force(hips, depth, closing, frozen.tick) * overlap->normal;
         return;
     }
-    // What does not begin to act within the tick is no spring.
-    if (-depth > closing * frozen.tick + frozen.tick * frozen.tick * length(frozen.gravity)) return;
+    // What does not begin to act within the tick is no spring; what acts already is one, also in
+    // the tick in which it ends.
+    const double nearer =
+        closing * frozen.tick + frozen.tick * frozen.tick * length(frozen.gravity);
+    if (depth < 0.0 && -depth > nearer) return;
     springs_.add({index,
                   target.body,
                   {.normal = overlap->normal,
