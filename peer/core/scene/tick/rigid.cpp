@@ -3,6 +3,7 @@
 #include "peer/core/scene/tick/rigid.hpp"
 
 #include "peer/core/scene/contact/box_plane.hpp"
+#include "peer/core/scene/motion/rotation.hpp"
 #include "peer/core/scene/tick/bounce.hpp"
 #include "peer/core/scene/tick/nearby.hpp"
 
@@ -104,8 +105,10 @@ void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
     solve(stage);
     move_apart();
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
-        boxes_[bodies.form[slot].id] = box_of(bodies, slot);
+        const bool has_turned = arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
+        OrientedBox& box = boxes_[bodies.form[slot].id];
+        box.centre = bodies.position.at(slot);
+        if (has_turned) box.axes = axes_of(bodies.orientation.at(slot));
     }
     hands_.report(frozen, stage);
     if constexpr (sleeps) sleep_.rest(bodies, neighbours_, stage.ticks);
@@ -126,7 +129,7 @@ template <Crowd crowd>
 void RigidTick<crowd>::feel(const Frozen& frozen, Stage& stage)
 {
     Bodies& bodies = stage.bodies;
-    hands_.begin(stage);
+    hands_.begin(frozen, stage);
     for (std::uint32_t hand = 0; hand < frozen.hips.count; ++hand) {
         const HipInput& hip = stage.hips[hand];
         if (hip.present) {
@@ -315,17 +318,15 @@ void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
         const BodyId body = all[first].body;
         const Slot slot = stage.bodies.slot_of[body];
         if (courses_[slot + 1].has_hands) continue;
-        std::array<HipSpring, hips_max> springs;
-        std::array<HipWork, hips_max> work;
         std::size_t count = 0;
         for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) springs[count++] = all[i].spring;
+            if (all[i].body == body) springs_[count++] = all[i].spring;
         }
         follow_hands(courses_[slot + 1], stage, slot, solver_.response(slot + 1),
-                     {{springs.data(), count}, {work.data(), count}, frozen});
+                     {{springs_.data(), count}, {work_.data(), count}, frozen});
         count = 0;
         for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) all[i].impulse = work[count++].impulse;
+            if (all[i].body == body) all[i].impulse = work_[count++].impulse;
         }
     }
 }
