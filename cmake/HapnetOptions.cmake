@@ -31,8 +31,8 @@ if(HAPNET_SANITIZE)
     target_link_options(hapnet_options INTERFACE -fsanitize=${HAPNET_SANITIZE})
 endif()
 
-# What most files include is read once instead of once a file: a quarter of an unoptimised build, and
-# of clang-tidy's time. Off by default, so that a file that forgets an include is found.
+# What most files include is read once instead of once a file: a quarter of an unoptimised build.
+# Off by default, so that a file that forgets an include is found.
 option(HAPNET_PRECOMPILED "Precompile the headers that most files include" OFF)
 function(hapnet_precompile name)
     if(NOT HAPNET_PRECOMPILED OR NOT TARGET hapnet_base OR name STREQUAL hapnet_base)

@@ -65,10 +65,12 @@ Settings settings_of(const Options& options)
     Settings settings;
     settings.introduction.id = options.id;
     settings.introduction.nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U);
-    settings.introduction.scene_hash = hash(settings.scene);
+    settings.introduction.scene_hash = scene::hash(options.scene);
     settings.introduction.seed = options.seed.value();
     settings.introduction.task = wire::TaskName::from_text(device::name_of(options.task)).value();
+    settings.scene = options.scene;
     settings.algorithm = options.algorithm;
+    settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m;
     settings.length = options.duration;
     return settings;
 }

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "peer/options.hpp"
 
+#include "peer/core/scene/text/text.hpp"
+#include "peer/core/shared_body.hpp"
+#include "proto/base/quantity.hpp"
 #include "proto/base/text.hpp"
 #include "proto/base/version.hpp"
+#include "proto/net/text_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <limits>
@@ -41,6 +45,7 @@ struct Texts {
     std::string remote;
     std::string device = "sim";
     std::string scene = "paper";
+    std::string grip_damping = "4Ns/m";
     std::string task = "P1";
     std::string algorithm = "base";
     std::string seed = "1";
@@ -62,7 +67,14 @@ void add_options(CLI::App& app, Texts& texts)
     add("--remote", texts.remote, "The other peer, or the emulator's side for this one (required)",
         "HOST:PORT");
     add("--device", texts.device, "sim: a simulated Omni in a simulated hand (default)", "sim");
-    add("--scene", texts.scene, "paper: one movable and one static cube (default)", "paper");
+    add("--scene", texts.scene,
+        "A scene in TOML, or the name of one that comes with hapnet; it has one movable body\n"
+        "that does not turn (default paper: that body, and one that stands still)",
+        "FILE|NAME");
+    add("--grip-damping", texts.grip_damping,
+        "Damping of the device and the loosest grip on it (default 4Ns/m, a nominal stylus\n"
+        "grip): contacts that need more of it to be rendered safely feel softer",
+        "DAMPING");
     add("--task", texts.task, "What the simulated hands do (default P1)", "P1|T1|T3");
     add("--algorithm", texts.algorithm, "How the two cubes are kept together (default base)",
         "base");
@@ -74,6 +86,28 @@ void add_options(CLI::App& app, Texts& texts)
     app.add_flag("--insecure", texts.insecure, "Allow a session without a key over a real network");
     add("--record", texts.record, "Write every tick and message to FILE (see hapnet-lab)", "FILE");
     add("--stats", texts.stats, "Write statistics to FILE at the end; - is stdout", "FILE");
+}
+
+/// A damping that leaves something to be felt.
+base::Result<double> parse_grip_damping(const std::string& text)
+{
+    auto damping = base::parse_quantity(text, base::damping_kind);
+    if (damping && !(*damping > 0.0 && *damping <= scene::damping_max_ns_per_m)) {
+        return base::fail(
+            fmt::format("'{}' is out of range: more than 0, and at most {}, is possible", text,
+                        base::quantity_text(scene::damping_max_ns_per_m, base::damping_kind)));
+    }
+    return damping;
+}
+
+/// A scene that two peers can share.
+base::Result<scene::Description> scene_for_a_session(const std::string& file_or_name)
+{
+    auto scene = scene::load_scene(file_or_name, net::text_of_file);
+    if (!scene) return scene;
+    const auto body = shared_body(*scene);
+    if (!body) return base::fail(fmt::format("{}: {}", file_or_name, body.error().message));
+    return scene;
 }
 
 /// Takes parsed texts; the first error stays and names its option.
@@ -118,13 +152,14 @@ net::CommandLine<Options> options_from(const Texts& texts)
                   fmt::format("--device: '{}' is not available; this version has only sim, the "
                               "simulated Omni",
                               texts.device));
-    taker.require(
-        texts.scene == "paper",
-        fmt::format("--scene: '{}' is not known; this version has only paper", texts.scene));
+    taker.take(options.scene, "--scene", scene_for_a_session(texts.scene));
+    taker.take(options.grip_damping_ns_per_m, "--grip-damping",
+               parse_grip_damping(texts.grip_damping));
     taker.require(!texts.key, "--key: authenticated sessions are not available yet; use --insecure "
                               "on a network you trust");
     taker.require(texts.record != "-", "--record: '-' is not a file: a record needs one");
     if (taker.error()) return base::fail(*taker.error());
+    options.scene_name = texts.scene;
     options.algorithm_name = texts.algorithm;
     options.insecure = texts.insecure;
     options.record = texts.record;

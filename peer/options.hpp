@@ -4,6 +4,7 @@
 
 #include "device/simulated/task.hpp"
 #include "peer/core/algorithm.hpp"
+#include "peer/core/scene/description.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
@@ -16,13 +17,15 @@
 
 namespace hapnet::peer {
 
-/// What the command line asks for. Names are not looked up yet.
+/// What the command line asks for. Names of hosts are not looked up yet; the scene has been read.
 struct Options {
     std::uint16_t id = 1;
     net::HostPort listen{"127.0.0.1", 0};
     net::HostPort remote;
     std::string device = "sim";
-    std::string scene = "paper";
+    std::string scene_name = "paper";
+    scene::Description scene; // one that two peers can share
+    double grip_damping_ns_per_m = 4.0;
     device::Task task = device::Task::p1;
     std::string algorithm_name = "base";
     Algorithm algorithm;

@@ -104,8 +104,9 @@ void Servo::turn(record::TickRow& row, base::TimePoint now)
     row.remote_fresh = tick.freshness > 0.0;
     row.hip = sample.hip;
     row.hip_velocity = sample.velocity;
-    row.cube = peer.cube().position();
-    row.cube_velocity = peer.cube().velocity();
+    const scene::BodyState body = peer.body();
+    row.cube = body.position;
+    row.cube_velocity = body.velocity;
     row.contact = tick.force;
     row.device = force;
     row.remote = tick.remote_force;

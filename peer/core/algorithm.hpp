@@ -10,8 +10,8 @@
 
 namespace hapnet::peer {
 
-/// How two copies of the cube are kept together: a closed set, chosen by name. To add one, write
-/// a value with BaseAlgorithm's tick() and name it here.
+/// How two copies of the shared body are kept together: a closed set, chosen by name. To add one,
+/// write a value with BaseAlgorithm's tick() and name it here.
 using Algorithm = std::variant<BaseAlgorithm>;
 
 /// "base"

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/base_algorithm.hpp"
 
+#include "peer/core/shared_body.hpp"
+
 #include <algorithm>
 
 namespace hapnet::peer {
@@ -19,37 +21,41 @@ base::Force remote_force(const Situation& situation, double force_max_n)
            base::limited(situation.remote.state()->contact_force, force_max_n);
 }
 
-void BaseAlgorithm::tick(Cube& cube, const Situation& situation, base::Force from_remote)
+scene::HipTouch BaseAlgorithm::tick(scene::World& world, const Situation& situation,
+                                    base::Force from_remote)
 {
     const bool remote_touches = remote_touching(situation);
-    if (situation.local.touching || remote_touches) {
+    if (remote_touches) world.push(situation.body, from_remote);
+    world.tick();
+    const scene::HipTouch own = world.touch(own_hand);
+    if (own.touching || remote_touches) {
         untouched_since_.reset();
         blend_.reset();
     }
-    const auto& body = situation.remote.body();
-    if (situation.local.touching) {
-        cube.step(situation.local.on_cube + from_remote);
-    } else if (remote_touches && body) {
-        cube.place(body->position, body->velocity);
+    const auto& heard = situation.remote.body();
+    if (own.touching) return own;
+    if (remote_touches && heard) {
+        put(world, situation.body, heard->position, heard->velocity);
     } else {
-        settle(cube, situation);
+        settle(world, situation);
     }
+    return own;
 }
 
-void BaseAlgorithm::settle(Cube& cube, const Situation& situation)
+void BaseAlgorithm::settle(scene::World& world, const Situation& situation)
 {
     if (!untouched_since_) untouched_since_ = situation.now;
-    const auto& body = situation.remote.body();
+    const auto& heard = situation.remote.body();
     const bool waited = situation.now - *untouched_since_ >= settle_after;
-    if (!situation.yields || !waited || !body || situation.freshness <= 0.0) {
+    if (!situation.yields || !waited || !heard || situation.freshness <= 0.0) {
         blend_.reset();
-        cube.step({});
         return;
     }
-    if (!blend_) blend_ = Blend{situation.now, cube.position()};
+    if (!blend_) blend_ = Blend{situation.now, world.body(situation.body).position};
     const double share = std::min(1.0, base::to_seconds(situation.now - blend_->start) /
                                            base::to_seconds(settle_within));
-    cube.place(blend_->from + share * (body->position - blend_->from), body->velocity);
+    put(world, situation.body, blend_->from + share * (heard->position - blend_->from),
+        heard->velocity);
 }
 
 } // namespace hapnet::peer

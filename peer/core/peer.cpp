@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/peer.hpp"
 
+#include "peer/core/passivity.hpp"
+#include "proto/base/ensure.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,7 +14,7 @@ namespace hapnet::peer {
 
 namespace {
 
-// No hand or cube of ours is ever farther out or faster: what claims to be is not to be believed.
+// No hand or body of ours is ever farther out or faster: what claims to be is not to be believed.
 constexpr double reach_max_m = 10.0;
 constexpr double speed_max_m_per_s = 1000.0;
 
@@ -27,12 +30,26 @@ bool is_usable(const Hand& hand)
            is_within(hand.velocity.value, speed_max_m_per_s);
 }
 
-bool is_plausible(const wire::State& state)
+scene::BodyId shared_body_of(const Settings& settings)
 {
-    const bool hand = is_usable({state.hip, state.hip_velocity});
-    const bool body = !state.body || (is_within(state.body->position.value, reach_max_m) &&
-                                      is_within(state.body->velocity.value, speed_max_m_per_s));
-    return hand && body;
+    const auto body = shared_body(settings.scene);
+    base::ensure(body.has_value());
+    return *body;
+}
+
+scene::World world_of(const Settings& settings)
+{
+    auto world = scene::World::freeze(settings.scene, {.tick = settings.tick});
+    base::ensure(world.has_value());
+    return *std::move(world);
+}
+
+/// How much of the force on the hand may be rendered.
+double rendered_share(const Settings& settings)
+{
+    const scene::HipDescription& hips = settings.scene.hips;
+    return passive_share({hips.stiffness_n_per_m, hips.damping_ns_per_m},
+                         base::to_seconds(settings.tick), settings.grip_damping_ns_per_m);
 }
 
 } // namespace
@@ -41,8 +58,10 @@ Peer::Peer(const Settings& settings)
     : settings_{settings},
       handshake_{settings.introduction},
       remote_{settings.staleness},
-      cube_{settings.scene, settings.tick},
-      touch_{settings.scene}
+      body_{shared_body_of(settings)},
+      world_{world_of(settings)},
+      force_max_n_{std::min(settings.scene.hips.force_max_n, scene::force_max_n)},
+      share_{rendered_share(settings)}
 {}
 
 base::Duration Peer::hands_on() const
@@ -90,7 +109,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
     remote_.forget();
     gone_ = false;
     lost_ = false;
-    cube_known_ = !session()->joined_late;
+    body_known_ = !session()->joined_late;
     events_.put(had_session ? Event::restarted : Event::agreed);
 }
 
@@ -117,6 +136,14 @@ std::uint32_t Peer::sequence_max(base::TimePoint arrived) const
         std::max<base::Duration::rep>(0, (arrived - session()->start) / settings_.tick);
     return static_cast<std::uint32_t>(
         std::min<base::Duration::rep>(ticks + sequence_slack, UINT32_MAX));
+}
+
+bool Peer::is_plausible(const wire::State& state) const
+{
+    if (!is_usable({state.hip, state.hip_velocity})) return false;
+    const auto& body = state.body;
+    return !body || (body->body == body_ && is_within(body->position.value, reach_max_m) &&
+                     is_within(body->velocity.value, speed_max_m_per_s));
 }
 
 void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)
@@ -208,33 +235,34 @@ Tick Peer::tick(base::TimePoint now, const Hand& hand)
 
 void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
 {
-    if (!cube_known_ && remote_.body()) {
-        cube_.place(remote_.body()->position, remote_.body()->velocity);
-        cube_known_ = true;
+    if (!body_known_ && remote_.body()) {
+        put(world_, body_, remote_.body()->position, remote_.body()->velocity);
+        body_known_ = true;
     }
     const bool usable = is_usable(hand);
-    if (!usable) {
-        ++counters_.unusable_hand;
-        touch_.release();
-    }
-    if (usable && cube_known_) tick.touched = touch_.feel(hand, cube_.box(), cube_.velocity());
+    if (!usable) ++counters_.unusable_hand;
+    world_.hip(own_hand, {.position = usable ? hand.hip : base::Position{},
+                          .velocity = usable ? hand.velocity : base::Velocity{},
+                          .present = usable,
+                          .gripping = hand.gripping});
 
     const Situation situation{.now = now,
-                              .local = tick.touched,
+                              .body = body_,
                               .remote = remote_,
                               .freshness = tick.freshness,
                               .yields = !session()->is_left};
     tick.remote_touching = remote_touching(situation);
-    tick.remote_force = remote_force(situation, settings_.scene.force_max_n);
-    const base::Position before = cube_.position();
-    if (cube_known_) {
-        std::visit([&](auto& algorithm) { algorithm.tick(cube_, situation, tick.remote_force); },
-                   settings_.algorithm);
+    tick.remote_force = remote_force(situation, force_max_n_);
+    const base::Position before = body().position;
+    if (body_known_) {
+        tick.touched = std::visit(
+            [&](auto& algorithm) { return algorithm.tick(world_, situation, tick.remote_force); },
+            settings_.algorithm);
     }
-    account(tick, cube_.position() - before, now);
-    tick.force = tick.touched.on_hand;
+    account(tick, body().position - before, now);
+    tick.force = share_ * tick.touched.on_hip;
     // The governor's own fade runs along with the remote's: zero when the remote counts as gone.
-    tick.permitted = usable && cube_known_ && tick.freshness >= 1.0;
+    tick.permitted = usable && body_known_ && tick.freshness >= 1.0;
     if (!gone_) say_state(tick, now, usable ? hand : Hand{});
 }
 
@@ -243,11 +271,11 @@ void Peer::account(const Tick& tick, base::Displacement moved, base::TimePoint n
     const bool touching = tick.touched.touching;
     if (touching) {
         last_touch_ = now;
-        ledger_.add(tick.touched.on_cube * settings_.tick);
+        ledger_.add(tick.touched.on_body * settings_.tick);
     } else if (tick.remote_touching) {
-        last_touch_.reset(); // the other hand has taken the cube over
+        last_touch_.reset(); // the other hand has taken the body over
     }
-    // The cube still coasts from this hand's push for a while after it.
+    // The body still coasts from this hand's push for a while after it.
     const bool ours = last_touch_ && now - *last_touch_ < BaseAlgorithm::settle_after;
     if (ours) ledger_.add(moved);
     if (touching || base::norm(moved) > 1e-9) last_stir_ = now;
@@ -255,7 +283,7 @@ void Peer::account(const Tick& tick, base::Displacement moved, base::TimePoint n
 
 bool Peer::mentions_body(base::TimePoint now) const
 {
-    if (!cube_known_) return false;
+    if (!body_known_) return false;
     const bool stirs = last_stir_ && now - *last_stir_ < body_lingers;
     return stirs || current_.sequence % body_every == 1;
 }
@@ -272,11 +300,12 @@ void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
     state.holding = tick.touched.holding;
     state.hip = hand.hip;
     state.hip_velocity = hand.velocity;
-    state.contact_force = tick.touched.on_cube;
+    state.contact_force = tick.touched.on_body;
     if (mentions_body(now)) {
-        state.body = wire::BodyState{.body = 0,
-                                     .position = cube_.position(),
-                                     .velocity = cube_.velocity(),
+        const scene::BodyState body = world_.body(body_);
+        state.body = wire::BodyState{.body = static_cast<std::uint16_t>(body_),
+                                     .position = body.position,
+                                     .velocity = body.velocity,
                                      .caused_displacement_nm = ledger_.displacement_nm(),
                                      .caused_impulse_nns = ledger_.impulse_nns()};
     }

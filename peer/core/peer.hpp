@@ -7,16 +7,29 @@
 #include "peer/core/ledger.hpp"
 #include "peer/core/outbox.hpp"
 #include "peer/core/remote.hpp"
+#include "peer/core/shared_body.hpp"
 
 #include <optional>
 #include <span>
 
 namespace hapnet::peer {
 
+/// A hand as its device tells: the haptic interface point and whether its owner grips.
+struct Hand {
+    base::Position hip;
+    base::Velocity velocity;
+    bool gripping = false;
+};
+
 struct Settings {
     Introduction introduction;
-    Scene scene = paper_scene();
+    scene::Description scene = scene::paper_scene(); // one that shared_body() accepts
     Algorithm algorithm;
+    /// Of the device and the loosest grip on it: what a sampled contact may be rendered through
+    /// without that a hand draws energy from it (passive_share). The default is a nominal grip on
+    /// a stylus, and an assumption: fingertips were measured at 4 to 7.4 N s/m (A. Z. Hajian,
+    /// R. D. Howe: Identification of the mechanical impedance at the human finger tip, 1997).
+    double grip_damping_ns_per_m = 4.0;
     Staleness staleness;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration length{std::chrono::seconds{30}}; // of the session, from its start
@@ -31,7 +44,7 @@ enum class Event : std::uint8_t {
     met,       // the other side answers
     agreed,    // the start is known
     started,   // the session has begun
-    joined,    // ... and was under way already: the cube is where the other side has it
+    joined,    // ... and was under way already: the body is where the other side has it
     lost,      // nothing heard for so long that the forces faded to zero
     back,      // heard again
     restarted, // the other side came back as a new run
@@ -61,7 +74,7 @@ struct Tick {
     Phase phase = Phase::waiting;
     bool permitted = false; // whether the hand may feel anything at all
     base::Force force;      // on the hand, before the governor
-    Touched touched;
+    scene::HipTouch touched;
     bool remote_touching = false;
     base::Force remote_force;
     double freshness = 0.0;
@@ -69,8 +82,9 @@ struct Tick {
 };
 
 /// One peer without device, socket or clock: its copy of the scene, its hand, what it knows of
-/// the other side, and the session between them. Call on_datagram() for what arrives, tick()
-/// once per millisecond, and then poll() and event() until they are empty.
+/// the other side, and the session between them. The two share one body of the scene. Call
+/// on_datagram() for what arrives, tick() once per millisecond, and then poll() and event() until
+/// they are empty.
 class Peer {
 public:
     static constexpr base::Duration hands_off_length{std::chrono::seconds{3}};
@@ -86,6 +100,7 @@ public:
     static constexpr base::Duration objection_every{std::chrono::milliseconds{4}};
     static constexpr base::Duration::rep sequence_slack = 1000; // ticks
 
+    /// The scene must be one that shared_body() and World::freeze() accept.
     explicit Peer(const Settings& settings);
 
     void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived);
@@ -100,7 +115,9 @@ public:
     /// Nothing more will come of this peer.
     [[nodiscard]] bool finished() const { return leaving_ && byes_left_ == 0; }
 
-    [[nodiscard]] const Cube& cube() const { return cube_; }
+    [[nodiscard]] const scene::World& world() const { return world_; }
+    /// The shared body in this copy of the scene.
+    [[nodiscard]] scene::BodyState body() const { return world_.body(body_); }
     [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
     [[nodiscard]] std::optional<ClockOffset::Estimate> clock() const { return handshake_.clock(); }
     [[nodiscard]] const Counters& counters() const { return counters_; }
@@ -122,6 +139,7 @@ private:
     void on_message(const wire::Hello& hello, base::TimePoint arrived);
     void on_message(const wire::State& state, base::TimePoint arrived);
     void on_message(const wire::Bye& bye, base::TimePoint arrived);
+    [[nodiscard]] bool is_plausible(const wire::State& state) const;
     void object(const Objection& objection, base::TimePoint arrived);
     [[nodiscard]] std::uint32_t sequence_max(base::TimePoint arrived) const;
 
@@ -136,8 +154,10 @@ private:
     Settings settings_;
     Handshake handshake_;
     Remote remote_;
-    Cube cube_;
-    Touch touch_;
+    scene::BodyId body_; // the shared one
+    scene::World world_;
+    double force_max_n_; // of the remote hand
+    double share_;       // of the forces on the hand, that may be rendered
     Ledger ledger_;
     Outbox<wire::Datagram, 8> outbox_;
     Outbox<Event, 32> events_;
@@ -146,7 +166,7 @@ private:
     Phase phase_ = Phase::waiting;
     bool gone_ = false;      // the other side said goodbye
     bool lost_ = false;      // the other side fell silent
-    bool cube_known_ = true; // false: joined late, the other side's cube not seen yet
+    bool body_known_ = true; // false: joined late, the other side's body not seen yet
     struct Numbering {
         std::uint32_t number = 0; // of the session
         std::uint32_t sequence = 0;

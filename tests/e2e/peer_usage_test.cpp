@@ -6,6 +6,8 @@
 #include "tests/e2e/udp.hpp"
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
@@ -38,9 +40,10 @@ TEST(PeerUsage, PrintsHelpWithEveryOptionAndExamples)
     const auto outcome = run("hapnet-peer", {"--help"});
     EXPECT_EQ(outcome.exit, 0);
     for (const char* word :
-         {"--id", "--listen", "--remote", "--device", "--scene", "--task", "--algorithm", "--seed",
-          "--key", "--duration", "--record", "--stats", "--insecure", "--version", "Examples", "P1",
-          "T1", "T3", "Exit codes"}) {
+         {"--id",           "--listen", "--remote",    "--device",   "--scene",
+          "--grip-damping", "--task",   "--algorithm", "--seed",     "--key",
+          "--duration",     "--record", "--stats",     "--insecure", "--version",
+          "Examples",       "P1",       "T1",          "T3",         "Exit codes"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
 }
@@ -71,11 +74,25 @@ TEST(PeerUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
     expect_refusal(run_with({"--id", "0"}), 2, {"--id", "1 to 65535"});
     expect_refusal(run_with({"--id", "65536"}), 2, {"--id", "65536"});
     expect_refusal(run_with({"--seed", "x"}), 2, {"--seed", "'x'"});
+    expect_refusal(run_with({"--grip-damping", "4"}), 2, {"--grip-damping", "'4'", "2Ns/m"});
+    expect_refusal(run_with({"--grip-damping", "0"}), 2, {"--grip-damping", "more than 0"});
     expect_refusal(run_with({"--listen", "7000"}), 2, {"--listen", "HOST:PORT"});
     expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:0"}), 2, {"--remote", "port"});
     expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:99999"}), 2, {"--remote", "65535"});
     expect_refusal(run_with({"--listen", "[::1]:0"}), 2, {"--listen", "--remote", "IPv4", "IPv6"});
     expect_refusal(run_with({"--task"}), 2, {"--task"});
+}
+
+TEST(PeerUsage, RefusesAScenePointingAtTheLineAndAtTheCure)
+{
+    expect_refusal(run_with({"--scene", "no/such.toml"}), 2, {"--scene", "no/such.toml"});
+    expect_refusal(run_with({"--scene", "stack-10"}), 2,
+                   {"--scene", "one movable body", "this scene has 10"});
+    expect_refusal(run_with({"--scene", "push-6dof"}), 2, {"--scene", "turning = \"locked\""});
+    const std::string file = testing::TempDir() + "hapnet-bad-scene.toml";
+    std::ofstream{file} << "name = \"bad\"\n[[body]]\nsize = \"40mm\"\nmas = \"100g\"\n";
+    expect_refusal(run_with({"--scene", file}), 2, {"--scene", file + ":4:1: ", "mass"});
+    std::filesystem::remove(file);
 }
 
 TEST(PeerUsage, RefusesKeysUntilThereAreAny)
@@ -114,21 +131,27 @@ TEST(PeerUsage, SaysWhyTwoPeersCannotPlayTogetherAndHowTheyCould)
     struct Case {
         std::string id;
         std::string task;
+        std::string scene;
         std::string cure;
     };
-    for (const Case& c : {Case{"2", "P1", "--task"}, Case{"1", "T3", "--id"}}) {
+    const std::string heavy = testing::TempDir() + "hapnet-heavy.toml";
+    std::ofstream{heavy} << "[[body]]\nsize = \"40mm\"\nmass = \"1kg\"\nturning = \"locked\"\n";
+    for (const Case& c : {Case{"2", "P1", "paper", "--task"}, Case{"1", "T3", "paper", "--id"},
+                          Case{"2", "T3", heavy, "--scene"}}) {
         const std::string place_a = free_place();
         const std::string place_b = free_place();
         Process a{"hapnet-peer",
                   {"--id", "1", "--task", "T3", "--listen", place_a, "--remote", place_b}};
         Process b{"hapnet-peer",
-                  {"--id", c.id, "--task", c.task, "--listen", place_b, "--remote", place_a}};
+                  {"--id", c.id, "--task", c.task, "--scene", c.scene, "--listen", place_b,
+                   "--remote", place_a}};
         for (Process* peer : {&a, &b}) {
             EXPECT_EQ(peer->wait_exit(10s), 1);
             EXPECT_TRUE(peer->wait_for_err("refused", 1s)) << peer->err();
             EXPECT_NE(peer->err().find(c.cure), std::string::npos) << peer->err();
         }
     }
+    std::filesystem::remove(heavy);
 }
 
 } // namespace hapnet::e2e

@@ -131,16 +131,7 @@ private:
         per_body(course, question);
     }
 
-    void flight()
-    {
-        Course course{field(1000), 2.0, {}};
-        course.scene.planes.clear();
-        for (std::size_t i = 0; i < course.scene.bodies.size(); ++i) {
-            const double turn = 0.001 * static_cast<double>(i);
-            course.scene.bodies[i].angular_velocity = {turn, 1.0, -turn};
-        }
-        per_body(course, {"1000 in flight", "", "", 25.0, 8.0});
-    }
+    void flight() { per_body(flying_crowd(1000), {"1000 in flight", "", "", 25.0, 8.0}); }
 
     void landed()
     {
@@ -169,6 +160,17 @@ Course pushed_crowd(int count)
     course.scene = field(count);
     course.scene.hips = hips;
     course.warm_up_s = 0.3; // until what rests has fallen asleep
+    return course;
+}
+
+Course flying_crowd(int count)
+{
+    Course course{field(count), 2.0, {}};
+    course.scene.planes.clear();
+    for (std::size_t i = 0; i < course.scene.bodies.size(); ++i) {
+        const double turn = 0.001 * static_cast<double>(i);
+        course.scene.bodies[i].angular_velocity = {turn, 1.0, -turn};
+    }
     return course;
 }
 

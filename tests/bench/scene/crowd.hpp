@@ -13,4 +13,7 @@ namespace hapnet::bench {
 /// Many cubes on a platform, the first one pushed to and fro between two hands.
 [[nodiscard]] Course pushed_crowd(int count);
 
+/// As many that fall and turn, each at its own rate, with nothing to fall on.
+[[nodiscard]] Course flying_crowd(int count);
+
 } // namespace hapnet::bench

@@ -26,13 +26,15 @@ void tick(benchmark::State& state, const Course& course, bool sleeping)
 {
     scene::World world = frozen(course.scene, {.sleeping = sleeping});
     double time_s = 0.0;
-    for ([[maybe_unused]] auto _ : state) {
+    const auto step = [&] {
         for (std::uint32_t i = 0; course.hands && i < course.scene.hips.count; ++i) {
             std::ignore = world.hip(i, course.hands(i, time_s));
         }
         world.tick();
         time_s += 1e-3;
-    }
+    };
+    while (time_s < course.warm_up_s) step();
+    for ([[maybe_unused]] auto _ : state) step();
     state.SetLabel(std::string{scene::name_of(world.profile())});
 }
 
@@ -89,6 +91,7 @@ void register_ticks()
         });
     };
     add("tick/tumbling", tumble().course, false);
+    add("tick/1000_in_flight", flying_crowd(1000), false);
     add("tick/paper", paper_course(Turning::locked), false);
     Course dry = paper_course(Turning::free);
     dry.scene.bodies[0].turning = Turning::locked;

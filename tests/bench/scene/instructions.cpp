@@ -77,12 +77,23 @@ bool spin(const std::string& subject, bool is_locked, int steps)
     const auto found = std::find_if(all.begin(), all.end(),
                                     [&](const Subject& one) { return one.name == subject; });
     if (found == all.end()) return false;
-    Course course = course_of(is_locked);
-    course.duration_s = 1e-3 * steps;
+    const Course course = course_of(is_locked);
     const EngineOptions options;
+    std::vector<scene::HipInput> inputs; // as many for few steps as for many: not counted
+    for (int i = 0; i < many_steps; ++i) {
+        for (std::uint32_t hand = 0; hand < course.scene.hips.count; ++hand) {
+            inputs.push_back(course.hands(hand, options.tick_s * i));
+        }
+    }
     const auto engine = found->make(course.scene, options);
     if (!engine) return false;
-    run(*engine, course, options.tick_s);
+    const scene::HipInput* input = inputs.data();
+    for (int i = 0; i < std::min(steps, many_steps); ++i) {
+        for (std::uint32_t hand = 0; hand < course.scene.hips.count; ++hand) {
+            engine->hip(hand, *input++);
+        }
+        engine->step();
+    }
     return true;
 }
 

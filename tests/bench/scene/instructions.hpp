@@ -10,8 +10,8 @@ namespace hapnet::bench {
 /// program again with --spin; no rows without Valgrind.
 [[nodiscard]] std::vector<Row> count_instructions(std::span<const Subject> subjects);
 
-/// What the program that is counted does: `steps` steps of the paper's scene, locked or not.
-/// False when there is no such subject.
+/// What the program that is counted does: `steps` steps of the paper's scene, locked or not, at
+/// most 1300. False when there is no such subject.
 bool spin(const std::string& subject, bool is_locked, int steps);
 
 } // namespace hapnet::bench

@@ -57,7 +57,7 @@ TEST(HostileRemote, NeverMakesAForceThatIsNotFiniteOrExceedsThePeak)
                 governor.limit(pair.ticks[0].force, pair.ticks[0].permitted, pair.now);
             ASSERT_TRUE(base::is_finite(pair.ticks[0].force)) << seed << " " << round;
             ASSERT_LE(base::norm(force), 3.3 + 1e-12) << seed << " " << round;
-            ASSERT_TRUE(base::is_finite(pair.peers[0]->cube().position()));
+            ASSERT_TRUE(base::is_finite(pair.peers[0]->body().position));
             ASSERT_LE(base::norm(pair.ticks[0].remote_force), 3.3 + 1e-12);
             felt = std::max(felt, base::norm(force));
         }

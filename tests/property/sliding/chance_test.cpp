@@ -36,8 +36,9 @@ public:
     }
     Description scene()
     {
-        Description scene = cube_on_platform(once_in(2) ? 0.0 : between(0.0, 1.0),
-                                             once_in(2) ? 0.0 : scale(0.01, 1e4));
+        const double friction = once_in(2) ? 0.0 : between(0.0, 1.0);
+        const double drag = once_in(2) ? 0.0 : scale(0.01, 1e4);
+        Description scene = cube_on_platform(friction, drag);
         scene.bodies[0].mass_kg = scale(1e-4, 1e2);
         scene.bodies[0].material.restitution = once_in(2) ? 0.0 : between(0.0, 1.0);
         scene.hips.stiffness_n_per_m = scale(1.0, 1e7);
@@ -87,7 +88,8 @@ void live(std::uint64_t seed)
             if (chance.once_in(10)) rig.stage.hips[hand] = chance.hand();
         }
         const glm::dvec3 there = chance.vector(0.08);
-        if (chance.once_in(30) && !overlaps(scene, there)) rig.place(there, chance.vector(1.0));
+        const glm::dvec3 so_fast = chance.vector(1.0);
+        if (chance.once_in(30) && !overlaps(scene, there)) rig.place(there, so_fast);
         rig.carry(1);
         ASSERT_TRUE(base::is_finite(rig.position())) << seed << ' ' << i;
         ASSERT_TRUE(base::is_finite(rig.velocity())) << seed << ' ' << i;

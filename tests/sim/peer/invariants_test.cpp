@@ -71,8 +71,8 @@ void expect_invariants(const World& world)
         ASSERT_TRUE(base::is_finite(side.applied));
         ASSERT_LE(base::norm(side.applied), 3.3 + 1e-12);
         ASSERT_TRUE(base::is_finite(side.last.force));
-        ASSERT_TRUE(base::is_finite(side.peer->cube().position()));
-        ASSERT_LE(std::abs(side.peer->cube().position().x()), 0.2);
+        ASSERT_TRUE(base::is_finite(side.peer->body().position));
+        ASSERT_LE(std::abs(side.peer->body().position.x()), 0.2);
         const auto& counters = side.peer->counters();
         ASSERT_EQ(counters.malformed + counters.implausible + counters.unusable_hand, 0U);
     }

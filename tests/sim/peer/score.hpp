@@ -78,7 +78,7 @@ public:
     void add(const World& world, std::size_t index)
     {
         const Side& side = world.side(index);
-        for (const auto& v : {side.peer->cube().position().value, side.applied.value}) {
+        for (const auto& v : {side.peer->body().position.value, side.applied.value}) {
             add(v.x);
             add(v.y);
             add(v.z);

@@ -18,7 +18,7 @@ Side::Side(const Setting& setting, std::uint16_t id_of_side, std::uint32_t nonce
     peer::Settings settings;
     settings.introduction.id = id_of_side;
     settings.introduction.nonce = nonce;
-    settings.introduction.scene_hash = peer::hash(settings.scene);
+    settings.introduction.scene_hash = scene::hash(settings.scene);
     settings.introduction.seed = setting.seed.value() + id_of_side;
     settings.introduction.task = wire::TaskName::from_text(device::name_of(setting.task)).value();
     settings.length = setting.length;
@@ -43,8 +43,7 @@ void World::revive(std::size_t side)
 
 double World::discrepancy_x() const
 {
-    return std::abs(sides_[0]->peer->cube().position().x() -
-                    sides_[1]->peer->cube().position().x());
+    return std::abs(sides_[0]->peer->body().position.x() - sides_[1]->peer->body().position.x());
 }
 
 void World::deliver(std::size_t from)

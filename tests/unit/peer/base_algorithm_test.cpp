@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Every branch of the paper's hybrid algorithm against ticks worked out by hand.
-#include "peer/core/base_algorithm.hpp"
-
+// Every branch of the paper's hybrid algorithm, to the last bit, against a second world that is
+// driven by hand.
 #include "peer/core/algorithm.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <gtest/gtest.h>
 
 namespace hapnet::peer {
@@ -15,87 +13,114 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr base::TimePoint start{1h};
-const Scene scene = paper_scene();
-// One tick of 1 ms under b = 10 N s/m with m = 0.1 kg: v' = exp(-0.1) v + (1 - exp(-0.1)) F / b.
-const double kept = std::exp(-0.1);
-const double gained = (1.0 - kept) / 10.0;
-constexpr double rounding = 1e-15;
+constexpr scene::HipInput away{.present = false};
 
-wire::State heard(bool touching, double force_x, double cube_x, double cube_speed)
+wire::State heard(bool touching, double force_x, double body_x, double body_speed)
 {
     wire::State state;
     state.sequence = 1;
     state.touching = touching;
     state.contact_force = {{force_x, 0.0, 0.0}};
     state.body = wire::BodyState{};
-    state.body->position = {{cube_x, 0.0, 0.0}};
-    state.body->velocity = {{cube_speed, 0.0, 0.0}};
+    state.body->position = {{body_x, 0.0, 0.0}};
+    state.body->velocity = {{body_speed, 0.0, 0.0}};
     return state;
 }
 
-/// A copy of the cube, the other side's word, and the algorithm between them.
+scene::World paper_world() { return scene::World::freeze(scene::paper_scene()).value(); }
+
+/// A hand from the left, so deep in the cube at the origin: 2 mm are 1 N.
+scene::HipInput pushing(double depth, double speed = 0.0)
+{
+    return {.position = {{-0.025 + depth, 0.0, 0.0}}, .velocity = {{speed, 0.0, 0.0}}};
+}
+
+/// A copy of the scene, the other side's word, and the algorithm between them.
 class Copy {
 public:
     void hear(const wire::State& state) { remote_.update(state, now); }
 
-    void tick(double local_force_x, double freshness = 1.0, bool yields = true)
+    scene::HipTouch tick(const scene::HipInput& hand, double freshness = 1.0, bool yields = true)
     {
-        Touched local;
-        local.touching = local_force_x != 0.0;
-        local.on_cube = {{local_force_x, 0.0, 0.0}};
-        const Situation situation{.now = now,
-                                  .local = local,
-                                  .remote = remote_,
-                                  .freshness = freshness,
-                                  .yields = yields};
-        algorithm_.tick(cube, situation, remote_force(situation, scene.force_max_n));
+        world.hip(own_hand, hand);
+        const Situation situation{
+            .now = now, .remote = remote_, .freshness = freshness, .yields = yields};
+        const auto touched = algorithm_.tick(world, situation, remote_force(situation, 3.3));
         now += 1ms;
+        return touched;
     }
+    [[nodiscard]] double x() const { return world.body(0).position.x(); }
+    [[nodiscard]] double speed() const { return world.body(0).velocity.x(); }
 
     base::TimePoint now = start;
-    Cube cube{scene, 1ms};
+    scene::World world = paper_world();
 
 private:
     Remote remote_{{}};
     BaseAlgorithm algorithm_;
 };
 
-TEST(BaseAlgorithm, MovesACubeThatBothPushBySumOfTheForces)
+/// What happens without the other side, but for a push along x.
+void tick(scene::World& world, const scene::HipInput& hand, double push_x = 0.0)
+{
+    world.hip(own_hand, hand);
+    world.push(0, {{push_x, 0.0, 0.0}});
+    world.tick();
+}
+
+TEST(BaseAlgorithm, MovesABodyThatBothPushByTheSumOfTheForces)
 {
     Copy copy;
+    scene::World expected = paper_world();
     copy.hear(heard(true, -0.5, 0.05, 0.3)); // where it is over there does not matter now
-    copy.tick(2.0);
-    EXPECT_NEAR(copy.cube.velocity().x(), gained * 1.5, rounding);
-    EXPECT_NEAR(copy.cube.position().x(), 1e-3 * gained * 1.5, rounding);
-    copy.tick(2.0);
-    EXPECT_NEAR(copy.cube.velocity().x(), (1.0 + kept) * gained * 1.5, rounding);
+    for (int ms = 0; ms < 100; ++ms) {
+        const scene::HipTouch touched = copy.tick(pushing(0.004));
+        tick(expected, pushing(0.004), -0.5);
+        ASSERT_EQ(copy.world.hash(), expected.hash()) << ms;
+        ASSERT_TRUE(touched.touching);
+        ASSERT_EQ(touched.on_body, expected.touch(own_hand).on_body);
+    }
+    EXPECT_GT(copy.x(), 0.001);
 }
 
 TEST(BaseAlgorithm, LetsTheStrongerDecideTheDirection)
 {
     Copy copy;
     copy.hear(heard(true, -2.0, 0.0, 0.0));
-    copy.tick(1.5);
-    EXPECT_LT(copy.cube.velocity().x(), 0.0);
+    std::ignore = copy.tick(pushing(0.003)); // 1.5 N
+    EXPECT_LT(copy.speed(), 0.0);
 }
 
-TEST(BaseAlgorithm, MovesACubeThatThisHandAlonePushesByItsForce)
+TEST(BaseAlgorithm, MovesABodyThatThisHandAlonePushesByItsForce)
 {
     Copy copy;
+    scene::World expected = paper_world();
     copy.hear(heard(false, -0.5, 0.05, 0.0)); // a force without touch does not count
-    copy.tick(2.0);
-    EXPECT_NEAR(copy.cube.velocity().x(), gained * 2.0, rounding);
+    std::ignore = copy.tick(pushing(0.004));
+    tick(expected, pushing(0.004));
+    EXPECT_EQ(copy.world.hash(), expected.hash());
 }
 
-TEST(BaseAlgorithm, PutsACubeThatOnlyTheOtherHandTouchesWhereTheOtherSideHasIt)
+TEST(BaseAlgorithm, PutsABodyThatOnlyTheOtherHandTouchesWhereTheOtherSideHasIt)
 {
     Copy copy;
     copy.hear(heard(true, -0.5, 0.05, 0.3));
     for (int i = 0; i < 5; ++i) { // held between messages
-        copy.tick(0.0);
-        EXPECT_EQ(copy.cube.position().x(), 0.05);
-        EXPECT_EQ(copy.cube.velocity().x(), 0.3);
+        EXPECT_FALSE(copy.tick(away).touching);
+        EXPECT_EQ(copy.x(), 0.05);
+        EXPECT_EQ(copy.speed(), 0.3);
     }
+}
+
+TEST(BaseAlgorithm, LetsATouchThatBeginsWithinATickCountInIt)
+{
+    Copy copy;
+    scene::World expected = paper_world();
+    copy.hear(heard(true, -0.5, 0.05, 0.3));
+    const scene::HipInput coming = pushing(-0.0001, 0.3); // 0.3 mm of way, 0.1 mm away
+    EXPECT_TRUE(copy.tick(coming).touching);
+    tick(expected, coming, -0.5);
+    EXPECT_EQ(copy.world.hash(), expected.hash());
 }
 
 TEST(BaseAlgorithm, TakesTheRemoteForceFadedWithItsAgeAndNeverMoreThanAContactExerts)
@@ -103,9 +128,7 @@ TEST(BaseAlgorithm, TakesTheRemoteForceFadedWithItsAgeAndNeverMoreThanAContactEx
     Remote remote{{}};
     remote.update(heard(true, -1e30, 0.0, 0.0), start);
     const auto force_at = [&](double freshness) {
-        return remote_force({.now = start, .local = {}, .remote = remote, .freshness = freshness},
-                            3.3)
-            .x();
+        return remote_force({.now = start, .remote = remote, .freshness = freshness}, 3.3).x();
     };
     EXPECT_NEAR(force_at(1.0), -3.3, 1e-12);
     EXPECT_NEAR(force_at(0.5), -1.65, 1e-12);
@@ -115,59 +138,65 @@ TEST(BaseAlgorithm, TakesTheRemoteForceFadedWithItsAgeAndNeverMoreThanAContactEx
 TEST(BaseAlgorithm, TreatsAStaleRemoteAsNotTouching)
 {
     Copy copy;
+    scene::World expected = paper_world();
     copy.hear(heard(true, -0.5, 0.05, 0.0));
-    copy.tick(0.0, 0.0);
-    EXPECT_EQ(copy.cube.position().x(), 0.0);
-    copy.tick(2.0, 0.0);
-    EXPECT_NEAR(copy.cube.velocity().x(), gained * 2.0, rounding);
+    std::ignore = copy.tick(away, 0.0);
+    EXPECT_EQ(copy.x(), 0.0);
+    tick(expected, away);
+    std::ignore = copy.tick(pushing(0.004), 0.0);
+    tick(expected, pushing(0.004));
+    EXPECT_EQ(copy.world.hash(), expected.hash());
 }
 
-TEST(BaseAlgorithm, LetsACubeThatNobodyTouchesCoastFor200MsAndThenBlendsItWithin100Ms)
+TEST(BaseAlgorithm, LetsABodyThatNobodyTouchesCoastFor200MsAndThenBlendsItWithin100Ms)
 {
     Copy copy;
-    copy.tick(1.0);
-    double speed = copy.cube.velocity().x();
+    scene::World expected = paper_world();
+    std::ignore = copy.tick(pushing(0.003));
+    tick(expected, pushing(0.003));
     copy.hear(heard(false, 0.0, 0.010, 0.0));
     for (int ms = 0; ms < 200; ++ms) {
-        copy.tick(0.0);
-        speed *= kept;
-        EXPECT_NEAR(copy.cube.velocity().x(), speed, rounding) << ms;
+        std::ignore = copy.tick(away);
+        tick(expected, away);
+        ASSERT_EQ(copy.world.hash(), expected.hash()) << ms;
     }
-    const double from = copy.cube.position().x();
+    tick(expected, away); // the blend begins where the body has come to
+    const double from = expected.body(0).position.x();
     for (int ms = 0; ms <= 100; ++ms) {
-        copy.tick(0.0);
-        EXPECT_NEAR(copy.cube.position().x(), from + 0.01 * ms * (0.010 - from), 1e-12) << ms;
+        std::ignore = copy.tick(away);
+        EXPECT_NEAR(copy.x(), from + 0.01 * ms * (0.010 - from), 1e-12) << ms;
     }
-    copy.tick(0.0);
-    EXPECT_EQ(copy.cube.position().x(), 0.010);
+    std::ignore = copy.tick(away);
+    EXPECT_EQ(copy.x(), 0.010);
 }
 
-TEST(BaseAlgorithm, LeavesTheLowerIdsCubeToItselfWhenNobodyTouches)
+TEST(BaseAlgorithm, LeavesTheLowerIdsBodyToItselfWhenNobodyTouches)
 {
     Copy copy;
     copy.hear(heard(false, 0.0, 0.010, 0.0));
-    for (int ms = 0; ms < 1000; ++ms) copy.tick(0.0, 1.0, false);
-    EXPECT_EQ(copy.cube.position().x(), 0.0);
+    for (int ms = 0; ms < 1000; ++ms) std::ignore = copy.tick(away, 1.0, false);
+    EXPECT_EQ(copy.x(), 0.0);
 }
 
 TEST(BaseAlgorithm, DoesNotBlendToAWordThatIsStale)
 {
     Copy copy;
     copy.hear(heard(false, 0.0, 0.010, 0.0));
-    for (int ms = 0; ms < 1000; ++ms) copy.tick(0.0, 0.0);
-    EXPECT_EQ(copy.cube.position().x(), 0.0);
+    for (int ms = 0; ms < 1000; ++ms) std::ignore = copy.tick(away, 0.0);
+    EXPECT_EQ(copy.x(), 0.0);
 }
 
 TEST(BaseAlgorithm, BreaksABlendOffWhenAHandTouchesAndWaitsAnewAfterwards)
 {
     Copy copy;
     copy.hear(heard(false, 0.0, 0.010, 0.0));
-    for (int ms = 0; ms < 250; ++ms) copy.tick(0.0); // halfway
-    copy.tick(-1.0);
-    const double left_at = copy.cube.position().x();
+    for (int ms = 0; ms < 250; ++ms) std::ignore = copy.tick(away);                   // halfway
+    const scene::HipInput from_the_right{.position = {{copy.x() + 0.023, 0.0, 0.0}}}; // 1 N
+    EXPECT_TRUE(copy.tick(from_the_right).touching);
+    const double left_at = copy.x();
     EXPECT_NEAR(left_at, 0.005, 0.0005);
-    for (int ms = 0; ms < 200; ++ms) copy.tick(0.0);
-    EXPECT_LT(copy.cube.position().x(), left_at); // coasted, not blended
+    for (int ms = 0; ms < 200; ++ms) std::ignore = copy.tick(away);
+    EXPECT_LT(copy.x(), left_at); // coasted, not blended
 }
 
 TEST(Algorithms, HaveNames)

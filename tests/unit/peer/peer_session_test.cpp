@@ -221,7 +221,7 @@ TEST(PeerSession, ResumesWithARestartedSideThatTakesTheCubeFromTheOneThatStayed)
         pair.run_for(500ms); // the cube goes right
         pair.hands[0] = {.hip = {{-0.05, 0.0, 0.0}}, .velocity = {}};
         pair.run_for(1s);
-        const base::Position was = pair.peers[stayed]->cube().position();
+        const base::Position was = pair.peers[stayed]->body().position;
         EXPECT_GT(was.x(), 0.003);
         pair.kill(restarted);
         pair.run_for(1s);
@@ -231,8 +231,8 @@ TEST(PeerSession, ResumesWithARestartedSideThatTakesTheCubeFromTheOneThatStayed)
         pair.run_for(200ms);
         EXPECT_TRUE(pair.told(stayed, Event::restarted));
         EXPECT_TRUE(pair.told(restarted, Event::joined));
-        EXPECT_NEAR(pair.peers[restarted]->cube().position().x(), was.x(), 1e-8);
-        EXPECT_EQ(pair.peers[stayed]->cube().position().x(), was.x());
+        EXPECT_NEAR(pair.peers[restarted]->body().position.x(), was.x(), 1e-8);
+        EXPECT_EQ(pair.peers[stayed]->body().position.x(), was.x());
         EXPECT_TRUE(pair.ticks[stayed].permitted);
         EXPECT_TRUE(pair.ticks[restarted].permitted);
         EXPECT_EQ(pair.peers[0]->session()->start, pair.peers[1]->session()->start);

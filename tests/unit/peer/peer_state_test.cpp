@@ -43,14 +43,63 @@ TEST(PeerState, TellsOfHandTouchAndForce)
     EXPECT_FALSE(state->holding);
     EXPECT_NEAR(state->hip.x(), hand.hip.x(), 1e-9);
     EXPECT_EQ(state->hip_velocity, hand.velocity);
-    EXPECT_NEAR(state->contact_force.x(), 500 * 0.002 + 2 * 0.125, 1e-6);
-    EXPECT_EQ(pair.ticks[0].force, -pair.ticks[0].touched.on_cube);
+    EXPECT_NEAR(pair.ticks[0].touched.on_hip_at_start.x(), -(500 * 0.002 + 2 * 0.125), 1e-12);
+    // What is told and felt is the mean over the tick, as the hand goes on and the cube gives way.
+    auto world = scene::World::freeze(scene::paper_scene()).value();
+    world.hip(0, {.position = hand.hip, .velocity = hand.velocity});
+    world.tick();
+    EXPECT_EQ(pair.ticks[0].touched.on_body, world.touch(0).on_body);
+    EXPECT_NEAR(state->contact_force.x(), world.touch(0).on_body.x(), 1e-6);
+    EXPECT_EQ(pair.ticks[0].force, -pair.ticks[0].touched.on_body);
     ASSERT_TRUE(state->body);
-    EXPECT_NEAR(state->body->position.x(), pair.peers[0]->cube().position().x(), 1e-9);
+    EXPECT_NEAR(state->body->position.x(), pair.peers[0]->body().position.x(), 1e-9);
 
     pair.hands[0].gripping = true;
     pair.step();
     EXPECT_TRUE(pair.state_sent_by(0)->holding);
+}
+
+TEST(PeerState, IsOfTheSharedBodyWhateverItsPlaceInTheScene)
+{
+    Pair pair;
+    for (const std::size_t side : {0U, 1U}) {
+        Settings settings = settings_of(side);
+        std::swap(settings.scene.bodies[0], settings.scene.bodies[1]);
+        settings.introduction.scene_hash = scene::hash(settings.scene);
+        pair.start(side, settings);
+    }
+    pair.run_until_started();
+    pair.hands[0] = pushing(0.004);
+    pair.run_for(100ms);
+    EXPECT_GT(pair.peers[0]->body().position.x(), 0.001);
+    EXPECT_NEAR(pair.peers[1]->body().position.x(), pair.peers[0]->body().position.x(), 1e-3);
+    wire::State state = pair.state_sent_by(0).value();
+    EXPECT_EQ(state.body->body, 1U);
+    state.sequence += 10;
+    state.body->body = 0; // stands still for ever
+    pair.peers[1]->on_datagram(wire::encode(state).bytes(), pair.now);
+    EXPECT_EQ(pair.peers[1]->counters().implausible, 1U);
+}
+
+TEST(PeerForce, IsNoMoreThanTheGripLetsBeRenderedSafely)
+{
+    struct Case {
+        double grip_damping;
+        double share;
+    };
+    for (const Case& c : {Case{4.0, 1.0 / 3.0}, Case{12.0, 1.0}, Case{20.0, 1.0}}) {
+        Pair pair;
+        Settings settings = settings_of(0);
+        settings.scene.hips.stiffness_n_per_m = 20'000.0; // times 1 ms / 2, and 2 N s/m: 12 N s/m
+        settings.grip_damping_ns_per_m = c.grip_damping;
+        pair.start(0, settings);
+        pair.run_until_started();
+        pair.hands[0] = pushing(0.0001);
+        pair.step();
+        const double on_body = pair.ticks[0].touched.on_body.x();
+        EXPECT_GT(on_body, 0.5); // the scene itself is as stiff as it is said to be
+        EXPECT_NEAR(pair.ticks[0].force.x(), -on_body * c.share, 1e-12);
+    }
 }
 
 TEST(PeerState, LeavesTheBodyOutASecondAfterItsLastStirAndThenRepeatsItEvery64th)
@@ -60,12 +109,12 @@ TEST(PeerState, LeavesTheBodyOutASecondAfterItsLastStirAndThenRepeatsItEvery64th
     pair.hands[0] = pushing(0.002);
     pair.run_for(100ms);
     pair.hands[0] = {.hip = {{-0.05, 0.0, 0.0}}, .velocity = {}};
-    base::Position before = pair.peers[0]->cube().position();
+    base::Position before = pair.peers[0]->body().position;
     base::TimePoint stirred = pair.now;
     int bodies = 0;
     for (int ms = 0; ms < 5000; ++ms) {
         pair.step();
-        const base::Position position = pair.peers[0]->cube().position();
+        const base::Position position = pair.peers[0]->body().position;
         if (base::norm(position - before) > 1e-9) stirred = pair.now;
         before = position;
         const auto state = pair.state_sent_by(0);
@@ -84,16 +133,16 @@ TEST(PeerLedger, HoldsTheTimeIntegralOfTheForceAndTheMotionOfTheHand)
     pair.run_until_started();
     pair.hands[0] = pushing(0.003);
     double impulse = 0.0;
-    const double from = pair.peers[0]->cube().position().x();
+    const double from = pair.peers[0]->body().position.x();
     for (int ms = 0; ms < 300; ++ms) {
         pair.step();
-        impulse += pair.ticks[0].touched.on_cube.x() * 1e-3;
+        impulse += pair.ticks[0].touched.on_body.x() * 1e-3;
     }
     pair.hands[0] = {.hip = {{-0.05, 0.0, 0.0}}, .velocity = {}};
     pair.run_for(300ms); // the cube coasts, and that is this hand's doing too
     const auto body = pair.state_sent_by(0).value().body.value();
     EXPECT_NEAR(static_cast<double>(body.caused_impulse_nns[0]), 1e9 * impulse, 1.0);
-    const double moved = pair.peers[0]->cube().position().x() - from;
+    const double moved = pair.peers[0]->body().position.x() - from;
     EXPECT_GT(moved, 0.001);
     EXPECT_NEAR(static_cast<double>(body.caused_displacement_nm[0]), 1e9 * moved, 10.0);
     EXPECT_EQ(body.caused_impulse_nns[1], 0);
@@ -112,9 +161,9 @@ TEST(PeerLedger, DoesNotClaimWhatTheOtherHandDidAfterThisOneLetGo)
     };
     pair.run_for(5ms); // the other side's touch is known
     const auto at_hand_over = caused();
-    const double from = pair.peers[0]->cube().position().x();
+    const double from = pair.peers[0]->body().position.x();
     pair.run_for(150ms);
-    EXPECT_LT(pair.peers[0]->cube().position().x() - from, -0.001);
+    EXPECT_LT(pair.peers[0]->body().position.x() - from, -0.001);
     EXPECT_EQ(caused(), at_hand_over);
 }
 
@@ -146,7 +195,7 @@ TEST(PeerHand, ThatIsNotUsableIsCountedAndNeitherFeelsNorMovesAnything)
         EXPECT_EQ(pair.peers[0]->counters().unusable_hand, 100U);
         EXPECT_FALSE(pair.ticks[0].permitted);
         EXPECT_EQ(pair.ticks[0].force, base::Force{});
-        EXPECT_EQ(pair.peers[0]->cube().position(), base::Position{});
+        EXPECT_EQ(pair.peers[0]->body().position, base::Position{});
         EXPECT_EQ(pair.state_sent_by(0)->hip, base::Position{});
         pair.hands[0] = pushing(0.001);
         pair.hands[0].velocity = {{0.0, nan, 0.0}};

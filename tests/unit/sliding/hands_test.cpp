@@ -37,7 +37,7 @@ TEST(SlidingHands, KeepTheFaceThroughWhichTheyCame)
     EXPECT_NEAR(rig.touch(0).depth_m, touching - 0.024 + 0.020, 1e-15);
 }
 
-TEST(SlidingHands, ArefeltAtTheFaceTheyReachedWhenTheyPassRightThrough)
+TEST(SlidingHands, AreFeltAtTheFaceTheyReachedWhenTheyPassRightThrough)
 {
     Description scene = lone_cube();
     scene.hips.force_max_n = 3.3;

@@ -39,8 +39,12 @@ struct Picked {
     std::size_t count = 0;
     bool is_closed = true;
 };
-Picked pick(std::span<const HipSpring> springs, double within)
+Picked pick(const MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
+            double tick)
 {
+    bool is_near = false;
+    for (const HipSpring& spring : springs) is_near = is_near || spring.gap > 0.0;
+    const double within = is_near ? reach(body, answer, springs, tick) : 0.0;
     Picked picked;
     for (std::size_t i = 0; i < springs.size(); ++i) {
         const HipSpring& spring = springs[i];
@@ -88,7 +92,7 @@ void advance(MovingBody& body, const Answer& answer, std::span<const HipSpring> 
         return;
     }
     for (HipWork& each : work) each = {};
-    const Picked picked = pick(springs, reach(body, answer, springs, tick));
+    const Picked picked = pick(body, answer, springs, tick);
     if (!picked.is_closed) {
         Midpoint{body, answer, springs, work}.pass(tick);
         return;

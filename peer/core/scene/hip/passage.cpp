@@ -57,7 +57,12 @@ Passage<count>::Passage(MovingBody& body, const Answer& answer, double tick)
       turns_{!is_zero(answer.inverse_inertia)},
       inverse_inertia_{answer.inverse_inertia},
       axes_{axes_of(body.orientation)}
-{}
+{
+    const glm::dvec3& light = answer.inverse_mass;
+    const double most = std::max(std::max(light.x, light.y), light.z);
+    const double mass = most > 0.0 ? 1.0 / most : 0.0;
+    mass_ = {light.x > 0.0 ? mass : 0.0, light.y > 0.0 ? mass : 0.0, light.z > 0.0 ? mass : 0.0};
+}
 
 template <std::size_t count>
 void Passage<count>::set(std::size_t i, const HipSpring& spring, HipWork& work)
@@ -66,6 +71,7 @@ void Passage<count>::set(std::size_t i, const HipSpring& spring, HipWork& work)
     works_[i] = &work;
     surfaces_[i] = Surface{spring, answer_.half, axes_};
     hands_[i] = spring.arm + (spring.radius + spring.gap) * spring.normal;
+    is_amid_face_[i] = surfaces_[i].is_amid_face(axes_, hands_[i]);
     Hold& hold = holds_[i];
     hold = {spring.normal, glm::cross(spring.arm, spring.normal), -spring.gap};
     Press& press = presses_[i];
@@ -93,18 +99,25 @@ typename Passage<count>::Setting Passage<count>::halfway(double time) const
         half *
         (body_.velocity + (0.5 * half) * (answer_.acceleration + answer_.inverse_mass * force));
     Setting setting{inverse_inertia_, holds_};
-    glm::dmat3 axes = axes_;
+    glm::dvec3 angle{0.0};
     if (turns_) {
-        const glm::dvec3 angle =
-            half * (inverse_inertia_ * (body_.angular_momentum + (0.5 * half) * torque));
-        axes = axes_of(turn_by(angle) * body_.orientation);
+        angle = half * (inverse_inertia_ * (body_.angular_momentum + (0.5 * half) * torque));
         if (!answer_.turns_evenly)
             setting.inverse_inertia = turned_inertia(inverse_inertia_, angle);
     }
     for (std::size_t i = 0; i < count; ++i) {
-        Hold& hold = setting.holds[i];
         if (!turns_ && surfaces_[i].is_face()) continue;
-        hold = surfaces_[i].at(axes, hands_[i] + half * springs_[i]->velocity - moved);
+        Hold& hold = setting.holds[i];
+        const glm::dvec3 hand = hands_[i] + half * springs_[i]->velocity - moved;
+        if (is_amid_face_[i]) {
+            // The face's normal turns with the body; by so little that two terms of the rotation
+            // suffice for what is held.
+            const glm::dvec3 once = glm::cross(angle, holds_[i].normal);
+            hold.normal = holds_[i].normal + once + 0.5 * glm::cross(angle, once);
+            hold.lever = glm::cross(hand, hold.normal);
+        } else {
+            hold = surfaces_[i].at(axes_of(turn_by(angle) * body_.orientation), hand);
+        }
         const glm::dvec3 change = hold.normal - holds_[i].normal;
         setting.turned = std::max(setting.turned, glm::dot(change, change));
     }
@@ -165,12 +178,13 @@ bool Passage<count>::pass()
                 attempt = 3;
                 continue;
             }
-            const auto before = presses_;
+            std::array<bool, count> was_apart;
+            for (std::size_t i = 0; i < count; ++i)
+                was_apart[i] = presses_[i].phase == Phase::apart;
             presses_ = presses;
-            turned_ = std::max(turned_, setting.turned);
             apply(setting, pressed);
             for (std::size_t i = 0; i < count; ++i) {
-                if (before[i].phase == Phase::apart) meet(i);
+                if (was_apart[i]) meet(i);
             }
             break;
         }
@@ -211,7 +225,11 @@ void Passage<count>::apply(const Setting& setting, const Pressed<count>& pressed
         if (!answer_.turns_evenly) inverse_inertia_ = turned_inertia(inverse_inertia_, angle);
     }
     for (std::size_t i = 0; i < count; ++i) {
-        if (turns_ || !surfaces_[i].is_face()) holds_[i] = surfaces_[i].at(axes_, hands_[i]);
+        if (!turns_ && surfaces_[i].is_face()) continue;
+        const glm::dvec3 before = holds_[i].normal;
+        holds_[i] = surfaces_[i].at(axes_, hands_[i]);
+        const glm::dvec3 change = holds_[i].normal - before;
+        turned_ = std::max(turned_, glm::dot(change, change));
     }
     left_ = t < left_ ? left_ - t : 0.0;
 }
@@ -219,13 +237,14 @@ void Passage<count>::apply(const Setting& setting, const Pressed<count>& pressed
 template <std::size_t count>
 void Passage<count>::meet(std::size_t i)
 {
-    // Nothing is stored yet in a spring that was apart: it begins with the true depth, and not a
-    // little before it is reached.
+    // A spring that was apart stores nothing: it does not begin a little before its depth is
+    // reached, and when it begins a little late, that is settled in the end.
     Press& press = presses_[i];
     press.depth = holds_[i].depth;
+    if (press.phase != Phase::pressing) return;
     constexpr double near = 1e-9;
-    if (press.phase == Phase::pressing && press.depth < -near * press.closing * tick_)
-        press.phase = Phase::apart;
+    if (press.depth < -near * press.closing * tick_) press.phase = Phase::apart;
+    press.depth = std::min(press.depth, 0.0);
 }
 
 template <std::size_t count>
@@ -253,17 +272,14 @@ void Passage<count>::settle()
         if (press.phase == Phase::apart) continue;
         const double missed = energy(press, holds_[i].depth) - energy(press, press.depth);
         const glm::dvec3 velocity = body_.velocity - springs_[i]->velocity;
-        const glm::dvec3& light = answer_.inverse_mass;
-        const glm::dvec3 momentum{light.x > 0.0 ? velocity.x / light.x : 0.0,
-                                  light.y > 0.0 ? velocity.y / light.y : 0.0,
-                                  light.z > 0.0 ? velocity.z / light.z : 0.0};
+        const glm::dvec3 momentum = mass_ * velocity;
         const double twice =
             glm::dot(momentum, velocity) +
             glm::dot(body_.angular_momentum, inverse_inertia_ * body_.angular_momentum);
         constexpr double most = 0.03; // more cannot come from a geometry that is a little off
         if (!(twice > 0.0)) continue;
         const double scale = std::clamp(-missed / twice, -most, most);
-        body_.velocity += (scale * light) * momentum;
+        body_.velocity += scale * (answer_.inverse_mass * momentum);
         body_.angular_momentum *= 1.0 + scale;
         works_[i]->impulse += scale * momentum;
     }

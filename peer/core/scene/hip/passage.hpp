@@ -49,8 +49,9 @@ private:
     const Answer& answer_;
     double tick_;
     double left_;
+    glm::dvec3 mass_{0.0}; // 0 where locked
     bool turns_;
-    double turned_ = 0.0;        // the farthest that a normal turned in half of a phase, squared
+    double turned_ = 0.0;        // the farthest that a normal turned in a phase, squared
     glm::dmat3 inverse_inertia_; // now
     glm::dmat3 axes_;            // of the body, now
     std::array<const HipSpring*, count> springs_{};
@@ -58,6 +59,7 @@ private:
     std::array<Surface, count> surfaces_;
     std::array<glm::dvec3, count> hands_{}; // seen from the body's centre, now
     std::array<Hold, count> holds_;         // now
+    std::array<bool, count> is_amid_face_{};
     std::array<Press, count> presses_;
 };
 

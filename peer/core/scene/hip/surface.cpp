@@ -17,6 +17,15 @@ Surface::Surface(const HipSpring& spring, const glm::dvec3& half, const glm::dma
     is_face_ = size.x + size.y + size.z - size[axis] <= rounding;
 }
 
+bool Surface::is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const
+{
+    if (!is_face_) return false;
+    constexpr double amid = 0.9;
+    const glm::dvec3 off = glm::abs(hand * axes) - amid * half_;
+    return (off.x <= 0.0 || face_.x != 0.0) && (off.y <= 0.0 || face_.y != 0.0) &&
+           (off.z <= 0.0 || face_.z != 0.0);
+}
+
 Hold Surface::at(const glm::dmat3& axes, const glm::dvec3& hand) const
 {
     const glm::dvec3 centre = hand * axes;

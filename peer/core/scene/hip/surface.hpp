@@ -26,6 +26,8 @@ public:
 
     /// Whether it was a face at the start.
     [[nodiscard]] bool is_face() const { return is_face_; }
+    /// Whether it is a face, and the hand too far from its edges to leave it soon.
+    [[nodiscard]] bool is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const;
 
     /// With the hand's centre at `hand`, seen from the box's centre in the world's frame.
     [[nodiscard]] Hold at(const glm::dmat3& axes, const glm::dvec3& hand) const;

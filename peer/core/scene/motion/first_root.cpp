@@ -68,7 +68,8 @@ std::optional<double> first_root(const Watch& watch, const Courses& courses, dou
         time += step;
         s = sample(watch, courses, time, to);
     }
-    return time;
+    // Hundreds of periods in one tick, and none has come to it so far: only the end counts.
+    return sample(watch, courses, to, to).value < 0.0 ? std::optional{time} : std::nullopt;
 }
 
 } // namespace hapnet::scene

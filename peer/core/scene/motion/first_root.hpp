@@ -31,7 +31,8 @@ struct Watch {
 
 /// When the quantity first falls to 0, in [from, to); nullopt when it does not. No root is missed:
 /// the search goes on by steps within which a bound of the second derivative rules one out, and
-/// approaches the root from before it as fast as Newton's method does.
+/// approaches the root from before it as fast as Newton's method does. After 200 steps, which take
+/// a wave of some hundred periods, it only asks for the sign at the end.
 [[nodiscard]] std::optional<double> first_root(const Watch& watch, const Courses& courses,
                                                double from, double to);
 

@@ -108,12 +108,13 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
     block.has_matrix = false;
     set_tangents(block);
     start_from(block, manifold, memory);
+    block.begun = block.impulse.normal;
     set_points(block, manifold);
     block.arm_a = block.anchor - centres.a;
     block.arm_b = block.anchor - centres.b;
 }
 
-void remember(const ContactBlock& block, ContactMemory& memory)
+void remember(const ContactBlock& block, double weight, ContactMemory& memory)
 {
     memory.count = block.count;
     memory.feature = block.feature;
@@ -121,6 +122,14 @@ void remember(const ContactBlock& block, ContactMemory& memory)
     memory.friction_impulse =
         block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
     memory.torsion_impulse = block.impulse.torsion;
+    const double most =
+        2.0 * (block.begun[0] + block.begun[1] + block.begun[2] + block.begun[3]) + weight;
+    const double sum = block.normal_sum();
+    if (sum <= most) return;
+    const double share = most / sum;
+    for (double& impulse : memory.normal_impulse) impulse *= share;
+    memory.friction_impulse *= share;
+    memory.torsion_impulse *= share;
 }
 
 Modal velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
@@ -138,6 +147,25 @@ Modal velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMoti
     return {glm::dot(velocity, block.normal),    glm::dot(spin, block.tangent_1),
             glm::dot(spin, block.tangent_2),     glm::dot(velocity, block.tangent_1),
             glm::dot(velocity, block.tangent_2), glm::dot(spin, block.normal)};
+}
+
+void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& spin_b, double tick)
+{
+    block.bend = {};
+    const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
+        if (spin == glm::dvec3{0.0}) return;
+        const auto around = [&](const glm::dvec3& at) {
+            return share * glm::cross(spin, glm::cross(spin, at));
+        };
+        const glm::dvec3 anchor = around(arm);
+        block.bend[0] += glm::dot(block.normal, anchor);
+        block.bend[1] += glm::dot(block.normal, around(block.tangent_2));
+        block.bend[2] -= glm::dot(block.normal, around(block.tangent_1));
+        block.bend[3] += glm::dot(block.tangent_1, anchor);
+        block.bend[4] += glm::dot(block.tangent_2, anchor);
+    };
+    if (block.b != 0) add(spin_b, block.arm_b, tick);
+    if (block.a != 0) add(spin_a, block.arm_a, -tick);
 }
 
 Modal modal(const ContactBlock& block, const ContactImpulse& impulse)

@@ -58,9 +58,11 @@ struct ContactBlock {
     std::array<double, manifold_points_max> least{}; // the least normal speed of each point
     std::array<std::uint32_t, manifold_points_max> feature{};
     ContactImpulse impulse;
+    std::array<double, manifold_points_max> begun{}; // the normal impulses that it started from
     double restitution = 0.0;
     ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
-    double change = 0.0;             // m/s, what the last sweep changed in its speeds
+    Modal bend{};        // m/s, what turning adds to its velocity by the end of the tick
+    double change = 0.0; // m/s, what the last sweep changed in its speeds
 
     bool has_matrix = false;
     Square<6> matrix{}; // from modal impulses to modal velocities
@@ -84,11 +86,18 @@ struct ContactPlaces {
 /// Sets the geometry, and starts from last tick's impulses.
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
              const ContactMemory& memory);
-/// Keeps the impulses for the next tick.
-void remember(const ContactBlock& block, ContactMemory& memory);
+/// Keeps the impulses for the next tick, to start from: not those of a hit, which will not come
+/// again. So they at most double from tick to tick, but for `weight` (N s), about what carrying the
+/// two bodies takes.
+void remember(const ContactBlock& block, double weight, ContactMemory& memory);
 
 [[nodiscard]] Modal velocity_at(const ContactBlock& block, const BodyMotion& a,
                                 const BodyMotion& b);
+/// While a body turns, the points of it that touch go around its centre: what that adds to their
+/// velocity within a tick. Without it, a box that tips over an edge would gain energy. Second
+/// order.
+void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& spin_b, double tick);
+
 [[nodiscard]] Modal modal(const ContactBlock& block, const ContactImpulse& impulse);
 
 /// An impulse in the world's frame, about the anchor.

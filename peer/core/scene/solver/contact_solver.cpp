@@ -13,6 +13,10 @@ namespace {
 /// The impulses of a block as numbers of one kind, N s.
 constexpr std::size_t parts = 7;
 
+// What a large island may cost: so many visits to its blocks, but a few sweeps in any case.
+constexpr std::uint32_t visits_max = 1200;
+constexpr std::uint32_t sweeps_min = 7;
+
 void read(const ContactBlock& block, double* to)
 {
     const ContactImpulse& impulse = block.impulse;
@@ -70,7 +74,26 @@ SolverOutcome ContactSolver::solve(const SolverLimits& limits)
 
 SolverOutcome ContactSolver::separate(const SolverLimits& limits)
 {
-    for (ContactBlock& block : blocks_.all()) block.impulse = {};
+    const auto overlaps = [&](const ContactBlock& block) {
+        Modal velocity = velocity_at(block, mean_[block.a], mean_[block.b]);
+        for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.bend[i];
+        for (std::size_t i = 0; i < block.count; ++i) {
+            if (block.normal_speed(velocity, i) < block.least[i] - limits.quiet) return true;
+        }
+        return false;
+    };
+    const std::span<ContactBlock> blocks = blocks_.all();
+    if (std::none_of(blocks.begin(), blocks.end(), overlaps)) return {};
+    // What is new in the impulses counts half in the mean velocities, as a force would. Of a hit it
+    // should be all, from the moment when they met: a good start.
+    for (ContactBlock& block : blocks) {
+        ContactImpulse start;
+        for (std::size_t i = 0; i < block.count; ++i) {
+            start.normal[i] = std::max(0.0, 0.5 * (block.impulse.normal[i] - block.begun[i]));
+        }
+        block.impulse = start;
+        apply(block, modal(block, start), mean_.all());
+    }
     return run({Mode::separations, mean_.all(), limits});
 }
 
@@ -99,6 +122,10 @@ SolverOutcome ContactSolver::run(const Task& task)
 
 SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
+    const std::uint32_t sweeps_max = std::min<std::uint32_t>(
+        task.limits.sweeps_max,
+        std::max<std::uint32_t>(sweeps_min,
+                                visits_max / static_cast<std::uint32_t>(island.size())));
     before_.resize(parts * island.size());
     after_.resize(parts * island.size());
     good_.resize(parts * island.size());
@@ -107,7 +134,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
     SolverOutcome outcome{1, 0.0};
     double shortest2 = std::numeric_limits<double>::infinity();
     bool has_jumped = false;
-    while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
+    while (outcome.sweeps + 2 <= sweeps_max) {
         outcome.change = sweep(task, island);
         outcome.sweeps += 2;
         if (outcome.change <= task.limits.enough) break;
@@ -123,7 +150,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
             continue;
         }
         shortest2 = std::min(shortest2, step2);
-        if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
+        if (outcome.sweeps + 2 > sweeps_max) break;
         has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
         if (has_jumped) jump(task, island);
     }
@@ -176,7 +203,8 @@ void ContactSolver::step_back(const Task& task, Island island)
 
 double ContactSolver::visit(ContactBlock& block, const Task& task)
 {
-    const Modal velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+    Modal velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+    for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.bend[i];
     const double quiet = task.limits.quiet;
     const bool pushes_only = task.mode == Mode::separations;
     if (pushes_only ? is_separated(block, velocity, quiet) : is_solved(block, velocity, quiet)) {

@@ -141,6 +141,11 @@ void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyRespons
     const glm::dvec3& before = course.start.velocity;
     course.tentative = {before + tick * rate, response.inverse_inertia * course.angular_momentum,
                         glm::dvec3{0.0}};
+    if (!turns_evenly(stage.bodies.form[slot])) {
+        // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
+        course.tentative.spin += tick * (response.inverse_inertia *
+                                         glm::cross(course.angular_momentum, course.start.spin));
+    }
     course.mean = {before + (0.5 * tick) * rate, 0.5 * (course.start.spin + course.tentative.spin),
                    glm::dvec3{0.0}};
     if (course.drag == 0.0) return;
@@ -177,15 +182,15 @@ void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyR
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
     // says when it is too strong for that.
     constexpr double strong = 0.5;
+    const glm::dvec3 before = along_plane(course.start.velocity, course.carrier);
     if (course.drag == 0.0) {
         advance_against(glm::dvec3{0.0});
+    } else if (course.drag * frozen.tick < strong) {
+        advance_against(course.drag * before);
+        const glm::dvec3 after = along_plane(body.velocity, course.carrier);
+        advance_against((0.5 * course.drag) * (before + after));
     } else {
-        const double loss = (1.0 - base::exp(-course.drag * frozen.tick)) / frozen.tick;
-        advance_against(loss * along_plane(course.start.velocity, course.carrier));
-        if (course.drag * frozen.tick < strong) {
-            const glm::dvec3 mean = 0.5 * (course.start.velocity + body.velocity);
-            advance_against(course.drag * along_plane(mean, course.carrier));
-        }
+        advance_against(((1.0 - base::exp(-course.drag * frozen.tick)) / frozen.tick) * before);
     }
     course.has_hands = true;
     course.position = body.position;

@@ -19,7 +19,7 @@ constexpr std::size_t contacts_per_body_max = 8;
 // A contact that misses by less than this share of what gravity adds in a tick is in balance.
 constexpr double quiet = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
-constexpr double enough = 1e-7;
+constexpr double enough = 1e-6;
 // ... or this many sweeps were made. Measured: see the table in docs/BENCHMARKS.md.
 constexpr std::uint32_t sweeps_max = 60;
 
@@ -28,7 +28,7 @@ constexpr std::uint32_t sweeps_max = 60;
 constexpr double overlap_quiet = 1e-9;
 constexpr double overlap_enough = 1e-6;
 constexpr double overlap_most = 0.02;
-constexpr std::uint32_t overlap_sweeps_max = 12;
+constexpr std::uint32_t overlap_sweeps_max = 40;
 // Of an overlap that is there, this share is removed per tick: not all, so that contacts that
 // contradict each other settle.
 constexpr double overlap_share = 0.3;
@@ -36,10 +36,15 @@ constexpr double overlap_share = 0.3;
 // What comes nearer than this share of the smallest half edge within a tick is looked at.
 constexpr double look_ahead = 0.01;
 
+// Surfaces that push each other and are not farther apart than this, in smallest half edges, touch.
+// What is left of moving overlaps apart is less; chasing it would keep heaps from coming to rest.
+constexpr double touching = 2e-6;
+
 /// The least normal speed for which two surfaces so far apart do not overlap at the tick's end.
-double closing(double separation, double tick)
+double closing(double separation, double impulse, const Scales& scales)
 {
-    return separation > 0.0 ? -separation / tick : 0.0;
+    const double nothing = impulse > 0.0 ? touching * scales.size : 0.0;
+    return separation > nothing ? -separation / scales.tick : 0.0;
 }
 
 double parting(double separation, const Scales& scales)
@@ -218,7 +223,7 @@ ContactBlock* RigidTick<crowd>::meet(const Manifold& manifold, const ContactPlac
     prepare(block, manifold, centres, memory);
     block.memory = &memory;
     for (std::uint32_t i = 0; i < block.count; ++i) {
-        block.least[i] = closing(block.separation[i], scales_.tick);
+        block.least[i] = closing(block.separation[i], block.begun[i], scales_);
     }
     return &block;
 }
@@ -327,6 +332,9 @@ void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
     for (SolverIndex i = 1; i <= stage.bodies.awake; ++i) {
         solver_.ending(i) = courses_[i].tentative;
     }
+    for (ContactBlock& block : solver_.blocks()) {
+        set_bend(block, courses_[block.a].mean.spin, courses_[block.b].mean.spin, scales_.tick);
+    }
 }
 
 template <Crowd crowd>
@@ -371,8 +379,13 @@ void RigidTick<crowd>::solve(const Stage& stage)
                            course.mean.spin + 0.5 * (ending.spin - course.tentative.spin),
                            course.thrown_mean + 0.5 * ending.angular_impulse};
     }
+    const auto weight_of = [&](const ContactBlock& block) {
+        const double a = block.a != 0 ? bodies.form[block.a - 1].mass : 0.0;
+        const double b = block.b != 0 ? bodies.form[block.b - 1].mass : 0.0;
+        return (a + b) * scales_.speed;
+    };
     for (const ContactBlock& block : blocks) {
-        remember(block, *block.memory);
+        remember(block, weight_of(block), *block.memory);
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
         ++courses_[block.a].rubbing;
         ++courses_[block.b].rubbing;
@@ -393,6 +406,7 @@ void RigidTick<crowd>::move_apart()
         for (std::uint32_t i = 0; i < block.count; ++i) {
             block.least[i] = parting(block.separation[i], scales_);
         }
+        for (double& part : block.bend) part *= 0.5; // of the mean over the tick
     }
     const double length = scales_.size / scales_.tick;
     solver_.separate({overlap_quiet * length, overlap_enough * length, overlap_sweeps_max});

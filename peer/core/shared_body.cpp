@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/shared_body.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+base::Result<scene::BodyId> shared_body(const scene::Description& scene)
+{
+    using number_on_the_wire = std::uint16_t;
+    const auto is_movable = [](const scene::BodyDescription& body) { return body.movable; };
+    const auto& bodies = scene.bodies;
+    const auto found = std::find_if(bodies.begin(), bodies.end(), is_movable);
+    const auto count = std::count_if(found, bodies.end(), is_movable);
+    if (count != 1) {
+        return base::fail(fmt::format("a session shares one movable body so far; this scene has {}",
+                                      count == 0 ? "none" : fmt::to_string(count)));
+    }
+    if (found->turning != scene::Turning::locked) {
+        return base::fail("a session shares a body that does not turn so far; the movable one of "
+                          "this scene can: give it turning = \"locked\"");
+    }
+    if (scene.hips.count == 0) return base::fail("a session needs a hand; this scene has none");
+    const auto index = found - bodies.begin();
+    if (index > std::numeric_limits<number_on_the_wire>::max()) {
+        return base::fail(fmt::format("the body that a session shares is one of the first {} of "
+                                      "its scene; this is number {}",
+                                      std::numeric_limits<number_on_the_wire>::max() + 1,
+                                      index + 1));
+    }
+    return static_cast<scene::BodyId>(index);
+}
+
+void put(scene::World& world, scene::BodyId body, base::Position position, base::Velocity velocity)
+{
+    scene::BodyState state = world.body(body);
+    state.position = position;
+    state.velocity = velocity;
+    world.place(body, state);
+}
+
+} // namespace hapnet::peer

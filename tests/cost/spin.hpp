@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/scene/stage.hpp"
+
+#include <string_view>
+
+namespace hapnet::cost {
+
+// What both programs do, so that they differ in nothing but what was compiled into them: two hands
+// press a cube from both sides, one of them a little deeper, so that it slides away between them.
+
+/// A scene that needs just the profile of that name.
+[[nodiscard]] inline scene::Description scene_for(std::string_view profile)
+{
+    scene::Description description = scene::paper_scene();
+    if (profile != "sliding") {
+        description.bodies[0].material.friction = 0.3;
+        description.planes[0].material.friction = 0.3;
+    }
+    if (profile == "lone" || profile == "few") {
+        description.bodies[0].turning = scene::Turning::free;
+        description.bodies[0].drag_ns_per_m = 0.0;
+    }
+    if (profile == "few") description.bodies[1].movable = true;
+    return description;
+}
+
+[[nodiscard]] inline scene::HipInput hand(std::uint32_t index)
+{
+    const double side = index == 0 ? -1.0 : 1.0;
+    return {.position = {{side * 0.0245 - 1e-4, 0.0, 0.0}}, .velocity = {}};
+}
+
+} // namespace hapnet::cost
