@@ -196,8 +196,7 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     balance.angular += mass * reach * (length(v0) + length(v1)) + length(now.angular_momentum) +
                        length(was.angular_momentum) + tick * reach * length(force);
     balance.astray += mass * length(moved - steady) * (length(v0) + length(v1));
-    const double fall = tick * length(play_.description.gravity);
-    balance.slack += mass * fall * fall;
+    balance.slack += tick * tick * glm::dot(force, force) / (8.0 * mass);
     balance.linear_gain += mass * (v1 - v0) - tick * force;
     balance.angular_gain += mass * (glm::cross(now.state.position.value, v1) -
                                     glm::cross(was.state.position.value, v0)) +
@@ -216,7 +215,7 @@ std::optional<std::string> SceneLaws::check_energy(const World& world, const Bal
     const double gained =
         balance.kinetic_after - balance.kinetic_before - balance.work - hands * world.frozen().tick;
     const double there = balance.kinetic_before + balance.kinetic_after + std::abs(balance.work);
-    const double tolerated = energy_tolerance * (there + balance.slack);
+    const double tolerated = energy_tolerance * there + balance.slack;
     if (tolerated > 0.0) worst_.energy = std::max(worst_.energy, gained / tolerated);
     if (gained <= tolerated) return std::nullopt;
     return fmt::format("{} J came from nowhere; there were {} J", gained, balance.kinetic_before);

@@ -25,7 +25,9 @@ struct LawFigures {
 /// - where nothing is fixed, momentum changes by what gravity, pushes and hands give, and angular
 ///   momentum, without hands, by what gravity and pushes give.
 /// A body moves at the mean of its velocities before and after the tick, so that the work of a
-/// steady force and of every impulse is exact: with the inertia as it is before the tick.
+/// steady force and of every impulse is exact: with the inertia as it is before the tick. Contacts
+/// oppose the motion at the tick's end: against a force that reverses it within the tick they can
+/// lose too little, by up to force^2 tick^2 / (8 mass).
 class SceneLaws {
 public:
     explicit SceneLaws(const RandomPlay& play);

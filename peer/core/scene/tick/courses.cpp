@@ -24,6 +24,13 @@ glm::dvec3 about_free_axes(const BodyForm& form, const glm::dvec3& angular)
             form.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
 
+/// What of a way the body can go.
+glm::dvec3 free_part(const BodyForm& form, const glm::dvec3& way)
+{
+    const glm::dvec3& light = form.inverse_mass;
+    return {light.x > 0.0 ? way.x : 0.0, light.y > 0.0 ? way.y : 0.0, light.z > 0.0 ? way.z : 0.0};
+}
+
 /// A turn too small to show in an orientation.
 bool is_nothing(const glm::dvec3& angle)
 {
@@ -207,7 +214,7 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
 {
     const double sign = block.b != 0 ? 1.0 : -1.0;
     const glm::dvec3& start = course.start.velocity;
-    const glm::dvec3 slip = start - glm::dot(start, block.normal) * block.normal;
+    const glm::dvec3 slip = free_part(form, start - glm::dot(start, block.normal) * block.normal);
     const double speed = std::sqrt(glm::dot(slip, slip));
     constexpr double hardly = 1e-9;
     if (speed <= hardly * scales.speed) return;
