@@ -369,6 +369,15 @@ void Trial::slip(double quiet)
     slip_once(0.0);
 }
 
+/// What of such speeds may be rounding, m/s.
+double rounding_of(const ContactBlock& block, const Modal& velocity)
+{
+    constexpr double share = 1e-13;
+    return share * (std::abs(velocity[0]) + std::abs(velocity[3]) + std::abs(velocity[4]) +
+                    block.torsion_arm *
+                        (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
+}
+
 Modal finish(ContactBlock& block, const ContactImpulse& answer)
 {
     const Modal change = minus(modal(block, answer), modal(block, block.impulse));
@@ -414,17 +423,18 @@ bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet)
 Modal solve(ContactBlock& block, const Modal& velocity, double quiet)
 {
     if (block.friction == 0.0) return solve_normals(block, velocity, quiet);
+    const double still = std::max(quiet, rounding_of(block, velocity));
     Trial trial{block, velocity};
-    if (trial.stick(quiet)) return finish(block, trial.answer());
+    if (trial.stick(still)) return finish(block, trial.answer());
     Trial slipping{block, velocity};
-    slipping.slip(quiet);
+    slipping.slip(still);
     return finish(block, slipping.answer());
 }
 
 Modal solve_normals(ContactBlock& block, const Modal& velocity, double quiet)
 {
     Trial trial{block, velocity};
-    trial.push(quiet);
+    trial.push(std::max(quiet, rounding_of(block, velocity)));
     return finish(block, trial.answer());
 }
 

@@ -15,6 +15,9 @@ namespace hapnet::scene {
 
 namespace {
 
+/// How far off its straight way a body may come within a tick, in half edges of the smallest body.
+constexpr double strays_most = 0.5;
+
 /// An angular impulse changes the momentum only about axes that the body may turn about.
 glm::dvec3 about_free_axes(const BodyForm& form, const glm::dvec3& angular)
 {
@@ -80,22 +83,6 @@ void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion&
     const glm::dvec3 momentum =
         bodies.angular_momentum.at(slot) + 0.5 * course.angular_impulse + mean.angular_impulse;
     bodies.orientation.put(slot, spun(now, {momentum, form.inverse_inertia}, tick));
-}
-
-/// What a body meets was looked for on its straight way through the tick. When it is thrown far off
-/// that, it goes only so far that it cannot pass through anything that was not looked for.
-void keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scales)
-{
-    constexpr double strays_most = 0.5;
-    const double most = strays_most * scales.least / scales.tick;
-    const glm::dvec3& path = course.start.velocity;
-    const glm::dvec3& way = mean.velocity;
-    const double path2 = glm::dot(path, path);
-    if (path2 <= most * most && glm::dot(way, way) <= most * most) return;
-    const double share = path2 > 0.0 ? std::clamp(glm::dot(way, path) / path2, 0.0, 1.0) : 0.0;
-    const glm::dvec3 off = way - share * path;
-    const double astray = std::sqrt(glm::dot(off, off));
-    if (astray > most) mean.velocity = share * path + (most / astray) * off;
 }
 
 } // namespace
@@ -229,6 +216,18 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
+bool keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scales)
+{
+    const double most = strays_most * scales.least / scales.tick;
+    const glm::dvec3& path = course.start.velocity;
+    const glm::dvec3 low = glm::min(path, glm::dvec3{0.0}) - most;
+    const glm::dvec3 high = glm::max(path, glm::dvec3{0.0}) + most;
+    const glm::dvec3 kept = glm::min(glm::max(mean.velocity, low), high);
+    if (kept == mean.velocity) return false;
+    mean.velocity = kept;
+    return true;
+}
+
 void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
             const Scales& scales)
 {
@@ -241,7 +240,6 @@ void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& 
     if (course.has_hands) {
         bodies.position.put(slot, course.position + tick * (mean.velocity - course.mean.velocity));
     } else {
-        keep_to_path(course, mean, scales);
         bodies.position.put(slot, from + tick * mean.velocity);
     }
     bodies.velocity.put(slot, ending.velocity);
