@@ -23,9 +23,11 @@ using scene::World;
 // Of the energy that is there.
 constexpr double energy_tolerance = 1e-6;
 // Of the sum of all momenta and impulses.
-constexpr double momentum_tolerance = 1e-12;
-constexpr double force_tolerance = 1e-9;
+constexpr double momentum_tolerance = 1e-10;
+constexpr double force_tolerance = 1e-6; // of a direction held while it turns
 constexpr double unit_tolerance = 1e-12;
+// (m/s)^2: so slow is at rest.
+constexpr double rounding2 = 1e-24;
 // How many movable bodies one hand may push.
 constexpr double touched_max = 8.0;
 
@@ -196,7 +198,7 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     balance.angular += mass * reach * (length(v0) + length(v1)) + length(now.angular_momentum) +
                        length(was.angular_momentum) + tick * reach * length(force);
     balance.astray += mass * length(moved - steady) * (length(v0) + length(v1));
-    balance.slack += tick * tick * glm::dot(force, force) / (8.0 * mass);
+    balance.slack += tick * tick * glm::dot(force, force) / (8.0 * mass) + mass * rounding2;
     balance.linear_gain += mass * (v1 - v0) - tick * force;
     balance.angular_gain += mass * (glm::cross(now.state.position.value, v1) -
                                     glm::cross(was.state.position.value, v0)) +

@@ -144,13 +144,14 @@ void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyRespons
                    glm::dvec3{0.0}};
     if (course.drag == 0.0) return;
     // Against the drag the velocity along the plane goes exponentially to where it would stay.
+    const BodyForm& form = stage.bodies.form[slot];
     const double keeps = base::exp(-course.drag * tick);
+    const glm::dvec3 driven = free_part(form, along_plane(rate, course.carrier));
     const glm::dvec3 excess =
-        along_plane(before, course.carrier) - along_plane(rate, course.carrier) / course.drag;
+        free_part(form, along_plane(before, course.carrier)) - driven / course.drag;
     const glm::dvec3 lost = (1.0 - keeps) * excess;
-    course.tentative.velocity += -lost - tick * along_plane(rate, course.carrier);
-    course.mean.velocity +=
-        lost / (course.drag * tick) - excess - (0.5 * tick) * along_plane(rate, course.carrier);
+    course.tentative.velocity += -lost - tick * driven;
+    course.mean.velocity += lost / (course.drag * tick) - excess - (0.5 * tick) * driven;
 }
 
 void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
@@ -170,7 +171,7 @@ void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyR
     const auto advance_against = [&](const glm::dvec3& drag) {
         body = {bodies.position.at(slot), bodies.orientation.at(slot), course.start.velocity,
                 bodies.angular_momentum.at(slot)};
-        answer.acceleration = rate - drag;
+        answer.acceleration = rate - free_part(bodies.form[slot], drag);
         advance(body, answer, hands.springs, hands.work, frozen.tick);
     };
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
