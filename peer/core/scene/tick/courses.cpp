@@ -27,6 +27,13 @@ glm::dvec3 about_free_axes(const BodyForm& form, const glm::dvec3& angular)
             form.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
 
+/// What of a way the body can go.
+glm::dvec3 free_part(const BodyForm& form, const glm::dvec3& way)
+{
+    const glm::dvec3& light = form.inverse_mass;
+    return {light.x > 0.0 ? way.x : 0.0, light.y > 0.0 ? way.y : 0.0, light.z > 0.0 ? way.z : 0.0};
+}
+
 /// A turn too small to show in an orientation.
 bool is_nothing(const glm::dvec3& angle)
 {
@@ -138,13 +145,14 @@ void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyRespons
                    glm::dvec3{0.0}};
     if (course.drag == 0.0) return;
     // Against the drag the velocity along the plane goes exponentially to where it would stay.
+    const BodyForm& form = stage.bodies.form[slot];
     const double keeps = base::exp(-course.drag * tick);
+    const glm::dvec3 driven = free_part(form, along_plane(rate, course.carrier));
     const glm::dvec3 excess =
-        along_plane(before, course.carrier) - along_plane(rate, course.carrier) / course.drag;
+        free_part(form, along_plane(before, course.carrier)) - driven / course.drag;
     const glm::dvec3 lost = (1.0 - keeps) * excess;
-    course.tentative.velocity += -lost - tick * along_plane(rate, course.carrier);
-    course.mean.velocity +=
-        lost / (course.drag * tick) - excess - (0.5 * tick) * along_plane(rate, course.carrier);
+    course.tentative.velocity += -lost - tick * driven;
+    course.mean.velocity += lost / (course.drag * tick) - excess - (0.5 * tick) * driven;
 }
 
 void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
@@ -164,7 +172,7 @@ void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyR
     const auto advance_against = [&](const glm::dvec3& drag) {
         body = {bodies.position.at(slot), bodies.orientation.at(slot), course.start.velocity,
                 bodies.angular_momentum.at(slot)};
-        answer.acceleration = rate - drag;
+        answer.acceleration = rate - free_part(bodies.form[slot], drag);
         advance(body, answer, hands.springs, hands.work, frozen.tick);
     };
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
@@ -195,7 +203,7 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
 {
     const double sign = block.b != 0 ? 1.0 : -1.0;
     const glm::dvec3& start = course.start.velocity;
-    const glm::dvec3 slip = start - glm::dot(start, block.normal) * block.normal;
+    const glm::dvec3 slip = free_part(form, start - glm::dot(start, block.normal) * block.normal);
     const double speed = std::sqrt(glm::dot(slip, slip));
     constexpr double hardly = 1e-9;
     if (speed <= hardly * scales.speed) return;
