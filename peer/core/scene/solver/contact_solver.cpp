@@ -97,6 +97,15 @@ SolverOutcome ContactSolver::separate(const SolverLimits& limits)
     return run({Mode::separations, mean_.all(), limits});
 }
 
+SolverOutcome ContactSolver::separate_again(const SolverLimits& limits)
+{
+    for (ContactBlock& block : blocks_.all()) {
+        block.impulse = {};
+        block.has_matrix = false;
+    }
+    return run({Mode::separations, mean_.all(), limits});
+}
+
 SolverOutcome ContactSolver::run(const Task& task)
 {
     SolverOutcome outcome{1, 0.0};

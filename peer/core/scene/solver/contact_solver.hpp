@@ -50,6 +50,8 @@ public:
     SolverOutcome solve(const SolverLimits& limits);
     /// The same for the mean velocities, without friction, and impulses that begin at zero.
     SolverOutcome separate(const SolverLimits& limits);
+    /// Once more, when bodies answer otherwise.
+    SolverOutcome separate_again(const SolverLimits& limits);
     /// What one block changes in velocities that are told, which stay as they are.
     Modal solve_one(ContactBlock& block, const Modal& velocity, double quiet);
 

@@ -65,8 +65,13 @@ void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyR
 void stop_in_time(const ContactBlock& block, const BodyCourse& course, const BodyForm& form,
                   const Scales& scales, BodyMotion& mean);
 
-/// Moves the body by what was solved.
-void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
+/// What a body meets was looked for in the box around its straight way through the tick. When it
+/// is thrown far out of that, it goes only so far that it cannot pass through anything that was
+/// not looked for. Returns whether it was.
+bool keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scales);
+
+/// Moves the body by what was solved. Returns whether it turned.
+bool arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
             const Scales& scales);
 
 } // namespace hapnet::scene
