@@ -160,10 +160,10 @@ void RigidTick<crowd>::wake(Stage& stage)
     Bodies& bodies = stage.bodies;
     if constexpr (sleeps) {
         for (const BodyId body : stage.pushed) sleep_.wake(body, bodies, neighbours_);
-        const auto touching = [&](PairIndex index) {
+        const auto meet_now = [&](PairIndex index) {
             return between(stage, neighbours_.pair(index)).manifold.count > 0;
         };
-        while (sleep_.wake_touched(bodies, neighbours_, touching)) {}
+        while (sleep_.wake_touched(bodies, neighbours_, meet_now)) {}
     }
 }
 
