@@ -22,7 +22,7 @@ constexpr std::size_t contacts_per_body_max = 8;
 constexpr double quiet = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
 constexpr double enough = 1e-6;
-// ... or this many sweeps were made. Measured: see the table in docs/BENCHMARKS.md.
+// ... or this many sweeps were made. (a stack of ten takes 23 from nothing, a thousandfold mass 9).
 constexpr std::uint32_t sweeps_max = 60;
 
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
@@ -160,10 +160,10 @@ void RigidTick<crowd>::wake(Stage& stage)
     Bodies& bodies = stage.bodies;
     if constexpr (sleeps) {
         for (const BodyId body : stage.pushed) sleep_.wake(body, bodies, neighbours_);
-        const auto touching = [&](PairIndex index) {
+        const auto meet_now = [&](PairIndex index) {
             return between(stage, neighbours_.pair(index)).manifold.count > 0;
         };
-        while (sleep_.wake_touched(bodies, neighbours_, touching)) {}
+        while (sleep_.wake_touched(bodies, neighbours_, meet_now)) {}
     }
 }
 
