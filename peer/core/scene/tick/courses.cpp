@@ -207,6 +207,11 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
     const double speed = std::sqrt(glm::dot(slip, slip));
     constexpr double hardly = 1e-9;
     if (speed <= hardly * scales.speed) return;
+    // Of a body that turns, the centre's way says nothing of what slips where it touches.
+    constexpr double steadily = 1e-6;
+    const double turning2 = glm::dot(course.start.spin, course.start.spin);
+    const double across2 = glm::dot(form.half, form.half);
+    if (turning2 * across2 > steadily * steadily * speed * speed) return;
     const glm::dvec3 along = slip / speed;
     const double held = sign * (block.impulse.tangent_1 * glm::dot(block.tangent_1, along) +
                                 block.impulse.tangent_2 * glm::dot(block.tangent_2, along));

@@ -228,7 +228,7 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
         const OrientedBox& box = boxes_[pair.a];
         const Manifold manifold =
             collide(PlaneSurface{plane.normal, plane.offset_m}, box, reach(stage, slot));
-        const bool was_carried = touches(pair.memory);
+        const bool is_carried = touches(pair.memory) || lies_on(manifold, touching * scales_.size);
         ContactBlock* const block = meet(manifold, {box.centre, box.centre}, pair.memory);
         if (block == nullptr) continue;
         const BodyForm& form = bodies.form[slot];
@@ -236,7 +236,7 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
         block->b = slot + 1;
         block->friction = friction_of(form.material, plane.material);
         block->restitution = std::max(form.material.restitution, plane.material.restitution);
-        if (form.drag > 0.0 && was_carried) {
+        if (form.drag > 0.0 && is_carried) {
             courses_[block->b].drag = form.drag / form.mass;
             courses_[block->b].carrier = plane.normal;
         }
