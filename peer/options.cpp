@@ -68,12 +68,12 @@ void add_options(CLI::App& app, Texts& texts)
         "HOST:PORT");
     add("--device", texts.device, "sim: a simulated Omni in a simulated hand (default)", "sim");
     add("--scene", texts.scene,
-        "A scene in TOML, or the name of one that comes with hapnet; it has one movable body\n"
-        "that does not turn (default paper: that body, and one that stands still)",
+        "A scene in TOML, or one of hapnet's by name (default paper); it has one movable\n"
+        "body, which does not turn",
         "FILE|NAME");
     add("--grip-damping", texts.grip_damping,
-        "Damping of the device and the loosest grip on it (default 4Ns/m, a nominal stylus\n"
-        "grip): contacts that need more of it to be rendered safely feel softer",
+        "Damping of the device and the loosest grip on it (default 4Ns/m, a nominal grip on\n"
+        "a stylus): contacts that need more to be rendered safely feel softer",
         "DAMPING");
     add("--task", texts.task, "What the simulated hands do (default P1)", "P1|T1|T3");
     add("--algorithm", texts.algorithm, "How the two cubes are kept together (default base)",

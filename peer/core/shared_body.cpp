@@ -20,8 +20,8 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
                                       count == 0 ? "none" : fmt::to_string(count)));
     }
     if (found->turning != scene::Turning::locked) {
-        return base::fail("a session shares a body that does not turn so far; the movable one of "
-                          "this scene can: give it turning = \"locked\"");
+        return base::fail("a session shares a body that does not turn so far; this scene's can: "
+                          "give it turning = \"locked\"");
     }
     if (scene.hips.count == 0) return base::fail("a session needs a hand; this scene has none");
     const auto index = found - bodies.begin();

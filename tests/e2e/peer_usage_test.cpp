@@ -90,8 +90,9 @@ TEST(PeerUsage, RefusesAScenePointingAtTheLineAndAtTheCure)
                    {"--scene", "one movable body", "this scene has 10"});
     expect_refusal(run_with({"--scene", "push-6dof"}), 2, {"--scene", "turning = \"locked\""});
     const std::string file = testing::TempDir() + "hapnet-bad-scene.toml";
-    std::ofstream{file} << "name = \"bad\"\n[[body]]\nsize = \"40mm\"\nmas = \"100g\"\n";
-    expect_refusal(run_with({"--scene", file}), 2, {"--scene", file + ":4:1: ", "mass"});
+    std::ofstream{file}
+        << "name = \"bad\"\n[[body]]\nsize = \"40mm\"\nmass = \"100g\"\nfricton = 0.3\n";
+    expect_refusal(run_with({"--scene", file}), 2, {"--scene", file + ":5:1: ", "'friction'"});
     std::filesystem::remove(file);
 }
 

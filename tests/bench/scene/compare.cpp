@@ -203,4 +203,19 @@ std::string markdown(std::span<const Row> rows)
     return text;
 }
 
+std::string misses(std::span<const Row> rows)
+{
+    std::string list;
+    for (const Row& row : rows) {
+        if (row.met() != false) continue;
+        const bool is_ratio = is_comparison(row);
+        const std::string value = is_ratio ? fmt::format("{} is {} times as much", row.baseline,
+                                                         number(row.ratio().value_or(0.0)))
+                                           : number(row.value);
+        list += fmt::format("- {}, {}: {}, target {} {}\n", row.name, metric_of(row), value,
+                            row.direction == Direction::at_least ? "≥" : "≤", number(*row.target));
+    }
+    return list.empty() ? "- none\n" : list;
+}
+
 } // namespace hapnet::bench

@@ -49,4 +49,7 @@ struct Entry {
 /// The rows as tables in Markdown: a line for every case and metric, a column for every subject.
 [[nodiscard]] std::string markdown(std::span<const Row> rows);
 
+/// A list in Markdown of the targets that were missed, and by how much.
+[[nodiscard]] std::string misses(std::span<const Row> rows);
+
 } // namespace hapnet::bench

@@ -41,7 +41,7 @@ std::string with(std::string name, scene::Turning turning)
 
 } // namespace
 
-Scenario bounce(double stiffness_n_per_m, double offset_m, scene::Turning turning)
+Scenario bounce(double stiffness_n_per_m, double offset_m, scene::Turning turning, double gap_m)
 {
     scene::Description scene = lone_cube(turning);
     scene.bodies[0].velocity = {{-0.1, 0.0, 0.0}};
@@ -49,8 +49,8 @@ Scenario bounce(double stiffness_n_per_m, double offset_m, scene::Turning turnin
     const char* const name =
         offset_m == 0.0 ? "c1 bounce on a hand" : "c1 bounce on a hand, off-centre";
     Scenario scenario{with(name, turning), "analytic", {scene, 0.05, {}}, {}};
-    scenario.course.hands = [offset_m](std::uint32_t, double) {
-        return scene::HipInput{{{-reach - 1.23e-4, offset_m, 0.0}}, {}};
+    scenario.course.hands = [offset_m, gap_m](std::uint32_t, double) {
+        return scene::HipInput{{{-reach - gap_m, offset_m, 0.0}}, {}};
     };
     scenario.measure = [offset_m](Engine& engine, const Course& course, double tick_s) {
         const scene::BodyDescription& body = course.scene.bodies[0];

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::bench {
@@ -54,6 +56,16 @@ std::string panel_of(std::span<const WorkPoint> points)
                          {lab::Scale::logarithmic, lab::Scale::logarithmic});
 }
 
+/// The power of the tick with which the errors grow, between the longest and the shortest.
+std::string order_of(const std::map<double, double>& error_by_tick)
+{
+    constexpr double rounding = 1e-11;
+    const auto& [short_ms, least] = *error_by_tick.begin();
+    const auto& [long_ms, most] = *error_by_tick.rbegin();
+    if (std::max(least, most) < rounding) return "exact";
+    return fmt::format("{:.1f}", std::log(most / least) / std::log(long_ms / short_ms));
+}
+
 } // namespace
 
 std::vector<WorkPoint> measure_precision(std::span<const Subject> subjects, bool is_quick)
@@ -94,6 +106,30 @@ std::string precision_csv(std::span<const WorkPoint> points)
                            one.subject, one.tick_ms, one.error, one.ns_per_simulated_ms);
     }
     return csv;
+}
+
+std::string precision_markdown(std::span<const WorkPoint> points)
+{
+    std::map<std::string, std::map<std::string, std::map<double, double>>> errors;
+    std::set<std::string> subjects;
+    for (const WorkPoint& one : points) {
+        errors[one.scenario + " | " + one.metric][one.subject][one.tick_ms] = one.error;
+        subjects.insert(one.subject);
+    }
+    std::string text = "| case | metric |", rule = "| --- | --- |";
+    for (const std::string& subject : subjects) {
+        text += fmt::format(" {} |", subject);
+        rule += " ---: |";
+    }
+    text += "\n" + rule + "\n";
+    for (const auto& [scenario, by_subject] : errors) {
+        text += fmt::format("| {} |", scenario);
+        for (const auto& [subject, by_tick] : by_subject) {
+            text += fmt::format(" {:.2g} ({}) |", by_tick.at(1.0), order_of(by_tick));
+        }
+        text += "\n";
+    }
+    return text;
 }
 
 std::string precision_svg(std::span<const WorkPoint> points)

@@ -36,8 +36,10 @@ struct Scenario {
 [[nodiscard]] Scenario slide(double degrees, scene::Turning turning);
 [[nodiscard]] Scenario tumble();
 [[nodiscard]] Scenario off_centre_push();
-/// A cube that bounces off a hand of a stiffness, hit off its centre by so much.
-[[nodiscard]] Scenario bounce(double stiffness_n_per_m, double offset_m, scene::Turning turning);
+/// A cube that bounces off a hand of a stiffness, hit off its centre by so much, after flying so
+/// far.
+[[nodiscard]] Scenario bounce(double stiffness_n_per_m, double offset_m, scene::Turning turning,
+                              double gap_m = 1.23e-4);
 [[nodiscard]] Scenario steady_push(scene::Turning turning);
 [[nodiscard]] Scenario symmetric_squeeze(scene::Turning turning);
 [[nodiscard]] Scenario squeezed_oscillation(scene::Turning turning);

@@ -129,6 +129,7 @@ TEST(Compare, SetsHapnetAgainstTheBestOfEachFamily)
                           "bullet 12x, ode 9x **missed** |"),
               std::string::npos)
         << tables;
+    EXPECT_EQ(misses(rows), "- case, p50_ns: ode is 9 times as much, target ≥ 10\n");
 }
 
 TEST(Limits, AreTheLastOfAnUnbrokenRow)
@@ -150,6 +151,17 @@ TEST(WorkPrecision, DrawsAPanelForEachScenarioAndWritesALineForEachPoint)
     EXPECT_EQ(precision_csv({points.data(), 1}),
               "scenario,metric,subject,tick_ms,error,ns_per_simulated_ms\n"
               "\"a\",error_m,hapnet,4,0,10\n");
+}
+
+TEST(WorkPrecision, TellsTheOrderOfAnErrorInTheTick)
+{
+    const std::vector<WorkPoint> points{{"a", "error_m", "hapnet", 4.0, 1e-15, 10.0},
+                                        {"a", "error_m", "hapnet", 1.0, 2e-15, 20.0},
+                                        {"a", "error_m", "ode-step", 4.0, 16.0, 10.0},
+                                        {"a", "error_m", "ode-step", 1.0, 1.0, 10.0}};
+    EXPECT_EQ(precision_markdown(points), "| case | metric | hapnet | ode-step |\n"
+                                          "| --- | --- | ---: | ---: |\n"
+                                          "| a | error_m | 2e-15 (exact) | 1 (2.0) |\n");
 }
 
 TEST(Peers, FallWhereTheySayTheyAre)

@@ -32,19 +32,32 @@ std::vector<Row> ask(const Question& question, std::span<const Subject> subjects
     return compare(question, readings);
 }
 
+/// The worst of eight bounces that begin at different moments of a tick.
+double worst_bounce(const Subject& subject, double stiffness, scene::Turning turning)
+{
+    constexpr int phases = 8;
+    constexpr double way_of_a_tick = 0.1 * tick_s; // metres
+    double worst = 0.0;
+    for (int i = 0; i < phases; ++i) {
+        const double gap = 1.23e-4 + way_of_a_tick * i / phases;
+        const Scenario scenario = bounce(stiffness, 0.0, turning, gap);
+        const auto engine = subject.make(scenario.course.scene, {});
+        if (!engine) return std::numeric_limits<double>::quiet_NaN();
+        worst = std::max(worst, scenario.measure(*engine, scenario.course, tick_s)[0].value);
+    }
+    return worst;
+}
+
 std::vector<Row> stiffness(std::span<const Subject> subjects, scene::Turning turning)
 {
     std::vector<Row> rows;
     for (const double s : {0.01, 0.1, 0.32, 1.0, 3.2, 10.0, 100.0, 1000.0}) {
         const double mass = 0.1, stiffness = s * mass / (tick_s * tick_s);
-        const Scenario scenario = bounce(stiffness, 0.0, turning);
         const char* const suffix = turning == scene::Turning::locked ? ", locked" : "";
-        const Question question{fmt::format("bounce at k dt^2/m = {:g}{}", s, suffix), "analytic",
-                                "relative_energy_error", 1e-9};
+        const Question question{fmt::format("bounces at k dt^2/m = {:g}{}", s, suffix), "analytic",
+                                "worst_relative_energy_error", 1e-9};
         append(rows, ask(question, subjects, [&](const Subject& subject) {
-                   const auto engine = subject.make(scenario.course.scene, {});
-                   return engine ? scenario.measure(*engine, scenario.course, tick_s)[0].value
-                                 : std::numeric_limits<double>::quiet_NaN();
+                   return worst_bounce(subject, stiffness, turning);
                }));
     }
     return rows;

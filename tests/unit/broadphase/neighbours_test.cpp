@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/broadphase/crowd.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
-#include <tuple>
 
 namespace hapnet::scene {
 namespace {
@@ -45,6 +45,37 @@ TYPED_TEST(NeighboursOf, AreLookedForAboutOnceInThirtyTicksOfFlight)
     }
     EXPECT_GE(crowd.neighbours.counts().renewed, 1U);
     EXPECT_LE(crowd.neighbours.counts().renewed, 10U);
+}
+
+/// A bar along x, and a cube that it can only reach by turning.
+Description bar_below_a_cube()
+{
+    Description description = row_of_cubes(2, 0.0);
+    description.bodies[0].half = {0.1, 0.01, 0.01};
+    description.bodies[1].position = base::Position{{0.0, 0.09, 0.0}};
+    return description;
+}
+
+TYPED_TEST(NeighboursOf, AreFoundByABodyThatTurnsSlowlyTowardsThem)
+{
+    typename TestFixture::Subject crowd{bar_below_a_cube()};
+    EXPECT_EQ(crowd.pairs(), List{});
+    for (int step = 1; step <= 50; ++step) {
+        const double half_angle = 0.0157 * step; // to a right angle
+        crowd.bodies.orientation.put(crowd.bodies.slot_of[0],
+                                     {std::cos(half_angle), 0.0, 0.0, std::sin(half_angle)});
+        crowd.neighbours.update(crowd.bodies);
+    }
+    EXPECT_EQ(crowd.pairs(), (List{{0, 1}}));
+    EXPECT_GT(crowd.neighbours.counts().renewed, 10U);
+}
+
+TYPED_TEST(NeighboursOf, AreFoundByABodyThatIsSpunUpAllAtOnce)
+{
+    typename TestFixture::Subject crowd{bar_below_a_cube()};
+    crowd.bodies.spin(crowd.bodies.slot_of[0], {0.0, 0.0, 1000.0});
+    crowd.neighbours.update(crowd.bodies);
+    EXPECT_EQ(crowd.pairs(), (List{{0, 1}}));
 }
 
 TYPED_TEST(NeighboursOf, KeepTheirContactsMemoryWhileTheyAreNear)

@@ -64,6 +64,7 @@ TEST(RigidImpact, NothingPassesAThinWallAtAThousandMetresPerSecond)
             run(world, static_cast<std::uint64_t>(6000.0 / speed) + 10);
             EXPECT_LE(world.body(1).position.x(), 5.0 - 0.002 - half + 1e-10 * speed) << speed;
             EXPECT_NEAR(world.body(1).velocity.x(), -restitution * speed, 1e-9 * speed);
+            EXPECT_LT(length(world.body(1).angular_velocity), 1e-9 * speed / half);
         }
     }
 }

@@ -147,11 +147,11 @@ void Neighbours<search>::show(Hand& hand, BodyId id)
 }
 
 template <Search search>
-std::span<const BodyId> Neighbours<search>::reached_by(std::uint32_t index, const HandPath& path)
+std::span<const BodyId> Neighbours<search>::reached_by(std::uint32_t hand, const HandPath& path)
 {
-    Hand& hand = hands_[index];
+    Hand& known = hands_[hand];
     const Box needed = grown(hull(path.from, path.to), glm::dvec3{path.radius});
-    if (!contains(hand.box, needed)) {
+    if (!contains(known.box, needed)) {
         ++hands_renewed_;
         glm::dvec3 ahead = (path.to - path.from) * hand_look_ahead_ticks;
         const glm::dvec3 size = glm::abs(ahead);
@@ -159,13 +159,13 @@ std::span<const BodyId> Neighbours<search>::reached_by(std::uint32_t index, cons
         if (length > hand_stretch_max * path.radius)
             ahead *= hand_stretch_max * path.radius / length;
         const Box along = hull(glm::dvec3{0.0}, ahead);
-        hand.box =
+        known.box =
             grown({needed.low + along.low, needed.high + along.high}, glm::dvec3{path.radius});
-        hand.bodies.clear();
-        found_.near(hand.box, [&](BodyId id) { hand.bodies.add(id); });
-        std::sort(hand.bodies.begin(), hand.bodies.end());
+        known.bodies.clear();
+        found_.near(known.box, [&](BodyId id) { known.bodies.add(id); });
+        std::sort(known.bodies.begin(), known.bodies.end());
     }
-    return hand.bodies.all();
+    return known.bodies.all();
 }
 
 template <Search search>

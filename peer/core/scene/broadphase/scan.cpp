@@ -6,7 +6,8 @@ namespace hapnet::scene {
 
 Scan::Scan(std::span<const Box> boxes) : size_{static_cast<BodyId>(boxes.size())}
 {
-    for (std::vector<double>& lane : lanes_) lane.assign((size_ + block - 1) / block * block, 0.0);
+    for (std::vector<double>& lane : lanes_)
+        lane.assign((boxes.size() + block - 1) / block * block, 0.0);
     for (BodyId id = 0; id < size_; ++id) move(id, boxes[id]);
 }
 

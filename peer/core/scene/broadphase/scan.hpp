@@ -36,7 +36,7 @@ public:
     void near(const Box& box, Visit visit) const
     {
         for (BodyId first = 0; first < lanes_[0].size(); first += block) {
-            std::array<std::uint64_t, block> apart;
+            std::array<std::uint64_t, block> apart{};
             compare(box, first, apart);
             for (BodyId i = 0; i < block; ++i)
                 if (apart[i] == 0 && first + i < size_) visit(first + i);

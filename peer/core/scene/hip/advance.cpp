@@ -73,7 +73,7 @@ void pass(const Task& task, const Picked& picked, double tick)
         passage.set(i, task.springs[picked.which[i]], task.work[picked.which[i]]);
     if (passage.pass()) return;
 
-    const auto now = passage.now();
+    const auto now = passage.current();
     std::array<HipWork, count> rest;
     Answer turned = task.answer;
     turned.inverse_inertia = passage.inverse_inertia();

@@ -260,7 +260,7 @@ void Passage<count>::meet(std::size_t i)
 }
 
 template <std::size_t count>
-std::array<HipSpring, count> Passage<count>::now() const
+std::array<HipSpring, count> Passage<count>::current() const
 {
     std::array<HipSpring, count> springs;
     for (std::size_t i = 0; i < count; ++i) {

@@ -29,7 +29,7 @@ public:
     [[nodiscard]] double left() const { return left_; }
     [[nodiscard]] const glm::dmat3& inverse_inertia() const { return inverse_inertia_; }
     /// The springs as they are now.
-    [[nodiscard]] std::array<HipSpring, count> now() const;
+    [[nodiscard]] std::array<HipSpring, count> current() const;
 
 private:
     /// What is held for a time.

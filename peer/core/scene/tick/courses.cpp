@@ -65,24 +65,25 @@ void start(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse
     course.angular_momentum = momentum + course.angular_impulse;
 }
 
-void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
+bool turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
 {
     const BodyForm& form = bodies.form[slot];
     if (course.has_hands) {
         const glm::dvec3 more = tick * (mean.spin - course.mean.spin);
         bodies.orientation.put(slot, is_nothing(more) ? course.orientation
                                                       : turned(course.orientation, more));
-        return;
+        return true;
     }
     const glm::dquat now = bodies.orientation.at(slot);
-    if (is_nothing(tick * mean.spin)) return;
+    if (is_nothing(tick * mean.spin)) return false;
     if (turns_evenly(form)) {
         bodies.orientation.put(slot, turned(now, tick * mean.spin));
-        return;
+        return true;
     }
     const glm::dvec3 momentum =
         bodies.angular_momentum.at(slot) + 0.5 * course.angular_impulse + mean.angular_impulse;
     bodies.orientation.put(slot, spun(now, {momentum, form.inverse_inertia}, tick));
+    return true;
 }
 
 } // namespace
@@ -229,14 +230,14 @@ bool keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scal
     return true;
 }
 
-void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
+bool arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
             const Scales& scales)
 {
     const double tick = scales.tick;
     const SolverIndex index = slot + 1;
     BodyMotion& mean = solver.mean(index);
     const BodyMotion& ending = solver.ending(index);
-    turn(course, bodies, slot, mean, tick);
+    const bool has_turned = turn(course, bodies, slot, mean, tick);
     const glm::dvec3 from = bodies.position.at(slot);
     if (course.has_hands) {
         bodies.position.put(slot, course.position + tick * (mean.velocity - course.mean.velocity));
@@ -247,6 +248,7 @@ void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& 
     bodies.angular_momentum.put(
         slot, course.angular_momentum +
                   about_free_axes(bodies.form[slot], ending.angular_impulse + course.thrown));
+    return has_turned;
 }
 
 } // namespace hapnet::scene

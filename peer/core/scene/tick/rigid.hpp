@@ -8,6 +8,7 @@
 #include "peer/core/scene/stage.hpp"
 #include "peer/core/scene/tick/courses.hpp"
 #include "peer/core/scene/tick/hand_springs.hpp"
+#include "peer/core/scene/tick/nearby.hpp"
 
 #include <type_traits>
 #include <vector>
@@ -53,7 +54,7 @@ private:
     void look(const Stage& stage);
     void meet_planes(const Frozen& frozen, const Stage& stage);
     void meet_bodies(const Stage& stage);
-    [[nodiscard]] Manifold between(const Stage& stage, Pair& pair) const;
+    [[nodiscard]] BoxMeeting between(const Stage& stage, Pair& pair) const;
     ContactBlock* meet(const Manifold& manifold, const ContactPlaces& centres,
                        ContactMemory& memory);
     void carry();
@@ -71,6 +72,8 @@ private:
     std::vector<OrientedBox> boxes_; // by id, where they are
     Scratch<BodyCourse> courses_;    // by solver index
     ContactSolver solver_;
+    std::array<HipSpring, hips_max> springs_{}; // on one body
+    std::array<HipWork, hips_max> work_{};
     Counts counts_;
 };
 
