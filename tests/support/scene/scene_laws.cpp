@@ -186,7 +186,7 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
         0.5 * mass * glm::dot(v0, v0) + spinning_energy(form, turned, was.angular_momentum);
     balance.kinetic_after +=
         0.5 * mass * glm::dot(v1, v1) + spinning_energy(form, turned, now.angular_momentum);
-    balance.work += glm::dot(force, steady);
+    balance.work += std::max(glm::dot(force, steady), glm::dot(force, moved));
     const double radius = length(form.half);
     const double spin =
         std::max(length(was.state.angular_velocity), length(now.state.angular_velocity));

@@ -24,10 +24,10 @@ struct LawFigures {
 /// - kinetic energy grows by no more than the work of gravity, pushes and hands;
 /// - where nothing is fixed, momentum changes by what gravity, pushes and hands give, and angular
 ///   momentum, without hands, by what gravity and pushes give.
-/// A body moves at the mean of its velocities before and after the tick, so that the work of a
-/// steady force and of every impulse is exact: with the inertia as it is before the tick. Contacts
-/// oppose the motion at the tick's end: against a force that reverses it within the tick they can
-/// lose too little, by up to force^2 tick^2 / (8 mass).
+/// A body moves at the mean of its velocities before and after the tick, but where it bounces, so
+/// that the work of a steady force and of every impulse is exact: with the inertia as it is before
+/// the tick. Contacts oppose the motion at the tick's end: against a force that reverses it within
+/// the tick they can lose too little, by up to force^2 tick^2 / (8 mass).
 class SceneLaws {
 public:
     explicit SceneLaws(const RandomPlay& play);

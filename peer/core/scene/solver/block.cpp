@@ -154,7 +154,11 @@ void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& s
 {
     block.bend = {};
     const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
-        if (spin == glm::dvec3{0.0}) return;
+        // Of what turns far in a tick that term alone says nothing: it fades out.
+        constexpr double far = 0.1; // radians
+        const double fades = tick * tick * glm::dot(spin, spin) / (far * far);
+        if (fades == 0.0 || fades >= 1.0) return;
+        share *= 1.0 - fades;
         const auto around = [&](const glm::dvec3& at) {
             return share * glm::cross(spin, glm::cross(spin, at));
         };

@@ -306,7 +306,7 @@ void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
         solver_.ending(i) = courses_[i].tentative;
     }
     for (ContactBlock& block : solver_.blocks()) {
-        set_bend(block, courses_[block.a].mean.spin, courses_[block.b].mean.spin, scales_.tick);
+        set_bend(block, courses_[block.a].start.spin, courses_[block.b].start.spin, scales_.tick);
     }
 }
 
