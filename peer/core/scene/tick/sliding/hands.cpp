@@ -17,6 +17,18 @@ PerAxis beyond(const PerAxis& from_centre, const PerAxis& half)
             std::abs(from_centre[2]) - half[2]};
 }
 
+/// The axis along which a place is outside of a box, by less than `reach`; no_axis when it is
+/// inside, farther away, or outside along more than one.
+std::size_t before_face(const PerAxis& out, double reach)
+{
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!(out[i] > 0.0)) continue;
+        const bool is_straight = !(out[(i + 1) % 3] > 0.0) && !(out[(i + 2) % 3] > 0.0);
+        return is_straight && out[i] < reach ? i : no_axis;
+    }
+    return no_axis;
+}
+
 double distance(const PerAxis& from_centre, const PerAxis& half)
 {
     PerAxis out = beyond(from_centre, half);
@@ -50,7 +62,7 @@ void hold_steadily(HipTouch& touch, Slide& slide, base::Force force)
     touch.on_body = force;
     touch.on_hip += -force;
     const PerAxis held = per_axis(force.value);
-    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * held[i];
+    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.laws.inverse_mass() * held[i];
 }
 
 } // namespace
@@ -139,11 +151,11 @@ void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, s
     const HipInput& hip = stage.hips[index];
     EnteredFace& entered = memory_[index].entered;
     const PerAxis from_centre = difference(hip.position.value, slide.place);
-    const Outside out{from_centre, half_};
-    if (out.directions == 1 && out.length() < hips.radius_m) { // as nearly always when it pushes
-        entered = out.face();
-        const std::size_t axis = out.axis;
-        push_face(stage, slide, index, {entered, hips.radius_m - std::abs(out.away[axis]), {}});
+    const PerAxis out = beyond(from_centre, half_);
+    const std::size_t axis = before_face(out, hips.radius_m);
+    if (axis != no_axis) { // as nearly always when it pushes
+        entered = face_at(axis, from_centre[axis]);
+        push_face(stage, slide, {index, entered, hips.radius_m - out[axis]});
         return;
     }
     const Approach approach{.from_centre = from_centre,
@@ -161,7 +173,7 @@ void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, s
     const auto meeting = meet(approach, half_, entered);
     if (!meeting) return;
     if (meeting->face.axis != no_axis) {
-        push_face(stage, slide, index, *meeting);
+        push_face(stage, slide, {index, meeting->face, meeting->depth});
         return;
     }
     HipTouch& touch = stage.touches[index];
@@ -173,21 +185,20 @@ void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, s
         force_at(hips, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
 }
 
-void SlidingHands::push_face(Stage& stage, Slide& slide, std::uint32_t index,
-                             const Meeting& meeting)
+void SlidingHands::push_face(Stage& stage, Slide& slide, const FaceTouch& found)
 {
-    const std::size_t axis = meeting.face.axis;
+    const std::size_t axis = found.face.axis;
     const double speed = slide.velocity[axis];
     Spring& spring = slide.springs[slide.spring_count++];
-    spring.hip = index;
+    spring.hip = found.hip;
     spring.axis = axis;
-    spring.sign = meeting.face.sign;
-    spring.depth = meeting.depth;
-    spring.closing = -spring.sign * part(stage.hips[index].velocity.value, axis);
+    spring.sign = found.face.sign;
+    spring.depth = found.depth;
+    spring.closing = -spring.sign * part(stage.hips[found.hip].velocity.value, axis);
     spring.impulse = 0.0;
     const double force = spring.settle(slide.hips, speed);
-    HipTouch& touch = stage.touches[index];
-    touch.depth_m = std::max(touch.depth_m, meeting.depth);
+    HipTouch& touch = stage.touches[found.hip];
+    touch.depth_m = std::max(touch.depth_m, found.depth);
     part(touch.on_hip_at_start.value, axis) += spring.sign * force;
 }
 
@@ -231,16 +242,18 @@ void SlidingHands::press_slanted(Slide& slide)
 {
     const HipDescription& hips = slide.hips;
     const double half_tick = 0.5 * slide.left;
+    const bool is_stuck = slide.rubbing.state == Rubbing::State::stuck;
+    const auto is_kept = [&](std::size_t i) { return is_stuck || slide.axes[i].is_held(); };
     for (SlantedSpring& spring : slide.active_slanted()) {
         const PerAxis& normal = spring.normal;
         double closing = spring.closing;
         double bend = 0.0; // of the depth, without this spring
         double ease = 0.0; // 1/mass along the normal
         for (std::size_t i = 0; i < 3; ++i) {
-            if (!slide.courses[i].moves()) continue;
+            if (is_kept(i)) continue;
             closing += normal[i] * slide.velocity[i];
             bend += normal[i] * slide.axes[i].acceleration;
-            ease += normal[i] * normal[i] * slide.inverse_mass;
+            ease += normal[i] * normal[i] * slide.laws.inverse_mass();
         }
         // depth and closing speed in the middle: linear in the force that acts meanwhile.
         const double answer =
@@ -251,9 +264,9 @@ void SlidingHands::press_slanted(Slide& slide)
         spring.force = std::clamp(free_force / (1.0 + answer * ease), 0.0, hips.force_max_n);
         if (depth + half_tick * half_tick * (bend - ease * spring.force) <= 0.0) spring.force = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const double change = -slide.inverse_mass * spring.force * normal[i];
+            const double change = -slide.laws.inverse_mass() * spring.force * normal[i];
             slide.axes[i].steady += change;
-            if (slide.courses[i].moves()) slide.axes[i].acceleration += change;
+            if (!is_kept(i)) slide.axes[i].acceleration += change;
         }
     }
 }

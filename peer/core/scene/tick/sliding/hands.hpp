@@ -42,11 +42,17 @@ private:
         double clear = -1.0; // no fixed box is nearer to `seen_from`, along every axis
     };
 
+    struct FaceTouch {
+        std::uint32_t hip;
+        EnteredFace face;
+        double depth;
+    };
+
     /// Whether no fixed box is within reach of a hand in this tick.
     static bool is_clear(const Frozen& frozen, const HipInput& hip, const Memory& memory);
     void hold(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
     void touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
-    static void push_face(Stage& stage, Slide& slide, std::uint32_t index, const Meeting& meeting);
+    static void push_face(Stage& stage, Slide& slide, const FaceTouch& found);
     void touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index);
 
     BodyId body_;
