@@ -99,6 +99,15 @@ std::array<Jacobian, 6> jacobian(const ContactBlock& block, const glm::dvec3& ar
             push(block.tangent_1), push(block.tangent_2),           Jacobian{none, block.normal}};
 }
 
+/// Whether what a body's locks leave it to give way along the normal is next to nothing. Then it
+/// does not: else it would be thrown aside as by a wedge.
+bool gives_way_by_a_hair(const glm::dvec3& normal, const glm::dvec3& inverse_mass)
+{
+    constexpr double hair = 1e-6; // along the normal, of what it does where it is not locked
+    const double most = std::max(inverse_mass.x, std::max(inverse_mass.y, inverse_mass.z));
+    return glm::dot(normal, inverse_mass * normal) < hair * most;
+}
+
 } // namespace
 
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
@@ -208,8 +217,13 @@ void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& resp
 void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b)
 {
     block.matrix = {};
-    if (block.a != 0) add_body(block.matrix, jacobian(block, block.arm_a), a);
-    if (block.b != 0) add_body(block.matrix, jacobian(block, block.arm_b), b);
+    const auto rows = [&](const glm::dvec3& arm, const BodyResponse& body) {
+        std::array<Jacobian, 6> all = jacobian(block, arm);
+        if (gives_way_by_a_hair(block.normal, body.inverse_mass)) all[0].linear = glm::dvec3{0.0};
+        return all;
+    };
+    if (block.a != 0) add_body(block.matrix, rows(block.arm_a, a), a);
+    if (block.b != 0) add_body(block.matrix, rows(block.arm_b, b), b);
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = i + 1; j < 6; ++j) block.matrix[i][j] = block.matrix[j][i];
     }
