@@ -97,6 +97,7 @@ Slide Slide::copy() const
 {
     Slide other{hips, laws, obstacles};
     other.near = near;
+    other.room = room;
     other.left = left;
     other.calm = calm;
     other.place = place;
@@ -126,7 +127,7 @@ void set_courses(Slide& slide)
     std::array<bool, 3> is_on_plane{};
     for (std::size_t i = 0; i < 3; ++i) {
         SlideAxis& axis = slide.axes[i];
-        press(axis, slide.courses[i].speed, slide.courses[i]);
+        if (axis.below || axis.above) press(axis, slide.courses[i].speed, slide.courses[i]);
         axis.leaving = false;
         is_on_plane[i] = axis.carrier && axis.carrier->is_plane;
     }

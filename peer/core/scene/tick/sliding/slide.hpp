@@ -77,6 +77,7 @@ struct Slide {
     const SlideLaws& laws;
     Obstacles& obstacles;
     std::span<const std::uint32_t> near{};
+    double room = 0.0; // how far the box may go until something else is near
 
     double left = 0.0; // of the tick, s
     bool calm = false; // too much has happened in this tick: no more changes, no more bounces
