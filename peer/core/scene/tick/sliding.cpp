@@ -32,28 +32,29 @@ SlidingTick<coulomb>::SlidingTick(const Description& /*description*/, const Froz
       laws_{frozen.hips, the_movable(stage.bodies), frozen.tick},
       obstacles_{frozen, stage.bodies, the_movable(stage.bodies)},
       hands_{frozen, stage.bodies, the_movable(stage.bodies)}
-{}
+{
+    const PerAxis mobility = per_axis(the_movable(stage.bodies).inverse_mass);
+    for (std::size_t i = 0; i < 3; ++i) locked_[i] = mobility[i] == 0.0;
+}
 
 template <bool coulomb>
 void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
 {
     const Slot slot = stage.bodies.slot_of[body_];
-    const BodyForm& form = stage.bodies.form[slot];
     Slide slide{frozen.hips, laws_, obstacles_};
-    slide.inverse_mass = 1.0 / form.mass;
     slide.left = frozen.tick;
     slide.place = per_axis(stage.bodies.position.at(slot));
     slide.velocity = per_axis(stage.bodies.velocity.at(slot));
     const PerAxis gravity = per_axis(frozen.gravity);
-    const PerAxis mobility = per_axis(form.inverse_mass);
     for (std::size_t i = 0; i < 3; ++i) {
-        slide.axes[i].locked = mobility[i] == 0.0;
-        if (slide.axes[i].locked) slide.velocity[i] = 0.0;
+        if (locked_[i]) slide.velocity[i] = 0.0;
+        slide.axes[i].stopped = locked_[i];
+        slide.axes[i].leaving = false;
         slide.axes[i].steady = gravity[i];
     }
     if (!stage.pushed.is_empty()) {
         const PerAxis push = per_axis(stage.pushes[body_]);
-        for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * push[i];
+        for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += laws_.inverse_mass() * push[i];
     }
     slide.near = obstacles_.near(slide.place, 0.0);
     if (obstacles_.put_out(slide.near, slide.place)) {

@@ -42,6 +42,7 @@ private:
     void conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const;
 
     BodyId body_;
+    std::array<bool, 3> locked_{};
     SlideLaws laws_;
     Obstacles obstacles_;
     SlidingHands hands_;
