@@ -149,6 +149,11 @@ std::optional<Refusal> World::place(BodyId body, const BodyState& state)
         return refuse(Refusal::out_of_range);
     }
     if (turning == Turning::locked) usable.orientation = stage_.bodies.orientation.at(slot);
+    const glm::dvec3 current = stage_.bodies.position.at(slot);
+    const glm::dvec3& light = stage_.bodies.form[slot].inverse_mass;
+    for (const int axis : {0, 1, 2}) {
+        if (light[axis] == 0.0) usable.position.value[axis] = current[axis];
+    }
     stage_.bodies.put(slot, usable);
     std::visit([&](auto& tick) { tick.disturbed(stage_, body); }, ticks_);
     return std::nullopt;

@@ -36,7 +36,8 @@ public:
     std::optional<Refusal> hip(std::uint32_t index, const HipInput& input);
     /// A force on a movable body's centre, held for the next tick; pushes of one tick add up.
     std::optional<Refusal> push(BodyId body, base::Force force);
-    /// Puts a movable body somewhere, regardless of what it was doing, and wakes it.
+    /// Puts a movable body somewhere, regardless of what it was doing, and wakes it. Coordinates
+    /// that are locked stay as they are; an orientation that the body cannot have is refused.
     std::optional<Refusal> place(BodyId body, const BodyState& state);
 
     void tick();

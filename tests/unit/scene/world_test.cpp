@@ -105,6 +105,19 @@ TEST(World, ALockedBodyCannotBePlacedTurned)
     expect_refused(world, Refusal::out_of_range, world.place(0, turned));
 }
 
+TEST(World, ALockedCoordinateStaysWhereItIsWhereverTheBodyIsPut)
+{
+    Description scene = paper_scene();
+    scene.bodies[0].locked_z = true;
+    World world = World::freeze(scene).value();
+    BodyState state;
+    state.position = {{0.01, 0.02, 0.03}};
+    state.velocity = {{0.1, 0.2, 0.3}};
+    ASSERT_FALSE(world.place(0, state));
+    EXPECT_EQ(world.body(0).position, (base::Position{{0.01, 0.02, 0.0}}));
+    EXPECT_EQ(world.body(0).velocity, (base::Velocity{{0.1, 0.2, 0.0}}));
+}
+
 TEST(World, FreezeSaysWhatIsWrong)
 {
     Description scene = paper_scene();

@@ -33,6 +33,18 @@ double energy(const Press& press, double depth)
     return press.force_max * (depth - 0.5 * bend);
 }
 
+/// How much of an impulse a spring can give besides what it gave: not more together than `most`.
+double share_within(const glm::dvec3& given, const glm::dvec3& more, double most)
+{
+    if (std::isinf(most)) return 1.0;
+    const double square = glm::dot(more, more);
+    const double along = glm::dot(given, more);
+    const double room = most * most - glm::dot(given, given);
+    if (square + 2.0 * along <= room) return 1.0;
+    if (room <= 0.0) return 0.0;
+    return (std::sqrt(along * along + square * room) - along) / square;
+}
+
 } // namespace
 
 void advance_freely(MovingBody& body, const Answer& answer, double tick)
@@ -278,7 +290,8 @@ void Passage<count>::settle()
             glm::dot(body_.angular_momentum, inverse_inertia_ * body_.angular_momentum);
         constexpr double most = 0.03; // more cannot come from a geometry that is a little off
         if (!(twice > 0.0)) continue;
-        const double scale = std::clamp(-missed / twice, -most, most);
+        double scale = std::clamp(-missed / twice, -most, most);
+        scale *= share_within(works_[i]->impulse, scale * momentum, press.force_max * tick_);
         body_.velocity += scale * (answer_.inverse_mass * momentum);
         body_.angular_momentum *= 1.0 + scale;
         works_[i]->impulse += scale * momentum;

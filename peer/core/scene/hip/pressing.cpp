@@ -64,6 +64,19 @@ template <std::size_t count>
 Presses<count>::Presses(std::array<Press, count>& presses, const Coupling& coupling, double time)
     : presses_{presses}, coupling_{coupling}, time_{time}
 {
+    // Where a damper begins to act, or its normal turns, its force changes at once: then the phase
+    // that was foreseen is over before it begins.
+    for (Press& press : presses_) {
+        constexpr double rounding = 1e-9;
+        const double drive = press.drive();
+        const double size =
+            press.stiffness * std::abs(press.depth) + press.damping * std::abs(press.closing);
+        if (press.phase == Phase::capped && drive < (1.0 - rounding) * press.force_max)
+            press.phase = Phase::pressing;
+        if (press.phase != Phase::pressing) continue;
+        if (drive > (1.0 + rounding) * press.force_max) press.phase = Phase::capped;
+        if (drive < -rounding * size) press.phase = Phase::apart;
+    }
     const bool first = presses_[0].phase == Phase::pressing;
     if constexpr (count == 2) {
         const bool second = presses_[1].phase == Phase::pressing;
@@ -269,6 +282,7 @@ Pressed<count> Presses<count>::pass()
             pressed.impulse[i] = press.force_max * end.time;
             pressed.moment[i] = 0.5 * press.force_max * end.time * end.time;
         }
+        pressed.impulse[i] = std::clamp(pressed.impulse[i], 0.0, press.force_max * end.time);
         press.closing = 0.0;
         for (std::size_t j = 0; j < count; ++j) {
             press.depth += share_[i][j] * passed[j].way;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/scene/solver/block.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -153,7 +154,11 @@ void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& s
 {
     block.bend = {};
     const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
-        if (spin == glm::dvec3{0.0}) return;
+        // Of what turns far in a tick that term alone says nothing: it fades out.
+        constexpr double far = 0.1; // radians
+        const double fades = tick * tick * glm::dot(spin, spin) / (far * far);
+        if (fades == 0.0 || fades >= 1.0) return;
+        share *= 1.0 - fades;
         const auto around = [&](const glm::dvec3& at) {
             return share * glm::cross(spin, glm::cross(spin, at));
         };
@@ -166,6 +171,11 @@ void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& s
     };
     if (block.b != 0) add(spin_b, block.arm_b, tick);
     if (block.a != 0) add(spin_a, block.arm_a, -tick);
+    // What stands still meets every limit: so impulses that contradict each other, as where a body
+    // is squeezed while it turns, have an end.
+    for (std::size_t i = 0; i < block.count; ++i) {
+        block.least[i] = std::min(block.least[i], block.normal_speed(block.bend, i));
+    }
 }
 
 Modal modal(const ContactBlock& block, const ContactImpulse& impulse)

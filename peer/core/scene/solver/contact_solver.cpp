@@ -16,6 +16,8 @@ constexpr std::size_t parts = 7;
 // What a large island may cost: so many visits to its blocks, but a few sweeps in any case.
 constexpr std::uint32_t visits_max = 1200;
 constexpr std::uint32_t sweeps_min = 7;
+// Islands larger than this are swept without mixing: what they may cost is used up before it helps.
+constexpr std::size_t mixed_max = 1024;
 
 void read(const ContactBlock& block, double* to)
 {
@@ -52,11 +54,11 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       parents_{bodies + 1},
       starts_{bodies + 2},
       order_{blocks},
-      before_{parts * blocks},
-      after_{parts * blocks},
-      good_{parts * blocks},
+      before_{parts * std::min(blocks, mixed_max)},
+      after_{parts * std::min(blocks, mixed_max)},
+      good_{parts * std::min(blocks, mixed_max)},
       saved_{bodies + 1},
-      anderson_{parts * blocks}
+      anderson_{parts * std::min(blocks, mixed_max)}
 {}
 
 void ContactSolver::begin(std::size_t bodies)
@@ -135,12 +137,20 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
         task.limits.sweeps_max,
         std::max<std::uint32_t>(sweeps_min,
                                 visits_max / static_cast<std::uint32_t>(island.size())));
+    SolverOutcome outcome{1, 0.0};
+    if (island.size() > mixed_max) {
+        while (outcome.sweeps + 2 <= sweeps_max) {
+            outcome.change = sweep(task, island);
+            outcome.sweeps += 2;
+            if (outcome.change <= task.limits.enough) break;
+        }
+        return outcome;
+    }
     before_.resize(parts * island.size());
     after_.resize(parts * island.size());
     good_.resize(parts * island.size());
     anderson_.begin(parts * island.size());
     note(island, before_.all());
-    SolverOutcome outcome{1, 0.0};
     double shortest2 = std::numeric_limits<double>::infinity();
     bool has_jumped = false;
     while (outcome.sweeps + 2 <= sweeps_max) {

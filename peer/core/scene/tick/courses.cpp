@@ -27,6 +27,13 @@ glm::dvec3 about_free_axes(const BodyForm& form, const glm::dvec3& angular)
             form.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
 
+/// What of a way the body can go.
+glm::dvec3 free_part(const BodyForm& form, const glm::dvec3& way)
+{
+    const glm::dvec3& light = form.inverse_mass;
+    return {light.x > 0.0 ? way.x : 0.0, light.y > 0.0 ? way.y : 0.0, light.z > 0.0 ? way.z : 0.0};
+}
+
 /// A turn too small to show in an orientation.
 bool is_nothing(const glm::dvec3& angle)
 {
@@ -58,24 +65,25 @@ void start(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse
     course.angular_momentum = momentum + course.angular_impulse;
 }
 
-void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
+bool turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
 {
     const BodyForm& form = bodies.form[slot];
     if (course.has_hands) {
         const glm::dvec3 more = tick * (mean.spin - course.mean.spin);
         bodies.orientation.put(slot, is_nothing(more) ? course.orientation
                                                       : turned(course.orientation, more));
-        return;
+        return true;
     }
     const glm::dquat now = bodies.orientation.at(slot);
-    if (is_nothing(tick * mean.spin)) return;
+    if (is_nothing(tick * mean.spin)) return false;
     if (turns_evenly(form)) {
         bodies.orientation.put(slot, turned(now, tick * mean.spin));
-        return;
+        return true;
     }
     const glm::dvec3 momentum =
         bodies.angular_momentum.at(slot) + 0.5 * course.angular_impulse + mean.angular_impulse;
     bodies.orientation.put(slot, spun(now, {momentum, form.inverse_inertia}, tick));
+    return true;
 }
 
 } // namespace
@@ -137,13 +145,14 @@ void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyRespons
                    glm::dvec3{0.0}};
     if (course.drag == 0.0) return;
     // Against the drag the velocity along the plane goes exponentially to where it would stay.
+    const BodyForm& form = stage.bodies.form[slot];
     const double keeps = base::exp(-course.drag * tick);
+    const glm::dvec3 driven = free_part(form, along_plane(rate, course.carrier));
     const glm::dvec3 excess =
-        along_plane(before, course.carrier) - along_plane(rate, course.carrier) / course.drag;
+        free_part(form, along_plane(before, course.carrier)) - driven / course.drag;
     const glm::dvec3 lost = (1.0 - keeps) * excess;
-    course.tentative.velocity += -lost - tick * along_plane(rate, course.carrier);
-    course.mean.velocity +=
-        lost / (course.drag * tick) - excess - (0.5 * tick) * along_plane(rate, course.carrier);
+    course.tentative.velocity += -lost - tick * driven;
+    course.mean.velocity += lost / (course.drag * tick) - excess - (0.5 * tick) * driven;
 }
 
 void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
@@ -163,7 +172,7 @@ void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyR
     const auto advance_against = [&](const glm::dvec3& drag) {
         body = {bodies.position.at(slot), bodies.orientation.at(slot), course.start.velocity,
                 bodies.angular_momentum.at(slot)};
-        answer.acceleration = rate - drag;
+        answer.acceleration = rate - free_part(bodies.form[slot], drag);
         advance(body, answer, hands.springs, hands.work, frozen.tick);
     };
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
@@ -194,10 +203,15 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
 {
     const double sign = block.b != 0 ? 1.0 : -1.0;
     const glm::dvec3& start = course.start.velocity;
-    const glm::dvec3 slip = start - glm::dot(start, block.normal) * block.normal;
+    const glm::dvec3 slip = free_part(form, start - glm::dot(start, block.normal) * block.normal);
     const double speed = std::sqrt(glm::dot(slip, slip));
     constexpr double hardly = 1e-9;
     if (speed <= hardly * scales.speed) return;
+    // Of a body that turns, the centre's way says nothing of what slips where it touches.
+    constexpr double steadily = 1e-6;
+    const double turning2 = glm::dot(course.start.spin, course.start.spin);
+    const double across2 = glm::dot(form.half, form.half);
+    if (turning2 * across2 > steadily * steadily * speed * speed) return;
     const glm::dvec3 along = slip / speed;
     const double held = sign * (block.impulse.tangent_1 * glm::dot(block.tangent_1, along) +
                                 block.impulse.tangent_2 * glm::dot(block.tangent_2, along));
@@ -221,14 +235,14 @@ bool keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scal
     return true;
 }
 
-void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
+bool arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
             const Scales& scales)
 {
     const double tick = scales.tick;
     const SolverIndex index = slot + 1;
     BodyMotion& mean = solver.mean(index);
     const BodyMotion& ending = solver.ending(index);
-    turn(course, bodies, slot, mean, tick);
+    const bool has_turned = turn(course, bodies, slot, mean, tick);
     const glm::dvec3 from = bodies.position.at(slot);
     if (course.has_hands) {
         bodies.position.put(slot, course.position + tick * (mean.velocity - course.mean.velocity));
@@ -239,6 +253,7 @@ void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& 
     bodies.angular_momentum.put(
         slot, course.angular_momentum +
                   about_free_axes(bodies.form[slot], ending.angular_impulse + course.thrown));
+    return has_turned;
 }
 
 } // namespace hapnet::scene

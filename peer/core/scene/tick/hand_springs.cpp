@@ -60,20 +60,15 @@ double steady_force(const HipDescription& hips, double depth, double closing, do
 HandSprings::HandSprings(const Frozen& frozen) : springs_{frozen.hips.count * touched_per_hand_max}
 {}
 
-void HandSprings::begin(Stage& stage)
+void HandSprings::begin(const Frozen& frozen, Stage& stage)
 {
     springs_.clear();
-    for (std::size_t i = 0; i < hands_.size(); ++i) {
-        for (Near& near : hands_[i].near) near.is_there = false;
+    for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
+        for (std::size_t k = 0; k < hands_[i].count; ++k) hands_[i].near[k].is_there = false;
         stage.touches[i] = {};
         const HipInput& hip = stage.hips[i];
         if (!hip.present || !hip.gripping) hands_[i].holding.reset();
     }
-}
-
-double HandSprings::look_ahead(const Stage& stage, std::uint32_t hand, double tick) const
-{
-    return tick * length(stage.hips[hand].velocity.value);
 }
 
 HandSprings::Near* HandSprings::near(Hand& hand, BodyId body)
@@ -201,7 +196,9 @@ void HandSprings::report(const Frozen& frozen, Stage& stage)
         touch.body = spring.body;
         touch.on_body = force;
     }
-    for (HipTouch& touch : stage.touches) touch.touching = touch.touching || touch.holding;
+    for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
+        stage.touches[i].touching = stage.touches[i].touching || stage.touches[i].holding;
+    }
 }
 
 void HandSprings::forget(BodyId body)

@@ -30,15 +30,13 @@ public:
     };
 
     /// Begins a tick: whom did the hands touch, nobody.
-    void begin(Stage& stage);
-    /// How far ahead a hand has to look for bodies.
-    [[nodiscard]] double look_ahead(const Stage& stage, std::uint32_t hand, double tick) const;
+    void begin(const Frozen& frozen, Stage& stage);
 
     /// Where a body is and how it moves.
     struct Target {
         BodyId body = 0;
         bool is_movable = false;
-        OrientedBox box;
+        const OrientedBox& box;
         glm::dvec3 velocity{0.0};
         glm::dvec3 spin{0.0};
     };

@@ -3,6 +3,7 @@
 #include "peer/core/scene/tick/rigid.hpp"
 
 #include "peer/core/scene/contact/box_plane.hpp"
+#include "peer/core/scene/motion/rotation.hpp"
 #include "peer/core/scene/tick/bounce.hpp"
 #include "peer/core/scene/tick/nearby.hpp"
 
@@ -21,7 +22,7 @@ constexpr std::size_t contacts_per_body_max = 8;
 constexpr double quiet = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
 constexpr double enough = 1e-6;
-// ... or this many sweeps were made. Measured: see the table in docs/BENCHMARKS.md.
+// ... or this many sweeps were made. (a stack of ten takes 23 from nothing, a thousandfold mass 9).
 constexpr std::uint32_t sweeps_max = 60;
 
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
@@ -104,8 +105,10 @@ void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
     solve(stage);
     move_apart();
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
-        boxes_[bodies.form[slot].id] = box_of(bodies, slot);
+        const bool has_turned = arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
+        OrientedBox& box = boxes_[bodies.form[slot].id];
+        box.centre = bodies.position.at(slot);
+        if (has_turned) box.axes = axes_of(bodies.orientation.at(slot));
     }
     hands_.report(frozen, stage);
     if constexpr (sleeps) sleep_.rest(bodies, neighbours_, stage.ticks);
@@ -126,7 +129,7 @@ template <Crowd crowd>
 void RigidTick<crowd>::feel(const Frozen& frozen, Stage& stage)
 {
     Bodies& bodies = stage.bodies;
-    hands_.begin(stage);
+    hands_.begin(frozen, stage);
     for (std::uint32_t hand = 0; hand < frozen.hips.count; ++hand) {
         const HipInput& hip = stage.hips[hand];
         if (hip.present) {
@@ -157,10 +160,10 @@ void RigidTick<crowd>::wake(Stage& stage)
     Bodies& bodies = stage.bodies;
     if constexpr (sleeps) {
         for (const BodyId body : stage.pushed) sleep_.wake(body, bodies, neighbours_);
-        const auto touching = [&](PairIndex index) {
+        const auto meet_now = [&](PairIndex index) {
             return between(stage, neighbours_.pair(index)).manifold.count > 0;
         };
-        while (sleep_.wake_touched(bodies, neighbours_, touching)) {}
+        while (sleep_.wake_touched(bodies, neighbours_, meet_now)) {}
     }
 }
 
@@ -225,7 +228,7 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
         const OrientedBox& box = boxes_[pair.a];
         const Manifold manifold =
             collide(PlaneSurface{plane.normal, plane.offset_m}, box, reach(stage, slot));
-        const bool was_carried = touches(pair.memory);
+        const bool is_carried = touches(pair.memory) || lies_on(manifold, touching * scales_.size);
         ContactBlock* const block = meet(manifold, {box.centre, box.centre}, pair.memory);
         if (block == nullptr) continue;
         const BodyForm& form = bodies.form[slot];
@@ -233,7 +236,7 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
         block->b = slot + 1;
         block->friction = friction_of(form.material, plane.material);
         block->restitution = std::max(form.material.restitution, plane.material.restitution);
-        if (form.drag > 0.0 && was_carried) {
+        if (form.drag > 0.0 && is_carried) {
             courses_[block->b].drag = form.drag / form.mass;
             courses_[block->b].carrier = plane.normal;
         }
@@ -303,7 +306,7 @@ void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
         solver_.ending(i) = courses_[i].tentative;
     }
     for (ContactBlock& block : solver_.blocks()) {
-        set_bend(block, courses_[block.a].mean.spin, courses_[block.b].mean.spin, scales_.tick);
+        set_bend(block, courses_[block.a].start.spin, courses_[block.b].start.spin, scales_.tick);
     }
 }
 
@@ -315,17 +318,15 @@ void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
         const BodyId body = all[first].body;
         const Slot slot = stage.bodies.slot_of[body];
         if (courses_[slot + 1].has_hands) continue;
-        std::array<HipSpring, hips_max> springs;
-        std::array<HipWork, hips_max> work;
         std::size_t count = 0;
         for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) springs[count++] = all[i].spring;
+            if (all[i].body == body) springs_[count++] = all[i].spring;
         }
         follow_hands(courses_[slot + 1], stage, slot, solver_.response(slot + 1),
-                     {{springs.data(), count}, {work.data(), count}, frozen});
+                     {{springs_.data(), count}, {work_.data(), count}, frozen});
         count = 0;
         for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) all[i].impulse = work[count++].impulse;
+            if (all[i].body == body) all[i].impulse = work_[count++].impulse;
         }
     }
 }

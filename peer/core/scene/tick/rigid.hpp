@@ -72,6 +72,8 @@ private:
     std::vector<OrientedBox> boxes_; // by id, where they are
     Scratch<BodyCourse> courses_;    // by solver index
     ContactSolver solver_;
+    std::array<HipSpring, hips_max> springs_{}; // on one body
+    std::array<HipWork, hips_max> work_{};
     Counts counts_;
 };
 

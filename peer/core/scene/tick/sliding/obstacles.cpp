@@ -78,7 +78,13 @@ bool Obstacles::put_out(std::span<const std::uint32_t> of_those, PerAxis& centre
     bool was_inside = false;
     for (const std::uint32_t id : of_those) {
         const Obstacle& one = all_[id];
-        if (one.is_plane && one.gap(one.normal_axis, centre[one.normal_axis]) >= 0.0) continue;
+        if (one.is_plane) {
+            const std::size_t axis = one.normal_axis;
+            if (locked_[axis] || one.gap(axis, centre[axis]) >= 0.0) continue;
+            centre[axis] = one.face(axis, one.side(axis, centre[axis]));
+            was_inside = true;
+            continue;
+        }
         PerAxis gaps{};
         for (std::size_t i = 0; i < 3; ++i) gaps[i] = one.gap(i, centre[i]);
         if (gaps[0] >= 0.0 || gaps[1] >= 0.0 || gaps[2] >= 0.0) continue;

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+//
+// soak_scene FIRST COUNT: plays the random scenes of the seeds FIRST .. FIRST + COUNT - 1 under
+// the laws. Prints every seed that breaks one, and at the end the worst of each. Exits 0 when none
+// is broken.
+#include "tests/support/scene/scene_laws.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <spdlog/fmt/fmt.h>
+#include <string>
+
+namespace {
+
+using hapnet::test::LawFigures;
+
+struct Tally {
+    std::uint64_t played = 0;
+    std::uint64_t ticks = 0;
+    std::uint64_t broken = 0;
+    LawFigures worst;
+};
+
+void keep(LawFigures& worst, const LawFigures& one)
+{
+    worst.energy = std::max(worst.energy, one.energy);
+    worst.momentum = std::max(worst.momentum, one.momentum);
+    worst.angular_momentum = std::max(worst.angular_momentum, one.angular_momentum);
+    worst.force = std::max(worst.force, one.force);
+}
+
+void report(const Tally& tally)
+{
+    fmt::print("  {} scenes, {} ticks, {} broken; worst: energy {:.3g}, momentum {:.3g}, "
+               "angular {:.3g} of what is tolerated; force {:.10g} of the greatest\n",
+               tally.played, tally.ticks, tally.broken, tally.worst.energy, tally.worst.momentum,
+               tally.worst.angular_momentum, tally.worst.force);
+    std::fflush(stdout);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc != 3) {
+        fmt::print(stderr, "usage: soak_scene FIRST COUNT\n");
+        return 2;
+    }
+    const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
+    const std::uint64_t count = std::strtoull(argv[2], nullptr, 10);
+    constexpr std::uint64_t often = 10'000;
+    Tally tally;
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        const auto play = hapnet::test::random_play(seed);
+        const auto outcome = hapnet::test::judge(play, seed);
+        ++tally.played;
+        tally.ticks += play.ticks.size();
+        keep(tally.worst, outcome.worst);
+        if (outcome.complaint) {
+            ++tally.broken;
+            fmt::print("  seed {}: {}\n", seed, *outcome.complaint);
+        }
+        if (tally.played % often == 0) report(tally);
+    }
+    report(tally);
+    return tally.broken == 0 ? 0 : 1;
+}

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/support/scene/random_play.hpp"
+
+namespace hapnet::test {
+
+namespace {
+
+glm::dvec3 flipped(const glm::dvec3& v) { return {-v.x, v.y, v.z}; }
+glm::dquat flipped(const glm::dquat& q) { return {q.w, q.x, -q.y, -q.z}; }
+/// What turns is mirrored the other way round.
+glm::dvec3 flipped_turn(const glm::dvec3& v) { return {v.x, -v.y, -v.z}; }
+
+} // namespace
+
+scene::BodyState mirrored(scene::BodyState state)
+{
+    state.position.value = flipped(state.position.value);
+    state.orientation = flipped(state.orientation);
+    state.velocity.value = flipped(state.velocity.value);
+    state.angular_velocity = flipped_turn(state.angular_velocity);
+    return state;
+}
+
+RandomPlay mirrored(RandomPlay play)
+{
+    for (scene::BodyDescription& body : play.description.bodies) {
+        body.position.value = flipped(body.position.value);
+        body.orientation = flipped(body.orientation);
+        body.velocity.value = flipped(body.velocity.value);
+        body.angular_velocity = flipped_turn(body.angular_velocity);
+    }
+    for (scene::PlaneDescription& plane : play.description.planes)
+        plane.normal = flipped(plane.normal);
+    play.description.gravity = flipped(play.description.gravity);
+    for (TickInputs& inputs : play.ticks) {
+        for (scene::HipInput& hip : inputs.hips) {
+            hip.position.value = flipped(hip.position.value);
+            hip.velocity.value = flipped(hip.velocity.value);
+        }
+        for (auto& [body, force] : inputs.pushes) force.value = flipped(force.value);
+        for (auto& [body, state] : inputs.places) state = mirrored(state);
+    }
+    return play;
+}
+
+} // namespace hapnet::test

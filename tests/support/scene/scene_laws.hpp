@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/support/scene/random_play.hpp"
+
+#include <optional>
+#include <string>
+
+namespace hapnet::test {
+
+/// The worst that was seen, in the units of each law's tolerance: above 1 it is broken.
+struct LawFigures {
+    double energy = 0.0;
+    double momentum = 0.0;
+    double angular_momentum = 0.0;
+    double force = 0.0; // of the greatest force that a hand may exert
+};
+
+/// What has to hold for every tick of every world:
+/// - every number is finite, orientations are unit, locked axes and fixed bodies stay where they
+///   are, what sleeps does not move and has no velocity;
+/// - a hand exerts no more than its greatest force;
+/// - kinetic energy grows by no more than the work of gravity, pushes and hands;
+/// - where nothing is fixed, momentum changes by what gravity, pushes and hands give, and angular
+///   momentum, without hands, by what gravity and pushes give.
+/// A body moves at the mean of its velocities before and after the tick, but where it bounces, so
+/// that the work of a steady force and of every impulse is exact: with the inertia as it is before
+/// the tick. Contacts oppose the motion at the tick's end: against a force that reverses it within
+/// the tick they can lose too little, by up to force^2 tick^2 / (8 mass).
+class SceneLaws {
+public:
+    explicit SceneLaws(const RandomPlay& play);
+
+    /// Just before a tick, with the inputs given.
+    void before(const scene::World& world);
+    /// Just after it: the law that was broken, if any, with numbers.
+    [[nodiscard]] std::optional<std::string> after(const scene::World& world);
+
+    [[nodiscard]] const LawFigures& worst() const { return worst_; }
+
+private:
+    struct Moment {
+        scene::BodyState state;
+        glm::dvec3 angular_momentum{0.0};
+        bool is_awake = true;
+    };
+    /// Sums over all bodies for one tick.
+    struct Balance {
+        double kinetic_before = 0.0;
+        double kinetic_after = 0.0;
+        double work = 0.0;
+        double fastest = 0.0;  // m/s, of any corner
+        double jolt = 0.0;     // N s: the sum of the changes of momentum
+        double momentum = 0.0; // N s: the sum of the amounts
+        double angular = 0.0;  // N m s, likewise
+        double astray = 0.0;   // N m s: of moving apart
+        double slack = 0.0;    // J
+        glm::dvec3 linear_gain{0.0};
+        glm::dvec3 angular_gain{0.0};
+        bool any_fell_asleep = false;
+    };
+
+    [[nodiscard]] std::optional<std::string> check_body(const scene::World& world,
+                                                        scene::BodyId id) const;
+    [[nodiscard]] std::optional<std::string> check_hands(const scene::World& world);
+    void add(Balance& balance, const scene::World& world, scene::BodyId id) const;
+    [[nodiscard]] std::optional<std::string> check_energy(const scene::World& world,
+                                                          const Balance& balance);
+    [[nodiscard]] std::optional<std::string> check_momentum(const scene::World& world,
+                                                            const Balance& balance);
+    [[nodiscard]] Moment moment_of(const scene::World& world, scene::BodyId id) const;
+
+    const RandomPlay& play_;
+    bool nothing_is_fixed_ = true;
+    double movable_ = 0.0; // how many
+    std::vector<Moment> moments_;
+    LawFigures worst_;
+};
+
+/// What became of a play.
+struct PlayOutcome {
+    std::optional<std::string> complaint; // with the tick
+    LawFigures worst;
+    std::uint64_t hash = 0;
+};
+
+/// Plays it under the laws; and, from a tick that the seed draws, once more from a snapshot: to
+/// the same hash.
+[[nodiscard]] PlayOutcome judge(const RandomPlay& play, std::uint64_t seed);
+
+} // namespace hapnet::test
