@@ -313,21 +313,15 @@ void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
 template <Crowd crowd>
 void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
 {
-    const std::span<HandSprings::Spring> all = hands_.springs();
-    for (std::size_t first = 0; first < all.size(); ++first) {
-        const BodyId body = all[first].body;
-        const Slot slot = stage.bodies.slot_of[body];
-        if (courses_[slot + 1].has_hands) continue;
-        std::size_t count = 0;
-        for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) springs_[count++] = all[i].spring;
-        }
-        follow_hands(courses_[slot + 1], stage, slot, solver_.response(slot + 1),
-                     {{springs_.data(), count}, {work_.data(), count}, frozen});
-        count = 0;
-        for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) all[i].impulse = work_[count++].impulse;
-        }
+    for (const HandSprings::Spring& spring : hands_.springs()) {
+        const Slot slot = stage.bodies.slot_of[spring.body];
+        BodyCourse& course = courses_[slot + 1];
+        if (course.has_hands) continue;
+        const std::span<const HipSpring> springs = hands_.on(spring.body);
+        std::array<HipWork, hips_max> work;
+        follow_hands(course, stage, slot, solver_.response(slot + 1),
+                     {springs, {work.data(), springs.size()}, frozen});
+        hands_.worked(spring.body, work);
     }
 }
 
