@@ -127,7 +127,6 @@ void bounce_one(ContactBlock& block, ContactSolver& solver, std::span<BodyCourse
 
 void bounce(ContactSolver& solver, std::span<BodyCourse> courses, const Scales& scales)
 {
-    for (BodyCourse& course : courses) course.rebound = course.start;
     for (ContactBlock& block : solver.blocks()) {
         if (block.restitution > 0.0) bounce_one(block, solver, courses, scales);
     }
