@@ -214,15 +214,8 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
         for (std::size_t j = i + 1; j < 6; ++j) block.matrix[i][j] = block.matrix[j][i];
     }
     block.has_matrix = true;
-}
-
-Modal times(const Square<6>& matrix, const Modal& impulse)
-{
-    Modal velocity{};
-    for (std::size_t j = 0; j < 6; ++j) {
-        for (std::size_t i = 0; i < 6; ++i) velocity[i] += matrix[i][j] * impulse[j];
-    }
-    return velocity;
+    block.factors.has_whole = block.factors.slipped = false;
+    block.factors.few_set = block.factors.fit_set = 0;
 }
 
 } // namespace hapnet::scene

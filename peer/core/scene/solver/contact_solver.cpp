@@ -51,6 +51,7 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       ending_{bodies + 1},
       mean_{bodies + 1},
       blocks_{blocks},
+      contacts_{bodies + 1},
       parents_{bodies + 1},
       starts_{bodies + 2},
       order_{blocks},
@@ -111,8 +112,9 @@ SolverOutcome ContactSolver::separate_again(const SolverLimits& limits)
 SolverOutcome ContactSolver::run(const Task& task)
 {
     SolverOutcome outcome{1, 0.0};
+    count_contacts();
     for (ContactBlock& block : blocks_.all()) {
-        block.change = visit(block, task);
+        block.change = visit(block, task, is_alone(block) ? Depth::exact : Depth::nearer);
         outcome.change = std::max(outcome.change, block.change);
     }
     if (outcome.change <= task.limits.enough || blocks_.size() < 2) return outcome;
@@ -179,9 +181,10 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 double ContactSolver::sweep(const Task& task, Island island)
 {
     double change = 0.0;
-    for (const std::uint32_t i : island) change = std::max(change, visit(blocks_[i], task));
+    for (const std::uint32_t i : island)
+        change = std::max(change, visit(blocks_[i], task, Depth::nearer));
     for (std::size_t i = island.size(); i-- > 0;) {
-        change = std::max(change, visit(blocks_[island[i]], task));
+        change = std::max(change, visit(blocks_[island[i]], task, Depth::nearer));
     }
     return change;
 }
@@ -220,7 +223,7 @@ void ContactSolver::step_back(const Task& task, Island island)
     }
 }
 
-double ContactSolver::visit(ContactBlock& block, const Task& task)
+double ContactSolver::visit(ContactBlock& block, const Task& task, Depth depth)
 {
     Modal velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
     for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.bend[i];
@@ -230,8 +233,9 @@ double ContactSolver::visit(ContactBlock& block, const Task& task)
         return 0.0;
     }
     if (!block.has_matrix) build_matrix(block, responses_[block.a], responses_[block.b]);
-    const Modal change = pushes_only ? scene::solve_normals(block, velocity, quiet)
-                                     : scene::solve(block, velocity, quiet);
+    const Modal change = pushes_only             ? scene::solve_normals(block, velocity, quiet)
+                         : depth == Depth::exact ? scene::solve(block, velocity, quiet)
+                                                 : scene::improve(block, velocity, quiet);
     apply(block, change, task.motions);
     const Modal gained = times(block.matrix, change);
     const double arm = block.torsion_arm;
@@ -255,6 +259,22 @@ void ContactSolver::apply(const ContactBlock& block, const Modal& change,
     push.impulse = -push.impulse;
     push.angular = -push.angular;
     scene::apply(push, block.arm_a, responses_[block.a], motions[block.a]);
+}
+
+void ContactSolver::count_contacts()
+{
+    contacts_.resize(responses_.size());
+    for (std::uint32_t& count : contacts_.all()) count = 0;
+    for (const ContactBlock& block : blocks_.all()) {
+        ++contacts_[block.a];
+        ++contacts_[block.b];
+    }
+}
+
+/// Whether no other block has to do with its bodies.
+bool ContactSolver::is_alone(const ContactBlock& block) const
+{
+    return (block.a == 0 || contacts_[block.a] == 1) && (block.b == 0 || contacts_[block.b] == 1);
 }
 
 SolverIndex ContactSolver::root_of(SolverIndex body)

@@ -64,6 +64,9 @@ private:
         SolverLimits limits;
     };
 
+    /// How far a visit goes where a block slips: to the end, or some way, as the next one goes on.
+    enum class Depth : std::uint8_t { exact, nearer };
+
     using Island = std::span<const std::uint32_t>; // its blocks
 
     SolverOutcome run(const Task& task);
@@ -72,8 +75,10 @@ private:
     void note(Island island, std::span<double> impulses) const;
     void jump(const Task& task, Island island);
     void step_back(const Task& task, Island island);
-    double visit(ContactBlock& block, const Task& task);
+    double visit(ContactBlock& block, const Task& task, Depth depth);
     void apply(const ContactBlock& block, const Modal& change, std::span<BodyMotion> motions);
+    void count_contacts();
+    [[nodiscard]] bool is_alone(const ContactBlock& block) const;
     void find_islands();
     [[nodiscard]] SolverIndex root_of(SolverIndex body);
 
@@ -81,6 +86,8 @@ private:
     Scratch<BodyMotion> ending_;
     Scratch<BodyMotion> mean_;
     Scratch<ContactBlock> blocks_;
+
+    Scratch<std::uint32_t> contacts_; // of each body
 
     // Islands: of which body, by body; the blocks in the order of their islands; where each ends.
     Scratch<SolverIndex> parents_;
