@@ -158,7 +158,10 @@ std::optional<PlaceOverlap> SphereBoxMemory::find(const glm::dvec3& half, const 
             PerAxis point = here;
             normal[axis] = side;
             point[axis] = side * edge[axis];
-            return PlaceOverlap{radius - gap, vector(normal), vector(point)};
+            constexpr double amid = 0.9;
+            int within = 0;
+            for (const std::size_t i : {0U, 1U, 2U}) within += std::abs(here[i]) <= amid * edge[i];
+            return PlaceOverlap{radius - gap, vector(normal), vector(point), within == 2};
         }
     }
     const bool was_behind = entered_ && is_behind(*entered_, half, *before);

@@ -29,6 +29,7 @@ struct PlaceOverlap {
     double depth = 0.0;
     glm::dvec3 normal{0.0};
     glm::dvec3 point{0.0};
+    bool is_amid_face = false; // nine tenths of its half edges from its middle at most
 };
 
 /// How far a sphere's centre may come in one tick, or go behind the face where it went in, in

@@ -3,9 +3,9 @@
 #include "peer/core/scene/hip/steady.hpp"
 
 #include "peer/core/scene/hip/settle.hpp"
-#include "peer/core/scene/motion/per_axis.hpp"
 #include "peer/core/scene/motion/rotation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -18,8 +18,6 @@ namespace {
 constexpr double turn_max = 0.01;
 // What turns less than this has kept its directions, to rounding.
 constexpr double unturned = 1e-10;
-// A hand this far from the middle of a face, in half edges, does not leave it soon.
-constexpr double amid = 0.9;
 
 constexpr std::size_t terms_max = 24;
 constexpr std::array<double, terms_max> shares = [] {
@@ -29,117 +27,93 @@ constexpr std::array<double, terms_max> shares = [] {
     return r;
 }();
 
+double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+glm::dvec3 diagonal(const glm::dmat3& m) { return {m[0].x, m[1].y, m[2].z}; }
+
 /// One spring and the face that it presses.
 struct Contact {
-    std::size_t axis = 0; // of the face
-    double side = 1.0;
-    glm::dvec3 hand;   // seen from the body's centre, at the start
-    glm::dvec3 normal; // at the start, then halfway
+    glm::dvec3 hand; // seen from the body's centre, at the start
+    glm::dvec3 away; // the body's velocity over the hand's, at the start
+    glm::dvec3 normal;
     glm::dvec3 lever;
-    glm::dvec3 swung; // the inverse inertia times the lever
+    double own = 0.0; // 1/kg
     double depth = 0.0;
     double closing = 0.0;
     double acceleration = 0.0; // of the depth, by everything but the springs
-    double after = 0.0;        // the depth at the end
-};
-
-/// The face, when the hand is amid one and presses it.
-bool find_face(Contact& contact, const HipSpring& spring, const glm::dvec3& half,
-               const glm::dmat3& axes)
-{
-    if (spring.holds || !(spring.stiffness > 0.0) || spring.gap > 0.0) return false;
-    contact.hand = spring.arm + (spring.radius + spring.gap) * spring.normal;
-    const PerAxis normal{glm::dot(axes[0], spring.normal), glm::dot(axes[1], spring.normal),
-                         glm::dot(axes[2], spring.normal)};
-    const PerAxis off{std::abs(glm::dot(axes[0], contact.hand)) - amid * half.x,
-                      std::abs(glm::dot(axes[1], contact.hand)) - amid * half.y,
-                      std::abs(glm::dot(axes[2], contact.hand)) - amid * half.z};
-    const PerAxis size{std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])};
-    constexpr double rounding = 1e-9;
-    const std::size_t axis = size[0] > 0.5 ? 0 : size[1] > 0.5 ? 1 : 2;
-    const std::size_t u = axis == 0 ? 1 : 0;
-    const std::size_t v = axis == 2 ? 1 : 2;
-    contact.axis = axis;
-    contact.side = normal[axis] < 0.0 ? -1.0 : 1.0;
-    contact.normal = spring.normal;
-    contact.lever = glm::cross(spring.arm, spring.normal);
-    contact.depth = -spring.gap;
-    return size[u] + size[v] <= rounding && off[u] <= 0.0 && off[v] <= 0.0;
-}
-
-/// What the springs do in the tick.
-template <std::size_t count>
-struct Pressed {
-    std::array<double, count> impulse{}; // of the force, N s
-    std::array<double, count> moment{};  // the integral of the impulse, N s^2
+    double impulse = 0.0;      // of the force, N s
+    double moment = 0.0;       // the integral of the impulse, N s^2
 };
 
 template <std::size_t count>
 class Steady {
 public:
     Steady(MovingBody& body, const Answer& answer, const HipSpring* springs, double tick)
-        : body_{body}, answer_{answer}, springs_{springs}, tick_{tick}
+        : body_{body},
+          answer_{answer},
+          springs_{springs},
+          tick_{tick},
+          ease_{diagonal(answer.inverse_inertia)}
     {}
 
     /// False: it is not steady.
-    bool pass(HipWork* work);
+    bool pass(HipWork* work)
+    {
+        if (!hold_halfway()) return false;
+        couple();
+        return press() && finish(work);
+    }
 
 private:
-    bool begin();
-    bool turn_halfway();
+    bool hold_halfway();
     void couple();
     bool press();
     bool finish(HipWork* work);
+    [[nodiscard]] double depth_change(std::size_t i) const;
 
     MovingBody& body_;
     const Answer& answer_;
     const HipSpring* springs_;
     double tick_;
-    glm::dmat3 axes_{};
+    glm::dvec3 ease_; // 1/(kg m^2), about each axis
     std::array<Contact, count> contacts_;
-    std::array<double, count> own_{}; // 1/kg
-    double mutual_ = 0.0;
-    Pressed<count> pressed_;
+    double mutual_ = 0.0; // 1/kg
 };
-
-template <std::size_t count>
-bool Steady<count>::begin()
-{
-    axes_ = axes_of(body_.orientation);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!find_face(contacts_[i], springs_[i], answer_.half, axes_)) return false;
-    }
-    return true;
-}
 
 /// Turns what is held to where it is halfway.
 template <std::size_t count>
-bool Steady<count>::turn_halfway()
+bool Steady<count>::hold_halfway()
 {
     const double half = 0.5 * tick_;
-    const glm::dvec3 spin = answer_.inverse_inertia * body_.angular_momentum;
+    const glm::dvec3 spin = ease_ * body_.angular_momentum;
     glm::dvec3 force{0.0};
     glm::dvec3 torque = answer_.torque;
     for (std::size_t i = 0; i < count; ++i) {
-        const Contact& contact = contacts_[i];
         const HipSpring& spring = springs_[i];
-        const double closing = glm::dot(contact.normal, body_.velocity - spring.velocity) +
-                               glm::dot(contact.lever, spin);
-        const double pushed = spring.stiffness * contact.depth + spring.damping * closing;
-        force -= pushed * contact.normal;
-        torque -= pushed * contact.lever;
+        Contact& contact = contacts_[i];
+        contact.hand = spring.arm + (spring.radius + spring.gap) * spring.normal;
+        contact.away = body_.velocity - spring.velocity;
+        const glm::dvec3 lever = glm::cross(spring.arm, spring.normal);
+        const double closing = glm::dot(spring.normal, contact.away) + glm::dot(lever, spin);
+        const double pushed = spring.damping * closing - spring.stiffness * spring.gap;
+        force -= pushed * spring.normal;
+        torque -= pushed * lever;
     }
-    const glm::dvec3 moved =
-        half *
-        (body_.velocity + (0.5 * half) * (answer_.acceleration + answer_.inverse_mass * force));
-    const glm::dvec3 angle = half * (spin + (0.5 * half) * (answer_.inverse_inertia * torque));
-    if (!(glm::dot(angle, angle) <= turn_max * turn_max)) return false;
+    const glm::dvec3 gained = (0.5 * half) * (answer_.acceleration + answer_.inverse_mass * force);
+    const glm::dvec3 angle = half * (spin + (0.5 * half) * (ease_ * torque));
+    const double turned = sum_of(angle);
+    if (!(turned <= turn_max)) return false;
+    // From amid a face to beside it is a tenth of a half edge at least.
+    const glm::dvec3& size = answer_.half;
+    const double room = 0.1 * std::min(size.x, std::min(size.y, size.z));
+    const double swept = turned * (size.x + size.y + size.z) + half * sum_of(gained);
     for (std::size_t i = 0; i < count; ++i) {
         Contact& contact = contacts_[i];
-        const glm::dvec3 hand = contact.hand + half * springs_[i].velocity - moved;
-        const glm::dvec3 once = glm::cross(angle, contact.normal);
-        contact.normal += once + 0.5 * glm::cross(angle, once);
-        contact.lever = glm::cross(hand, contact.normal);
+        const glm::dvec3 moved = half * (contact.away + gained);
+        if (!(2.0 * (sum_of(moved) + swept) <= room)) return false;
+        const glm::dvec3 once = glm::cross(angle, springs_[i].normal);
+        contact.normal = springs_[i].normal + once + 0.5 * glm::cross(angle, once);
+        contact.lever = glm::cross(contact.hand - moved, contact.normal);
     }
     return true;
 }
@@ -147,19 +121,22 @@ bool Steady<count>::turn_halfway()
 template <std::size_t count>
 void Steady<count>::couple()
 {
+    const glm::dvec3& light = answer_.inverse_mass;
     for (std::size_t i = 0; i < count; ++i) {
         Contact& contact = contacts_[i];
-        contact.swung = answer_.inverse_inertia * contact.lever;
-        own_[i] = glm::dot(contact.normal, answer_.inverse_mass * contact.normal) +
-                  glm::dot(contact.lever, contact.swung);
-        contact.closing = glm::dot(contact.normal, body_.velocity - springs_[i].velocity) +
-                          glm::dot(contact.swung, body_.angular_momentum);
-        contact.acceleration = glm::dot(contact.normal, answer_.acceleration) +
-                               glm::dot(contact.swung, answer_.torque);
-    }
-    if constexpr (count == 2) {
-        mutual_ = glm::dot(contacts_[0].normal, answer_.inverse_mass * contacts_[1].normal) +
-                  glm::dot(contacts_[0].lever, contacts_[1].swung);
+        const glm::dvec3& normal = contact.normal;
+        const glm::dvec3 swung = ease_ * contact.lever;
+        contact.own = glm::dot(normal, light * normal) + glm::dot(contact.lever, swung);
+        contact.depth = -springs_[i].gap;
+        contact.closing = glm::dot(normal, contact.away) + glm::dot(swung, body_.angular_momentum);
+        contact.acceleration =
+            glm::dot(normal, answer_.acceleration) + glm::dot(swung, answer_.torque);
+        if constexpr (count == 2) {
+            if (i == 1) {
+                mutual_ = glm::dot(contacts_[0].normal, light * normal) +
+                          glm::dot(contacts_[0].lever, swung);
+            }
+        }
     }
 }
 
@@ -173,61 +150,66 @@ bool Steady<count>::press()
 {
     using Each = std::array<double, count>;
     const double square = tick_ * tick_;
-    Each depth, next, stiffness, damping, first;
+    Each next, stiffness, damping, damper, first, own, driven;
     Each once{}, twice{}, change{};
+    double size = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         const Contact& contact = contacts_[i];
-        depth[i] = contact.depth;
         next[i] = tick_ * contact.closing;
         stiffness[i] = springs_[i].stiffness;
-        damping[i] = springs_[i].damping / tick_;
+        damper[i] = damping[i] = springs_[i].damping / tick_;
+        own[i] = square * contact.own;
+        driven[i] = 0.5 * square * contact.acceleration;
         constexpr double slow = 0.5;
-        if (!(square * own_[i] * (stiffness[i] + damping[i]) <= slow)) return false;
-        first[i] = stiffness[i] * depth[i] + damping[i] * next[i];
+        if (!(own[i] * (stiffness[i] + damping[i]) <= slow)) return false;
+        first[i] = stiffness[i] * contact.depth + damping[i] * next[i];
+        size += std::abs(first[i]);
     }
+    constexpr double rounding = 1e-17;
+    const double enough = rounding * size;
+    const double mutual = square * mutual_;
     Each force = first;
-    for (std::size_t n = 0;; ++n) {
-        if (n + 1 == terms_max) return false;
+    double last = size;
+    double order = 2.0;
+    for (const double share : shares) {
         Each part;
         for (std::size_t i = 0; i < count; ++i) {
-            part[i] = shares[n] * force[i];
+            part[i] = share * force[i];
             twice[i] += part[i];
-            once[i] += part[i] * static_cast<double>(n + 2);
+            once[i] += order * part[i];
         }
-        Each then;
+        double now = 0.0;
         for (std::size_t i = 0; i < count; ++i) {
-            double pushed = own_[i] * part[i];
-            if constexpr (count == 2) pushed += mutual_ * part[1 - i];
-            then[i] = -square * pushed;
-            if (n == 0) then[i] += 0.5 * square * contacts_[i].acceleration;
+            double then = driven[i] - own[i] * part[i];
+            if constexpr (count == 2) then -= mutual * part[1 - i];
+            driven[i] = 0.0;
+            damper[i] += damping[i];
+            force[i] = stiffness[i] * next[i] + damper[i] * then;
+            next[i] = then;
+            change[i] += std::abs(force[i]);
+            now += std::abs(force[i]);
         }
-        bool is_done = n > 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            depth[i] = next[i];
-            next[i] = then[i];
-            const double now =
-                stiffness[i] * depth[i] + static_cast<double>(n + 2) * damping[i] * next[i];
-            constexpr double rounding = 1e-18;
-            is_done = is_done && std::abs(force[i]) + std::abs(now) <= rounding * first[i];
-            force[i] = now;
-            change[i] += std::abs(now);
-        }
-        if (is_done) break;
+        if (last + now <= enough) break;
+        last = now;
+        order += 1.0;
     }
+    if (!(last <= size * 1e-16)) return false;
     for (std::size_t i = 0; i < count; ++i) {
-        if (!(first[i] - change[i] > 0.0 && first[i] + change[i] < springs_[i].force_max))
-            return false;
-        pressed_.impulse[i] = tick_ * once[i];
-        pressed_.moment[i] = square * twice[i];
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        Contact& contact = contacts_[i];
-        double pushed = own_[i] * pressed_.moment[i];
-        if constexpr (count == 2) pushed += mutual_ * pressed_.moment[1 - i];
-        contact.after = contact.depth + tick_ * contact.closing +
-                        (0.5 * square) * contact.acceleration - pushed;
+        if (!(first[i] > change[i] && first[i] + change[i] < springs_[i].force_max)) return false;
+        contacts_[i].impulse = tick_ * once[i];
+        contacts_[i].moment = square * twice[i];
     }
     return true;
+}
+
+/// By how much a depth has grown, by what was held.
+template <std::size_t count>
+double Steady<count>::depth_change(std::size_t i) const
+{
+    const Contact& contact = contacts_[i];
+    double pushed = contact.own * contact.moment;
+    if constexpr (count == 2) pushed += mutual_ * contacts_[1 - i].moment;
+    return tick_ * (contact.closing + (0.5 * tick_) * contact.acceleration) - pushed;
 }
 
 template <std::size_t count>
@@ -236,59 +218,37 @@ bool Steady<count>::finish(HipWork* work)
     const double t = tick_;
     glm::dvec3 impulse{0.0};
     glm::dvec3 moment{0.0};
-    glm::dvec3 twist{0.0};
-    glm::dvec3 twist_moment{0.0};
+    glm::dvec3 twist = t * answer_.torque;
+    glm::dvec3 swept = t * (body_.angular_momentum + (0.5 * t) * answer_.torque);
     for (std::size_t i = 0; i < count; ++i) {
         const Contact& contact = contacts_[i];
-        impulse -= pressed_.impulse[i] * contact.normal;
-        moment -= pressed_.moment[i] * contact.normal;
-        twist -= pressed_.impulse[i] * contact.lever;
-        twist_moment -= pressed_.moment[i] * contact.lever;
+        work[i].impulse = -contact.impulse * contact.normal;
+        impulse += work[i].impulse;
+        moment -= contact.moment * contact.normal;
+        twist -= contact.impulse * contact.lever;
+        swept -= contact.moment * contact.lever;
     }
     const glm::dvec3 moved =
         t * (body_.velocity + (0.5 * t) * answer_.acceleration) + answer_.inverse_mass * moment;
-    const glm::dvec3 swept =
-        t * (body_.angular_momentum + (0.5 * t) * answer_.torque) + twist_moment;
-    const glm::dvec3 angle = answer_.inverse_inertia * swept;
-    const bool has_turned = glm::dot(angle, angle) >= unturned * unturned;
-    const glm::dquat orientation =
-        angle == glm::dvec3{0.0} ? body_.orientation : turned(body_.orientation, angle);
-    if (has_turned) {
-        // Where the hands are in the end on the faces that have turned.
-        axes_ = axes_of(orientation);
-        for (std::size_t i = 0; i < count; ++i) {
-            Contact& contact = contacts_[i];
-            const glm::dvec3 hand = contact.hand + t * springs_[i].velocity - moved;
-            const PerAxis place{glm::dot(axes_[0], hand), glm::dot(axes_[1], hand),
-                                glm::dot(axes_[2], hand)};
-            const PerAxis half = per_axis(answer_.half);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                if (axis != contact.axis && std::abs(place[axis]) > half[axis]) return false;
-            }
-            contact.depth =
-                springs_[i].radius + half[contact.axis] - contact.side * place[contact.axis];
-        }
-    }
+    const glm::dvec3 angle = ease_ * swept;
     body_.position += moved;
     body_.velocity += t * answer_.acceleration + answer_.inverse_mass * impulse;
-    body_.angular_momentum += t * answer_.torque + twist;
-    body_.orientation = orientation;
-    for (std::size_t i = 0; i < count; ++i)
-        work[i].impulse = -pressed_.impulse[i] * contacts_[i].normal;
-    if (!has_turned) return true;
+    body_.angular_momentum += twist;
+    if (angle == glm::dvec3{0.0}) return true;
+    const glm::dquat turn = turn_by(angle);
+    body_.orientation = unit_again(turn * body_.orientation);
+    if (glm::dot(angle, angle) < unturned * unturned) return true;
     for (std::size_t i = 0; i < count; ++i) {
-        settle({body_, answer_, answer_.inverse_inertia, tick_}, springs_[i],
-               {contacts_[i].after, contacts_[i].depth}, work[i]);
+        const HipSpring& spring = springs_[i];
+        const Contact& contact = contacts_[i];
+        const glm::dvec3 hand = contact.hand + t * spring.velocity - moved;
+        const double above =
+            glm::dot(turn * spring.normal, hand) - // the face turns about the centre
+            glm::dot(spring.normal, spring.arm);
+        settle({body_, answer_, answer_.inverse_inertia, t}, spring,
+               {contact.depth + depth_change(i), spring.radius - above}, work[i]);
     }
     return true;
-}
-
-template <std::size_t count>
-bool Steady<count>::pass(HipWork* work)
-{
-    if (!begin() || !turn_halfway()) return false;
-    couple();
-    return press() && finish(work);
 }
 
 } // namespace
@@ -297,6 +257,9 @@ bool press_steadily(MovingBody& body, const Answer& answer, std::span<const HipS
                     std::span<HipWork> work, double tick)
 {
     if (!answer.turns_evenly) return false;
+    for (const HipSpring& spring : springs) {
+        if (!spring.is_amid_face || spring.gap > 0.0 || !(spring.stiffness > 0.0)) return false;
+    }
     if (springs.size() == 1) return Steady<1>{body, answer, springs.data(), tick}.pass(work.data());
     if (springs.size() == 2) return Steady<2>{body, answer, springs.data(), tick}.pass(work.data());
     return false;

@@ -172,6 +172,7 @@ void HandSprings::press(const Frozen& frozen, Stage& stage, std::uint32_t index,
     spring.stiffness = hips.stiffness_n_per_m;
     spring.damping = hips.damping_ns_per_m;
     spring.force_max = hips.force_max_n;
+    spring.is_amid_face = overlap->is_amid_face;
     spring.holds = false;
 }
 
