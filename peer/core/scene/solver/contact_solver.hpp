@@ -71,6 +71,9 @@ private:
 
     SolverOutcome run(const Task& task);
     SolverOutcome run_island(const Task& task, Island island);
+    void save(const Task& task, Island island);
+    void bring_back(const Task& task, Island island);
+    void lose_energy(const Task& task, Island island);
     double sweep(const Task& task, Island island);
     void note(Island island, std::span<double> impulses) const;
     void jump(const Task& task, Island island);
