@@ -134,7 +134,8 @@ SolverOutcome ContactSolver::run(const Task& task)
         const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.enough; };
         if (island.size() < 2 || std::none_of(island.begin(), island.end(), moves)) continue;
         const SolverOutcome its = run_island(task, island);
-        if (its.change > task.limits.enough) lose_energy(task, island);
+        const bool is_done = its.change <= task.limits.enough;
+        if (task.mode == Mode::contacts && !is_done) lose_energy(task, island);
         outcome.sweeps = std::max(outcome.sweeps, its.sweeps);
         outcome.change = std::max(outcome.change, its.change);
     }
