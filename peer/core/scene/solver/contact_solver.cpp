@@ -13,9 +13,8 @@ namespace {
 /// The impulses of a block as numbers of one kind, N s.
 constexpr std::size_t parts = 7;
 
-// What a large island may cost: so many visits to its blocks, but a few sweeps in any case.
-constexpr std::uint32_t visits_max = 1200;
-constexpr std::uint32_t sweeps_min = 7;
+// A few sweeps are made of any island: the first, to and fro.
+constexpr std::uint32_t sweeps_min = 3;
 // Islands larger than this are swept without mixing: what they may cost is used up before it helps.
 constexpr std::size_t mixed_max = 1024;
 
@@ -135,10 +134,9 @@ SolverOutcome ContactSolver::run(const Task& task)
 
 SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
-    const std::uint32_t sweeps_max = std::min<std::uint32_t>(
-        task.limits.sweeps_max,
-        std::max<std::uint32_t>(sweeps_min,
-                                visits_max / static_cast<std::uint32_t>(island.size())));
+    const auto size = static_cast<std::uint32_t>(island.size());
+    const std::uint32_t sweeps_max =
+        std::min(task.limits.sweeps_max, std::max(sweeps_min, task.limits.visits_max / size));
     SolverOutcome outcome{1, 0.0};
     if (island.size() > mixed_max) {
         while (outcome.sweeps + 2 <= sweeps_max) {

@@ -7,6 +7,7 @@
 #include "peer/core/scene/solver/scratch.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace hapnet::scene {
@@ -16,6 +17,7 @@ struct SolverLimits {
     double quiet = 0.0;           // m/s: a contact that misses by less is left alone
     double enough = 0.0;          // m/s: when no contact changed its speed by more, that was it
     std::uint32_t sweeps_max = 1; // over an island
+    std::uint32_t visits_max = std::numeric_limits<std::uint32_t>::max(); // to an island's blocks
 };
 
 /// How far it came.
