@@ -229,7 +229,7 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
     }
     block.has_matrix = true;
     block.factors.has_whole = block.factors.slipped = false;
-    block.factors.few_set = block.factors.fit_set = 0;
+    block.factors.sets = {};
 }
 
 } // namespace hapnet::scene

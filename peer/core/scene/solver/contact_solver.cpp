@@ -13,9 +13,8 @@ namespace {
 /// The impulses of a block as numbers of one kind, N s.
 constexpr std::size_t parts = 7;
 
-// What a large island may cost: so many visits to its blocks, but a few sweeps in any case.
-constexpr std::uint32_t visits_max = 1200;
-constexpr std::uint32_t sweeps_min = 7;
+// A few sweeps are made of any island: the first, to and fro.
+constexpr std::uint32_t sweeps_min = 3;
 // Islands larger than this are swept without mixing: what they may cost is used up before it helps.
 constexpr std::size_t mixed_max = 1024;
 
@@ -126,31 +125,42 @@ SolverOutcome ContactSolver::run(const Task& task)
     }
     if (outcome.change <= task.limits.enough || blocks_.size() < 2) return outcome;
     find_islands();
+    std::size_t moving = 0;
+    for_moving_islands(task, [&](Island island) { moving += island.size(); });
+    // What may be done is shared evenly.
+    const std::size_t share = std::max<std::size_t>(
+        sweeps_min, task.limits.visits_max / std::max<std::size_t>(moving, 1));
+    Task its = task;
+    its.limits.sweeps_max = std::min(its.limits.sweeps_max, static_cast<std::uint32_t>(share));
     outcome.change = 0.0;
-    std::uint32_t end = 0;
-    for (const std::uint32_t next : starts_.all()) {
-        const Island island{&order_[end], next - end};
-        end = next;
-        const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.enough; };
-        if (island.size() < 2 || std::none_of(island.begin(), island.end(), moves)) continue;
-        const SolverOutcome its = run_island(task, island);
-        const bool is_done = its.change <= task.limits.enough;
+    for_moving_islands(task, [&](Island island) {
+        const SolverOutcome one = run_island(its, island);
+        const bool is_done = one.change <= task.limits.enough;
         if (task.mode == Mode::contacts && !is_done) lose_energy(task, island);
-        outcome.sweeps = std::max(outcome.sweeps, its.sweeps);
-        outcome.change = std::max(outcome.change, its.change);
-    }
+        outcome.sweeps = std::max(outcome.sweeps, one.sweeps);
+        outcome.change = std::max(outcome.change, one.change);
+    });
     return outcome;
+}
+
+/// Those that the first sweep has not settled.
+template <typename Do>
+void ContactSolver::for_moving_islands(const Task& task, Do&& act)
+{
+    const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.enough; };
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : starts_.all()) {
+        const Island island = order_.all().subspan(begin, end - begin);
+        begin = end;
+        if (island.size() > 1 && std::any_of(island.begin(), island.end(), moves)) act(island);
+    }
 }
 
 SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
-    const std::uint32_t sweeps_max = std::min<std::uint32_t>(
-        task.limits.sweeps_max,
-        std::max<std::uint32_t>(sweeps_min,
-                                visits_max / static_cast<std::uint32_t>(island.size())));
     SolverOutcome outcome{1, 0.0};
     if (island.size() > mixed_max) {
-        while (outcome.sweeps + 2 <= sweeps_max) {
+        while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
             outcome.change = sweep(task, island);
             outcome.sweeps += 2;
             if (outcome.change <= task.limits.enough) break;
@@ -165,7 +175,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
     double shortest2 = std::numeric_limits<double>::infinity();
     double first2 = -1.0;
     bool has_jumped = false;
-    while (outcome.sweeps + 2 <= sweeps_max) {
+    while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
         outcome.change = sweep(task, island);
         outcome.sweeps += 2;
         if (outcome.change <= task.limits.enough) break;
@@ -182,7 +192,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
             continue;
         }
         shortest2 = std::min(shortest2, step2);
-        if (outcome.sweeps + 2 > sweeps_max) break;
+        if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
         has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
         // Where bodies are wedged, impulses that do nothing could grow without end.
         constexpr double too_far = 1e4;

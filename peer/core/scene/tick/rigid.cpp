@@ -21,15 +21,15 @@ constexpr std::size_t contacts_per_body_max = 8;
 constexpr double quiet = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
 constexpr double enough = 1e-6;
-// ... or this many sweeps were made. (a stack of ten takes 23 from nothing, a thousandfold mass 9).
-constexpr std::uint32_t sweeps_max = 60;
+// ... or this much was done (a stack takes 23 sweeps from nothing); the next tick goes on.
+constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
 // for, and the most that is moved apart in one tick.
 constexpr double overlap_quiet = 1e-9;
 constexpr double overlap_enough = 1e-6;
 constexpr double overlap_most = 0.02;
-constexpr std::uint32_t overlap_sweeps_max = 40;
+constexpr std::uint32_t overlap_visits_max = 200;
 // Of an overlap that is there, this share is removed per tick: not all, so that contacts that
 // contradict each other settle.
 constexpr double overlap_share = 0.3;
@@ -331,7 +331,7 @@ void RigidTick<crowd>::solve(const Stage& stage)
     const Bodies& bodies = stage.bodies;
     const std::span<ContactBlock> blocks = solver_.blocks();
     const SolverOutcome outcome =
-        solver_.solve({quiet * scales_.speed, enough * scales_.speed, sweeps_max});
+        solver_.solve({quiet * scales_.speed, enough * scales_.speed, sweeps_max, visits_max});
     counts_.contacts = static_cast<std::uint32_t>(blocks.size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
@@ -373,7 +373,8 @@ void RigidTick<crowd>::move_apart()
         for (double& part : block.bend) part *= 0.5; // of the mean over the tick
     }
     const double length = scales_.size / scales_.tick;
-    const SolverLimits limits{overlap_quiet * length, overlap_enough * length, overlap_sweeps_max};
+    const SolverLimits limits{overlap_quiet * length, overlap_enough * length, sweeps_max,
+                              overlap_visits_max};
     solver_.separate(limits);
     // Who is thrown out of his way is held back, and the others go as far as that lets them.
     bool any_thrown = false;
