@@ -73,6 +73,32 @@ void start_from(ContactBlock& block, const Manifold& manifold, const ContactMemo
     block.impulse.torsion = memory.torsion_impulse;
 }
 
+glm::dvec3 friction_of(const ContactBlock& block)
+{
+    return block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
+}
+
+double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+/// How much of a tick's correction to keep. A small one also stops the speed that has gathered
+/// since the last: kept whole, it would be that much too much in the next tick, and a contact in
+/// balance would be corrected again and again, to and fro. What was missing in each tick is an even
+/// share of it.
+double share_to_keep(const ContactBlock& block, double weight, ContactMemory& memory)
+{
+    constexpr double small = 1e-8;
+    double change = sum_of(friction_of(block) - memory.friction_impulse);
+    for (std::uint32_t i = 0; i < block.count; ++i) {
+        change += std::abs(block.impulse.normal[i] - block.begun[i]);
+    }
+    constexpr double rounding = 1e-14;
+    ++memory.ticks;
+    if (change <= rounding * weight) return 1.0;
+    const double share = change <= small * weight ? 1.0 / memory.ticks : 1.0;
+    memory.ticks = 0;
+    return share;
+}
+
 struct Jacobian {
     glm::dvec3 linear;
     glm::dvec3 angular;
@@ -117,20 +143,25 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
 
 void remember(const ContactBlock& block, double weight, ContactMemory& memory)
 {
+    const double share = share_to_keep(block, weight, memory);
+    const auto kept = [share](const auto& before, const auto& now) {
+        return share < 1.0 ? before + share * (now - before) : now;
+    };
     memory.count = block.count;
     memory.feature = block.feature;
-    memory.normal_impulse = block.impulse.normal;
-    memory.friction_impulse =
-        block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
-    memory.torsion_impulse = block.impulse.torsion;
+    for (std::uint32_t i = 0; i < block.count; ++i) {
+        memory.normal_impulse[i] = kept(block.begun[i], block.impulse.normal[i]);
+    }
+    memory.friction_impulse = kept(memory.friction_impulse, friction_of(block));
+    memory.torsion_impulse = kept(memory.torsion_impulse, block.impulse.torsion);
     const double most =
         2.0 * (block.begun[0] + block.begun[1] + block.begun[2] + block.begun[3]) + weight;
     const double sum = block.normal_sum();
     if (sum <= most) return;
-    const double share = most / sum;
-    for (double& impulse : memory.normal_impulse) impulse *= share;
-    memory.friction_impulse *= share;
-    memory.torsion_impulse *= share;
+    const double room = most / sum;
+    for (double& impulse : memory.normal_impulse) impulse *= room;
+    memory.friction_impulse *= room;
+    memory.torsion_impulse *= room;
 }
 
 Modal velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
