@@ -165,7 +165,7 @@ bool Steady<count>::press()
         first[i] = stiffness[i] * contact.depth + damping[i] * next[i];
         size += std::abs(first[i]);
     }
-    constexpr double rounding = 1e-16;
+    constexpr double rounding = 1e-14; // what comes after two such terms is less
     const double enough = rounding * size;
     const double mutual = square * mutual_;
     Each force = first;

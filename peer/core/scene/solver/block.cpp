@@ -17,12 +17,18 @@ constexpr double even_pressure = 0.5410;
 void set_tangents(ContactBlock& block)
 {
     const glm::dvec3& n = block.normal;
-    // The axis that the normal is farthest from: the cross product is never short.
+    // Across the axis that the normal is farthest from: the cross product is never short.
     const glm::dvec3 size = glm::abs(n);
-    glm::dvec3 axis{0.0};
-    axis[size.x <= size.z ? (size.x <= size.y ? 0 : 1) : (size.z <= size.y ? 2 : 1)] = 1.0;
-    const glm::dvec3 t = glm::cross(axis, n);
-    block.tangent_1 = t / std::sqrt(glm::dot(t, t));
+    glm::dvec3 t{0.0};
+    if (size.x <= size.y && size.x <= size.z) {
+        t = {0.0, -n.z, n.y};
+    } else if (size.z <= size.y) {
+        t = {-n.y, n.x, 0.0};
+    } else {
+        t = {n.z, 0.0, -n.x};
+    }
+    const double square = glm::dot(t, t);
+    block.tangent_1 = square == 1.0 ? t : t / std::sqrt(square);
     block.tangent_2 = glm::cross(n, block.tangent_1);
 }
 
@@ -60,7 +66,9 @@ void start_from(ContactBlock& block, const Manifold& manifold, const ContactMemo
     block.impulse = {};
     bool any = false;
     for (std::uint32_t i = 0; i < manifold.count; ++i) {
-        for (std::uint32_t j = 0; j < memory.count; ++j) {
+        // Mostly they are the same in the same order.
+        const bool is_same = i < memory.count && memory.feature[i] == manifold.points[i].feature;
+        for (std::uint32_t j = is_same ? i : 0; j < memory.count; ++j) {
             if (memory.feature[j] != manifold.points[i].feature) continue;
             block.impulse.normal[i] = memory.normal_impulse[j];
             any = any || memory.normal_impulse[j] > 0.0;
@@ -190,15 +198,19 @@ void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& s
         const double fades = tick * tick * glm::dot(spin, spin) / (far * far);
         if (fades == 0.0 || fades >= 1.0) return;
         share *= 1.0 - fades;
-        const auto around = [&](const glm::dvec3& at) {
-            return share * glm::cross(spin, glm::cross(spin, at));
+        // spin x (spin x at) is spin (spin at) - at spin^2, here in the contact's own axes.
+        const auto in_contact = [&](const glm::dvec3& v) {
+            return glm::dvec3{glm::dot(block.normal, v), glm::dot(block.tangent_1, v),
+                              glm::dot(block.tangent_2, v)};
         };
-        const glm::dvec3 anchor = around(arm);
-        block.bend[0] += glm::dot(block.normal, anchor);
-        block.bend[1] += glm::dot(block.normal, around(block.tangent_2));
-        block.bend[2] -= glm::dot(block.normal, around(block.tangent_1));
-        block.bend[3] += glm::dot(block.tangent_1, anchor);
-        block.bend[4] += glm::dot(block.tangent_2, anchor);
+        const glm::dvec3 turn = in_contact(spin);
+        const glm::dvec3 at = in_contact(arm);
+        const glm::dvec3 anchor = share * (glm::dot(turn, at) * turn - glm::dot(turn, turn) * at);
+        block.bend[0] += anchor.x;
+        block.bend[1] += share * (turn.x * turn.z);
+        block.bend[2] -= share * (turn.x * turn.y);
+        block.bend[3] += anchor.y;
+        block.bend[4] += anchor.z;
     };
     if (block.b != 0) add(spin_b, block.arm_b, tick);
     if (block.a != 0) add(spin_a, block.arm_a, -tick);

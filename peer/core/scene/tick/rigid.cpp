@@ -180,7 +180,6 @@ void RigidTick<crowd>::look(const Stage& stage)
     const Bodies& bodies = stage.bodies;
     solver_.begin(bodies.awake);
     courses_.resize(bodies.awake + std::size_t{1});
-    courses_[0] = {};
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
         const BodyForm& form = bodies.form[slot];
         solver_.response(slot + 1) = response_of(form, boxes_[form.id]);
