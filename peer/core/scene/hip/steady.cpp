@@ -165,7 +165,7 @@ bool Steady<count>::press()
         first[i] = stiffness[i] * contact.depth + damping[i] * next[i];
         size += std::abs(first[i]);
     }
-    constexpr double rounding = 1e-17;
+    constexpr double rounding = 1e-14; // what comes after two such terms is less
     const double enough = rounding * size;
     const double mutual = square * mutual_;
     Each force = first;
@@ -189,11 +189,12 @@ bool Steady<count>::press()
             change[i] += std::abs(force[i]);
             now += std::abs(force[i]);
         }
-        if (last + now <= enough) break;
+        last += now;
+        if (last <= enough) break;
         last = now;
         order += 1.0;
     }
-    if (!(last <= size * 1e-16)) return false;
+    if (!(last <= enough)) return false;
     for (std::size_t i = 0; i < count; ++i) {
         if (!(first[i] > change[i] && first[i] + change[i] < springs_[i].force_max)) return false;
         contacts_[i].impulse = tick_ * once[i];
