@@ -16,7 +16,7 @@ constexpr double look_ahead_ticks = 32.0;
 // Of its mean half edge: how far a body strays from its path, or its corners by turning.
 constexpr double wander_share = 0.1;
 // A box reaches no farther ahead than this times the mean half edge, unless the body is faster.
-constexpr double stretch_max = 4.0;
+constexpr double stretch_max = 8.0;
 // ... but always this many ticks.
 constexpr double stretch_ticks_min = 2.0;
 // What a body may turn within one tick without being taken for one that spins.
