@@ -5,12 +5,18 @@
 #include "peer/core/scene/motion/rotation.hpp"
 #include "peer/core/scene/tick/courses.hpp"
 
+#include <cmath>
+#include <glm/geometric.hpp>
+
 namespace hapnet::scene {
 
-Boxes::Boxes(const Bodies& bodies) : entries_(bodies.size())
+Boxes::Boxes(const Bodies& bodies, const Scales& scales) : scales_{scales}, entries_(bodies.size())
 {
     for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        entries_[bodies.form[slot].id] = {box_of(bodies, slot), bodies.orientation.at(slot), 0};
+        const glm::dvec3& half = bodies.form[slot].half;
+        const BoxNow now{box_of(bodies, slot), std::sqrt(glm::dot(half, half)),
+                         reach_of(bodies, slot, scales)};
+        entries_[bodies.form[slot].id] = {now, bodies.orientation.at(slot), 0};
     }
 }
 
@@ -18,11 +24,12 @@ void Boxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
 {
     const Slot slot = bodies.slot_of[body];
     entry.seen = now_;
-    entry.box.centre = bodies.position.at(slot);
+    entry.now.box.centre = bodies.position.at(slot);
+    entry.now.reach = reach_of(bodies, slot, scales_);
     const glm::dquat orientation = bodies.orientation.at(slot);
     if (orientation == entry.orientation) return;
     entry.orientation = orientation;
-    entry.box.axes = axes_of(orientation);
+    entry.now.box.axes = axes_of(orientation);
 }
 
 } // namespace hapnet::scene

@@ -3,36 +3,44 @@
 #pragma once
 
 #include "peer/core/scene/bodies.hpp"
-#include "peer/core/scene/contact/measures.hpp"
+#include "peer/core/scene/tick/nearby.hpp"
 
 #include <vector>
 
 namespace hapnet::scene {
 
-/// Where the bodies' boxes are at the start of a tick: found when they are asked for, and only of
-/// what has moved since. Nobody asks for a body that flies alone.
+/// Where a body's box is, and how far it comes.
+struct BoxNow {
+    OrientedBox box;
+    double radius = 0.0; // of the corners, m
+    double reach = 0.0;  // see reach_of(); of what is asleep, when it were awake
+};
+
+/// The bodies' boxes at the start of a tick: found when they are asked for, and only of what has
+/// moved since. Nobody asks for a body that flies alone.
 class Boxes {
 public:
-    explicit Boxes(const Bodies& bodies);
+    Boxes(const Bodies& bodies, const Scales& scales);
 
     void begin_tick() { ++now_; }
     /// The reference is good until the next tick.
-    [[nodiscard]] const OrientedBox& at(const Bodies& bodies, BodyId body)
+    [[nodiscard]] const BoxNow& at(const Bodies& bodies, BodyId body)
     {
         Entry& entry = entries_[body];
         if (entry.seen != now_) renew(bodies, body, entry);
-        return entry.box;
+        return entry.now;
     }
 
 private:
     struct Entry {
-        OrientedBox box;
+        BoxNow now;
         glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
         std::uint64_t seen = 0;
     };
 
     void renew(const Bodies& bodies, BodyId body, Entry& entry) const;
 
+    Scales scales_;
     std::vector<Entry> entries_; // by id
     std::uint64_t now_ = 0;
 };

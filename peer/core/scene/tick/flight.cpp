@@ -103,11 +103,12 @@ void apply(const Turns& turns, Bodies::Lanes4& orientation, SlotRange range)
         const double d =
             turns.w[i] * z[i] + turns.z[i] * w[i] + turns.x[i] * y[i] - turns.y[i] * x[i];
         const double square = a * a + b * b + c * c + d * d;
-        const double length = std::sqrt(turns.square[i] > nothing2 ? square : 1.0);
-        w[i] = a / length;
-        x[i] = b / length;
-        y[i] = c / length;
-        z[i] = d / length;
+        // 1 / sqrt(square) to the first order about 1, from which rounding alone has led it away.
+        const double shrink = turns.square[i] > nothing2 ? 1.5 - 0.5 * square : 1.0;
+        w[i] = a * shrink;
+        x[i] = b * shrink;
+        y[i] = c * shrink;
+        z[i] = d * shrink;
     }
 }
 

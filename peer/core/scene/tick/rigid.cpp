@@ -79,7 +79,7 @@ RigidTick<crowd>::RigidTick(const Description& /*description*/, const Frozen& fr
       neighbours_{frozen, stage.bodies},
       sleep_{frozen, stage.bodies},
       hands_{frozen},
-      boxes_{stage.bodies},
+      boxes_{stage.bodies, scales_},
       fliers_{frozen, stage.bodies},
       engaged_{stage.bodies.movable},
       courses_{stage.bodies.movable + std::size_t{1}},
@@ -135,7 +135,7 @@ void RigidTick<crowd>::feel(const Frozen& frozen, Stage& stage)
                      hand, {from, from + scales_.tick * hip.velocity.value, radius})) {
                 const Slot slot = bodies.slot_of[id];
                 hands_.touch(frozen, stage, hand,
-                             {id, slot < bodies.movable, boxes_.at(bodies, id),
+                             {id, slot < bodies.movable, boxes_.at(bodies, id).box,
                               bodies.velocity.at(slot), bodies.angular_velocity(slot)});
             }
         }
@@ -163,12 +163,6 @@ void RigidTick<crowd>::wake(Stage& stage)
 }
 
 template <Crowd crowd>
-double RigidTick<crowd>::reach(const Stage& stage, Slot slot) const
-{
-    return slot < stage.bodies.awake ? reach_of(stage.bodies, slot, scales_) : 0.0;
-}
-
-template <Crowd crowd>
 void RigidTick<crowd>::look(const Bodies& bodies)
 {
     solver_.begin(bodies.awake);
@@ -182,7 +176,7 @@ void RigidTick<crowd>::engage(const Bodies& bodies, Slot slot)
 {
     if (!engaged_.add(slot)) return;
     const BodyForm& form = bodies.form[slot];
-    solver_.response(slot + 1) = response_of(form, boxes_.at(bodies, form.id));
+    solver_.response(slot + 1) = response_of(form, boxes_.at(bodies, form.id).box);
     begin(courses_[slot + 1]);
 }
 
@@ -216,9 +210,10 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
         Pair& pair = neighbours_.plane_pair(index);
         const PlaneDescription& plane = frozen.planes[pair.b];
         const Slot slot = bodies.slot_of[pair.a];
-        const OrientedBox& box = boxes_.at(bodies, pair.a);
+        const BoxNow& now = boxes_.at(bodies, pair.a);
+        const OrientedBox& box = now.box;
         const Manifold manifold =
-            collide(PlaneSurface{plane.normal, plane.offset_m}, box, reach(stage, slot));
+            collide(PlaneSurface{plane.normal, plane.offset_m}, box, now.reach);
         const bool is_carried = touches(pair.memory) || lies_on(manifold, touching * scales_.size);
         ContactBlock* const block = meet(manifold, {box.centre, box.centre}, pair.memory);
         if (block == nullptr) continue;
@@ -240,8 +235,10 @@ BoxMeeting RigidTick<crowd>::between(const Stage& stage, Pair& pair)
 {
     const Bodies& bodies = stage.bodies;
     const auto box_path = [&](BodyId id) {
+        const BoxNow& now = boxes_.at(bodies, id);
         const Slot slot = bodies.slot_of[id];
-        return BoxPath{boxes_.at(bodies, id), bodies.velocity.at(slot), reach(stage, slot)};
+        return BoxPath{now.box, bodies.velocity.at(slot), slot < bodies.awake ? now.reach : 0.0,
+                       now.radius};
     };
     return meeting(box_path(pair.a), box_path(pair.b), scales_.tick, pair.memory.axis);
 }

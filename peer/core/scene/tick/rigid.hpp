@@ -66,7 +66,6 @@ private:
     void push_by_hands(const Frozen& frozen, const Stage& stage);
     void solve(const Stage& stage);
     void move_apart();
-    [[nodiscard]] double reach(const Stage& stage, Slot slot) const;
 
     Scales scales_;
     bool bounces_ = false;
