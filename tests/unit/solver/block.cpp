@@ -69,6 +69,21 @@ TEST(ContactBlock, FrictionOpposesTheSlipWithItsLimitInEveryDirection)
     }
 }
 
+TEST(ContactBlock, ImprovedAgainAndAgainItComesToTheSameSolution)
+{
+    const BodyMotion before{{0.8, -0.5, 0.3}, {0.0, 4.0, 0.0}, glm::dvec3{0.0}};
+    CubeOnFloor exact{0.3};
+    const BodyMotion want = exact.solved(before);
+    CubeOnFloor cube{0.3};
+    BodyMotion after = before;
+    for (int i = 0; i < 40; ++i) {
+        const Modal change = improve(cube.block, velocity_at(cube.block, {}, after), 0.0);
+        apply(wrench(cube.block, change), cube.block.arm_b, cube.response, after);
+    }
+    EXPECT_LT(glm::length(after.velocity - want.velocity), 1e-6);
+    EXPECT_LT(glm::length(after.spin - want.spin), 1e-4);
+}
+
 TEST(ContactBlock, NothingPullsAndAnImpulseOnOneSideTipsTheCube)
 {
     CubeOnFloor cube{0.0};

@@ -144,7 +144,7 @@ template <std::size_t points, std::size_t frictions>
 void Trial::hold_exactly(const PointSet& set)
 {
     const Modal before = frictions > 0 ? free_ : given();
-    std::array<double, points + frictions> wanted;
+    std::array<double, points + frictions> wanted{};
     for (std::size_t i = 0; i < points; ++i) {
         wanted[i] = block_.least[set.at[i]] - block_.normal_speed(before, set.at[i]);
     }

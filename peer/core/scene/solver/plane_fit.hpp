@@ -35,13 +35,13 @@ public:
     PlaneFit(const PointNumbers& along_1, const PointNumbers& along_2, const PointSet& set)
         : set_{set}
     {
-        const double share = 1.0 / set.count;
+        share_ = 1.0 / set.count;
         for (std::uint32_t i = 0; i < set.count; ++i) {
             middle_1_ += along_1[set.at[i]];
             middle_2_ += along_2[set.at[i]];
         }
-        middle_1_ *= share;
-        middle_2_ *= share;
+        middle_1_ *= share_;
+        middle_2_ *= share_;
         for (std::uint32_t i = 0; i < set.count; ++i) {
             u_[i] = along_1[set.at[i]] - middle_1_;
             v_[i] = along_2[set.at[i]] - middle_2_;
@@ -50,6 +50,11 @@ public:
             vv_ += v_[i] * v_[i];
         }
         determinant_ = uu_ * vv_ - uv_ * uv_;
+        if (is_flat()) return;
+        const double inverse = 1.0 / determinant_;
+        u_by_u_ = vv_ * inverse;
+        u_by_v_ = -uv_ * inverse;
+        v_by_v_ = uu_ * inverse;
     }
 
     [[nodiscard]] const PointSet& set() const { return set_; }
@@ -76,7 +81,7 @@ public:
             u_moment += u_[i] * value;
             v_moment += v_[i] * value;
         }
-        mean /= set_.count;
+        mean *= share_;
         const auto [u, v] = slope(u_moment, v_moment);
         return {mean - u * middle_1_ - v * middle_2_, v, -u};
     }
@@ -85,7 +90,7 @@ public:
     {
         const auto [u, v] =
             slope(-total[2] - total[0] * middle_1_, total[1] - total[0] * middle_2_);
-        const double mean = total[0] / set_.count;
+        const double mean = total[0] * share_;
         for (std::uint32_t i = 0; i < set_.count; ++i) {
             impulse[set_.at[i]] = mean + u * u_[i] + v * v_[i];
         }
@@ -94,14 +99,15 @@ public:
 private:
     [[nodiscard]] std::array<double, 2> slope(double u_moment, double v_moment) const
     {
-        return {(vv_ * u_moment - uv_ * v_moment) / determinant_,
-                (uu_ * v_moment - uv_ * u_moment) / determinant_};
+        return {u_by_u_ * u_moment + u_by_v_ * v_moment, u_by_v_ * u_moment + v_by_v_ * v_moment};
     }
 
     PointSet set_;
     PointNumbers u_{}, v_{}; // of the set's points, from their middle
+    double share_ = 0.0;
     double middle_1_ = 0.0, middle_2_ = 0.0;
     double uu_ = 0.0, uv_ = 0.0, vv_ = 0.0, determinant_ = 0.0;
+    double u_by_u_ = 0.0, u_by_v_ = 0.0, v_by_v_ = 0.0; // the inverse: slopes by moments
 };
 
 } // namespace hapnet::scene
