@@ -80,40 +80,22 @@ private:
     double mutual_ = 0.0; // 1/kg
 };
 
-/// Turns what is held to where it is halfway.
+/// Turns what is held to where it is halfway at the speeds of the start: what the forces change
+/// until then is of second order, and where they are in balance nothing.
 template <std::size_t count>
 bool Steady<count>::hold_halfway()
 {
     const double half = 0.5 * tick_;
-    const glm::dvec3 spin = ease_ * body_.angular_momentum;
-    glm::dvec3 force{0.0};
-    glm::dvec3 torque = answer_.torque;
+    const glm::dvec3 angle = half * (ease_ * body_.angular_momentum);
+    if (!(sum_of(angle) <= turn_max)) return false;
     for (std::size_t i = 0; i < count; ++i) {
         const HipSpring& spring = springs_[i];
         Contact& contact = contacts_[i];
         contact.hand = spring.arm + (spring.radius + spring.gap) * spring.normal;
         contact.away = body_.velocity - spring.velocity;
-        const glm::dvec3 lever = glm::cross(spring.arm, spring.normal);
-        const double closing = glm::dot(spring.normal, contact.away) + glm::dot(lever, spin);
-        const double pushed = spring.damping * closing - spring.stiffness * spring.gap;
-        force -= pushed * spring.normal;
-        torque -= pushed * lever;
-    }
-    const glm::dvec3 gained = (0.5 * half) * (answer_.acceleration + answer_.inverse_mass * force);
-    const glm::dvec3 angle = half * (spin + (0.5 * half) * (ease_ * torque));
-    const double turned = sum_of(angle);
-    if (!(turned <= turn_max)) return false;
-    // From amid a face to beside it is a tenth of a half edge at least.
-    const glm::dvec3& size = answer_.half;
-    const double room = 0.1 * std::min(size.x, std::min(size.y, size.z));
-    const double swept = turned * (size.x + size.y + size.z) + half * sum_of(gained);
-    for (std::size_t i = 0; i < count; ++i) {
-        Contact& contact = contacts_[i];
-        const glm::dvec3 moved = half * (contact.away + gained);
-        if (!(2.0 * (sum_of(moved) + swept) <= room)) return false;
-        const glm::dvec3 once = glm::cross(angle, springs_[i].normal);
-        contact.normal = springs_[i].normal + once + 0.5 * glm::cross(angle, once);
-        contact.lever = glm::cross(contact.hand - moved, contact.normal);
+        const glm::dvec3 once = glm::cross(angle, spring.normal);
+        contact.normal = spring.normal + once + 0.5 * glm::cross(angle, once);
+        contact.lever = glm::cross(contact.hand - half * contact.away, contact.normal);
     }
     return true;
 }
@@ -223,7 +205,7 @@ bool Steady<count>::finish(HipWork* work)
     glm::dvec3 swept = t * (body_.angular_momentum + (0.5 * t) * answer_.torque);
     for (std::size_t i = 0; i < count; ++i) {
         const Contact& contact = contacts_[i];
-        work[i].impulse = -contact.impulse * contact.normal;
+        work[i].impulse = -contact.impulse * contact.normal; // `advance` clears what is refused
         impulse += work[i].impulse;
         moment -= contact.moment * contact.normal;
         twist -= contact.impulse * contact.lever;
@@ -232,6 +214,13 @@ bool Steady<count>::finish(HipWork* work)
     const glm::dvec3 moved =
         t * (body_.velocity + (0.5 * t) * answer_.acceleration) + answer_.inverse_mass * moment;
     const glm::dvec3 angle = ease_ * swept;
+    // From amid a face to beside it is a tenth of a half edge at least.
+    const glm::dvec3& size = answer_.half;
+    const double room = 0.1 * std::min(size.x, std::min(size.y, size.z));
+    const double corner = (size.x + size.y + size.z) * sum_of(angle);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(sum_of(t * springs_[i].velocity - moved) + corner <= room)) return false;
+    }
     body_.position += moved;
     body_.velocity += t * answer_.acceleration + answer_.inverse_mass * impulse;
     body_.angular_momentum += twist;

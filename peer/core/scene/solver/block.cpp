@@ -46,7 +46,7 @@ void set_points(ContactBlock& block, const Manifold& manifold)
     for (std::uint32_t i = 1; i < manifold.count; ++i) {
         centre += weight[i] * (manifold.points[i].position - first);
     }
-    block.anchor = first + centre / sum;
+    block.anchor = first + (1.0 / sum) * centre;
     double arm = 0.0;
     for (std::uint32_t i = 0; i < manifold.count; ++i) {
         const glm::dvec3 from = manifold.points[i].position - block.anchor;

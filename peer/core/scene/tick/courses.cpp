@@ -53,7 +53,7 @@ glm::dvec3 acceleration(const BodyCourse& course, const Stage& stage, Slot slot,
 {
     const BodyForm& form = stage.bodies.form[slot];
     return falling(form, frozen.gravity) +
-           form.inverse_mass * (course.impulse / frozen.tick + stage.pushes[form.id]);
+           form.inverse_mass * ((1.0 / frozen.tick) * course.impulse + stage.pushes[form.id]);
 }
 
 void start(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response)
@@ -98,7 +98,8 @@ Scales scales_of(const Frozen& frozen, const Bodies& bodies)
     }
     constexpr double hardly = 1e-6;
     const double fall = frozen.tick * std::sqrt(glm::dot(frozen.gravity, frozen.gravity));
-    return {frozen.tick, size, least, fall, std::max(fall, hardly * size / frozen.tick)};
+    return {frozen.tick,      size, least, fall, std::max(fall, hardly * size / frozen.tick),
+            1.0 / frozen.tick};
 }
 
 OrientedBox box_of(const Bodies& bodies, Slot slot)
@@ -177,40 +178,46 @@ void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyR
     const Bodies& bodies = stage.bodies;
     start(course, stage, slot, response);
     const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
+    const double per_second = 1.0 / frozen.tick;
     Answer answer{bodies.form[slot].half,
                   response.inverse_mass,
                   response.inverse_inertia,
                   turns_evenly(bodies.form[slot]),
                   rate,
-                  course.angular_impulse / frozen.tick};
+                  per_second * course.angular_impulse};
     MovingBody body;
     const auto advance_against = [&](const glm::dvec3& drag) {
-        body = {bodies.position.at(slot), bodies.orientation.at(slot), course.start.velocity,
-                bodies.angular_momentum.at(slot)};
+        body.position = bodies.position.at(slot);
+        body.orientation = bodies.orientation.at(slot);
+        body.velocity = course.start.velocity;
+        body.angular_momentum = bodies.angular_momentum.at(slot);
         answer.acceleration = rate - free_part(bodies.form[slot], drag);
         advance(body, answer, hands.springs, hands.work, frozen.tick);
     };
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
     // says when it is too strong for that.
     constexpr double strong = 0.5;
-    const glm::dvec3 before = along_plane(course.start.velocity, course.carrier);
     if (course.drag == 0.0) {
         advance_against(glm::dvec3{0.0});
     } else if (course.drag * frozen.tick < strong) {
+        const glm::dvec3 before = along_plane(course.start.velocity, course.carrier);
         advance_against(course.drag * before);
         const glm::dvec3 after = along_plane(body.velocity, course.carrier);
         advance_against((0.5 * course.drag) * (before + after));
     } else {
-        advance_against(((1.0 - base::exp(-course.drag * frozen.tick)) / frozen.tick) * before);
+        const glm::dvec3 before = along_plane(course.start.velocity, course.carrier);
+        advance_against((per_second * (1.0 - base::exp(-course.drag * frozen.tick))) * before);
     }
     course.has_hands = true;
     course.position = body.position;
     course.orientation = body.orientation;
     course.angular_momentum = body.angular_momentum;
-    course.tentative = {body.velocity, response.inverse_inertia * body.angular_momentum,
-                        glm::dvec3{0.0}};
-    course.mean = {(body.position - bodies.position.at(slot)) / frozen.tick,
-                   0.5 * (course.start.spin + course.tentative.spin), glm::dvec3{0.0}};
+    course.tentative.velocity = body.velocity;
+    course.tentative.spin = response.inverse_inertia * body.angular_momentum;
+    course.tentative.angular_impulse = glm::dvec3{0.0};
+    course.mean.velocity = per_second * (body.position - bodies.position.at(slot));
+    course.mean.spin = 0.5 * (course.start.spin + course.tentative.spin);
+    course.mean.angular_impulse = glm::dvec3{0.0};
 }
 
 void stop_in_time(const ContactBlock& block, const BodyCourse& course, const BodyForm& form,

@@ -18,6 +18,7 @@ struct Scales {
     double least = 0.02; // m: the smallest half edge of all
     double fall = 0.0;   // m/s: what gravity adds in a tick
     double speed = 1e-2; // m/s: the above, or what crosses a millionth of the size in a tick
+    double rate = 1e3;   // 1/s: ticks per second
 };
 [[nodiscard]] Scales scales_of(const Frozen& frozen, const Bodies& bodies);
 

@@ -62,7 +62,8 @@ HandSprings::HandSprings(const Frozen& frozen)
     : fall_{frozen.tick * frozen.tick * std::sqrt(glm::dot(frozen.gravity, frozen.gravity))},
       springs_{frozen.hips.count * touched_per_hand_max},
       forms_{frozen.hips.count * touched_per_hand_max},
-      own_{frozen.hips.count * touched_per_hand_max}
+      own_{frozen.hips.count * touched_per_hand_max},
+      work_{frozen.hips.count * touched_per_hand_max}
 {}
 
 void HandSprings::begin(const Frozen& frozen, Stage& stage)
@@ -182,23 +183,25 @@ HipSpring& HandSprings::add(std::uint32_t hand, BodyId body)
     return forms_.add();
 }
 
-std::span<const HipSpring> HandSprings::on(BodyId body)
+HandSprings::OnBody HandSprings::on(BodyId body)
 {
     const auto is_on = [body](const Spring& spring) { return spring.body == body; };
     const std::span<const Spring> all = springs();
-    if (std::all_of(all.begin(), all.end(), is_on)) return forms_.all();
+    work_.resize(all.size());
+    if (std::all_of(all.begin(), all.end(), is_on)) return {forms_.all(), work_.all()};
     own_.clear();
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (is_on(all[i])) own_.add() = forms_[i];
     }
-    return own_.all();
+    work_.resize(own_.size());
+    return {own_.all(), work_.all()};
 }
 
-void HandSprings::worked(BodyId body, std::span<const HipWork> work)
+void HandSprings::worked(BodyId body)
 {
     std::size_t next = 0;
     for (Spring& spring : springs_.all()) {
-        if (spring.body == body) spring.impulse = work[next++].impulse;
+        if (spring.body == body) spring.impulse = work_[next++].impulse;
     }
 }
 
@@ -214,14 +217,13 @@ void HandSprings::end(std::uint32_t index)
 
 void HandSprings::report(const Frozen& frozen, Stage& stage)
 {
-    std::array<double, hips_max> most{};
+    const double rate = 1.0 / frozen.tick;
     for (const Spring& spring : springs()) {
         HipTouch& touch = stage.touches[spring.hand];
-        const base::Force force{spring.impulse / frozen.tick};
+        const base::Force force{rate * spring.impulse};
         touch.on_hip += -force;
-        const double size = base::norm(force);
-        if (!(size > most[spring.hand])) continue;
-        most[spring.hand] = size;
+        const double square = glm::dot(force.value, force.value);
+        if (!(square > glm::dot(touch.on_body.value, touch.on_body.value))) continue;
         touch.touching = true;
         touch.body = spring.body;
         touch.on_body = force;

@@ -45,10 +45,14 @@ public:
     void end(std::uint32_t hand);
 
     [[nodiscard]] std::span<const Spring> springs() const { return springs_.all(); }
-    /// Those on one body; until the next question.
-    [[nodiscard]] std::span<const HipSpring> on(BodyId body);
-    /// What they did, in the same order.
-    void worked(BodyId body, std::span<const HipWork> work);
+    /// Those on one body, and where they tell their work; until the next question.
+    struct OnBody {
+        std::span<const HipSpring> springs;
+        std::span<HipWork> work;
+    };
+    [[nodiscard]] OnBody on(BodyId body);
+    /// Takes what was told for them.
+    void worked(BodyId body);
     /// Tells the hands what the springs did.
     void report(const Frozen& frozen, Stage& stage);
 
@@ -82,6 +86,7 @@ private:
     Scratch<Spring> springs_;
     Scratch<HipSpring> forms_; // in the order of springs_
     Scratch<HipSpring> own_;   // of one body
+    Scratch<HipWork> work_;    // of one body
 };
 
 } // namespace hapnet::scene

@@ -42,13 +42,13 @@ constexpr double touching = 2e-6;
 double closing(double separation, double impulse, const Scales& scales)
 {
     const double nothing = impulse > 0.0 ? touching * scales.size : 0.0;
-    return separation > nothing ? -separation / scales.tick : 0.0;
+    return separation > nothing ? -separation * scales.rate : 0.0;
 }
 
 double parting(double separation, const Scales& scales)
 {
-    if (separation >= 0.0) return -separation / scales.tick;
-    return std::min(overlap_share * -separation, overlap_most * scales.size) / scales.tick;
+    if (separation >= 0.0) return -separation * scales.rate;
+    return std::min(overlap_share * -separation, overlap_most * scales.size) * scales.rate;
 }
 
 double friction_of(const Material& a, const Material& b)
@@ -313,11 +313,9 @@ void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
         engage(stage.bodies, slot);
         BodyCourse& course = courses_[slot + 1];
         if (course.has_hands) continue;
-        const std::span<const HipSpring> springs = hands_.on(spring.body);
-        std::array<HipWork, hips_max> work;
-        follow_hands(course, stage, slot, solver_.response(slot + 1),
-                     {springs, {work.data(), springs.size()}, frozen});
-        hands_.worked(spring.body, work);
+        const auto [springs, work] = hands_.on(spring.body);
+        follow_hands(course, stage, slot, solver_.response(slot + 1), {springs, work, frozen});
+        hands_.worked(spring.body);
     }
 }
 
@@ -369,7 +367,7 @@ void RigidTick<crowd>::move_apart()
         }
         for (double& part : block.bend) part *= 0.5; // of the mean over the tick
     }
-    const double length = scales_.size / scales_.tick;
+    const double length = scales_.size * scales_.rate;
     const SolverLimits limits{overlap_quiet * length, overlap_enough * length, sweeps_max,
                               overlap_visits_max};
     solver_.separate(limits);
