@@ -75,9 +75,9 @@ void find_far_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange rang
 {
     for (Slot slot = range.begin; slot < range.end; ++slot) {
         const std::size_t i = slot - range.begin;
-        const glm::dvec3 angle = (2.0 * half_turn_by_momentum[i]) * momentum.at(slot);
-        const glm::dquat turn = turn_by(angle);
-        turns.renewed[i] = glm::dot(angle, angle) > nothing2 ? 1.0 : 0.0;
+        const glm::dvec3 half = half_turn_by_momentum[i] * momentum.at(slot);
+        const glm::dquat turn = turn_by(2.0 * half);
+        turns.renewed[i] = glm::dot(half, half) > nothing2 ? 1.0 : 0.0;
         turns.w[i] = turn.w;
         turns.x[i] = turn.x;
         turns.y[i] = turn.y;
@@ -149,6 +149,7 @@ void turn_freely(Bodies& bodies, Slot slot, double tick)
     const BodyForm& form = bodies.form[slot];
     if (form.turning == Turning::locked) return;
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
+    if (momentum == glm::dvec3{0.0}) return;
     const glm::dquat now = bodies.orientation.at(slot);
     bodies.orientation.put(slot, turns_evenly(form)
                                      ? turned(now, tick * bodies.turned_by(slot, momentum))
