@@ -40,6 +40,7 @@ TEST(ContactSolver, CarriesAThousandfoldMassInAFewSweeps)
         solver.ending(i) = {{0.0, -fall, 0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};
         Manifold manifold;
         manifold.count = 1;
+        manifold.points[0] = {};
         ContactBlock& block = solver.add();
         prepare(block, manifold, {glm::dvec3{0.0}, glm::dvec3{0.0}}, {});
         block.a = i - 1;

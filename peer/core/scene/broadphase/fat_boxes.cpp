@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 namespace hapnet::scene {
@@ -187,8 +188,29 @@ bool any_left(const Lanes& lanes, std::size_t first)
 
 } // namespace
 
+/// For a few bodies, one after the other: without the lanes' addresses.
+bool FatBoxes::has_left(const Bodies& bodies, Slot slot) const
+{
+    const Leash& leash = leashes_[bodies.form[slot].id];
+    const glm::dvec3 away = glm::abs(bodies.position.at(slot) - leash.middle) +
+                            tick_ * glm::abs(bodies.velocity.at(slot));
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
+    const glm::dquat now = bodies.orientation.at(slot);
+    const glm::dquat& then = leash.orientation;
+    const double likeness = now.w * then.w + now.x * then.x + now.y * then.y + now.z * then.z;
+    return away.x > leash.room.x || away.y > leash.room.y || away.z > leash.room.z ||
+           likeness * likeness < leash.likeness_min ||
+           glm::dot(momentum, momentum) > leash.angular_momentum2;
+}
+
 void FatBoxes::find_left(const Bodies& bodies, Bounded<Slot>& left) const
 {
+    constexpr Slot few = 3;
+    if (bodies.awake <= few) {
+        for (Slot slot = 0; slot < bodies.awake; ++slot)
+            if (has_left(bodies, slot)) left.add(slot);
+        return;
+    }
     const Bodies::Lanes3& p = bodies.position;
     const Bodies::Lanes3& v = bodies.velocity;
     const Bodies::Lanes3& l = bodies.angular_momentum;

@@ -41,10 +41,10 @@ struct Motion {
 /// A coordinate's motion in closed form from a moment on: way'' = push + ramp t - damping way' -
 /// stiffness way. A course without a kernel stays where it is.
 struct Course {
-    const Kernel* kernel = nullptr;
-    double speed = 0.0; // at the start
-    double push = 0.0;  // acceleration at the start, but for the damping
-    double ramp = 0.0;  // by which `push` grows, m/s^3
+    const Kernel* kernel;
+    double speed; // at the start
+    double push;  // acceleration at the start, but for the damping
+    double ramp;  // by which `push` grows, m/s^3
 
     [[nodiscard]] bool moves() const { return kernel != nullptr; }
     /// Whether it stays where it is under any kernel.

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/core/scene/solver/block.hpp"
-#include "peer/core/scene/solver/plane_fit.hpp"
+#include "peer/core/scene/solver/block_factors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,94 +11,66 @@ namespace {
 
 using Friction = std::array<double, 3>; // along the tangents, and torsion over its arm
 
-Modal plus(Modal a, const Modal& b)
-{
-    for (std::size_t i = 0; i < 6; ++i) a[i] += b[i];
-    return a;
-}
-
 Modal minus(Modal a, const Modal& b)
 {
     for (std::size_t i = 0; i < 6; ++i) a[i] -= b[i];
     return a;
 }
 
-/// The unknowns for which the first `rows` modal velocities are `wanted`.
-template <std::size_t rows>
-std::array<double, rows> weld(const Square<6>& matrix, const std::array<double, rows>& wanted)
-{
-    Square<rows> part;
-    for (std::size_t i = 0; i < rows; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) part[i][j] = matrix[i][j];
-    }
-    return Ldl<rows>{part}.solve(wanted);
-}
-
-/// The unknowns (`points` normal impulses, then friction) for which the points have their least
-/// speeds and the anchor, when there is friction among them, does not slip.
-template <std::size_t points, std::size_t frictions>
-std::array<double, points + frictions> hold(const ContactBlock& block, const PointSet& set,
-                                            const Modal& velocity)
-{
-    constexpr std::size_t rows = points + frictions;
-    std::array<Modal, rows> row{};
-    std::array<double, rows> wanted{};
-    for (std::size_t i = 0; i < points; ++i) {
-        row[i] = {1.0, block.along_2[set.at[i]], -block.along_1[set.at[i]], 0.0, 0.0, 0.0};
-        wanted[i] = block.least[set.at[i]] - block.normal_speed(velocity, set.at[i]);
-    }
-    for (std::size_t i = 0; i < frictions; ++i) {
-        row[points + i][3 + i] = 1.0;
-        wanted[points + i] = -velocity[3 + i];
-    }
-    Square<rows> part;
-    for (std::size_t i = 0; i < rows; ++i) {
-        const Modal answer = times(block.matrix, row[i]);
-        for (std::size_t j = 0; j <= i; ++j) {
-            double sum = 0.0;
-            for (std::size_t k = 0; k < 6; ++k) sum += answer[k] * row[j][k];
-            part[i][j] = sum;
-        }
-    }
-    return Ldl<rows>{part}.solve(wanted);
-}
-
 /// One contact with the velocities that it would have without its own impulses.
 class Trial {
 public:
-    Trial(const ContactBlock& block, const Modal& velocity)
+    Trial(ContactBlock& block, const Modal& velocity)
         : block_{block},
-          free_{minus(velocity, times(block.matrix, modal(block, block.impulse)))},
+          modal_{modal(block, block.impulse)},
+          free_{minus(velocity, times(block.matrix, modal_))},
+          now_{velocity},
           answer_{block.impulse}
     {}
 
+    /// Whether slip() has found the answer.
+    [[nodiscard]] bool has_settled() const { return has_settled_; }
     [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
-    [[nodiscard]] Modal velocity() const
-    {
-        return plus(free_, times(block_.matrix, modal(block_, answer_)));
-    }
+    [[nodiscard]] const Modal& impulse() const { return modal_; }
 
     /// Sticking contact. False when something would pull or friction would pass its limit.
     bool stick(double quiet);
     /// Slipping or frictionless contact: the normal impulses for the friction as it is.
     void push(double quiet);
-    /// Slipping contact.
-    void slip(double quiet);
+    /// Slipping contact, in so many rounds at most. False when friction does not reach its limit.
+    bool slip(double quiet, int rounds_max);
 
 private:
     [[nodiscard]] PointSet pushing(double quiet) const;
     [[nodiscard]] PointSet without_pulling(const PointSet& set) const;
-    void separate() { answer_ = {}; }
     template <bool sticks>
-    void hold_points(PointSet set);
-    template <std::size_t points, bool sticks>
+    void hold_points(const PointSet& set);
+    template <bool sticks>
+    void hold_all(const PlaneFit& fit);
+    template <bool sticks>
     void hold_few(const PointSet& set);
     template <std::size_t points, std::size_t frictions>
     void hold_exactly(const PointSet& set);
-    [[nodiscard]] Modal from_friction() const
+    /// The first velocities without the normal impulses.
+    [[nodiscard]] Modal given() const
     {
-        return {0.0, 0.0, 0.0, answer_.tangent_1, answer_.tangent_2, answer_.torsion};
+        const auto& m = block_.matrix;
+        Modal velocity{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            velocity[i] =
+                free_[i] + (m[i][3] * modal_[3] + m[i][4] * modal_[4] + m[i][5] * modal_[5]);
+        }
+        return velocity;
     }
+    void set_normals(const PointSet& set);
+    void set_friction(double tangent_1, double tangent_2, double torsion)
+    {
+        answer_.tangent_1 = modal_[3] = tangent_1;
+        answer_.tangent_2 = modal_[4] = tangent_2;
+        answer_.torsion = modal_[5] = torsion;
+    }
+    void move_normals();
+    void move_tangents();
     [[nodiscard]] Friction scaled_friction() const
     {
         return {answer_.tangent_1, answer_.tangent_2,
@@ -112,17 +83,20 @@ private:
     [[nodiscard]] double slip_answer() const;
     double slip_once(double step);
 
-    const ContactBlock& block_;
+    ContactBlock& block_;
+    Modal modal_; // the answer
     Modal free_;
+    Modal now_; // with the answer
     ContactImpulse answer_;
+    bool is_at_limit_ = false;
+    bool has_settled_ = false;
 };
 
 PointSet Trial::pushing(double quiet) const
 {
-    const Modal now = velocity();
     PointSet set;
     for (std::uint32_t i = 0; i < block_.count; ++i) {
-        const double speed = block_.normal_speed(now, i) - block_.least[i];
+        const double speed = block_.normal_speed(now_, i) - block_.least[i];
         if (answer_.normal[i] > 0.0 || speed < -quiet) set.add(i);
     }
     return set;
@@ -137,71 +111,97 @@ PointSet Trial::without_pulling(const PointSet& set) const
     return rest;
 }
 
-template <std::size_t points, std::size_t frictions>
-void Trial::hold_exactly(const PointSet& set)
+void Trial::set_normals(const PointSet& set)
 {
-    const Modal given = frictions > 0 ? free_ : plus(free_, times(block_.matrix, from_friction()));
-    const auto unknown = hold<points, frictions>(block_, set, given);
-    answer_.normal = {};
-    for (std::size_t i = 0; i < points; ++i) answer_.normal[set.at[i]] = unknown[i];
-    if constexpr (frictions > 0) {
-        answer_.tangent_1 = unknown[points];
-        answer_.tangent_2 = unknown[points + 1];
-        if constexpr (frictions > 2) {
-            answer_.torsion = unknown[points + 2];
-        } else {
-            answer_.torsion = 0.0;
-        }
+    modal_[0] = modal_[1] = modal_[2] = 0.0;
+    for (std::uint32_t i = 0; i < set.count; ++i) {
+        const std::size_t at = set.at[i];
+        modal_[0] += answer_.normal[at];
+        modal_[1] += block_.along_2[at] * answer_.normal[at];
+        modal_[2] -= block_.along_1[at] * answer_.normal[at];
     }
 }
 
-template <std::size_t points, bool sticks>
+void Trial::move_normals()
+{
+    const Modal before = given();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& row = block_.matrix[i];
+        now_[i] = before[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2]);
+    }
+}
+
+void Trial::move_tangents()
+{
+    for (std::size_t i = 3; i < 6; ++i) {
+        const auto& row = block_.matrix[i];
+        now_[i] = free_[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2] +
+                              row[3] * modal_[3] + row[4] * modal_[4] + row[5] * modal_[5]);
+    }
+}
+
+template <std::size_t points, std::size_t frictions>
+void Trial::hold_exactly(const PointSet& set)
+{
+    const Modal before = frictions > 0 ? free_ : given();
+    std::array<double, points + frictions> wanted;
+    for (std::size_t i = 0; i < points; ++i) {
+        wanted[i] = block_.least[set.at[i]] - block_.normal_speed(before, set.at[i]);
+    }
+    for (std::size_t i = 0; i < frictions; ++i) wanted[points + i] = -before[3 + i];
+    const auto unknown = few_factors(block_, set).solve(wanted);
+    answer_.normal = {};
+    for (std::size_t i = 0; i < points; ++i) answer_.normal[set.at[i]] = unknown[i];
+    if constexpr (frictions > 0) {
+        set_friction(unknown[points], unknown[points + 1],
+                     frictions > 2 ? unknown[points + frictions - 1] : 0.0);
+    }
+    set_normals(set);
+}
+
+template <bool sticks>
 void Trial::hold_few(const PointSet& set)
 {
     if constexpr (!sticks) {
-        hold_exactly<points, 0>(set);
-    } else if (points == 1 || block_.torsion_arm == 0.0) {
-        hold_exactly<points, 2>(set);
+        return set.count == 1 ? hold_exactly<1, 0>(set) : hold_exactly<2, 0>(set);
     } else {
-        hold_exactly<points, 3>(set);
+        if (set.count == 1) return hold_exactly<1, 2>(set);
+        return block_.torsion_arm == 0.0 ? hold_exactly<2, 2>(set) : hold_exactly<2, 3>(set);
     }
 }
 
 template <bool sticks>
-void Trial::hold_points(PointSet set)
+void Trial::hold_all(const PlaneFit& fit)
 {
-    if (set.count == 0) return separate();
-    if (set.count == 1) return hold_few<1, sticks>(set);
-    if (set.count == 2) return hold_few<2, sticks>(set);
-    const PlaneFit fit{block_, set};
-    if (fit.is_flat()) {
-        // On a line the outermost two say everything.
-        const auto& along = fit.is_along_1() ? block_.along_1 : block_.along_2;
-        std::uint8_t low = set.at[0];
-        std::uint8_t high = set.at[0];
-        for (std::uint32_t i = 1; i < set.count; ++i) {
-            if (along[set.at[i]] < along[low]) low = set.at[i];
-            if (along[set.at[i]] > along[high]) high = set.at[i];
-        }
-        set.at = {low, high};
-        set.count = 2;
-        return hold_few<2, sticks>(set);
-    }
-    const std::array<double, 3> least = fit.modal_least();
+    const std::array<double, 3> least = fit.modal_least(block_.least);
+    const Ldl<6>& factors = whole_factors(block_);
+    const Modal before = sticks ? free_ : given();
+    const std::array<double, 3> wanted{least[0] - before[0], least[1] - before[1],
+                                       least[2] - before[2]};
     answer_.normal = {};
     if constexpr (sticks) {
-        const auto unknown =
-            weld<6>(block_.matrix, {least[0] - free_[0], least[1] - free_[1], least[2] - free_[2],
-                                    -free_[3], -free_[4], -free_[5]});
+        const auto unknown = factors.solve(
+            Modal{wanted[0], wanted[1], wanted[2], -before[3], -before[4], -before[5]});
         fit.spread({unknown[0], unknown[1], unknown[2]}, answer_.normal);
-        answer_.tangent_1 = unknown[3];
-        answer_.tangent_2 = unknown[4];
-        answer_.torsion = unknown[5];
+        set_friction(unknown[3], unknown[4], unknown[5]);
     } else {
-        const Modal given = plus(free_, times(block_.matrix, from_friction()));
-        const auto unknown =
-            weld<3>(block_.matrix, {least[0] - given[0], least[1] - given[1], least[2] - given[2]});
-        fit.spread(unknown, answer_.normal);
+        fit.spread(factors.solve(wanted), answer_.normal);
+    }
+    set_normals(fit.set());
+}
+
+template <bool sticks>
+void Trial::hold_points(const PointSet& set)
+{
+    if (set.count == 0) {
+        answer_ = {};
+        modal_ = {};
+    } else if (set.count <= 2) {
+        hold_few<sticks>(set);
+    } else if (const PlaneFit& fit = fit_of(block_, set); fit.is_flat()) {
+        hold_few<sticks>(outermost(block_, fit));
+    } else {
+        hold_all<sticks>(fit);
     }
 }
 
@@ -218,9 +218,9 @@ bool Trial::stick(double quiet)
     const Friction f = scaled_friction();
     const double limit = block_.friction * normal_sum();
     if (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] > limit * limit) return false;
-    const Modal now = velocity();
+    move_normals();
     for (std::uint32_t i = 0; i < block_.count; ++i) {
-        if (block_.normal_speed(now, i) - block_.least[i] < -quiet) return false;
+        if (block_.normal_speed(now_, i) - block_.least[i] < -quiet) return false;
     }
     return true;
 }
@@ -230,17 +230,20 @@ void Trial::push(double quiet)
     PointSet set = pushing(quiet);
     for (std::uint32_t round = 0; round < 2 * manifold_points_max; ++round) {
         hold_points<false>(set);
-        if (set.count == 0) return;
         const PointSet rest = without_pulling(set);
         if (rest.count < set.count) {
             set = rest;
             continue;
         }
+        move_normals();
+        if (set.count == 0) return;
         const PointSet more = pushing(quiet);
         if (more.count == set.count) return;
         set = more;
     }
     for (double& impulse : answer_.normal) impulse = std::max(impulse, 0.0);
+    modal_ = modal(block_, answer_);
+    move_normals();
 }
 
 /// The largest answer of the slip to friction: no step of one over it overshoots.
@@ -258,34 +261,38 @@ double Trial::slip_answer() const
 /// Moves friction toward the direction against the slip; returns by how much.
 double Trial::slip_once(double step)
 {
-    const Modal now = velocity();
     const double arm = block_.torsion_arm;
     const Friction was = scaled_friction();
-    Friction f{was[0] - step * now[3], was[1] - step * now[4], was[2] - step * now[5] * arm};
+    move_tangents();
+    Friction f{was[0] - step * now_[3], was[1] - step * now_[4], was[2] - step * now_[5] * arm};
     const double limit = block_.friction * normal_sum();
     const double size = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
-    if (size > limit) {
-        for (double& part : f) part *= limit / size;
+    is_at_limit_ = size > limit;
+    if (is_at_limit_) {
+        const double share = limit / size;
+        for (double& part : f) part *= share;
     }
-    answer_.tangent_1 = f[0];
-    answer_.tangent_2 = f[1];
-    answer_.torsion = f[2] * arm;
+    set_friction(f[0], f[1], f[2] * arm);
+    move_normals();
     return std::max({std::abs(f[0] - was[0]), std::abs(f[1] - was[1]), std::abs(f[2] - was[2])});
 }
 
-void Trial::slip(double quiet)
+bool Trial::slip(double quiet, int rounds_max)
 {
     const double most = slip_answer();
     const double step = most > 0.0 ? 1.0 / most : 0.0;
-    constexpr int rounds_max = 8;
     constexpr double settled = 1e-14; // of the impulses: rounding
     push(quiet);
+    bool reached = false;
     for (int round = 0; round < rounds_max; ++round) {
         const double change = slip_once(step);
+        reached = is_at_limit_;
         push(quiet);
-        if (change <= settled * normal_sum()) return;
+        has_settled_ = change <= settled * normal_sum();
+        if (has_settled_) return reached;
     }
-    slip_once(0.0);
+    slip_once(0.0); // within the limit
+    return reached;
 }
 
 /// What of such speeds may be rounding, m/s.
@@ -297,11 +304,22 @@ double rounding_of(const ContactBlock& block, const Modal& velocity)
                         (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
 }
 
-Modal finish(ContactBlock& block, const ContactImpulse& answer)
+/// Whether friction is at its limit and opposes a slip.
+bool slips_already(const ContactBlock& block, const Modal& velocity, double quiet)
 {
-    const Modal change = minus(modal(block, answer), modal(block, block.impulse));
-    block.impulse = answer;
-    return change;
+    const ContactImpulse& held = block.impulse;
+    const double along = held.tangent_1 * velocity[3] + held.tangent_2 * velocity[4];
+    const double size2 = held.tangent_1 * held.tangent_1 + held.tangent_2 * held.tangent_2;
+    const double limit = block.friction * block.normal_sum();
+    constexpr double nearly = 0.99;
+    return size2 >= nearly * limit * limit && size2 > 0.0 && along < 0.0 &&
+           along * along > quiet * quiet * size2;
+}
+
+Modal finish(ContactBlock& block, const Trial& trial, const Trial& begun)
+{
+    block.impulse = trial.answer();
+    return minus(trial.impulse(), begun.impulse());
 }
 
 } // namespace
@@ -343,18 +361,44 @@ Modal solve(ContactBlock& block, const Modal& velocity, double quiet)
 {
     if (block.friction == 0.0) return solve_normals(block, velocity, quiet);
     const double still = std::max(quiet, rounding_of(block, velocity));
-    Trial trial{block, velocity};
-    if (trial.stick(still)) return finish(block, trial.answer());
-    Trial slipping{block, velocity};
-    slipping.slip(still);
-    return finish(block, slipping.answer());
+    const Trial begun{block, velocity};
+    constexpr int rounds = 8;
+    // What slipped at the end of the last tick mostly slips on.
+    const bool slips = slips_already(block, velocity, still);
+    Trial slipping = begun;
+    if (slips && slipping.slip(still, rounds) && slipping.has_settled())
+        return finish(block, slipping, begun);
+    Trial sticking = begun;
+    if (sticking.stick(still)) return finish(block, sticking, begun);
+    if (!slips) slipping.slip(still, rounds);
+    return finish(block, slipping, begun);
+}
+
+Modal improve(ContactBlock& block, const Modal& velocity, double quiet)
+{
+    if (block.friction == 0.0) return solve_normals(block, velocity, quiet);
+    const double still = std::max(quiet, rounding_of(block, velocity));
+    const Trial begun{block, velocity};
+    Trial slipping = begun;
+    // What slipped slips.
+    bool& slipped = block.factors.slipped;
+    if (slipped && slipping.slip(still, 1)) return finish(block, slipping, begun);
+    Trial sticking = begun;
+    if (sticking.stick(still)) {
+        slipped = false;
+        return finish(block, sticking, begun);
+    }
+    if (!slipped) slipping.slip(still, 1);
+    slipped = true;
+    return finish(block, slipping, begun);
 }
 
 Modal solve_normals(ContactBlock& block, const Modal& velocity, double quiet)
 {
-    Trial trial{block, velocity};
+    const Trial begun{block, velocity};
+    Trial trial = begun;
     trial.push(std::max(quiet, rounding_of(block, velocity)));
-    return finish(block, trial.answer());
+    return finish(block, trial, begun);
 }
 
 } // namespace hapnet::scene

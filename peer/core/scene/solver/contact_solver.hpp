@@ -7,6 +7,7 @@
 #include "peer/core/scene/solver/scratch.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace hapnet::scene {
@@ -16,6 +17,8 @@ struct SolverLimits {
     double quiet = 0.0;           // m/s: a contact that misses by less is left alone
     double enough = 0.0;          // m/s: when no contact changed its speed by more, that was it
     std::uint32_t sweeps_max = 1; // over an island
+    std::uint32_t visits_max =
+        std::numeric_limits<std::uint32_t>::max(); // over all islands, beyond a few sweeps
 };
 
 /// How far it came.
@@ -64,16 +67,26 @@ private:
         SolverLimits limits;
     };
 
+    /// How far a visit goes where a block slips: to the end, or some way, as the next one goes on.
+    enum class Depth : std::uint8_t { exact, nearer };
+
     using Island = std::span<const std::uint32_t>; // its blocks
 
     SolverOutcome run(const Task& task);
+    template <typename Do>
+    void for_moving_islands(const Task& task, Do&& act);
     SolverOutcome run_island(const Task& task, Island island);
+    void save(const Task& task, Island island);
+    void bring_back(const Task& task, Island island);
+    void lose_energy(const Task& task, Island island);
     double sweep(const Task& task, Island island);
     void note(Island island, std::span<double> impulses) const;
     void jump(const Task& task, Island island);
     void step_back(const Task& task, Island island);
-    double visit(ContactBlock& block, const Task& task);
+    double visit(ContactBlock& block, const Task& task, Depth depth);
     void apply(const ContactBlock& block, const Modal& change, std::span<BodyMotion> motions);
+    void count_contacts();
+    [[nodiscard]] bool is_alone(const ContactBlock& block) const;
     void find_islands();
     [[nodiscard]] SolverIndex root_of(SolverIndex body);
 
@@ -81,6 +94,8 @@ private:
     Scratch<BodyMotion> ending_;
     Scratch<BodyMotion> mean_;
     Scratch<ContactBlock> blocks_;
+
+    Scratch<std::uint32_t> contacts_; // of each body
 
     // Islands: of which body, by body; the blocks in the order of their islands; where each ends.
     Scratch<SolverIndex> parents_;

@@ -15,30 +15,36 @@ using Square = std::array<std::array<double, rows>, rows>;
 template <std::size_t rows>
 class Ldl {
 public:
+    Ldl() = default;
     /// Reads the lower triangle.
     explicit Ldl(const Square<rows>& matrix)
     {
+        Square<rows> scaled; // L D
         for (std::size_t i = 0; i < rows; ++i) {
             double pivot = matrix[i][i];
             for (std::size_t j = 0; j < i; ++j) {
                 double sum = matrix[i][j];
-                for (std::size_t k = 0; k < j; ++k) sum -= lower_[j][k] * scaled_[i][k];
-                scaled_[i][j] = sum;
-                lower_[i][j] = sum * inverse_[j];
-                pivot -= lower_[i][j] * sum;
+                for (std::size_t k = 0; k < j; ++k) sum -= lower_[at(j, k)] * scaled[i][k];
+                scaled[i][j] = sum;
+                lower_[at(i, j)] = sum * inverse_[j];
+                pivot -= lower_[at(i, j)] * sum;
             }
             inverse_[i] = pivot > dependent * matrix[i][i] ? 1.0 / pivot : 0.0;
         }
     }
 
-    [[nodiscard]] std::array<double, rows> solve(std::array<double, rows> x) const
+    /// Of the first rows and columns alone, when `x` has fewer: their factors are the first rows of
+    /// all.
+    template <std::size_t few>
+    [[nodiscard]] std::array<double, few> solve(std::array<double, few> x) const
     {
-        for (std::size_t i = 1; i < rows; ++i) {
-            for (std::size_t j = 0; j < i; ++j) x[i] -= lower_[i][j] * x[j];
+        static_assert(few <= rows);
+        for (std::size_t i = 1; i < few; ++i) {
+            for (std::size_t j = 0; j < i; ++j) x[i] -= lower_[at(i, j)] * x[j];
         }
-        for (std::size_t i = 0; i < rows; ++i) x[i] *= inverse_[i];
-        for (std::size_t i = rows - 1; i-- > 0;) {
-            for (std::size_t j = i + 1; j < rows; ++j) x[i] -= lower_[j][i] * x[j];
+        for (std::size_t i = 0; i < few; ++i) x[i] *= inverse_[i];
+        for (std::size_t i = few - 1; i-- > 0;) {
+            for (std::size_t j = i + 1; j < few; ++j) x[i] -= lower_[at(j, i)] * x[j];
         }
         return x;
     }
@@ -48,8 +54,12 @@ private:
     /// place.
     static constexpr double dependent = 1e-12;
 
-    Square<rows> lower_{};
-    Square<rows> scaled_{}; // L D
+    static constexpr std::size_t at(std::size_t row, std::size_t column)
+    {
+        return row * (row - 1) / 2 + column;
+    }
+
+    std::array<double, rows*(rows - 1) / 2> lower_{}; // row after row, without the diagonal of ones
     std::array<double, rows> inverse_{};
 };
 

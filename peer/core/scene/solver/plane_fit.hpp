@@ -2,42 +2,57 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/scene/solver/block.hpp"
+#include "peer/core/scene/contact/manifold.hpp"
 
 #include <array>
 #include <cstdint>
 
 namespace hapnet::scene {
 
-/// Which of the points push.
+/// A number at each point of a contact.
+using PointNumbers = std::array<double, manifold_points_max>;
+
+/// Which of the points push, in their order.
 struct PointSet {
     std::array<std::uint8_t, manifold_points_max> at{};
     std::uint32_t count = 0;
 
     void add(std::uint32_t point) { at[count++] = static_cast<std::uint8_t>(point); }
+    /// A bit for each.
+    [[nodiscard]] std::uint32_t bits() const
+    {
+        std::uint32_t sum = 0;
+        for (std::uint32_t i = 0; i < count; ++i) sum |= 1U << at[i];
+        return sum;
+    }
 };
 
 /// A plane over the tangents through numbers given at three or four points: the numbers' best fit,
 /// and for impulses of a given sum and moment those of the least squares.
 class PlaneFit {
 public:
-    PlaneFit(const ContactBlock& block, const PointSet& set) : block_{block}, set_{set}
+    PlaneFit() = default;
+    PlaneFit(const PointNumbers& along_1, const PointNumbers& along_2, const PointSet& set)
+        : set_{set}
     {
+        const double share = 1.0 / set.count;
         for (std::uint32_t i = 0; i < set.count; ++i) {
-            middle_1_ += block.along_1[set.at[i]];
-            middle_2_ += block.along_2[set.at[i]];
+            middle_1_ += along_1[set.at[i]];
+            middle_2_ += along_2[set.at[i]];
         }
-        middle_1_ /= set.count;
-        middle_2_ /= set.count;
+        middle_1_ *= share;
+        middle_2_ *= share;
         for (std::uint32_t i = 0; i < set.count; ++i) {
-            const double u = block.along_1[set.at[i]] - middle_1_;
-            const double v = block.along_2[set.at[i]] - middle_2_;
-            uu_ += u * u;
-            uv_ += u * v;
-            vv_ += v * v;
+            u_[i] = along_1[set.at[i]] - middle_1_;
+            v_[i] = along_2[set.at[i]] - middle_2_;
+            uu_ += u_[i] * u_[i];
+            uv_ += u_[i] * v_[i];
+            vv_ += v_[i] * v_[i];
         }
         determinant_ = uu_ * vv_ - uv_ * uv_;
     }
+
+    [[nodiscard]] const PointSet& set() const { return set_; }
 
     /// Whether the points lie on a line, to rounding.
     [[nodiscard]] bool is_flat() const
@@ -50,31 +65,29 @@ public:
     [[nodiscard]] bool is_along_1() const { return uu_ >= vv_; }
 
     /// The modal velocity whose normal speeds at the points are `least`.
-    [[nodiscard]] std::array<double, 3> modal_least() const
+    [[nodiscard]] std::array<double, 3> modal_least(const PointNumbers& least) const
     {
         double mean = 0.0;
         double u_moment = 0.0;
         double v_moment = 0.0;
         for (std::uint32_t i = 0; i < set_.count; ++i) {
-            const double value = block_.least[set_.at[i]];
+            const double value = least[set_.at[i]];
             mean += value;
-            u_moment += (block_.along_1[set_.at[i]] - middle_1_) * value;
-            v_moment += (block_.along_2[set_.at[i]] - middle_2_) * value;
+            u_moment += u_[i] * value;
+            v_moment += v_[i] * value;
         }
         mean /= set_.count;
         const auto [u, v] = slope(u_moment, v_moment);
         return {mean - u * middle_1_ - v * middle_2_, v, -u};
     }
 
-    void spread(const std::array<double, 3>& total,
-                std::array<double, manifold_points_max>& impulse) const
+    void spread(const std::array<double, 3>& total, PointNumbers& impulse) const
     {
         const auto [u, v] =
             slope(-total[2] - total[0] * middle_1_, total[1] - total[0] * middle_2_);
+        const double mean = total[0] / set_.count;
         for (std::uint32_t i = 0; i < set_.count; ++i) {
-            impulse[set_.at[i]] = total[0] / set_.count +
-                                  u * (block_.along_1[set_.at[i]] - middle_1_) +
-                                  v * (block_.along_2[set_.at[i]] - middle_2_);
+            impulse[set_.at[i]] = mean + u * u_[i] + v * v_[i];
         }
     }
 
@@ -85,8 +98,8 @@ private:
                 (uu_ * v_moment - uv_ * u_moment) / determinant_};
     }
 
-    const ContactBlock& block_;
-    const PointSet& set_;
+    PointSet set_;
+    PointNumbers u_{}, v_{}; // of the set's points, from their middle
     double middle_1_ = 0.0, middle_2_ = 0.0;
     double uu_ = 0.0, uv_ = 0.0, vv_ = 0.0, determinant_ = 0.0;
 };

@@ -148,8 +148,13 @@ void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyRespons
                         glm::dvec3{0.0}};
     if (!turns_evenly(stage.bodies.form[slot])) {
         // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
-        course.tentative.spin += tick * (response.inverse_inertia *
-                                         glm::cross(course.angular_momentum, course.start.spin));
+        // Of what turns far in a tick that rate says nothing: it fades out.
+        constexpr double far = 0.3; // radians
+        const glm::dvec3& spin = course.start.spin;
+        const double fades = std::min(1.0, tick * tick * glm::dot(spin, spin) / (far * far));
+        course.tentative.spin +=
+            ((1.0 - fades) * tick) *
+            (response.inverse_inertia * glm::cross(course.angular_momentum, spin));
     }
     course.mean = {before + (0.5 * tick) * rate, 0.5 * (course.start.spin + course.tentative.spin),
                    glm::dvec3{0.0}};

@@ -21,15 +21,15 @@ constexpr std::size_t contacts_per_body_max = 8;
 constexpr double quiet = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
 constexpr double enough = 1e-6;
-// ... or this many sweeps were made. (a stack of ten takes 23 from nothing, a thousandfold mass 9).
-constexpr std::uint32_t sweeps_max = 60;
+// ... or this much was done (a stack takes 23 sweeps from nothing); the next tick goes on.
+constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
 // for, and the most that is moved apart in one tick.
 constexpr double overlap_quiet = 1e-9;
 constexpr double overlap_enough = 1e-6;
 constexpr double overlap_most = 0.02;
-constexpr std::uint32_t overlap_sweeps_max = 40;
+constexpr std::uint32_t overlap_visits_max = 200;
 // Of an overlap that is there, this share is removed per tick: not all, so that contacts that
 // contradict each other settle.
 constexpr double overlap_share = 0.3;
@@ -308,22 +308,16 @@ void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
 template <Crowd crowd>
 void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
 {
-    const std::span<HandSprings::Spring> all = hands_.springs();
-    for (std::size_t first = 0; first < all.size(); ++first) {
-        const BodyId body = all[first].body;
-        const Slot slot = stage.bodies.slot_of[body];
+    for (const HandSprings::Spring& spring : hands_.springs()) {
+        const Slot slot = stage.bodies.slot_of[spring.body];
         engage(stage.bodies, slot);
-        if (courses_[slot + 1].has_hands) continue;
-        std::size_t count = 0;
-        for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) springs_[count++] = all[i].spring;
-        }
-        follow_hands(courses_[slot + 1], stage, slot, solver_.response(slot + 1),
-                     {{springs_.data(), count}, {work_.data(), count}, frozen});
-        count = 0;
-        for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) all[i].impulse = work_[count++].impulse;
-        }
+        BodyCourse& course = courses_[slot + 1];
+        if (course.has_hands) continue;
+        const std::span<const HipSpring> springs = hands_.on(spring.body);
+        std::array<HipWork, hips_max> work;
+        follow_hands(course, stage, slot, solver_.response(slot + 1),
+                     {springs, {work.data(), springs.size()}, frozen});
+        hands_.worked(spring.body, work);
     }
 }
 
@@ -334,7 +328,7 @@ void RigidTick<crowd>::solve(const Stage& stage)
     const Bodies& bodies = stage.bodies;
     const std::span<ContactBlock> blocks = solver_.blocks();
     const SolverOutcome outcome =
-        solver_.solve({quiet * scales_.speed, enough * scales_.speed, sweeps_max});
+        solver_.solve({quiet * scales_.speed, enough * scales_.speed, sweeps_max, visits_max});
     counts_.contacts = static_cast<std::uint32_t>(blocks.size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
@@ -376,7 +370,8 @@ void RigidTick<crowd>::move_apart()
         for (double& part : block.bend) part *= 0.5; // of the mean over the tick
     }
     const double length = scales_.size / scales_.tick;
-    const SolverLimits limits{overlap_quiet * length, overlap_enough * length, overlap_sweeps_max};
+    const SolverLimits limits{overlap_quiet * length, overlap_enough * length, sweeps_max,
+                              overlap_visits_max};
     solver_.separate(limits);
     // Who is thrown out of his way is held back, and the others go as far as that lets them.
     bool any_thrown = false;

@@ -65,6 +65,24 @@ void hold_steadily(HipTouch& touch, Slide& slide, base::Force force)
     for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.laws.inverse_mass() * held[i];
 }
 
+/// Adds the spring between a hand and a face of the box.
+void push_face(Stage& stage, Slide& slide, const FaceTouch& found)
+{
+    const std::size_t axis = found.face.axis;
+    const double speed = slide.velocity[axis];
+    Spring& spring = slide.springs[slide.spring_count++];
+    spring.hip = found.hip;
+    spring.axis = axis;
+    spring.sign = found.face.sign;
+    spring.depth = found.depth;
+    spring.closing = -spring.sign * part(stage.hips[found.hip].velocity.value, axis);
+    spring.impulse = 0.0;
+    const double force = spring.settle(slide.hips, speed);
+    HipTouch& touch = stage.touches[found.hip];
+    touch.depth_m = std::max(touch.depth_m, found.depth);
+    part(touch.on_hip_at_start.value, axis) += spring.sign * force;
+}
+
 } // namespace
 
 SlidingHands::SlidingHands(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable)
@@ -79,17 +97,6 @@ SlidingHands::SlidingHands(const Frozen& frozen, const Bodies& bodies, const Bod
     entered_fixed_.resize(frozen.hips.count * fixed_.size());
 }
 
-bool SlidingHands::is_clear(const Frozen& frozen, const HipInput& hip, const Memory& memory)
-{
-    const PerAxis gone = difference(hip.position.value, memory.seen_from);
-    const PerAxis velocity = per_axis(hip.velocity.value);
-    double reach = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        reach = std::max(reach, std::abs(gone[i]) + frozen.tick * std::abs(velocity[i]));
-    }
-    return reach + frozen.hips.radius_m < memory.clear;
-}
-
 void SlidingHands::gather(const Frozen& frozen, Stage& stage, Slide& slide)
 {
     for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
@@ -101,7 +108,7 @@ void SlidingHands::gather(const Frozen& frozen, Stage& stage, Slide& slide)
             memory.held_at.reset();
             continue;
         }
-        if (!is_clear(frozen, hip, memory)) touch_fixed(frozen, stage, i);
+        if (!memory.is_clear(frozen, hip)) touch_fixed(frozen, stage, i);
         if (!hip.gripping) {
             memory.held_at.reset();
         } else if (!memory.held_at) {
@@ -145,37 +152,44 @@ void SlidingHands::hold(const Frozen& frozen, Stage& stage, Slide& slide, std::u
     hold_steadily(touch, slide, force);
 }
 
-void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index)
+inline void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide,
+                                    std::uint32_t index)
+{
+    const double radius = frozen.hips.radius_m;
+    const PerAxis from_centre = difference(stage.hips[index].position.value, slide.place);
+    const PerAxis out = beyond(from_centre, half_);
+    const std::size_t axis = before_face(out, radius);
+    FaceTouch found{index, {}, 0.0};
+    if (axis != no_axis) { // as nearly always when it pushes
+        found.face = memory_[index].entered = face_at(axis, from_centre[axis]);
+        found.depth = radius - out[axis];
+    } else {
+        found = meet_box(frozen, stage, slide, index);
+    }
+    if (found.face.axis != no_axis) push_face(stage, slide, found);
+}
+
+FaceTouch SlidingHands::meet_box(const Frozen& frozen, Stage& stage, Slide& slide,
+                                 std::uint32_t index)
 {
     const HipDescription& hips = frozen.hips;
     const HipInput& hip = stage.hips[index];
     EnteredFace& entered = memory_[index].entered;
-    const PerAxis from_centre = difference(hip.position.value, slide.place);
-    const PerAxis out = beyond(from_centre, half_);
-    const std::size_t axis = before_face(out, hips.radius_m);
-    if (axis != no_axis) { // as nearly always when it pushes
-        entered = face_at(axis, from_centre[axis]);
-        push_face(stage, slide, {index, entered, hips.radius_m - out[axis]});
-        return;
-    }
-    const Approach approach{.from_centre = from_centre,
+    const Approach approach{.from_centre = difference(hip.position.value, slide.place),
                             .velocity = difference(hip.velocity.value, slide.velocity),
                             .radius = hips.radius_m,
                             .tick = frozen.tick};
     const double far = hips.radius_m + margin_;
     for (std::size_t i = 0; i < 3; ++i) {
         const double swept = 2.0 * frozen.tick * std::abs(approach.velocity[i]);
-        if (std::abs(from_centre[i]) > half_[i] + far + swept) {
+        if (std::abs(approach.from_centre[i]) > half_[i] + far + swept) {
             entered = {};
-            return;
+            return {index, {}, 0.0};
         }
     }
     const auto meeting = meet(approach, half_, entered);
-    if (!meeting) return;
-    if (meeting->face.axis != no_axis) {
-        push_face(stage, slide, {index, meeting->face, meeting->depth});
-        return;
-    }
+    if (!meeting) return {index, {}, 0.0};
+    if (meeting->face.axis != no_axis) return {index, meeting->face, meeting->depth};
     HipTouch& touch = stage.touches[index];
     const PerAxis& normal = meeting->oblique;
     const double closing = -dot(normal, per_axis(hip.velocity.value));
@@ -183,23 +197,7 @@ void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, s
     touch.depth_m = std::max(touch.depth_m, meeting->depth);
     touch.on_hip_at_start.value +=
         force_at(hips, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
-}
-
-void SlidingHands::push_face(Stage& stage, Slide& slide, const FaceTouch& found)
-{
-    const std::size_t axis = found.face.axis;
-    const double speed = slide.velocity[axis];
-    Spring& spring = slide.springs[slide.spring_count++];
-    spring.hip = found.hip;
-    spring.axis = axis;
-    spring.sign = found.face.sign;
-    spring.depth = found.depth;
-    spring.closing = -spring.sign * part(stage.hips[found.hip].velocity.value, axis);
-    spring.impulse = 0.0;
-    const double force = spring.settle(slide.hips, speed);
-    HipTouch& touch = stage.touches[found.hip];
-    touch.depth_m = std::max(touch.depth_m, found.depth);
-    part(touch.on_hip_at_start.value, axis) += spring.sign * force;
+    return {index, {}, 0.0};
 }
 
 void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index)
