@@ -138,16 +138,17 @@ bool Sleep::count(const Bodies& bodies)
 {
     const Bodies::Lanes3& v = bodies.velocity;
     const Bodies::Lanes3& l = bodies.angular_momentum;
-    std::uint64_t any = 0;
-    for (Slot i = 0; i < bodies.awake; ++i) {
+    double any = 0.0;
+    for (Slot i = 0; i < bodies.awake; ++i) { // without branches: many at once
         const double speed2 = v.x[i] * v.x[i] + v.y[i] * v.y[i] + v.z[i] * v.z[i];
         const double momentum2 = l.x[i] * l.x[i] + l.y[i] * l.y[i] + l.z[i] * l.z[i];
-        const std::uint64_t rests = static_cast<std::uint64_t>(speed2 <= speed2_[i]) &
-                                    static_cast<std::uint64_t>(momentum2 <= momentum2_[i]);
-        rested_[i] = rests != 0 ? rested_[i] + 1.0 : 0.0;
-        any |= static_cast<std::uint64_t>(rested_[i] >= rest_ticks_);
+        const double stays = speed2 <= speed2_[i] ? 1.0 : 0.0;
+        const double lies = momentum2 <= momentum2_[i] ? 1.0 : 0.0;
+        const double rested = (rested_[i] + 1.0) * (stays * lies);
+        rested_[i] = rested;
+        any += rested >= rest_ticks_ ? 1.0 : 0.0;
     }
-    return any != 0;
+    return any != 0.0;
 }
 
 template <Search search>

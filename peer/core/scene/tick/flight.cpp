@@ -32,12 +32,15 @@ void fall_along(std::vector<double>& position, std::vector<double>& velocity, Sl
     }
 }
 
+/// A turn too small to show in an orientation: half its angle, squared.
+constexpr double nothing2 = 1e-36;
+
 /// The turns of some bodies, in lanes on the stack: the compiler sees that they overlap nothing,
 /// so that the loops become vector instructions.
 struct Turns {
     static constexpr std::size_t room = 128;
     std::array<double, room> w, x, y, z;
-    std::array<double, room> square; // of half the angle
+    std::array<double, room> renewed; // 1: the orientation is made unit; 0: it stays as it is
 };
 
 /// The turn of every body of the range. Returns how many turn too far for the short series.
@@ -60,7 +63,7 @@ double find_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange range,
         turns.x[i] = turn.sinc * x;
         turns.y[i] = turn.sinc * y;
         turns.z[i] = turn.sinc * z;
-        turns.square[i] = square;
+        turns.renewed[i] = square > nothing2 ? 1.0 : 0.0;
         far += square <= small_turn_max ? 0.0 : 1.0;
     }
     return far;
@@ -72,18 +75,15 @@ void find_far_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange rang
 {
     for (Slot slot = range.begin; slot < range.end; ++slot) {
         const std::size_t i = slot - range.begin;
-        const glm::dvec3 angle = (2.0 * half_turn_by_momentum[i]) * momentum.at(slot);
-        const glm::dquat turn = turn_by(angle);
-        turns.square[i] = glm::dot(angle, angle);
+        const glm::dvec3 half = half_turn_by_momentum[i] * momentum.at(slot);
+        const glm::dquat turn = turn_by(2.0 * half);
+        turns.renewed[i] = glm::dot(half, half) > nothing2 ? 1.0 : 0.0;
         turns.w[i] = turn.w;
         turns.x[i] = turn.x;
         turns.y[i] = turn.y;
         turns.z[i] = turn.z;
     }
 }
-
-/// A turn too small to show in an orientation: half its angle, squared.
-constexpr double nothing2 = 1e-36;
 
 /// orientation = turn * orientation, unit.
 void apply(const Turns& turns, Bodies::Lanes4& orientation, SlotRange range)
@@ -104,7 +104,7 @@ void apply(const Turns& turns, Bodies::Lanes4& orientation, SlotRange range)
             turns.w[i] * z[i] + turns.z[i] * w[i] + turns.x[i] * y[i] - turns.y[i] * x[i];
         const double square = a * a + b * b + c * c + d * d;
         // 1 / sqrt(square) to the first order about 1, from which rounding alone has led it away.
-        const double shrink = turns.square[i] > nothing2 ? 1.5 - 0.5 * square : 1.0;
+        const double shrink = 1.0 + (0.5 * turns.renewed[i]) * (1.0 - square);
         w[i] = a * shrink;
         x[i] = b * shrink;
         y[i] = c * shrink;
@@ -149,6 +149,7 @@ void turn_freely(Bodies& bodies, Slot slot, double tick)
     const BodyForm& form = bodies.form[slot];
     if (form.turning == Turning::locked) return;
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
+    if (momentum == glm::dvec3{0.0}) return;
     const glm::dquat now = bodies.orientation.at(slot);
     bodies.orientation.put(slot, turns_evenly(form)
                                      ? turned(now, tick * bodies.turned_by(slot, momentum))
