@@ -383,13 +383,9 @@ void RigidTick<crowd>::move_apart()
     const SolverLimits limits{overlap_quiet * length, overlap_enough * length, overlap_sweeps_max};
     solver_.separate(limits);
     // Who is thrown out of his way is held back, and the others go as far as that lets them.
-    bool any_thrown = false;
-    for (SolverIndex i = 1; i < courses_.size(); ++i) {
-        if (courses_[i].has_hands || !keep_to_path(courses_[i], solver_.mean(i), scales_)) continue;
-        solver_.response(i) = {};
-        any_thrown = true;
-    }
-    if (any_thrown) solver_.separate_again(limits);
+    if (!keep_to_paths(courses_.all(), solver_, scales_)) return;
+    solver_.separate_again(limits);
+    keep_to_paths(courses_.all(), solver_, scales_);
 }
 
 template class RigidTick<Crowd::lone>;
