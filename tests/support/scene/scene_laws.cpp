@@ -155,6 +155,7 @@ std::optional<std::string> SceneLaws::after(const World& world)
         if (play_.description.bodies[id].movable) add(balance, world, id);
     }
     if (auto complaint = check_energy(world, balance)) return complaint;
+    if (auto complaint = check_ways(world, balance)) return complaint;
     return check_momentum(world, balance);
 }
 
@@ -224,6 +225,7 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
         std::max(length(was.state.angular_velocity), length(now.state.angular_velocity));
     balance.fastest =
         std::max({balance.fastest, length(v0) + spin * radius, length(v1) + spin * radius});
+    balance.farthest = std::max(balance.farthest, length(moved) - radius);
     balance.jolt += mass * length(v1 - v0);
     balance.momentum += mass * (length(v0) + length(v1)) + tick * length(force);
     // The spin changes while the angular momentum stays: in the impulses of contacts it counts.
@@ -266,6 +268,19 @@ std::optional<std::string> SceneLaws::check_energy(const World& world, const Bal
     if (tolerated > 0.0) worst_.energy = std::max(worst_.energy, gained / tolerated);
     if (gained <= tolerated) return std::nullopt;
     return fmt::format("{} J came from nowhere; there were {} J", gained, balance.kinetic_before);
+}
+
+std::optional<std::string> SceneLaws::check_ways(const World& world, const Balance& balance) const
+{
+    // What slides is put out of what it is in at once.
+    if (world.profile() <= scene::Profile::sliding_coulomb) return std::nullopt;
+    for (std::uint32_t i = 0; i < play_.description.hips.count; ++i) {
+        if (world.touch(i).touching) return std::nullopt;
+    }
+    constexpr double cornerwise = 2.0;
+    const double most = cornerwise * world.frozen().tick * balance.fastest;
+    if (balance.farthest <= most) return std::nullopt;
+    return fmt::format("a body went {} m, the fastest could go {} m", balance.farthest, most);
 }
 
 std::optional<std::string> SceneLaws::check_momentum(const World& world, const Balance& balance)

@@ -19,7 +19,8 @@ struct LawFigures {
 
 /// What has to hold for every tick of every world:
 /// - every number is finite, orientations are unit, locked axes and fixed bodies stay where they
-///   are, what sleeps does not move and has no velocity;
+///   are, what sleeps does not move and has no velocity; and, without hands, nobody goes farther in
+///   a tick than twice the way of the fastest, and his own size;
 /// - a hand exerts no more than its greatest force (1e-6 of it tolerated);
 /// - kinetic energy grows by no more than the work of gravity, pushes and hands (tolerated: 1e-6 of
 ///   what is there, and for each body m v^2 with v twice what its forces add in a tick, and what
@@ -53,6 +54,7 @@ private:
         double kinetic_after = 0.0;
         double work = 0.0;
         double fastest = 0.0;  // m/s, of any corner
+        double farthest = 0.0; // m that a body went beyond its own size
         double jolt = 0.0;     // N s: the sum of the changes of momentum
         double momentum = 0.0; // N s: the sum of the amounts
         double angular = 0.0;  // N m s, likewise
@@ -69,6 +71,8 @@ private:
     void add(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] std::optional<std::string> check_energy(const scene::World& world,
                                                           const Balance& balance);
+    [[nodiscard]] std::optional<std::string> check_ways(const scene::World& world,
+                                                        const Balance& balance) const;
     [[nodiscard]] std::optional<std::string> check_momentum(const scene::World& world,
                                                             const Balance& balance);
     [[nodiscard]] Moment moment_of(const scene::World& world, scene::BodyId id) const;

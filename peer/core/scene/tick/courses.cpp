@@ -245,16 +245,29 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
-bool keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scales)
+bool keep_to_paths(std::span<const Slot> slots, std::span<const BodyCourse> courses,
+                   ContactSolver& solver, const Scales& scales)
 {
-    const double most = strays_most * scales.least / scales.tick;
-    const glm::dvec3& path = course.start.velocity;
-    const glm::dvec3 low = glm::min(path, glm::dvec3{0.0}) - most;
-    const glm::dvec3 high = glm::max(path, glm::dvec3{0.0}) + most;
-    const glm::dvec3 kept = glm::min(glm::max(mean.velocity, low), high);
-    if (kept == mean.velocity) return false;
-    mean.velocity = kept;
-    return true;
+    bool any_strays = false;
+    for (const Slot slot : slots) {
+        const SolverIndex i = slot + 1;
+        const BodyCourse& course = courses[i];
+        const double most = strays_most * scales.least / scales.tick;
+        const glm::dvec3& path = course.start.velocity;
+        glm::dvec3 low = glm::min(path, glm::dvec3{0.0});
+        glm::dvec3 high = glm::max(path, glm::dvec3{0.0});
+        if (course.has_hands) {
+            low = glm::min(low, course.mean.velocity);
+            high = glm::max(high, course.mean.velocity);
+        }
+        glm::dvec3& way = solver.mean(i).velocity;
+        const glm::dvec3 kept = glm::min(glm::max(way, low - most), high + most);
+        if (kept == way) continue;
+        way = kept;
+        solver.response(i) = {};
+        any_strays = true;
+    }
+    return any_strays;
 }
 
 void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,

@@ -71,8 +71,9 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
 
 /// What a body meets was looked for in the box around its straight way through the tick. When it
 /// is thrown far out of that, it goes only so far that it cannot pass through anything that was
-/// not looked for. Returns whether it was.
-bool keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scales);
+/// not looked for, and answers to nothing more. Returns whether anybody was.
+bool keep_to_paths(std::span<const Slot> slots, std::span<const BodyCourse> courses,
+                   ContactSolver& solver, const Scales& scales);
 
 /// Moves the body by what was solved.
 void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,

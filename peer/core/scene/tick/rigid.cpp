@@ -372,14 +372,12 @@ void RigidTick<crowd>::move_apart()
                               overlap_visits_max};
     solver_.separate(limits);
     // Who is thrown out of his way is held back, and the others go as far as that lets them.
-    bool any_thrown = false;
-    for (const Slot slot : engaged_.slots()) {
-        const SolverIndex i = slot + 1;
-        if (courses_[i].has_hands || !keep_to_path(courses_[i], solver_.mean(i), scales_)) continue;
-        solver_.response(i) = {};
-        any_thrown = true;
-    }
-    if (any_thrown) solver_.separate_again(limits);
+    const auto keep = [&] {
+        return keep_to_paths(engaged_.slots(), courses_.all(), solver_, scales_);
+    };
+    if (!keep()) return;
+    solver_.separate_again(limits);
+    keep();
 }
 
 template class RigidTick<Crowd::lone>;

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+//
+// Left and right are alike: bits are where the closed forms are, and where nothing turns.
+#include "tests/support/scene/random_play.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace hapnet::test {
+namespace {
+
+using scene::BodyId;
+using scene::Profile;
+using scene::World;
+
+/// How far the mirrored world is from the mirrored state of the world at any tick, in metres.
+double apart(World& world, World& reflected, const RandomPlay& play, const RandomPlay& mirror)
+{
+    double most = 0.0;
+    for (std::size_t tick = 0; tick < play.ticks.size(); ++tick) {
+        feed(world, play.ticks[tick]);
+        feed(reflected, mirror.ticks[tick]);
+        world.tick();
+        reflected.tick();
+        for (BodyId id = 0; id < play.description.bodies.size(); ++id) {
+            const auto off = world.body(id).position - mirrored(reflected.body(id)).position;
+            most = std::max(most, base::norm(off));
+        }
+    }
+    return most;
+}
+
+TEST(Mirror, WhatFliesAndSlidesIsMirroredToTheBitAndMostOfTheRestToRounding)
+{
+    int others = 0;
+    int alike = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        const RandomPlay play = random_play(seed, {.bodies_max = 4});
+        const RandomPlay mirror = mirrored(play);
+        World world = World::freeze(play.description, play.options).value();
+        World reflected = World::freeze(mirror.description, mirror.options).value();
+        ASSERT_EQ(world.profile(), reflected.profile());
+        const double off = apart(world, reflected, play, mirror);
+        if (world.profile() <= Profile::sliding_coulomb) {
+            EXPECT_EQ(off, 0.0) << "seed " << seed;
+            continue;
+        }
+        ++others;
+        if (off <= 1e-9 * play.description.bodies[0].half.x) ++alike;
+    }
+    // Rounding decides which of two equal faces carries: then the futures part. Measured over 2000
+    // scenes of up to 40 bodies: 0.84 are within 1e-9 of the size to the end, 0.91 within 1e-3.
+    EXPECT_GE(alike, others * 3 / 4);
+}
+
+TEST(Mirror, ASymmetricSqueezeStaysInTheMiddleExactly)
+{
+    for (const Profile profile : {Profile::sliding, Profile::lone, Profile::few, Profile::many}) {
+        scene::Description description = scene::paper_scene();
+        description.bodies.resize(1);
+        description.bodies[0].position = {};
+        description.bodies[0].turning =
+            profile == Profile::sliding ? scene::Turning::locked : scene::Turning::free;
+        World world = World::freeze(description, {.profile = profile}).value();
+        for (int i = 0; i < 500; ++i) {
+            const double x = 0.027 - 1e-5 * (i % 300);
+            ASSERT_FALSE(world.hip(0, {.position = {{-x, 0.0, 0.0}}}));
+            ASSERT_FALSE(world.hip(1, {.position = {{x, 0.0, 0.0}}}));
+            world.tick();
+            ASSERT_EQ(world.body(0).position.x(), 0.0) << scene::name_of(profile) << ' ' << i;
+        }
+    }
+}
+
+} // namespace
+} // namespace hapnet::test
