@@ -16,11 +16,9 @@ namespace {
 /// Why a vector cannot be taken.
 std::optional<Refusal> objection(const glm::dvec3& v, double most)
 {
-    if (!base::is_finite(v)) return Refusal::not_finite;
-    if (std::abs(v.x) > most || std::abs(v.y) > most || std::abs(v.z) > most) {
-        return Refusal::out_of_range;
-    }
-    return std::nullopt;
+    const bool is_within = std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
+    if (is_within) return std::nullopt; // and no NaN
+    return base::is_finite(v) ? Refusal::out_of_range : Refusal::not_finite;
 }
 
 std::optional<Refusal> objection(const glm::dquat& q)

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <vector>
 
@@ -62,6 +63,11 @@ struct Rig {
             distance = -depth[axis];
         }
         HipSpring spring;
+        for (int axis = 0; axis < 3; ++axis) {
+            const glm::dvec3 others = glm::abs(centre) * (1.0 - glm::abs(normal));
+            if (std::abs(normal[axis]) == 1.0)
+                spring.is_amid_face = glm::all(glm::lessThanEqual(others, 0.9 * half));
+        }
         spring.normal = axes * normal;
         spring.arm = axes * nearest;
         spring.radius = hand.radius;

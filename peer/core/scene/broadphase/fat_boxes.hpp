@@ -48,6 +48,7 @@ private:
         double ease = 0.0;   // an upper bound of its inverse moments of inertia, 1/(kg m^2)
     };
 
+    [[nodiscard]] bool has_left(const Bodies& bodies, Slot slot) const;
     [[nodiscard]] Size size_of(const BodyForm& form) const;
     [[nodiscard]] Box path(const Bodies& bodies, Slot slot, double wander) const;
 

@@ -19,6 +19,7 @@ struct ContactMemory {
     std::array<double, manifold_points_max> normal_impulse{};
     glm::dvec3 friction_impulse{0.0}; // tangential, world's frame
     double torsion_impulse = 0.0;
+    std::uint32_t ticks = 0; // since its impulses were corrected
 };
 
 /// Whether the contact carried anything last tick: then what sleeps on it wakes with it.

@@ -49,13 +49,19 @@ Manifold collide(const PlaneSurface& plane, const OrientedBox& box, double margi
     manifold.normal = normal;
     if (height - (std::abs(rise[0]) + std::abs(rise[1]) + std::abs(rise[2])) > margin)
         return manifold;
+    // The corners of the upper and lower edges along z, around their middles.
+    const glm::dvec3 sum = edge[0] + edge[1];
+    const glm::dvec3 difference = edge[0] - edge[1];
+    const double rise_sum = rise[0] + rise[1];
+    const double rise_difference = rise[0] - rise[1];
     for (const std::uint32_t corner : deepest(rise)) {
-        const double x = (corner & 1U) != 0 ? 1.0 : -1.0;
-        const double y = (corner & 2U) != 0 ? 1.0 : -1.0;
+        const bool is_sum = corner == 0 || corner == 3 || corner == 4 || corner == 7;
+        const double across = (corner & 1U) != 0 ? 1.0 : -1.0;
         const double z = (corner & 4U) != 0 ? 1.0 : -1.0;
-        const double separation = height + (x * rise[0] + y * rise[1] + z * rise[2]);
+        const double separation =
+            height + (across * (is_sum ? rise_sum : rise_difference) + z * rise[2]);
         if (separation > margin) continue;
-        const glm::dvec3 place = box.centre + (x * edge[0] + y * edge[1] + z * edge[2]);
+        const glm::dvec3 place = box.centre + (across * (is_sum ? sum : difference) + z * edge[2]);
         manifold.points[manifold.count++] = {.position = place - (0.5 * separation) * normal,
                                              .separation = separation,
                                              .feature = corner};

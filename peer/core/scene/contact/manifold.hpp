@@ -38,4 +38,13 @@ struct Manifold {
     [[nodiscard]] std::span<ContactPoint> touching() { return {points.data(), count}; }
 };
 
+/// Whether some point is at most so far above the surface.
+[[nodiscard]] inline bool lies_on(const Manifold& manifold, double within)
+{
+    for (const ContactPoint& point : manifold.touching()) {
+        if (point.separation <= within) return true;
+    }
+    return false;
+}
+
 } // namespace hapnet::scene

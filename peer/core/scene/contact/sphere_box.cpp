@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/scene/contact/sphere_box.hpp"
 
+#include "peer/core/scene/motion/per_axis.hpp"
+#include "peer/core/scene/vector.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace hapnet::scene {
 
 namespace {
-
-double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 glm::dvec3 closest_point(const glm::dvec3& half, const glm::dvec3& place)
 {
@@ -83,26 +85,36 @@ Face outward_face(const glm::dvec3& outward)
     return face_towards(farthest, outward[farthest]);
 }
 
-SphereOverlap behind(const Face& face, const OrientedBox& box, const glm::dvec3& place,
-                     double radius)
+PlaceOverlap behind(const Face& face, const glm::dvec3& half, const glm::dvec3& place,
+                    double radius)
 {
-    const double side = face.sign;
-    glm::dvec3 surface = place;
-    surface[face.axis] = side * box.half[face.axis];
-    return {.depth = radius + (box.half[face.axis] - along(face, place)),
-            .normal = side * box.axes[face.axis],
-            .point = box.centre + box.axes * surface};
+    PlaceOverlap overlap{.depth = radius + (half[face.axis] - along(face, place)), .point = place};
+    overlap.normal[face.axis] = face.sign;
+    overlap.point[face.axis] = face.sign * half[face.axis];
+    return overlap;
+}
+
+/// The side of a box on which a place is, along one axis: -1, 1, or 0 between its faces.
+int side_of(double half, double place)
+{
+    return static_cast<int>(place > half) - static_cast<int>(place < -half);
+}
+
+SphereOverlap in_world(const OrientedBox& box, const PlaceOverlap& overlap)
+{
+    return {.depth = overlap.depth,
+            .normal = box.axes * overlap.normal,
+            .point = box.centre + box.axes * overlap.point};
 }
 
 } // namespace
 
-std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const glm::dvec3& centre,
-                                                   double radius)
+std::optional<PlaceOverlap> SphereBoxMemory::find_here(const glm::dvec3& half,
+                                                       const glm::dvec3& place, double radius)
 {
-    const glm::dvec3 place = seen_from(box, centre);
-    if (entered_ && is_behind(*entered_, box.half, place))
-        return behind(*entered_, box, place, radius);
-    const glm::dvec3 closest = closest_point(box.half, place);
+    if (entered_ && is_behind(*entered_, half, place))
+        return behind(*entered_, half, place, radius);
+    const glm::dvec3 closest = closest_point(half, place);
     const glm::dvec3 outward = place - closest;
     const double gap = length(outward);
     if (gap >= radius) {
@@ -111,32 +123,69 @@ std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const
     }
     if (gap > 0.0) {
         entered_ = outward_face(outward);
-        return SphereOverlap{.depth = radius - gap,
-                             .normal = box.axes * (outward / gap),
-                             .point = box.centre + box.axes * closest};
+        return PlaceOverlap{.depth = radius - gap, .normal = outward / gap, .point = closest};
     }
-    entered_ = nearest_face(box.half, place);
-    return behind(*entered_, box, place, radius);
+    entered_ = nearest_face(half, place);
+    return behind(*entered_, half, place, radius);
+}
+
+std::optional<PlaceOverlap> SphereBoxMemory::find(const glm::dvec3& half, const glm::dvec3& place,
+                                                  double radius, const glm::dvec3* before)
+{
+    if (before == nullptr) return find_here(half, place, radius);
+    const PerAxis here = per_axis(place);
+    const PerAxis there = per_axis(*before);
+    const PerAxis edge = per_axis(half);
+    const std::array<int, 3> sides{side_of(half.x, place.x), side_of(half.y, place.y),
+                                   side_of(half.z, place.z)};
+    const std::size_t axis = sides[0] != 0 ? 0 : sides[1] != 0 ? 1 : 2;
+    const int side = sides[axis];
+    const bool is_face = std::abs(sides[0]) + std::abs(sides[1]) + std::abs(sides[2]) == 1;
+    const bool stays = side != 0 && side_of(edge[axis], there[axis]) == side;
+    const bool is_through =
+        entered_ && static_cast<std::size_t>(entered_->axis) == axis && entered_->sign == -side;
+    if (stays && !is_through) {
+        // It was and is in front of a face: it went in nowhere.
+        const double gap = side * here[axis] - edge[axis];
+        if (gap >= radius) {
+            forget();
+            return std::nullopt;
+        }
+        if (is_face) {
+            entered_ = Face{static_cast<std::int8_t>(axis), static_cast<std::int8_t>(side)};
+            PerAxis normal{};
+            PerAxis point = here;
+            normal[axis] = side;
+            point[axis] = side * edge[axis];
+            constexpr double amid = 0.9;
+            int within = 0;
+            for (const std::size_t i : {0U, 1U, 2U}) within += std::abs(here[i]) <= amid * edge[i];
+            return PlaceOverlap{radius - gap, vector(normal), vector(point), within == 2};
+        }
+    }
+    const bool was_behind = entered_ && is_behind(*entered_, half, *before);
+    const bool was_put = length(place - *before) > reach(half);
+    if (was_put || (was_behind && !is_behind(*entered_, half, place)))
+        forget();
+    else if (!was_behind)
+        entered_ = entry(half, *before, place);
+    return find_here(half, place, radius);
+}
+
+std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const glm::dvec3& centre,
+                                                   double radius)
+{
+    const auto overlap = find(box.half, seen_from(box, centre), radius, nullptr);
+    if (!overlap) return std::nullopt;
+    return in_world(box, *overlap);
 }
 
 std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const glm::dvec3& centre,
                                                    double radius, const glm::dvec3& before)
 {
-    const glm::dvec3 place = seen_from(box, centre);
-    const bool was_behind = entered_ && is_behind(*entered_, box.half, before);
-    const bool was_put = length(place - before) > reach(box.half);
-    if (was_put || (was_behind && !is_behind(*entered_, box.half, place)))
-        forget();
-    else if (!was_behind)
-        entered_ = entry(box.half, before, place);
-    return find(box, centre, radius);
-}
-
-glm::dvec3 seen_from(const OrientedBox& box, const glm::dvec3& point)
-{
-    const glm::dvec3 offset = point - box.centre;
-    return {glm::dot(box.axes[0], offset), glm::dot(box.axes[1], offset),
-            glm::dot(box.axes[2], offset)};
+    const auto overlap = find(box.half, seen_from(box, centre), radius, &before);
+    if (!overlap) return std::nullopt;
+    return in_world(box, *overlap);
 }
 
 double distance(const OrientedBox& box, const glm::dvec3& point)

@@ -4,6 +4,7 @@
 
 #include "peer/core/scene/hip/midpoint.hpp"
 #include "peer/core/scene/hip/passage.hpp"
+#include "peer/core/scene/hip/steady.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <array>
@@ -91,6 +92,7 @@ void advance(MovingBody& body, const Answer& answer, std::span<const HipSpring> 
         advance_freely(body, answer, tick);
         return;
     }
+    if (press_steadily(body, answer, springs, work, tick)) return;
     for (HipWork& each : work) each = {};
     const Picked picked = pick(body, answer, springs, tick);
     if (!picked.is_closed) {

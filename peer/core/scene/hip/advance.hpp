@@ -23,9 +23,10 @@ struct Answer {
     glm::dvec3 half{0.0}; // half the edges of the box, on which its hands slide and turn
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame, at the start of the tick
-    bool turns_evenly = false;       // turning does not change it: a cube, or one axis alone
-    glm::dvec3 acceleration{0.0};    // of everything but the hands
-    glm::dvec3 torque{0.0};          // of everything but the hands, N m
+    bool turns_evenly =
+        false; // turning does not change it, and it is diagonal: a cube, or one axis
+    glm::dvec3 acceleration{0.0}; // of everything but the hands
+    glm::dvec3 torque{0.0};       // of everything but the hands, N m
 };
 
 /// A hand's spring on a body: unilateral along its normal, or, when it holds, in all directions.
@@ -38,6 +39,8 @@ struct HipSpring {
     double stiffness = 0.0;
     double damping = 0.0;
     double force_max = std::numeric_limits<double>::infinity();
+    // Whether it presses a face (holds not), nine tenths of its half edges from the middle at most.
+    bool is_amid_face = false;
     bool holds = false;      // it also pulls, and `stretch` says how far in every direction
     glm::dvec3 stretch{0.0}; // hand minus where it is held; used when it holds
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/scene/hip/passage.hpp"
 
+#include "peer/core/scene/hip/settle.hpp"
 #include "peer/core/scene/motion/rotation.hpp"
 
 #include <algorithm>
@@ -23,27 +24,6 @@ glm::dmat3 turned_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& a
 }
 
 bool is_zero(const glm::dmat3& m) { return m[0][0] == 0.0 && m[1][1] == 0.0 && m[2][2] == 0.0; }
-
-/// The energy of a spring; beyond its greatest force it grows evenly.
-double energy(const Press& press, double depth)
-{
-    if (depth <= 0.0) return 0.0;
-    const double bend = press.force_max / press.stiffness;
-    if (depth <= bend) return 0.5 * press.stiffness * depth * depth;
-    return press.force_max * (depth - 0.5 * bend);
-}
-
-/// How much of an impulse a spring can give besides what it gave: not more together than `most`.
-double share_within(const glm::dvec3& given, const glm::dvec3& more, double most)
-{
-    if (std::isinf(most)) return 1.0;
-    const double square = glm::dot(more, more);
-    const double along = glm::dot(given, more);
-    const double room = most * most - glm::dot(given, given);
-    if (square + 2.0 * along <= room) return 1.0;
-    if (room <= 0.0) return 0.0;
-    return (std::sqrt(along * along + square * room) - along) / square;
-}
 
 } // namespace
 
@@ -69,12 +49,7 @@ Passage<count>::Passage(MovingBody& body, const Answer& answer, double tick)
       turns_{!is_zero(answer.inverse_inertia)},
       inverse_inertia_{answer.inverse_inertia},
       axes_{axes_of(body.orientation)}
-{
-    const glm::dvec3& light = answer.inverse_mass;
-    const double most = std::max(std::max(light.x, light.y), light.z);
-    const double mass = most > 0.0 ? 1.0 / most : 0.0;
-    mass_ = {light.x > 0.0 ? mass : 0.0, light.y > 0.0 ? mass : 0.0, light.z > 0.0 ? mass : 0.0};
-}
+{}
 
 template <std::size_t count>
 void Passage<count>::set(std::size_t i, const HipSpring& spring, HipWork& work)
@@ -280,21 +255,9 @@ void Passage<count>::settle()
     constexpr double unturned = 1e-10;
     if (turned_ < unturned * unturned) return;
     for (std::size_t i = 0; i < count; ++i) {
-        const Press& press = presses_[i];
-        if (press.phase == Phase::apart) continue;
-        const double missed = energy(press, holds_[i].depth) - energy(press, press.depth);
-        const glm::dvec3 velocity = body_.velocity - springs_[i]->velocity;
-        const glm::dvec3 momentum = mass_ * velocity;
-        const double twice =
-            glm::dot(momentum, velocity) +
-            glm::dot(body_.angular_momentum, inverse_inertia_ * body_.angular_momentum);
-        constexpr double most = 0.03; // more cannot come from a geometry that is a little off
-        if (!(twice > 0.0)) continue;
-        double scale = std::clamp(-missed / twice, -most, most);
-        scale *= share_within(works_[i]->impulse, scale * momentum, press.force_max * tick_);
-        body_.velocity += scale * (answer_.inverse_mass * momentum);
-        body_.angular_momentum *= 1.0 + scale;
-        works_[i]->impulse += scale * momentum;
+        if (presses_[i].phase == Phase::apart) continue;
+        scene::settle({body_, answer_, inverse_inertia_, tick_}, *springs_[i],
+                      {presses_[i].depth, holds_[i].depth}, *works_[i]);
     }
 }
 

@@ -49,7 +49,6 @@ private:
     const Answer& answer_;
     double tick_;
     double left_;
-    glm::dvec3 mass_{0.0}; // 0 where locked
     bool turns_;
     double turned_ = 0.0;        // the farthest that a normal turned in a phase, squared
     glm::dmat3 inverse_inertia_; // now

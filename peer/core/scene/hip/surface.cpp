@@ -31,7 +31,10 @@ Hold Surface::at(const glm::dmat3& axes, const glm::dvec3& hand) const
     const glm::dvec3 centre = hand * axes;
     double distance = glm::dot(face_, centre) - glm::dot(glm::abs(face_), half_);
     glm::dvec3 normal = face_;
-    if (distance >= 0.0 || !is_face_) {
+    // Beside the face its plane is nothing: far out there it would turn the body by a long lever.
+    const glm::dvec3 beside = (1.0 - glm::abs(face_)) * (glm::abs(centre) - half_);
+    const bool is_beside = beside.x > 0.0 || beside.y > 0.0 || beside.z > 0.0;
+    if (distance >= 0.0 || !is_face_ || is_beside) {
         const glm::dvec3 away = centre - glm::clamp(centre, -half_, half_);
         const double square = glm::dot(away, away);
         if (square > 0.0) {

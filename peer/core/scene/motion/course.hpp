@@ -41,12 +41,14 @@ struct Motion {
 /// A coordinate's motion in closed form from a moment on: way'' = push + ramp t - damping way' -
 /// stiffness way. A course without a kernel stays where it is.
 struct Course {
-    const Kernel* kernel = nullptr;
-    double speed = 0.0; // at the start
-    double push = 0.0;  // acceleration at the start, but for the damping
-    double ramp = 0.0;  // by which `push` grows, m/s^3
+    const Kernel* kernel;
+    double speed; // at the start
+    double push;  // acceleration at the start, but for the damping
+    double ramp;  // by which `push` grows, m/s^3
 
     [[nodiscard]] bool moves() const { return kernel != nullptr; }
+    /// Whether it stays where it is under any kernel.
+    [[nodiscard]] bool is_idle() const { return speed == 0.0 && push == 0.0 && ramp == 0.0; }
     [[nodiscard]] Motion at(const Response& r) const
     {
         return {speed * r.step + push * r.push + ramp * r.ramp,
@@ -73,8 +75,8 @@ struct Course {
 /// a obeys the law without forces, a'' + damping a' + stiffness a = 0, whose energy a'^2 +
 /// stiffness a^2 never grows.
 struct Bounds {
-    double acceleration = 0.0;
-    double jerk = 0.0;
+    double acceleration;
+    double jerk;
 };
 
 [[nodiscard]] inline Bounds bounds(const Kernel& kernel, double acceleration, double jerk,

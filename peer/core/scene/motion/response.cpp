@@ -12,35 +12,48 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr int terms_max = 28;
-
-constexpr std::array<double, terms_max + 4> reciprocals = [] {
-    std::array<double, terms_max + 4> r{};
+constexpr std::array<double, 24> reciprocals = [] {
+    std::array<double, 24> r{};
     for (std::size_t n = 1; n < r.size(); ++n) r[n] = 1.0 / static_cast<double>(n);
     return r;
 }();
 
-/// Taylor's series, for damping * time <= 1 and stiffness * time^2 <= 1. With s_n = S^(n)(0):
-/// s_0 = 0, s_1 = 1, s_(n+2) = -damping s_(n+1) - stiffness s_n; a term is s_n t^(n-1) / n!.
-Response series(const Law& law, double t)
+/// 1/n!
+constexpr std::array<double, 24> inverse_factorials = [] {
+    std::array<double, 24> all{1.0, 1.0};
+    for (std::size_t n = 2; n < all.size(); ++n) all[n] = all[n - 1] / static_cast<double>(n);
+    return all;
+}();
+
+/// The rate (n = 0), the step (1), the push (2), the ramp (3) and their further integrals, each in
+/// units of time^n, are tied to each other by the law itself:
+/// y_n = 1/n! - b y_(n+1) - k y_(n+2) with b = damping time and k = stiffness time^2. From `last`
+/// on they are taken as a free body's 1/n!; every step back from there makes that error smaller.
+template <std::size_t last>
+Response series(double b, double k, double t)
 {
-    const double b = law.damping * t;
-    const double k = law.stiffness * t * t;
-    double before = 0.0;
-    double term = 1.0;
-    Response sum{1.0, 1.0, 0.5, 1.0 / 6.0};
-    for (std::size_t n = 2; n < terms_max; ++n) {
-        const double next = -(b * term + k * before * reciprocals[n - 1]) * reciprocals[n];
-        before = term;
-        term = next;
-        const double push = term * reciprocals[n + 1];
-        sum.step += term;
-        sum.rate += term * static_cast<double>(n);
-        sum.push += push;
-        sum.ramp += push * reciprocals[n + 2];
-        if (std::abs(term) + std::abs(before) < 1e-18) break;
+    double ramp = inverse_factorials[last];
+    double beyond = inverse_factorials[last + 1];
+    const auto step_back = [&](std::size_t n, double next, double next_but_one) {
+        return inverse_factorials[n] - k * next_but_one - b * next;
+    };
+    for (std::size_t n = last; n > 3; --n) {
+        const double one = step_back(n - 1, ramp, beyond);
+        beyond = ramp;
+        ramp = one;
     }
-    return {sum.rate, sum.step * t, sum.push * (t * t), sum.ramp * (t * t * t)};
+    const double push = step_back(2, ramp, beyond);
+    const double step = step_back(1, push, ramp);
+    const double rate = step_back(0, step, push);
+    const double square = t * t;
+    return {rate, step * t, push * square, ramp * (square * t)};
+}
+
+/// For damping * time <= 1 and stiffness * time^2 <= 1: so many that what is left out is below
+/// 2e-17 of the free body's.
+Response series(double b, double k, double t)
+{
+    return b <= 1.0 / 8.0 && k <= 1.0 / 32.0 ? series<12>(b, k, t) : series<19>(b, k, t);
 }
 
 /// The integrals of a decay: of exp(-rate t) once (1) and twice (2).
@@ -52,7 +65,7 @@ Decay decay(double rate, double t)
 {
     const double z = rate * t;
     if (z <= 1.0) {
-        const Response all = series({.damping = rate}, t); // its step is the decay's integral
+        const Response all = series(z, 0.0, t); // its step is the decay's integral
         return {all.rate, all.step, all.push};
     }
     const double value = base::exp(-std::min(z, 700.0));
@@ -126,7 +139,7 @@ Response respond(const Law& law, double time)
     const double b = law.damping * time;
     const double k = law.stiffness * time * time;
     if (time <= 0.0) return {};
-    if (b <= 1.0 && k <= 1.0) return series(law, time);
+    if (b <= 1.0 && k <= 1.0) return series(b, k, time);
 
     const double half = 0.5 * law.damping;
     const double square = law.stiffness - half * half; // of the frequency

@@ -51,13 +51,20 @@ inline constexpr double small_turn_max = 0.6168; // (pi/4)^2
     return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
 
+/// The same for what is unit but for the rounding of a few products: one of Newton's steps.
+[[nodiscard]] inline glm::dquat unit_again(const glm::dquat& q)
+{
+    const double scale = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
+}
+
 /// The axes of a body in the world: the columns of a rotation.
 [[nodiscard]] glm::dmat3 axes_of(const glm::dquat& orientation);
 
-/// `orientation` after a turn by `angle` (world's frame), unit.
+/// `orientation`, which is unit, after a turn by `angle` (world's frame).
 [[nodiscard]] inline glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& angle)
 {
-    return unit(turn_by(angle) * orientation);
+    return unit_again(turn_by(angle) * orientation);
 }
 
 /// How a body turns that nothing touches.

@@ -17,12 +17,18 @@ constexpr double even_pressure = 0.5410;
 void set_tangents(ContactBlock& block)
 {
     const glm::dvec3& n = block.normal;
-    // The axis that the normal is farthest from: the cross product is never short.
+    // Across the axis that the normal is farthest from: the cross product is never short.
     const glm::dvec3 size = glm::abs(n);
-    glm::dvec3 axis{0.0};
-    axis[size.x <= size.z ? (size.x <= size.y ? 0 : 1) : (size.z <= size.y ? 2 : 1)] = 1.0;
-    const glm::dvec3 t = glm::cross(axis, n);
-    block.tangent_1 = t / std::sqrt(glm::dot(t, t));
+    glm::dvec3 t{0.0};
+    if (size.x <= size.y && size.x <= size.z) {
+        t = {0.0, -n.z, n.y};
+    } else if (size.z <= size.y) {
+        t = {-n.y, n.x, 0.0};
+    } else {
+        t = {n.z, 0.0, -n.x};
+    }
+    const double square = glm::dot(t, t);
+    block.tangent_1 = square == 1.0 ? t : t / std::sqrt(square);
     block.tangent_2 = glm::cross(n, block.tangent_1);
 }
 
@@ -60,7 +66,9 @@ void start_from(ContactBlock& block, const Manifold& manifold, const ContactMemo
     block.impulse = {};
     bool any = false;
     for (std::uint32_t i = 0; i < manifold.count; ++i) {
-        for (std::uint32_t j = 0; j < memory.count; ++j) {
+        // Mostly they are the same in the same order.
+        const bool is_same = i < memory.count && memory.feature[i] == manifold.points[i].feature;
+        for (std::uint32_t j = is_same ? i : 0; j < memory.count; ++j) {
             if (memory.feature[j] != manifold.points[i].feature) continue;
             block.impulse.normal[i] = memory.normal_impulse[j];
             any = any || memory.normal_impulse[j] > 0.0;
@@ -71,6 +79,32 @@ void start_from(ContactBlock& block, const Manifold& manifold, const ContactMemo
     block.impulse.tangent_1 = glm::dot(memory.friction_impulse, block.tangent_1);
     block.impulse.tangent_2 = glm::dot(memory.friction_impulse, block.tangent_2);
     block.impulse.torsion = memory.torsion_impulse;
+}
+
+glm::dvec3 friction_of(const ContactBlock& block)
+{
+    return block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
+}
+
+double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+/// How much of a tick's correction to keep. A small one also stops the speed that has gathered
+/// since the last: kept whole, it would be that much too much in the next tick, and a contact in
+/// balance would be corrected again and again, to and fro. What was missing in each tick is an even
+/// share of it.
+double share_to_keep(const ContactBlock& block, double weight, ContactMemory& memory)
+{
+    constexpr double small = 1e-8;
+    double change = sum_of(friction_of(block) - memory.friction_impulse);
+    for (std::uint32_t i = 0; i < block.count; ++i) {
+        change += std::abs(block.impulse.normal[i] - block.begun[i]);
+    }
+    constexpr double rounding = 1e-14;
+    ++memory.ticks;
+    if (change <= rounding * weight) return 1.0;
+    const double share = change <= small * weight ? 1.0 / memory.ticks : 1.0;
+    memory.ticks = 0;
+    return share;
 }
 
 struct Jacobian {
@@ -99,6 +133,15 @@ std::array<Jacobian, 6> jacobian(const ContactBlock& block, const glm::dvec3& ar
             push(block.tangent_1), push(block.tangent_2),           Jacobian{none, block.normal}};
 }
 
+/// Whether what a body's locks leave it to give way along the normal is next to nothing. Then it
+/// does not: else it would be thrown aside as by a wedge.
+bool gives_way_by_a_hair(const glm::dvec3& normal, const glm::dvec3& inverse_mass)
+{
+    constexpr double hair = 1e-6; // along the normal, of what it does where it is not locked
+    const double most = std::max(inverse_mass.x, std::max(inverse_mass.y, inverse_mass.z));
+    return glm::dot(normal, inverse_mass * normal) < hair * most;
+}
+
 } // namespace
 
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
@@ -117,20 +160,25 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
 
 void remember(const ContactBlock& block, double weight, ContactMemory& memory)
 {
+    const double share = share_to_keep(block, weight, memory);
+    const auto kept = [share](const auto& before, const auto& now) {
+        return share < 1.0 ? before + share * (now - before) : now;
+    };
     memory.count = block.count;
     memory.feature = block.feature;
-    memory.normal_impulse = block.impulse.normal;
-    memory.friction_impulse =
-        block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
-    memory.torsion_impulse = block.impulse.torsion;
+    for (std::uint32_t i = 0; i < block.count; ++i) {
+        memory.normal_impulse[i] = kept(block.begun[i], block.impulse.normal[i]);
+    }
+    memory.friction_impulse = kept(memory.friction_impulse, friction_of(block));
+    memory.torsion_impulse = kept(memory.torsion_impulse, block.impulse.torsion);
     const double most =
         2.0 * (block.begun[0] + block.begun[1] + block.begun[2] + block.begun[3]) + weight;
     const double sum = block.normal_sum();
     if (sum <= most) return;
-    const double share = most / sum;
-    for (double& impulse : memory.normal_impulse) impulse *= share;
-    memory.friction_impulse *= share;
-    memory.torsion_impulse *= share;
+    const double room = most / sum;
+    for (double& impulse : memory.normal_impulse) impulse *= room;
+    memory.friction_impulse *= room;
+    memory.torsion_impulse *= room;
 }
 
 Modal velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
@@ -154,16 +202,24 @@ void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& s
 {
     block.bend = {};
     const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
-        if (spin == glm::dvec3{0.0}) return;
-        const auto around = [&](const glm::dvec3& at) {
-            return share * glm::cross(spin, glm::cross(spin, at));
+        // Of what turns far in a tick that term alone says nothing: it fades out.
+        constexpr double far = 0.1; // radians
+        const double fades = tick * tick * glm::dot(spin, spin) / (far * far);
+        if (fades == 0.0 || fades >= 1.0) return;
+        share *= 1.0 - fades;
+        // spin x (spin x at) is spin (spin at) - at spin^2, here in the contact's own axes.
+        const auto in_contact = [&](const glm::dvec3& v) {
+            return glm::dvec3{glm::dot(block.normal, v), glm::dot(block.tangent_1, v),
+                              glm::dot(block.tangent_2, v)};
         };
-        const glm::dvec3 anchor = around(arm);
-        block.bend[0] += glm::dot(block.normal, anchor);
-        block.bend[1] += glm::dot(block.normal, around(block.tangent_2));
-        block.bend[2] -= glm::dot(block.normal, around(block.tangent_1));
-        block.bend[3] += glm::dot(block.tangent_1, anchor);
-        block.bend[4] += glm::dot(block.tangent_2, anchor);
+        const glm::dvec3 turn = in_contact(spin);
+        const glm::dvec3 at = in_contact(arm);
+        const glm::dvec3 anchor = share * (glm::dot(turn, at) * turn - glm::dot(turn, turn) * at);
+        block.bend[0] += anchor.x;
+        block.bend[1] += share * (turn.x * turn.z);
+        block.bend[2] -= share * (turn.x * turn.y);
+        block.bend[3] += anchor.y;
+        block.bend[4] += anchor.z;
     };
     if (block.b != 0) add(spin_b, block.arm_b, tick);
     if (block.a != 0) add(spin_a, block.arm_a, -tick);
@@ -204,8 +260,13 @@ void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& resp
 void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b)
 {
     block.matrix = {};
-    if (block.a != 0) add_body(block.matrix, jacobian(block, block.arm_a), a);
-    if (block.b != 0) add_body(block.matrix, jacobian(block, block.arm_b), b);
+    const auto rows = [&](const glm::dvec3& arm, const BodyResponse& body) {
+        std::array<Jacobian, 6> all = jacobian(block, arm);
+        if (gives_way_by_a_hair(block.normal, body.inverse_mass)) all[0].linear = glm::dvec3{0.0};
+        return all;
+    };
+    if (block.a != 0) add_body(block.matrix, rows(block.arm_a, a), a);
+    if (block.b != 0) add_body(block.matrix, rows(block.arm_b, b), b);
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = i + 1; j < 6; ++j) block.matrix[i][j] = block.matrix[j][i];
     }

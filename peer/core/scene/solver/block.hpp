@@ -109,7 +109,8 @@ void remember(const ContactBlock& block, double weight, ContactMemory& memory);
                                 const BodyMotion& b);
 /// While a body turns, the points of it that touch go around its centre: what that adds to their
 /// velocity within a tick. Without it, a box that tips over an edge would gain energy. Second
-/// order. Lowers the least speeds to what is met by standing still.
+/// order; left out for what turns farther than a tenth of a radian. Lowers the least speeds to
+/// what is met by standing still.
 void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& spin_b, double tick);
 
 [[nodiscard]] Modal modal(const ContactBlock& block, const ContactImpulse& impulse);

@@ -28,6 +28,8 @@ public:
           answer_{block.impulse}
     {}
 
+    /// Whether slip() has found the answer.
+    [[nodiscard]] bool has_settled() const { return has_settled_; }
     [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
     [[nodiscard]] const Modal& impulse() const { return modal_; }
 
@@ -78,7 +80,6 @@ private:
     {
         return answer_.normal[0] + answer_.normal[1] + answer_.normal[2] + answer_.normal[3];
     }
-    [[nodiscard]] double slip_answer() const;
     double slip_once(double step);
 
     ContactBlock& block_;
@@ -87,6 +88,7 @@ private:
     Modal now_; // with the answer
     ContactImpulse answer_;
     bool is_at_limit_ = false;
+    bool has_settled_ = false;
 };
 
 PointSet Trial::pushing(double quiet) const
@@ -243,18 +245,6 @@ void Trial::push(double quiet)
     move_normals();
 }
 
-/// The largest answer of the slip to friction: no step of one over it overshoots.
-double Trial::slip_answer() const
-{
-    const double arm = block_.torsion_arm;
-    const auto& m = block_.matrix;
-    const double coupled_1 = std::abs(m[5][3]) * arm;
-    const double coupled_2 = std::abs(m[5][4]) * arm;
-    const double across = std::abs(m[4][3]);
-    return std::max({m[3][3] + across + coupled_1, m[4][4] + across + coupled_2,
-                     m[5][5] * arm * arm + coupled_1 + coupled_2});
-}
-
 /// Moves friction toward the direction against the slip; returns by how much.
 double Trial::slip_once(double step)
 {
@@ -276,7 +266,7 @@ double Trial::slip_once(double step)
 
 bool Trial::slip(double quiet, int rounds_max)
 {
-    const double most = slip_answer();
+    const double most = slip_answer(block_);
     const double step = most > 0.0 ? 1.0 / most : 0.0;
     constexpr double settled = 1e-14; // of the impulses: rounding
     push(quiet);
@@ -285,7 +275,8 @@ bool Trial::slip(double quiet, int rounds_max)
         const double change = slip_once(step);
         reached = is_at_limit_;
         push(quiet);
-        if (change <= settled * normal_sum()) return reached;
+        has_settled_ = change <= settled * normal_sum();
+        if (has_settled_) return reached;
     }
     slip_once(0.0); // within the limit
     return reached;
@@ -298,6 +289,18 @@ double rounding_of(const ContactBlock& block, const Modal& velocity)
     return share * (std::abs(velocity[0]) + std::abs(velocity[3]) + std::abs(velocity[4]) +
                     block.torsion_arm *
                         (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
+}
+
+/// Whether friction is at its limit and opposes a slip.
+bool slips_already(const ContactBlock& block, const Modal& velocity, double quiet)
+{
+    const ContactImpulse& held = block.impulse;
+    const double along = held.tangent_1 * velocity[3] + held.tangent_2 * velocity[4];
+    const double size2 = held.tangent_1 * held.tangent_1 + held.tangent_2 * held.tangent_2;
+    const double limit = block.friction * block.normal_sum();
+    constexpr double nearly = 0.99;
+    return size2 >= nearly * limit * limit && size2 > 0.0 && along < 0.0 &&
+           along * along > quiet * quiet * size2;
 }
 
 Modal finish(ContactBlock& block, const Trial& trial, const Trial& begun)
@@ -346,11 +349,15 @@ Modal solve(ContactBlock& block, const Modal& velocity, double quiet)
     if (block.friction == 0.0) return solve_normals(block, velocity, quiet);
     const double still = std::max(quiet, rounding_of(block, velocity));
     const Trial begun{block, velocity};
-    Trial trial = begun;
-    if (trial.stick(still)) return finish(block, trial, begun);
-    Trial slipping = begun;
     constexpr int rounds = 8;
-    slipping.slip(still, rounds);
+    // What slipped at the end of the last tick mostly slips on.
+    const bool slips = slips_already(block, velocity, still);
+    Trial slipping = begun;
+    if (slips && slipping.slip(still, rounds) && slipping.has_settled())
+        return finish(block, slipping, begun);
+    Trial sticking = begun;
+    if (sticking.stick(still)) return finish(block, sticking, begun);
+    if (!slips) slipping.slip(still, rounds);
     return finish(block, slipping, begun);
 }
 

@@ -76,6 +76,9 @@ private:
     template <typename Do>
     void for_moving_islands(const Task& task, Do&& act);
     SolverOutcome run_island(const Task& task, Island island);
+    void save(const Task& task, Island island);
+    void bring_back(const Task& task, Island island);
+    void lose_energy(const Task& task, Island island);
     double sweep(const Task& task, Island island);
     void note(Island island, std::span<double> impulses) const;
     void jump(const Task& task, Island island);

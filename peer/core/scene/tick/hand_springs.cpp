@@ -10,7 +10,8 @@ namespace hapnet::scene {
 
 namespace {
 
-double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
+/// Not less than the length, and no root to take.
+double length_most(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 /// The spring and damper alone, at one moment.
 double force_at(const HipDescription& hips, double depth, double closing)
@@ -57,12 +58,17 @@ double steady_force(const HipDescription& hips, double depth, double closing, do
 
 } // namespace
 
-HandSprings::HandSprings(const Frozen& frozen) : springs_{frozen.hips.count * touched_per_hand_max}
+HandSprings::HandSprings(const Frozen& frozen)
+    : fall_{frozen.tick * frozen.tick * std::sqrt(glm::dot(frozen.gravity, frozen.gravity))},
+      springs_{frozen.hips.count * touched_per_hand_max},
+      forms_{frozen.hips.count * touched_per_hand_max},
+      own_{frozen.hips.count * touched_per_hand_max}
 {}
 
 void HandSprings::begin(const Frozen& frozen, Stage& stage)
 {
     springs_.clear();
+    forms_.clear();
     for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
         for (std::size_t k = 0; k < hands_[i].count; ++k) hands_[i].near[k].is_there = false;
         stage.touches[i] = {};
@@ -120,7 +126,7 @@ bool HandSprings::hold(const Frozen& frozen, Stage& stage, std::uint32_t index,
     touch.body = target.body;
     touch.depth_m = std::max(touch.depth_m, std::max(hips.radius_m - apart, 0.0));
     touch.on_hip_at_start += -force;
-    springs_.add({index, target.body, spring, glm::dvec3{0.0}});
+    add(index, target.body) = spring;
     return true;
 }
 
@@ -132,44 +138,68 @@ void HandSprings::press(const Frozen& frozen, Stage& stage, std::uint32_t index,
     Near* const near_by = near(hands_[index], target.body);
     if (near_by == nullptr) return;
     // Looks as far ahead as the two come nearer: a spring may begin to act within the tick.
-    const glm::dvec3 centre = hip.position.value;
-    const double turning = length(target.spin) * length(target.box.half);
-    const double ahead = frozen.tick * (length(hip.velocity.value - target.velocity) + turning) +
-                         0.5 * frozen.tick * frozen.tick * length(frozen.gravity);
-    const auto overlap =
-        near_by->before
-            ? near_by->memory.find(target.box, centre, hips.radius_m + ahead, *near_by->before)
-            : near_by->memory.find(target.box, centre, hips.radius_m + ahead);
+    const glm::dvec3& centre = hip.position.value;
+    const double turning = length_most(target.spin) * length_most(target.box.half);
+    const double ahead =
+        frozen.tick * (length_most(hip.velocity.value - target.velocity) + turning) + 0.5 * fall_;
+    const glm::dvec3 place = seen_from(target.box, centre);
+    const auto overlap = near_by->memory.find(target.box.half, place, hips.radius_m + ahead,
+                                              near_by->before ? &*near_by->before : nullptr);
     near_by->is_there = true;
-    near_by->before = seen_from(target.box, centre);
+    near_by->before = place;
     if (!overlap) return;
     const double depth = overlap->depth - ahead;
-    const glm::dvec3 arm = overlap->point - target.box.centre;
+    const glm::dvec3 normal = target.box.axes * overlap->normal;
+    const glm::dvec3 arm = target.box.axes * overlap->point;
     const glm::dvec3 here = target.velocity + glm::cross(target.spin, arm);
-    const double closing = glm::dot(here - hip.velocity.value, overlap->normal);
+    const double closing = glm::dot(here - hip.velocity.value, normal);
     HipTouch& touch = stage.touches[index];
     touch.depth_m = std::max(touch.depth_m, depth);
-    touch.on_hip_at_start.value += force_at(hips, depth, closing) * overlap->normal;
+    touch.on_hip_at_start.value += force_at(hips, depth, closing) * normal;
     if (!target.is_movable) {
-        touch.on_hip.value += steady_force(hips, depth, closing, frozen.tick) * overlap->normal;
+        touch.on_hip.value += steady_force(hips, depth, closing, frozen.tick) * normal;
         return;
     }
     // What does not begin to act within the tick is no spring; what acts already is one, also in
     // the tick in which it ends.
-    const double nearer =
-        closing * frozen.tick + frozen.tick * frozen.tick * length(frozen.gravity);
-    if (depth < 0.0 && -depth > nearer) return;
-    springs_.add({index,
-                  target.body,
-                  {.normal = overlap->normal,
-                   .arm = arm,
-                   .radius = hips.radius_m,
-                   .gap = -depth,
-                   .velocity = hip.velocity.value,
-                   .stiffness = hips.stiffness_n_per_m,
-                   .damping = hips.damping_ns_per_m,
-                   .force_max = hips.force_max_n},
-                  glm::dvec3{0.0}});
+    if (depth < 0.0 && -depth > closing * frozen.tick + fall_) return;
+    HipSpring& spring = add(index, target.body);
+    spring.normal = normal;
+    spring.arm = arm;
+    spring.radius = hips.radius_m;
+    spring.gap = -depth;
+    spring.velocity = hip.velocity.value;
+    spring.stiffness = hips.stiffness_n_per_m;
+    spring.damping = hips.damping_ns_per_m;
+    spring.force_max = hips.force_max_n;
+    spring.is_amid_face = overlap->is_amid_face;
+    spring.holds = false;
+}
+
+HipSpring& HandSprings::add(std::uint32_t hand, BodyId body)
+{
+    springs_.add() = {hand, body, glm::dvec3{0.0}};
+    return forms_.add();
+}
+
+std::span<const HipSpring> HandSprings::on(BodyId body)
+{
+    const auto is_on = [body](const Spring& spring) { return spring.body == body; };
+    const std::span<const Spring> all = springs();
+    if (std::all_of(all.begin(), all.end(), is_on)) return forms_.all();
+    own_.clear();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (is_on(all[i])) own_.add() = forms_[i];
+    }
+    return own_.all();
+}
+
+void HandSprings::worked(BodyId body, std::span<const HipWork> work)
+{
+    std::size_t next = 0;
+    for (Spring& spring : springs_.all()) {
+        if (spring.body == body) spring.impulse = work[next++].impulse;
+    }
 }
 
 void HandSprings::end(std::uint32_t index)

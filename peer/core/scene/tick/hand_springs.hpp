@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/scene/bounded.hpp"
 #include "peer/core/scene/contact/sphere_box.hpp"
 #include "peer/core/scene/hip/advance.hpp"
+#include "peer/core/scene/solver/scratch.hpp"
 #include "peer/core/scene/stage.hpp"
 
 #include <array>
@@ -25,7 +25,6 @@ public:
     struct Spring {
         std::uint32_t hand = 0;
         BodyId body = 0;
-        HipSpring spring;
         glm::dvec3 impulse{0.0}; // on the body
     };
 
@@ -45,7 +44,11 @@ public:
     /// Forgets whom the hand has left.
     void end(std::uint32_t hand);
 
-    [[nodiscard]] std::span<Spring> springs() { return {springs_.begin(), springs_.size()}; }
+    [[nodiscard]] std::span<const Spring> springs() const { return springs_.all(); }
+    /// Those on one body; until the next question.
+    [[nodiscard]] std::span<const HipSpring> on(BodyId body);
+    /// What they did, in the same order.
+    void worked(BodyId body, std::span<const HipWork> work);
     /// Tells the hands what the springs did.
     void report(const Frozen& frozen, Stage& stage);
 
@@ -69,12 +72,16 @@ private:
         std::optional<Holding> holding;
     };
 
+    HipSpring& add(std::uint32_t hand, BodyId body);
     bool hold(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
     void press(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
     [[nodiscard]] Near* near(Hand& hand, BodyId body);
 
     std::array<Hand, hips_max> hands_;
-    Bounded<Spring> springs_;
+    double fall_; // what gravity adds to a way in a tick from rest, twice, metres
+    Scratch<Spring> springs_;
+    Scratch<HipSpring> forms_; // in the order of springs_
+    Scratch<HipSpring> own_;   // of one body
 };
 
 } // namespace hapnet::scene

@@ -3,7 +3,6 @@
 #include "peer/core/scene/tick/rigid.hpp"
 
 #include "peer/core/scene/contact/box_plane.hpp"
-#include "peer/core/scene/motion/rotation.hpp"
 #include "peer/core/scene/tick/bounce.hpp"
 #include "peer/core/scene/tick/nearby.hpp"
 
@@ -80,36 +79,33 @@ RigidTick<crowd>::RigidTick(const Description& /*description*/, const Frozen& fr
       neighbours_{frozen, stage.bodies},
       sleep_{frozen, stage.bodies},
       hands_{frozen},
-      boxes_(stage.bodies.size()),
+      boxes_{stage.bodies, scales_},
+      fliers_{frozen, stage.bodies},
+      engaged_{stage.bodies.movable},
       courses_{stage.bodies.movable + std::size_t{1}},
       solver_{stage.bodies.movable, blocks_for(frozen, stage.bodies)}
-{
-    const Bodies& bodies = stage.bodies;
-    for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        boxes_[bodies.form[slot].id] = box_of(bodies, slot);
-    }
-}
+{}
 
 template <Crowd crowd>
 void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
 {
     Bodies& bodies = stage.bodies;
     neighbours_.update(bodies);
+    boxes_.begin_tick();
     feel(frozen, stage);
     if constexpr (sleeps) wake(stage);
-    look(stage);
+    look(bodies);
     meet_planes(frozen, stage);
     meet_bodies(stage);
     carry();
     set_out(frozen, stage);
     solve(stage);
     move_apart();
-    for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        const bool has_turned = arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
-        OrientedBox& box = boxes_[bodies.form[slot].id];
-        box.centre = bodies.position.at(slot);
-        if (has_turned) box.axes = axes_of(bodies.orientation.at(slot));
+    for (const Slot slot : engaged_.slots()) {
+        arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
     }
+    engaged_.for_others(bodies.awake, [&](SlotRange range) { fliers_.move(bodies, range); });
+    engaged_.clear();
     hands_.report(frozen, stage);
     if constexpr (sleeps) sleep_.rest(bodies, neighbours_, stage.ticks);
 }
@@ -121,7 +117,6 @@ void RigidTick<crowd>::disturbed(Stage& stage, BodyId body)
     if constexpr (sleeps) sleep_.wake(body, stage.bodies, neighbours_);
     neighbours_.forget(body);
     hands_.forget(body);
-    boxes_[body] = box_of(stage.bodies, stage.bodies.slot_of[body]);
 }
 
 /// What the hands touch; they wake it.
@@ -140,8 +135,8 @@ void RigidTick<crowd>::feel(const Frozen& frozen, Stage& stage)
                      hand, {from, from + scales_.tick * hip.velocity.value, radius})) {
                 const Slot slot = bodies.slot_of[id];
                 hands_.touch(frozen, stage, hand,
-                             {id, slot < bodies.movable, boxes_[id], bodies.velocity.at(slot),
-                              bodies.angular_velocity(slot)});
+                             {id, slot < bodies.movable, boxes_.at(bodies, id).box,
+                              bodies.velocity.at(slot), bodies.angular_velocity(slot)});
             }
         }
         hands_.end(hand);
@@ -168,31 +163,21 @@ void RigidTick<crowd>::wake(Stage& stage)
 }
 
 template <Crowd crowd>
-double RigidTick<crowd>::reach(const Stage& stage, Slot slot) const
+void RigidTick<crowd>::look(const Bodies& bodies)
 {
-    return slot < stage.bodies.awake ? reach_of(stage.bodies, slot, scales_) : 0.0;
-}
-
-/// Begins the tick for those awake.
-template <Crowd crowd>
-void RigidTick<crowd>::look(const Stage& stage)
-{
-    const Bodies& bodies = stage.bodies;
     solver_.begin(bodies.awake);
     courses_.resize(bodies.awake + std::size_t{1});
     courses_[0] = {};
-    for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        const BodyForm& form = bodies.form[slot];
-        solver_.response(slot + 1) = response_of(form, boxes_[form.id]);
-        BodyCourse& course = courses_[slot + 1];
-        course.impulse = glm::dvec3{0.0};
-        course.angular_impulse = glm::dvec3{0.0};
-        course.thrown = glm::dvec3{0.0};
-        course.thrown_mean = glm::dvec3{0.0};
-        course.rubbing = 0;
-        course.drag = 0.0;
-        course.has_hands = false;
-    }
+}
+
+/// Begins the tick for an awake body that something acts on.
+template <Crowd crowd>
+void RigidTick<crowd>::engage(const Bodies& bodies, Slot slot)
+{
+    if (!engaged_.add(slot)) return;
+    const BodyForm& form = bodies.form[slot];
+    solver_.response(slot + 1) = response_of(form, boxes_.at(bodies, form.id).box);
+    begin(courses_[slot + 1]);
 }
 
 template <Crowd crowd>
@@ -225,18 +210,20 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
         Pair& pair = neighbours_.plane_pair(index);
         const PlaneDescription& plane = frozen.planes[pair.b];
         const Slot slot = bodies.slot_of[pair.a];
-        const OrientedBox& box = boxes_[pair.a];
+        const BoxNow& now = boxes_.at(bodies, pair.a);
+        const OrientedBox& box = now.box;
         const Manifold manifold =
-            collide(PlaneSurface{plane.normal, plane.offset_m}, box, reach(stage, slot));
-        const bool was_carried = touches(pair.memory);
+            collide(PlaneSurface{plane.normal, plane.offset_m}, box, now.reach);
+        const bool is_carried = touches(pair.memory) || lies_on(manifold, touching * scales_.size);
         ContactBlock* const block = meet(manifold, {box.centre, box.centre}, pair.memory);
         if (block == nullptr) continue;
+        engage(bodies, slot);
         const BodyForm& form = bodies.form[slot];
         block->a = 0;
         block->b = slot + 1;
         block->friction = friction_of(form.material, plane.material);
         block->restitution = std::max(form.material.restitution, plane.material.restitution);
-        if (form.drag > 0.0 && was_carried) {
+        if (form.drag > 0.0 && is_carried) {
             courses_[block->b].drag = form.drag / form.mass;
             courses_[block->b].carrier = plane.normal;
         }
@@ -244,12 +231,14 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
 }
 
 template <Crowd crowd>
-BoxMeeting RigidTick<crowd>::between(const Stage& stage, Pair& pair) const
+BoxMeeting RigidTick<crowd>::between(const Stage& stage, Pair& pair)
 {
     const Bodies& bodies = stage.bodies;
     const auto box_path = [&](BodyId id) {
+        const BoxNow& now = boxes_.at(bodies, id);
         const Slot slot = bodies.slot_of[id];
-        return BoxPath{boxes_[id], bodies.velocity.at(slot), reach(stage, slot)};
+        return BoxPath{now.box, bodies.velocity.at(slot), slot < bodies.awake ? now.reach : 0.0,
+                       now.radius};
     };
     return meeting(box_path(pair.a), box_path(pair.b), scales_.tick, pair.memory.axis);
 }
@@ -258,7 +247,11 @@ template <Crowd crowd>
 void RigidTick<crowd>::meet_bodies(const Stage& stage)
 {
     const Bodies& bodies = stage.bodies;
-    const auto index_of = [&](Slot slot) { return slot < bodies.awake ? slot + 1 : 0; };
+    const auto index_of = [&](Slot slot) -> SolverIndex {
+        if (slot >= bodies.awake) return 0;
+        engage(bodies, slot);
+        return slot + 1;
+    };
     for (const PairIndex index : neighbours_.pairs()) {
         Pair& pair = neighbours_.pair(index);
         const Slot a = bodies.slot_of[pair.a];
@@ -290,44 +283,41 @@ void RigidTick<crowd>::carry()
     }
 }
 
-/// Where everyone would go.
+/// Where everyone that something acts on would go.
 template <Crowd crowd>
 void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
 {
+    for (const BodyId body : stage.pushed) engage(stage.bodies, stage.bodies.slot_of[body]);
     push_by_hands(frozen, stage);
     solver_.ending(0) = {};
     solver_.mean(0) = {};
-    for (Slot slot = 0; slot < stage.bodies.awake; ++slot) {
+    for (const Slot slot : engaged_.slots()) {
         BodyCourse& course = courses_[slot + 1];
         if (!course.has_hands) follow(course, stage, slot, solver_.response(slot + 1), frozen);
+        if (bounces_) course.rebound = course.start;
     }
     if (bounces_) bounce(solver_, courses_.all(), scales_);
-    for (SolverIndex i = 1; i <= stage.bodies.awake; ++i) {
-        solver_.ending(i) = courses_[i].tentative;
+    for (const Slot slot : engaged_.slots()) {
+        solver_.ending(slot + 1) = courses_[slot + 1].tentative;
     }
     for (ContactBlock& block : solver_.blocks()) {
-        set_bend(block, courses_[block.a].mean.spin, courses_[block.b].mean.spin, scales_.tick);
+        set_bend(block, courses_[block.a].start.spin, courses_[block.b].start.spin, scales_.tick);
     }
 }
 
 template <Crowd crowd>
 void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
 {
-    const std::span<HandSprings::Spring> all = hands_.springs();
-    for (std::size_t first = 0; first < all.size(); ++first) {
-        const BodyId body = all[first].body;
-        const Slot slot = stage.bodies.slot_of[body];
-        if (courses_[slot + 1].has_hands) continue;
-        std::size_t count = 0;
-        for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) springs_[count++] = all[i].spring;
-        }
-        follow_hands(courses_[slot + 1], stage, slot, solver_.response(slot + 1),
-                     {{springs_.data(), count}, {work_.data(), count}, frozen});
-        count = 0;
-        for (std::size_t i = first; i < all.size(); ++i) {
-            if (all[i].body == body) all[i].impulse = work_[count++].impulse;
-        }
+    for (const HandSprings::Spring& spring : hands_.springs()) {
+        const Slot slot = stage.bodies.slot_of[spring.body];
+        engage(stage.bodies, slot);
+        BodyCourse& course = courses_[slot + 1];
+        if (course.has_hands) continue;
+        const std::span<const HipSpring> springs = hands_.on(spring.body);
+        std::array<HipWork, hips_max> work;
+        follow_hands(course, stage, slot, solver_.response(slot + 1),
+                     {springs, {work.data(), springs.size()}, frozen});
+        hands_.worked(spring.body, work);
     }
 }
 
@@ -342,13 +332,13 @@ void RigidTick<crowd>::solve(const Stage& stage)
     counts_.contacts = static_cast<std::uint32_t>(blocks.size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
-    for (SolverIndex i = 1; i <= bodies.awake; ++i) {
-        const BodyCourse& course = courses_[i];
-        const BodyMotion& ending = solver_.ending(i);
-        solver_.mean(i) = {course.mean.velocity +
-                               0.5 * (ending.velocity - course.tentative.velocity),
-                           course.mean.spin + 0.5 * (ending.spin - course.tentative.spin),
-                           course.thrown_mean + 0.5 * ending.angular_impulse};
+    for (const Slot slot : engaged_.slots()) {
+        const BodyCourse& course = courses_[slot + 1];
+        const BodyMotion& ending = solver_.ending(slot + 1);
+        solver_.mean(slot + 1) = {course.mean.velocity +
+                                      0.5 * (ending.velocity - course.tentative.velocity),
+                                  course.mean.spin + 0.5 * (ending.spin - course.tentative.spin),
+                                  course.thrown_mean + 0.5 * ending.angular_impulse};
     }
     const auto weight_of = [&](const ContactBlock& block) {
         const double a = block.a != 0 ? bodies.form[block.a - 1].mass : 0.0;
@@ -385,7 +375,8 @@ void RigidTick<crowd>::move_apart()
     solver_.separate(limits);
     // Who is thrown out of his way is held back, and the others go as far as that lets them.
     bool any_thrown = false;
-    for (SolverIndex i = 1; i < courses_.size(); ++i) {
+    for (const Slot slot : engaged_.slots()) {
+        const SolverIndex i = slot + 1;
         if (courses_[i].has_hands || !keep_to_path(courses_[i], solver_.mean(i), scales_)) continue;
         solver_.response(i) = {};
         any_thrown = true;

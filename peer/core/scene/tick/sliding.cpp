@@ -32,33 +32,32 @@ SlidingTick<coulomb>::SlidingTick(const Description& /*description*/, const Froz
       laws_{frozen.hips, the_movable(stage.bodies), frozen.tick},
       obstacles_{frozen, stage.bodies, the_movable(stage.bodies)},
       hands_{frozen, stage.bodies, the_movable(stage.bodies)}
-{}
+{
+    const PerAxis mobility = per_axis(the_movable(stage.bodies).inverse_mass);
+    for (std::size_t i = 0; i < 3; ++i) locked_[i] = mobility[i] == 0.0;
+}
 
 template <bool coulomb>
 void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
 {
     const Slot slot = stage.bodies.slot_of[body_];
-    const BodyForm& form = stage.bodies.form[slot];
     Slide slide{frozen.hips, laws_, obstacles_};
-    slide.inverse_mass = 1.0 / form.mass;
     slide.left = frozen.tick;
     slide.place = per_axis(stage.bodies.position.at(slot));
     slide.velocity = per_axis(stage.bodies.velocity.at(slot));
     const PerAxis gravity = per_axis(frozen.gravity);
-    const PerAxis mobility = per_axis(form.inverse_mass);
     for (std::size_t i = 0; i < 3; ++i) {
-        slide.axes[i].locked = mobility[i] == 0.0;
-        if (slide.axes[i].locked) slide.velocity[i] = 0.0;
+        if (locked_[i]) slide.velocity[i] = 0.0;
+        slide.axes[i].stopped = locked_[i];
+        slide.axes[i].leaving = false;
         slide.axes[i].steady = gravity[i];
     }
     if (!stage.pushed.is_empty()) {
         const PerAxis push = per_axis(stage.pushes[body_]);
-        for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * push[i];
+        for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += laws_.inverse_mass() * push[i];
     }
-    slide.near = obstacles_.near(slide.place, 0.0);
-    if (obstacles_.put_out(slide.near, slide.place)) {
-        slide.near = obstacles_.near(slide.place, 0.0);
-    }
+    see(slide, 0.0);
+    if (obstacles_.put_out(slide.near, slide.place)) see(slide, 0.0);
 
     hands_.gather(frozen, stage, slide);
     if (slide.grip_count == 0) {
@@ -70,10 +69,18 @@ void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
 }
 
 template <bool coulomb>
+inline void SlidingTick<coulomb>::see(Slide& slide, double reach)
+{
+    slide.near = obstacles_.near(slide.place, reach);
+    slide.room = obstacles_.room(slide.place);
+}
+
+template <bool coulomb>
 void SlidingTick<coulomb>::try_holding(const Frozen& frozen, Stage& stage, Slide& start)
 {
     for (;;) { // each time a hand holds less
         Slide slide = start.copy();
+        see(slide, 0.0); // what is near may have been looked for elsewhere meanwhile
         run(frozen, slide);
         if (SlidingHands::weaken(frozen, stage, slide, start)) continue;
         conclude(frozen, stage, slide);
@@ -101,8 +108,9 @@ void SlidingTick<coulomb>::run(const Frozen& frozen, Slide& slide)
     for (int events = 1;; ++events) {
         const double reach =
             std::max(std::max(slide.axes[0].reach, slide.axes[1].reach), slide.axes[2].reach);
-        slide.near = obstacles_.near(slide.place, reach);
-        SlideEvent event = next_event(slide);
+        if (!(reach <= slide.room)) see(slide, reach);
+        SlideEvent event{.time = slide.left};
+        if (!is_uneventful(slide)) look_for_event(slide, event);
         if constexpr (coulomb) friction_event(slide, event);
         advance(slide, event.time);
         if (event.kind == SlideEvent::Kind::none) return;
@@ -112,6 +120,7 @@ void SlidingTick<coulomb>::run(const Frozen& frozen, Slide& slide)
             ++crowded_ticks_;
         }
         if (slide.left <= 0.0) return;
+        slide.room = obstacles_.room(slide.place);
         arrange<coulomb>(slide);
     }
 }

@@ -36,12 +36,15 @@ public:
     [[nodiscard]] std::uint64_t crowded_ticks() const { return crowded_ticks_; }
 
 private:
+    /// Finds what is within `reach`.
+    void see(Slide& slide, double reach);
     void run(const Frozen& frozen, Slide& slide);
     /// Where hands hold the box: again with less, when one held with more than its greatest force.
     void try_holding(const Frozen& frozen, Stage& stage, Slide& start);
     void conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const;
 
     BodyId body_;
+    std::array<bool, 3> locked_{};
     SlideLaws laws_;
     Obstacles obstacles_;
     SlidingHands hands_;

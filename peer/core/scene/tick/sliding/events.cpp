@@ -30,6 +30,22 @@ Watch of_tension(const Slide& slide, const Spring& spring, double factor, double
     return watch;
 }
 
+/// Most springs act for all the `time` that is looked at: whether this is one of them.
+bool keeps_acting(const Slide& slide, const Spring& spring, double time)
+{
+    if (spring.phase != Phase::active) return false;
+    const HipDescription& hips = slide.hips;
+    const SlideAxis& axis = slide.axes[spring.axis];
+    const double closing = spring.closing_at(slide.velocity[spring.axis]);
+    const double k = hips.stiffness_n_per_m;
+    const double c = hips.damping_ns_per_m;
+    const double tension = k * spring.depth + c * closing;
+    const double rate = std::abs(k * closing + c * spring.sign * axis.acceleration);
+    const double bend = k * axis.most.acceleration + c * axis.most.jerk;
+    const double change = time * (rate + 0.5 * time * bend);
+    return tension >= change && hips.force_max_n - tension >= change;
+}
+
 struct SpringWatcher {
     const Slide& slide;
     std::uint32_t index;
@@ -40,23 +56,6 @@ struct SpringWatcher {
         const auto time = first_root(watch, slide.courses, 0.0, first.time);
         if (!time) return;
         first = {.time = *time, .kind = Kind::spring, .spring = index, .phase = next};
-    }
-
-    /// Most springs act throughout the tick: whether this is one of them.
-    [[nodiscard]] bool keeps_acting() const
-    {
-        const Spring& spring = slide.springs[index];
-        if (spring.phase != Phase::active) return false;
-        const HipDescription& hips = slide.hips;
-        const SlideAxis& axis = slide.axes[spring.axis];
-        const double closing = spring.closing_at(slide.velocity[spring.axis]);
-        const double k = hips.stiffness_n_per_m;
-        const double c = hips.damping_ns_per_m;
-        const double tension = k * spring.depth + c * closing;
-        const double rate = std::abs(k * closing + c * spring.sign * axis.acceleration);
-        const double bend = k * axis.most.acceleration + c * axis.most.jerk;
-        const double change = first.time * (rate + 0.5 * first.time * bend);
-        return tension >= change && hips.force_max_n - tension >= change;
     }
 
     void look() const
@@ -213,13 +212,30 @@ void arrive(Slide& slide, const SlideEvent& event, double tick)
 
 } // namespace
 
-SlideEvent next_event(const Slide& slide)
+bool is_uneventful(const Slide& slide)
 {
-    SlideEvent first{.time = slide.left};
+    if (!slide.calm) {
+        for (const Spring& spring : slide.active_springs()) {
+            if (!keeps_acting(slide, spring, slide.left)) return false;
+        }
+        for (const SlideAxis& axis : slide.axes) {
+            if (!axis.carrier) continue;
+            if (!axis.carrier->is_plane) return false;
+            if (axis.load + axis.load_ramp * slide.left < 0.0) return false;
+        }
+    }
+    for (const std::uint32_t id : slide.near) {
+        if (!is_out_of_reach(slide, slide.obstacles[id])) return false;
+    }
+    return true;
+}
+
+void look_for_event(const Slide& slide, SlideEvent& first)
+{
     if (!slide.calm) {
         for (std::uint32_t i = 0; i < slide.spring_count; ++i) {
-            const SpringWatcher watcher{slide, i, first};
-            if (!watcher.keeps_acting()) watcher.look();
+            if (keeps_acting(slide, slide.springs[i], first.time)) continue;
+            SpringWatcher{slide, i, first}.look();
         }
         for (std::size_t i = 0; i < 3; ++i) {
             if (slide.axes[i].carrier) look_at_carrier(slide, i, first);
@@ -229,7 +245,6 @@ SlideEvent next_event(const Slide& slide)
         const Obstacle& obstacle = slide.obstacles[id];
         if (!is_out_of_reach(slide, obstacle)) look_for_impact(slide, obstacle, first);
     }
-    return first;
 }
 
 void apply(Slide& slide, const SlideEvent& event, double tick)

@@ -34,7 +34,7 @@ Tangential tangential(const Slide& slide)
     Tangential found;
     for (std::size_t i = 0; i < 3; ++i) {
         const SlideAxis& axis = slide.axes[i];
-        if (axis.locked || axis.stopped || axis.carrier) continue;
+        if (axis.is_held()) continue;
         found.velocity[i] = slide.velocity[i];
         found.push[i] = slide.courses[i].push;
         found.ramp[i] = slide.courses[i].ramp;

@@ -17,6 +17,18 @@ PerAxis beyond(const PerAxis& from_centre, const PerAxis& half)
             std::abs(from_centre[2]) - half[2]};
 }
 
+/// The axis along which a place is outside of a box, by less than `reach`; no_axis when it is
+/// inside, farther away, or outside along more than one.
+std::size_t before_face(const PerAxis& out, double reach)
+{
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!(out[i] > 0.0)) continue;
+        const bool is_straight = !(out[(i + 1) % 3] > 0.0) && !(out[(i + 2) % 3] > 0.0);
+        return is_straight && out[i] < reach ? i : no_axis;
+    }
+    return no_axis;
+}
+
 double distance(const PerAxis& from_centre, const PerAxis& half)
 {
     PerAxis out = beyond(from_centre, half);
@@ -50,7 +62,25 @@ void hold_steadily(HipTouch& touch, Slide& slide, base::Force force)
     touch.on_body = force;
     touch.on_hip += -force;
     const PerAxis held = per_axis(force.value);
-    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.inverse_mass * held[i];
+    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.laws.inverse_mass() * held[i];
+}
+
+/// Adds the spring between a hand and a face of the box.
+void push_face(Stage& stage, Slide& slide, const FaceTouch& found)
+{
+    const std::size_t axis = found.face.axis;
+    const double speed = slide.velocity[axis];
+    Spring& spring = slide.springs[slide.spring_count++];
+    spring.hip = found.hip;
+    spring.axis = axis;
+    spring.sign = found.face.sign;
+    spring.depth = found.depth;
+    spring.closing = -spring.sign * part(stage.hips[found.hip].velocity.value, axis);
+    spring.impulse = 0.0;
+    const double force = spring.settle(slide.hips, speed);
+    HipTouch& touch = stage.touches[found.hip];
+    touch.depth_m = std::max(touch.depth_m, found.depth);
+    part(touch.on_hip_at_start.value, axis) += spring.sign * force;
 }
 
 } // namespace
@@ -67,17 +97,6 @@ SlidingHands::SlidingHands(const Frozen& frozen, const Bodies& bodies, const Bod
     entered_fixed_.resize(frozen.hips.count * fixed_.size());
 }
 
-bool SlidingHands::is_clear(const Frozen& frozen, const HipInput& hip, const Memory& memory)
-{
-    const PerAxis gone = difference(hip.position.value, memory.seen_from);
-    const PerAxis velocity = per_axis(hip.velocity.value);
-    double reach = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        reach = std::max(reach, std::abs(gone[i]) + frozen.tick * std::abs(velocity[i]));
-    }
-    return reach + frozen.hips.radius_m < memory.clear;
-}
-
 void SlidingHands::gather(const Frozen& frozen, Stage& stage, Slide& slide)
 {
     for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
@@ -89,7 +108,7 @@ void SlidingHands::gather(const Frozen& frozen, Stage& stage, Slide& slide)
             memory.held_at.reset();
             continue;
         }
-        if (!is_clear(frozen, hip, memory)) touch_fixed(frozen, stage, i);
+        if (!memory.is_clear(frozen, hip)) touch_fixed(frozen, stage, i);
         if (!hip.gripping) {
             memory.held_at.reset();
         } else if (!memory.held_at) {
@@ -133,37 +152,44 @@ void SlidingHands::hold(const Frozen& frozen, Stage& stage, Slide& slide, std::u
     hold_steadily(touch, slide, force);
 }
 
-void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index)
+inline void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide,
+                                    std::uint32_t index)
+{
+    const double radius = frozen.hips.radius_m;
+    const PerAxis from_centre = difference(stage.hips[index].position.value, slide.place);
+    const PerAxis out = beyond(from_centre, half_);
+    const std::size_t axis = before_face(out, radius);
+    FaceTouch found{index, {}, 0.0};
+    if (axis != no_axis) { // as nearly always when it pushes
+        found.face = memory_[index].entered = face_at(axis, from_centre[axis]);
+        found.depth = radius - out[axis];
+    } else {
+        found = meet_box(frozen, stage, slide, index);
+    }
+    if (found.face.axis != no_axis) push_face(stage, slide, found);
+}
+
+FaceTouch SlidingHands::meet_box(const Frozen& frozen, Stage& stage, Slide& slide,
+                                 std::uint32_t index)
 {
     const HipDescription& hips = frozen.hips;
     const HipInput& hip = stage.hips[index];
     EnteredFace& entered = memory_[index].entered;
-    const PerAxis from_centre = difference(hip.position.value, slide.place);
-    const Outside out{from_centre, half_};
-    if (out.directions == 1 && out.length() < hips.radius_m) { // as nearly always when it pushes
-        entered = out.face();
-        const std::size_t axis = out.axis;
-        push_face(stage, slide, index, {entered, hips.radius_m - std::abs(out.away[axis]), {}});
-        return;
-    }
-    const Approach approach{.from_centre = from_centre,
+    const Approach approach{.from_centre = difference(hip.position.value, slide.place),
                             .velocity = difference(hip.velocity.value, slide.velocity),
                             .radius = hips.radius_m,
                             .tick = frozen.tick};
     const double far = hips.radius_m + margin_;
     for (std::size_t i = 0; i < 3; ++i) {
         const double swept = 2.0 * frozen.tick * std::abs(approach.velocity[i]);
-        if (std::abs(from_centre[i]) > half_[i] + far + swept) {
+        if (std::abs(approach.from_centre[i]) > half_[i] + far + swept) {
             entered = {};
-            return;
+            return {index, {}, 0.0};
         }
     }
     const auto meeting = meet(approach, half_, entered);
-    if (!meeting) return;
-    if (meeting->face.axis != no_axis) {
-        push_face(stage, slide, index, *meeting);
-        return;
-    }
+    if (!meeting) return {index, {}, 0.0};
+    if (meeting->face.axis != no_axis) return {index, meeting->face, meeting->depth};
     HipTouch& touch = stage.touches[index];
     const PerAxis& normal = meeting->oblique;
     const double closing = -dot(normal, per_axis(hip.velocity.value));
@@ -171,24 +197,7 @@ void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide, s
     touch.depth_m = std::max(touch.depth_m, meeting->depth);
     touch.on_hip_at_start.value +=
         force_at(hips, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
-}
-
-void SlidingHands::push_face(Stage& stage, Slide& slide, std::uint32_t index,
-                             const Meeting& meeting)
-{
-    const std::size_t axis = meeting.face.axis;
-    const double speed = slide.velocity[axis];
-    Spring& spring = slide.springs[slide.spring_count++];
-    spring.hip = index;
-    spring.axis = axis;
-    spring.sign = meeting.face.sign;
-    spring.depth = meeting.depth;
-    spring.closing = -spring.sign * part(stage.hips[index].velocity.value, axis);
-    spring.impulse = 0.0;
-    const double force = spring.settle(slide.hips, speed);
-    HipTouch& touch = stage.touches[index];
-    touch.depth_m = std::max(touch.depth_m, meeting.depth);
-    part(touch.on_hip_at_start.value, axis) += spring.sign * force;
+    return {index, {}, 0.0};
 }
 
 void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index)
@@ -231,16 +240,18 @@ void SlidingHands::press_slanted(Slide& slide)
 {
     const HipDescription& hips = slide.hips;
     const double half_tick = 0.5 * slide.left;
+    const bool is_stuck = slide.rubbing.state == Rubbing::State::stuck;
+    const auto is_kept = [&](std::size_t i) { return is_stuck || slide.axes[i].is_held(); };
     for (SlantedSpring& spring : slide.active_slanted()) {
         const PerAxis& normal = spring.normal;
         double closing = spring.closing;
         double bend = 0.0; // of the depth, without this spring
         double ease = 0.0; // 1/mass along the normal
         for (std::size_t i = 0; i < 3; ++i) {
-            if (!slide.courses[i].moves()) continue;
+            if (is_kept(i)) continue;
             closing += normal[i] * slide.velocity[i];
             bend += normal[i] * slide.axes[i].acceleration;
-            ease += normal[i] * normal[i] * slide.inverse_mass;
+            ease += normal[i] * normal[i] * slide.laws.inverse_mass();
         }
         // depth and closing speed in the middle: linear in the force that acts meanwhile.
         const double answer =
@@ -251,9 +262,9 @@ void SlidingHands::press_slanted(Slide& slide)
         spring.force = std::clamp(free_force / (1.0 + answer * ease), 0.0, hips.force_max_n);
         if (depth + half_tick * half_tick * (bend - ease * spring.force) <= 0.0) spring.force = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const double change = -slide.inverse_mass * spring.force * normal[i];
+            const double change = -slide.laws.inverse_mass() * spring.force * normal[i];
             slide.axes[i].steady += change;
-            if (slide.courses[i].moves()) slide.axes[i].acceleration += change;
+            if (!is_kept(i)) slide.axes[i].acceleration += change;
         }
     }
 }

@@ -11,6 +11,13 @@
 
 namespace hapnet::scene {
 
+/// A hand at a face of the box; at none: it does not touch, or at an edge or a corner.
+struct FaceTouch {
+    std::uint32_t hip = 0;
+    EnteredFace face;
+    double depth = 0.0;
+};
+
 /// The hands at the box and at the fixed boxes, and what has to be remembered of them.
 class SlidingHands {
 public:
@@ -40,13 +47,26 @@ private:
         std::optional<PerAxis> held_at{}; // from the box's centre
         PerAxis seen_from{};
         double clear = -1.0; // no fixed box is nearer to `seen_from`, along every axis
+
+        /// Whether no fixed box is within reach of the hand in this tick.
+        [[nodiscard]] bool is_clear(const Frozen& frozen, const HipInput& hip) const
+        {
+            const PerAxis place = per_axis(hip.position.value);
+            const PerAxis velocity = per_axis(hip.velocity.value);
+            double reach = 0.0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double gone = std::abs(place[i] - seen_from[i]);
+                reach = std::max(gone + frozen.tick * std::abs(velocity[i]), reach);
+            }
+            return reach + frozen.hips.radius_m < clear;
+        }
     };
 
-    /// Whether no fixed box is within reach of a hand in this tick.
-    static bool is_clear(const Frozen& frozen, const HipInput& hip, const Memory& memory);
     void hold(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
     void touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
-    static void push_face(Stage& stage, Slide& slide, std::uint32_t index, const Meeting& meeting);
+    /// Where nothing is as simple as a hand straight before a face. Hands at edges and corners are
+    /// added to `slide`; what pushes a face is returned.
+    FaceTouch meet_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
     void touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index);
 
     BodyId body_;

@@ -9,11 +9,6 @@ namespace hapnet::scene {
 
 namespace {
 
-EnteredFace face_at(std::size_t axis, double place)
-{
-    return {static_cast<std::uint8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};
-}
-
 EnteredFace nearest_face(const PerAxis& place, const PerAxis& half)
 {
     std::size_t nearest = 0;

@@ -17,6 +17,11 @@ struct EnteredFace {
     std::uint8_t axis = no_axis;
     std::int8_t sign = 1;
 };
+/// The one across `axis` on the side of a place, given from the box's centre.
+[[nodiscard]] inline EnteredFace face_at(std::size_t axis, double place)
+{
+    return {static_cast<std::uint8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};
+}
 
 /// A hand as a box sees it: from the box's centre, relative to the box's velocity.
 struct Approach {

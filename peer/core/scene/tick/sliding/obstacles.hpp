@@ -44,14 +44,18 @@ class Obstacles {
 public:
     Obstacles(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable);
 
+    /// How far the centre may still go before the list of what is near has to be made again.
+    [[nodiscard]] double room(const PerAxis& centre) const
+    {
+        const double x = std::abs(centre[0] - seen_from_[0]);
+        const double y = std::abs(centre[1] - seen_from_[1]);
+        const double z = std::abs(centre[2] - seen_from_[2]);
+        return margin_ - std::max(std::max(x, y), z);
+    }
     /// At least those within `reach` of the centre, along every axis.
     [[nodiscard]] std::span<const std::uint32_t> near(const PerAxis& centre, double reach)
     {
-        double gone = 0.0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            gone = std::max(gone, std::abs(centre[i] - seen_from_[i]));
-        }
-        if (!(gone + reach <= margin_)) look(centre, reach);
+        if (!(reach <= room(centre))) look(centre, reach);
         return {near_.begin(), near_.size()};
     }
     [[nodiscard]] const Obstacle& operator[](std::uint32_t index) const { return all_[index]; }

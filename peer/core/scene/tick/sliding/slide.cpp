@@ -55,8 +55,7 @@ void press(SlideAxis& axis, double speed, const Course& course)
 /// Adds the hands' springs; how many there are on each axis.
 std::array<std::size_t, 3> add_springs(Slide& slide)
 {
-    const double stiffness = slide.hips.stiffness_n_per_m * slide.inverse_mass;
-    const double damping = slide.hips.damping_ns_per_m * slide.inverse_mass;
+    const auto [damping, stiffness] = slide.laws.spring();
     std::array<std::size_t, 3> count{};
     for (const Spring& spring : slide.active_springs()) {
         Course& course = slide.courses[spring.axis];
@@ -65,7 +64,7 @@ std::array<std::size_t, 3> add_springs(Slide& slide)
             course.ramp -= spring.sign * (stiffness * spring.closing);
             ++count[spring.axis];
         } else if (spring.phase == Phase::limited) {
-            course.push -= spring.sign * (slide.hips.force_max_n * slide.inverse_mass);
+            course.push -= spring.sign * (slide.hips.force_max_n * slide.laws.inverse_mass());
         }
     }
     for (const Grip& grip : slide.active_grips()) {
@@ -81,6 +80,7 @@ std::array<std::size_t, 3> add_springs(Slide& slide)
 } // namespace
 
 SlideLaws::SlideLaws(const HipDescription& hips, const BodyForm& body, double tick)
+    : inverse_mass_{1.0 / body.mass}
 {
     for (const bool with_drag : {false, true}) {
         for (std::size_t n = 0; n <= hips_max; ++n) {
@@ -97,7 +97,7 @@ Slide Slide::copy() const
 {
     Slide other{hips, laws, obstacles};
     other.near = near;
-    other.inverse_mass = inverse_mass;
+    other.room = room;
     other.left = left;
     other.calm = calm;
     other.place = place;
@@ -124,18 +124,17 @@ void set_courses(Slide& slide)
     for (const std::uint32_t id : slide.near) touch(slide, slide.obstacles[id]);
     const auto springs = add_springs(slide);
 
-    std::array<bool, 3> is_on_plane{};
+    bool is_on_plane = false;
     for (std::size_t i = 0; i < 3; ++i) {
         SlideAxis& axis = slide.axes[i];
-        press(axis, slide.courses[i].speed, slide.courses[i]);
+        if (axis.below || axis.above) press(axis, slide.courses[i].speed, slide.courses[i]);
         axis.leaving = false;
-        is_on_plane[i] = axis.carrier && axis.carrier->is_plane;
+        if (axis.carrier && axis.carrier->is_plane) is_on_plane = true;
     }
     for (std::size_t i = 0; i < 3; ++i) {
         const SlideAxis& axis = slide.axes[i];
-        if (axis.locked || axis.stopped || axis.carrier) continue;
-        const bool with_drag = is_on_plane[(i + 1) % 3] || is_on_plane[(i + 2) % 3];
-        slide.courses[i].kernel = &slide.laws.of(springs[i], with_drag);
+        if (axis.is_held() || slide.courses[i].is_idle()) continue;
+        slide.courses[i].kernel = &slide.laws.of(springs[i], is_on_plane);
     }
 }
 

@@ -17,31 +17,38 @@ class SlideLaws {
 public:
     SlideLaws(const HipDescription& hips, const BodyForm& body, double tick);
 
+    [[nodiscard]] double inverse_mass() const { return inverse_mass_; }
+    /// Of one spring.
+    [[nodiscard]] const Law& spring() const { return kernels_[0][1].law; }
+
     [[nodiscard]] const Kernel& of(std::size_t springs, bool with_drag) const
     {
         return kernels_[with_drag ? 1 : 0][springs];
     }
 
 private:
+    double inverse_mass_;
     std::array<std::array<Kernel, hips_max + 1>, 2> kernels_;
 };
 
 /// What one axis of the box does.
 struct SlideAxis {
-    double steady = 0.0; // acceleration of the forces that hold for the tick
-    bool locked = false;
-    bool stopped = false; // for the rest of the tick
-    bool leaving = false; // its support has just lost it
+    double steady; // acceleration of the forces that hold for the tick
+    bool stopped;  // locked, or for the rest of the tick
+    bool leaving;  // its support has just lost it
 
-    const Obstacle* below = nullptr; // at whose high face it is
-    const Obstacle* above = nullptr;
-    const Obstacle* carrier = nullptr; // one of them, when it presses on that
-    double load = 0.0;                 // by which it presses, per mass; >= 0
-    double load_ramp = 0.0;            // m/s^3
+    const Obstacle* below; // at whose high face it is
+    const Obstacle* above;
+    const Obstacle* carrier; // one of them, when it presses on that
+    double load;             // by which it presses, per mass; >= 0; only with a carrier
+    double load_ramp;        // m/s^3
 
-    double acceleration = 0.0; // at the start of the stretch
-    Bounds most;               // for what is left of the tick
-    double reach = 0.0;        // how far it can come in what is left of the tick
+    double acceleration; // at the start of the stretch
+    Bounds most;         // for what is left of the tick
+    double reach;        // how far it can come in what is left of the tick
+
+    /// Whether it is kept where it is by something else than dry friction.
+    [[nodiscard]] bool is_held() const { return stopped || carrier; }
 };
 
 /// Dry friction on what carries the box.
@@ -57,7 +64,7 @@ struct Rubbing {
 /// A box within a tick. The tick is cut into stretches at what begins or ends in it; in each of
 /// them every axis runs a closed form.
 struct Slide {
-    // Without values until they are counted: clearing all of them would cost more than the tick.
+    // Without values until they are set: clearing all of them would cost more than the tick.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     Slide(const HipDescription& of_hips, const SlideLaws& of_laws, Obstacles& those)
         : hips{of_hips}, laws{of_laws}, obstacles{those}
@@ -70,15 +77,15 @@ struct Slide {
     const SlideLaws& laws;
     Obstacles& obstacles;
     std::span<const std::uint32_t> near{};
+    double room = 0.0; // how far the box may go until something else is near
 
-    double inverse_mass = 0.0;
     double left = 0.0; // of the tick, s
     bool calm = false; // too much has happened in this tick: no more changes, no more bounces
-    PerAxis place{};
-    PerAxis velocity{};
-    std::array<SlideAxis, 3> axes{};
-    Courses courses{};
-    Rubbing rubbing{};
+    PerAxis place;
+    PerAxis velocity;
+    std::array<SlideAxis, 3> axes;
+    Courses courses;
+    Rubbing rubbing;
 
     std::uint32_t spring_count = 0;
     std::uint32_t grip_count = 0;

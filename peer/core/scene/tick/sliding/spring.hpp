@@ -41,10 +41,12 @@ struct Spring {
         phase = Phase::apart;
         if (depth <= 0.0) return 0.0;
         const double wanted = tension(hips, speed);
-        phase = wanted >= hips.force_max_n ? Phase::limited
-                : wanted > 0.0             ? Phase::active
-                                           : Phase::slack;
-        return std::clamp(wanted, 0.0, hips.force_max_n);
+        if (wanted >= hips.force_max_n) {
+            phase = Phase::limited;
+            return hips.force_max_n;
+        }
+        phase = wanted > 0.0 ? Phase::active : Phase::slack;
+        return std::max(wanted, 0.0);
     }
 };
 

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace hapnet::scene {
+
+/// By a correctly rounded square root: the same bits everywhere.
+[[nodiscard]] inline double length(const glm::dvec3& v)
+{
+    return std::sqrt(glm::dot(v, v));
+}
+
+} // namespace hapnet::scene
