@@ -3,6 +3,7 @@
 #include "peer/core/scene/solver/block_factors.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hapnet::scene {
 
@@ -73,6 +74,17 @@ PointSet outermost(const ContactBlock& block, const PlaneFit& fit)
     two.add(std::min(low, high));
     two.add(std::max(low, high));
     return two;
+}
+
+double slip_answer(const ContactBlock& block)
+{
+    const double arm = block.torsion_arm;
+    const auto& m = block.matrix;
+    const double coupled_1 = std::abs(m[5][3]) * arm;
+    const double coupled_2 = std::abs(m[5][4]) * arm;
+    const double across = std::abs(m[4][3]);
+    return std::max({m[3][3] + across + coupled_1, m[4][4] + across + coupled_2,
+                     m[5][5] * arm * arm + coupled_1 + coupled_2});
 }
 
 } // namespace hapnet::scene

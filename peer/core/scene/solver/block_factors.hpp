@@ -20,4 +20,7 @@ namespace hapnet::scene {
 /// Of points on a line the outermost two, which say everything.
 [[nodiscard]] PointSet outermost(const ContactBlock& block, const PlaneFit& fit);
 
+/// The largest answer of the slip to friction: no step of one over it overshoots.
+[[nodiscard]] double slip_answer(const ContactBlock& block);
+
 } // namespace hapnet::scene

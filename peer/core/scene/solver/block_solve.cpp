@@ -80,7 +80,6 @@ private:
     {
         return answer_.normal[0] + answer_.normal[1] + answer_.normal[2] + answer_.normal[3];
     }
-    [[nodiscard]] double slip_answer() const;
     double slip_once(double step);
 
     ContactBlock& block_;
@@ -246,18 +245,6 @@ void Trial::push(double quiet)
     move_normals();
 }
 
-/// The largest answer of the slip to friction: no step of one over it overshoots.
-double Trial::slip_answer() const
-{
-    const double arm = block_.torsion_arm;
-    const auto& m = block_.matrix;
-    const double coupled_1 = std::abs(m[5][3]) * arm;
-    const double coupled_2 = std::abs(m[5][4]) * arm;
-    const double across = std::abs(m[4][3]);
-    return std::max({m[3][3] + across + coupled_1, m[4][4] + across + coupled_2,
-                     m[5][5] * arm * arm + coupled_1 + coupled_2});
-}
-
 /// Moves friction toward the direction against the slip; returns by how much.
 double Trial::slip_once(double step)
 {
@@ -279,7 +266,7 @@ double Trial::slip_once(double step)
 
 bool Trial::slip(double quiet, int rounds_max)
 {
-    const double most = slip_answer();
+    const double most = slip_answer(block_);
     const double step = most > 0.0 ? 1.0 / most : 0.0;
     constexpr double settled = 1e-14; // of the impulses: rounding
     push(quiet);
