@@ -4,6 +4,7 @@
 
 #include "proto/base/ensure.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <utility>
@@ -79,11 +80,14 @@ Bodies::Bodies(const Description& description)
     }
     slot_of.resize(count);
     form.reserve(count);
+    ease.reserve(count);
     for (const bool movables : {true, false}) {
         for (BodyId id = 0; id < count; ++id) {
             if (bodies[id].movable != movables) continue;
             slot_of[id] = size();
             form.push_back(form_of(bodies[id], id));
+            const glm::dvec3& easy = form.back().inverse_inertia;
+            ease.push_back(std::max({easy.x, easy.y, easy.z}));
         }
         if (movables) awake = movable = size();
     }
@@ -105,6 +109,7 @@ void Bodies::swap(Slot a, Slot b)
     swap_lanes(orientation, a, b);
     std::swap(orientation.w[a], orientation.w[b]);
     swap_lanes(angular_momentum, a, b);
+    std::swap(ease[a], ease[b]);
     std::swap(form[a], form[b]);
     slot_of[form[a].id] = a;
     slot_of[form[b].id] = b;

@@ -55,10 +55,11 @@ struct Bodies {
         }
     };
 
-    Lanes3 position;         // of the centre, m
-    Lanes3 velocity;         // m/s
-    Lanes4 orientation;      // unit
-    Lanes3 angular_momentum; // kg m^2/s
+    Lanes3 position;          // of the centre, m
+    Lanes3 velocity;          // m/s
+    Lanes4 orientation;       // unit
+    Lanes3 angular_momentum;  // kg m^2/s
+    std::vector<double> ease; // the largest inverse moment of inertia, 1/(kg m^2)
     std::vector<BodyForm> form;
     std::vector<Slot> slot_of; // by id
 

@@ -3,6 +3,7 @@
 #include "tests/bench/emulator/accuracy.hpp"
 
 #include "proto/net/clock.hpp"
+#include "tests/bench/emulator/machine.hpp"
 #include "tests/bench/emulator/probe.hpp"
 
 #include <algorithm>

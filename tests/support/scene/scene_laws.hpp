@@ -20,14 +20,16 @@ struct LawFigures {
 /// What has to hold for every tick of every world:
 /// - every number is finite, orientations are unit, locked axes and fixed bodies stay where they
 ///   are, what sleeps does not move and has no velocity;
-/// - a hand exerts no more than its greatest force;
-/// - kinetic energy grows by no more than the work of gravity, pushes and hands;
-/// - where nothing is fixed, momentum changes by what gravity, pushes and hands give, and angular
-///   momentum, without hands, by what gravity and pushes give.
+/// - a hand exerts no more than its greatest force (1e-6 of it tolerated);
+/// - kinetic energy grows by no more than the work of gravity, pushes and hands (tolerated: 1e-6 of
+///   what is there, and for each body m v^2 with v twice what its forces add in a tick, and what
+///   its energy of turning may differ by for the same angular momentum when it turns far);
+/// - where nothing is fixed, momentum changes by what gravity, pushes and hands give (1e-10 of the
+///   sum of all amounts tolerated); and angular momentum, without hands, by what gravity and pushes
+///   give (tolerated: what the bodies pass each other in a tick times the impulses).
 /// A body moves at the mean of its velocities before and after the tick, but where it bounces, so
-/// that the work of a steady force and of every impulse is exact: with the inertia as it is before
-/// the tick. Contacts oppose the motion at the tick's end: against a force that reverses it within
-/// the tick they can lose too little, by up to force^2 tick^2 / (8 mass).
+/// that the work of a steady force and of every impulse is known: with the inertia as it is before
+/// the tick.
 class SceneLaws {
 public:
     explicit SceneLaws(const RandomPlay& play);
@@ -73,7 +75,8 @@ private:
 
     const RandomPlay& play_;
     bool nothing_is_fixed_ = true;
-    double movable_ = 0.0; // how many
+    double movable_ = 0.0;            // how many
+    double size_ = scene::size_max_m; // the smallest half edge, m
     std::vector<Moment> moments_;
     LawFigures worst_;
 };

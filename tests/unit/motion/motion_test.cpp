@@ -75,6 +75,39 @@ TEST(MotionResponse, TwoHalvesMakeAWholeForEveryDampingAndStiffness)
     }
 }
 
+/// By Taylor's series in more digits: S^(n+2) = -damping S^(n+1) - stiffness S^(n).
+Response by_taylor(const Law& law, double t)
+{
+    const long double time = t, b = law.damping * time, k = law.stiffness * time * time;
+    long double before = 0.0L, derivative = 1.0L, factorial = 1.0L;
+    long double rate = 0.0L, step = 0.0L, push = 0.0L, ramp = 0.0L;
+    for (int n = 1; n < 30; ++n) {
+        factorial *= n;
+        const long double term = derivative / factorial;
+        rate += term * n;
+        step += term;
+        push += term / (n + 1);
+        ramp += term / (n + 1) / (n + 2);
+        const long double next = -b * derivative - k * before;
+        before = derivative;
+        derivative = next;
+    }
+    return {static_cast<double>(rate), static_cast<double>(step * time),
+            static_cast<double>(push * time * time),
+            static_cast<double>(ramp * time * time * time)};
+}
+
+TEST(MotionResponse, OfAWeakLawIsItsTaylorSeries)
+{
+    for (const double damping : {0.0, 1e-9, 0.01, 0.12, 0.13, 0.9, 1.0}) {
+        for (const double stiffness : {0.0, 1e-9, 0.001, 0.031, 0.032, 0.5, 1.0}) {
+            const Law law{damping / tick, stiffness / (tick * tick)};
+            ASSERT_LE(difference(respond(law, tick), by_taylor(law, tick), tick), 1e-15)
+                << damping << ' ' << stiffness;
+        }
+    }
+}
+
 TEST(MotionResponse, StaysFiniteAtTheStiffestThatAnyDescriptionAllows)
 {
     for (const Law& law : {Law{0.0, 8e15}, Law{8e12, 8e15}, Law{1e12, 0.0}, Law{1.8e8, 8e15}}) {

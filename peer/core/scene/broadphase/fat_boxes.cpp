@@ -16,15 +16,24 @@ namespace {
 constexpr double look_ahead_ticks = 32.0;
 // Of its mean half edge: how far a body strays from its path, or its corners by turning.
 constexpr double wander_share = 0.1;
-// A box reaches no farther ahead than this times the mean half edge, unless the body is faster.
-constexpr double stretch_max = 4.0;
-// ... but always this many ticks.
+// A box becomes no longer and no larger than this times a body's mean edge, or the cube of that,
+// by its path: along one axis far, across them less, where it would meet many. Unless the body is
+// faster:
+constexpr double stretch_max = 9.0;
+constexpr double shorter = 0.75;
+// ... it always lasts for this many ticks.
 constexpr double stretch_ticks_min = 2.0;
 // What a body may turn within one tick without being taken for one that spins.
 constexpr double turn_share = 0.25;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+
+/// How many times larger a box becomes by a path of so many of its edges.
+double stretch(const glm::dvec3& edges)
+{
+    return (1.0 + edges.x) * (1.0 + edges.y) * (1.0 + edges.z);
+}
 
 /// Half the edges of the upright box around a turned one.
 glm::dvec3 extent(const glm::dquat& q, const glm::dvec3& half)
@@ -59,9 +68,12 @@ Box FatBoxes::path(const Bodies& bodies, Slot slot, double wander) const
     const glm::dvec3 way = bodies.velocity.at(slot) * ahead;
     const double length = largest(glm::abs(way));
     if (!(length > wander) || form.mass == 0.0) return {position, position};
-    const double longest = stretch_max * (form.half.x + form.half.y + form.half.z) / 3.0;
-    const double share =
-        std::max(std::min(1.0, longest / length), stretch_ticks_min / look_ahead_ticks);
+    const double edge = 2.0 * (form.half.x + form.half.y + form.half.z) / 3.0;
+    const glm::dvec3 edges = glm::abs(way) / edge;
+    constexpr double share_min = stretch_ticks_min / look_ahead_ticks;
+    double share = std::min(1.0, (stretch_max - 1.0) * edge / length);
+    while (share > share_min && stretch(share * edges) > stretch_max) share *= shorter;
+    share = std::max(share, share_min);
     const double time = share * ahead;
     const glm::dvec3 drop = gravity_ * (0.5 * time * time);
     const glm::dvec3 straight = share * way;

@@ -12,6 +12,8 @@ namespace {
 // Farther out bodies share the cells of the border: slow there, and still right.
 constexpr double cells_max = 1 << 20;
 constexpr unsigned cell_bits = 21;
+// Of the median box, so that a box that reaches far ahead still lies in few cells.
+constexpr double cell_edges = 3.0;
 
 double largest_edge(const Box& box)
 {
@@ -37,7 +39,7 @@ Grid::Grid(std::span<const Box> boxes)
       entries_(boxes.size() * cells_each),
       heads_(std::bit_ceil(4 * boxes.size() + 1), none),
       large_{boxes.size()},
-      cell_{2.0 * median_edge(boxes)},
+      cell_{cell_edges * median_edge(boxes)},
       cells_per_m_{1.0 / cell_},
       mask_{heads_.size() - 1}
 {

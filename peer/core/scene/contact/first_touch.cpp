@@ -16,7 +16,7 @@ namespace hapnet::scene {
 namespace {
 
 // Squared sine of the angle below which a cross product is only rounding errors.
-constexpr double parallel = 1e-16;
+constexpr double parallel_edges = 1e-16;
 // Rounding errors of a shadow's length, relative to it: shadows that overlap by less touch.
 constexpr double rounding = 1e-13;
 
@@ -95,7 +95,7 @@ std::optional<Impact> first_touch(const OrientedBox& a, const OrientedBox& b,
     for (const int i : {0, 1, 2}) {
         for (const int j : {0, 1, 2}) {
             const glm::dvec3 direction = glm::cross(a.axes[i], b.axes[j]);
-            if (glm::dot(direction, direction) < parallel) continue;
+            if (glm::dot(direction, direction) < parallel_edges) continue;
             if (!sweep.consider(direction)) return std::nullopt;
         }
     }

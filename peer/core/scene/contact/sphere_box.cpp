@@ -3,6 +3,7 @@
 #include "peer/core/scene/contact/sphere_box.hpp"
 
 #include "peer/core/scene/motion/per_axis.hpp"
+#include "peer/core/scene/vector.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +13,6 @@
 namespace hapnet::scene {
 
 namespace {
-
-double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 glm::dvec3 closest_point(const glm::dvec3& half, const glm::dvec3& place)
 {

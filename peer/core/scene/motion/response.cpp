@@ -18,42 +18,41 @@ constexpr std::array<double, 24> reciprocals = [] {
     return r;
 }();
 
-constexpr std::array<double, 24> reciprocal_pairs = [] { // of n (n + 1)
-    std::array<double, 24> r{};
-    for (std::size_t n = 1; n < r.size(); ++n) r[n] = 1.0 / static_cast<double>(n * (n + 1));
-    return r;
+/// 1/n!
+constexpr std::array<double, 24> inverse_factorials = [] {
+    std::array<double, 24> all{1.0, 1.0};
+    for (std::size_t n = 2; n < all.size(); ++n) all[n] = all[n - 1] / static_cast<double>(n);
+    return all;
 }();
 
-/// Relative to those of a free body (1, t, t^2/2, t^3/6), the rate (n = 1), the step (2), the push
-/// (3), the ramp (4) and their further integrals are tied to each other by the law itself:
-/// y_n = 1 - b/n y_(n+1) - k/(n (n+1)) y_(n+2) with b = damping t and k = stiffness t^2. Beyond
-/// `last` they are taken as 1; every step back from there divides that error.
+/// The rate (n = 0), the step (1), the push (2), the ramp (3) and their further integrals, each in
+/// units of time^n, are tied to each other by the law itself:
+/// y_n = 1/n! - b y_(n+1) - k y_(n+2) with b = damping time and k = stiffness time^2. From `last`
+/// on they are taken as a free body's 1/n!; every step back from there makes that error smaller.
 template <std::size_t last>
 Response series(double b, double k, double t)
 {
-    static_assert(last < reciprocals.size());
-    const auto y = [&](std::size_t n, double next, double next_but_one) {
-        return 1.0 - k * reciprocal_pairs[n] * next_but_one - b * reciprocals[n] * next;
+    double ramp = inverse_factorials[last];
+    double beyond = inverse_factorials[last + 1];
+    const auto step_back = [&](std::size_t n, double next, double next_but_one) {
+        return inverse_factorials[n] - k * next_but_one - b * next;
     };
-    double next_but_one = 1.0;
-    double next = 1.0;
-    for (std::size_t n = last; n > 4; --n) {
-        const double one = y(n, next, next_but_one);
-        next_but_one = next;
-        next = one;
+    for (std::size_t n = last; n > 3; --n) {
+        const double one = step_back(n - 1, ramp, beyond);
+        beyond = ramp;
+        ramp = one;
     }
-    const double ramp = y(4, next, next_but_one);
-    const double push = y(3, ramp, next);
-    const double step = y(2, push, ramp);
-    return {y(1, step, push), step * t, push * (0.5 * t * t), ramp * (t * t * t * (1.0 / 6.0))};
+    const double push = step_back(2, ramp, beyond);
+    const double step = step_back(1, push, ramp);
+    const double rate = step_back(0, step, push);
+    const double square = t * t;
+    return {rate, step * t, push * square, ramp * (square * t)};
 }
 
-/// For damping * time <= 1 and stiffness * time^2 <= 1.
-Response series(const Law& law, double t)
+/// For damping * time <= 1 and stiffness * time^2 <= 1: so many that what is left out is below
+/// 2e-17 of the free body's.
+Response series(double b, double k, double t)
 {
-    const double b = law.damping * t;
-    const double k = law.stiffness * t * t;
-    // So many that what is left out is below 2e-17.
     return b <= 1.0 / 8.0 && k <= 1.0 / 32.0 ? series<12>(b, k, t) : series<19>(b, k, t);
 }
 
@@ -66,7 +65,7 @@ Decay decay(double rate, double t)
 {
     const double z = rate * t;
     if (z <= 1.0) {
-        const Response all = series({.damping = rate}, t); // its step is the decay's integral
+        const Response all = series(z, 0.0, t); // its step is the decay's integral
         return {all.rate, all.step, all.push};
     }
     const double value = base::exp(-std::min(z, 700.0));
@@ -140,7 +139,7 @@ Response respond(const Law& law, double time)
     const double b = law.damping * time;
     const double k = law.stiffness * time * time;
     if (time <= 0.0) return {};
-    if (b <= 1.0 && k <= 1.0) return series(law, time);
+    if (b <= 1.0 && k <= 1.0) return series(b, k, time);
 
     const double half = 0.5 * law.damping;
     const double square = law.stiffness - half * half; // of the frequency

@@ -47,17 +47,17 @@ glm::dquat turn_by(const glm::dvec3& angle)
     return {turn.cosine, turn.sinc * half.x, turn.sinc * half.y, turn.sinc * half.z};
 }
 
-glm::dmat3 axes_of(const glm::dquat& q)
+glm::dmat3 axes_of(const glm::dquat& orientation)
 {
-    const double xx = q.x * q.x;
-    const double yy = q.y * q.y;
-    const double zz = q.z * q.z;
-    const double xy = q.x * q.y;
-    const double xz = q.x * q.z;
-    const double yz = q.y * q.z;
-    const double wx = q.w * q.x;
-    const double wy = q.w * q.y;
-    const double wz = q.w * q.z;
+    const double xx = orientation.x * orientation.x;
+    const double yy = orientation.y * orientation.y;
+    const double zz = orientation.z * orientation.z;
+    const double xy = orientation.x * orientation.y;
+    const double xz = orientation.x * orientation.z;
+    const double yz = orientation.y * orientation.z;
+    const double wx = orientation.w * orientation.x;
+    const double wy = orientation.w * orientation.y;
+    const double wz = orientation.w * orientation.z;
     return {1.0 - 2.0 * (yy + zz), 2.0 * (xy + wz),       2.0 * (xz - wy),
             2.0 * (xy - wz),       1.0 - 2.0 * (xx + zz), 2.0 * (yz + wx),
             2.0 * (xz + wy),       2.0 * (yz - wx),       1.0 - 2.0 * (xx + yy)};

@@ -45,11 +45,12 @@ struct ContactImpulse {
 
 /// What was worked out for a block and may be needed again: valid as long as its matrix is.
 struct BlockFactors {
-    Ldl<6> whole{};            // of the matrix: three or four points, and friction
-    Ldl<5> few{};              // one or two points, and friction
-    PlaneFit fit{};            // of three or four points
-    std::uint32_t few_set = 0; // which points: bits; 0 when there are no factors
-    std::uint32_t fit_set = 0;
+    Ldl<6> whole{}; // of the matrix: three or four points, and friction
+    // For sets of one, of two, of three, of four points, the one that was met last: which, in bits,
+    // or 0 for none; factors for it and friction, or its plane.
+    std::array<std::uint32_t, manifold_points_max> sets{};
+    std::array<Ldl<5>, 2> few{};
+    std::array<PlaneFit, 2> fits{};
     bool has_whole = false;
     bool slipped = false; // when last looked at
 };
@@ -128,6 +129,9 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
 
 /// Whether the impulses are an answer already, to `quiet` m/s.
 [[nodiscard]] bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet);
+
+/// Whether friction is at its limit, or nearly, and opposes a slip faster than `quiet` m/s.
+[[nodiscard]] bool slips_already(const ContactBlock& block, const Modal& velocity, double quiet);
 
 /// The same without regard to friction.
 [[nodiscard]] bool is_separated(const ContactBlock& block, const Modal& velocity, double quiet);

@@ -26,16 +26,22 @@ Ldl<5> factors_of(const ContactBlock& block, const PointSet& set)
     return Ldl<5>{part};
 }
 
+/// Whether another set of so many points was met last.
+bool is_new(BlockFactors& factors, const PointSet& set)
+{
+    std::uint32_t& known = factors.sets[set.count - 1];
+    const bool is_new = known != set.bits();
+    known = set.bits();
+    return is_new;
+}
+
 } // namespace
 
 const Ldl<5>& few_factors(ContactBlock& block, const PointSet& set)
 {
-    BlockFactors& factors = block.factors;
-    if (factors.few_set != set.bits()) {
-        factors.few = factors_of(block, set);
-        factors.few_set = set.bits();
-    }
-    return factors.few;
+    Ldl<5>& few = block.factors.few[set.count - 1];
+    if (is_new(block.factors, set)) few = factors_of(block, set);
+    return few;
 }
 
 const Ldl<6>& whole_factors(ContactBlock& block)
@@ -48,12 +54,9 @@ const Ldl<6>& whole_factors(ContactBlock& block)
 
 const PlaneFit& fit_of(ContactBlock& block, const PointSet& set)
 {
-    BlockFactors& factors = block.factors;
-    if (factors.fit_set != set.bits()) {
-        factors.fit = PlaneFit{block.along_1, block.along_2, set};
-        factors.fit_set = set.bits();
-    }
-    return factors.fit;
+    PlaneFit& fit = block.factors.fits[set.count - 3];
+    if (is_new(block.factors, set)) fit = PlaneFit{block.along_1, block.along_2, set};
+    return fit;
 }
 
 PointSet outermost(const ContactBlock& block, const PlaneFit& fit)

@@ -11,12 +11,6 @@ namespace {
 
 using Friction = std::array<double, 3>; // along the tangents, and torsion over its arm
 
-Modal plus(Modal a, const Modal& b)
-{
-    for (std::size_t i = 0; i < 6; ++i) a[i] += b[i];
-    return a;
-}
-
 Modal minus(Modal a, const Modal& b)
 {
     for (std::size_t i = 0; i < 6; ++i) a[i] -= b[i];
@@ -37,6 +31,7 @@ public:
     /// Whether slip() has found the answer.
     [[nodiscard]] bool has_settled() const { return has_settled_; }
     [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
+    [[nodiscard]] const Modal& impulse() const { return modal_; }
 
     /// Sticking contact. False when something would pull or friction would pass its limit.
     bool stick(double quiet);
@@ -74,7 +69,8 @@ private:
         answer_.tangent_2 = modal_[4] = tangent_2;
         answer_.torsion = modal_[5] = torsion;
     }
-    void move() { now_ = plus(free_, times(block_.matrix, modal_)); }
+    void move_normals();
+    void move_tangents();
     [[nodiscard]] Friction scaled_friction() const
     {
         return {answer_.tangent_1, answer_.tangent_2,
@@ -123,6 +119,24 @@ void Trial::set_normals(const PointSet& set)
         modal_[0] += answer_.normal[at];
         modal_[1] += block_.along_2[at] * answer_.normal[at];
         modal_[2] -= block_.along_1[at] * answer_.normal[at];
+    }
+}
+
+void Trial::move_normals()
+{
+    const Modal before = given();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& row = block_.matrix[i];
+        now_[i] = before[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2]);
+    }
+}
+
+void Trial::move_tangents()
+{
+    for (std::size_t i = 3; i < 6; ++i) {
+        const auto& row = block_.matrix[i];
+        now_[i] = free_[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2] +
+                              row[3] * modal_[3] + row[4] * modal_[4] + row[5] * modal_[5]);
     }
 }
 
@@ -204,7 +218,7 @@ bool Trial::stick(double quiet)
     const Friction f = scaled_friction();
     const double limit = block_.friction * normal_sum();
     if (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] > limit * limit) return false;
-    move();
+    move_normals();
     for (std::uint32_t i = 0; i < block_.count; ++i) {
         if (block_.normal_speed(now_, i) - block_.least[i] < -quiet) return false;
     }
@@ -221,7 +235,7 @@ void Trial::push(double quiet)
             set = rest;
             continue;
         }
-        move();
+        move_normals();
         if (set.count == 0) return;
         const PointSet more = pushing(quiet);
         if (more.count == set.count) return;
@@ -229,7 +243,7 @@ void Trial::push(double quiet)
     }
     for (double& impulse : answer_.normal) impulse = std::max(impulse, 0.0);
     modal_ = modal(block_, answer_);
-    move();
+    move_normals();
 }
 
 /// The largest answer of the slip to friction: no step of one over it overshoots.
@@ -244,12 +258,12 @@ double Trial::slip_answer() const
                      m[5][5] * arm * arm + coupled_1 + coupled_2});
 }
 
-/// Moves friction toward the direction against the slip; returns by how much. Of the velocity only
-/// what the points feel follows.
+/// Moves friction toward the direction against the slip; returns by how much.
 double Trial::slip_once(double step)
 {
     const double arm = block_.torsion_arm;
     const Friction was = scaled_friction();
+    move_tangents();
     Friction f{was[0] - step * now_[3], was[1] - step * now_[4], was[2] - step * now_[5] * arm};
     const double limit = block_.friction * normal_sum();
     const double size = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
@@ -258,13 +272,8 @@ double Trial::slip_once(double step)
         const double share = limit / size;
         for (double& part : f) part *= share;
     }
-    const Friction change{f[0] - answer_.tangent_1, f[1] - answer_.tangent_2,
-                          f[2] * arm - answer_.torsion};
     set_friction(f[0], f[1], f[2] * arm);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto& row = block_.matrix[i];
-        now_[i] += row[3] * change[0] + row[4] * change[1] + row[5] * change[2];
-    }
+    move_normals();
     return std::max({std::abs(f[0] - was[0]), std::abs(f[1] - was[1]), std::abs(f[2] - was[2])});
 }
 
@@ -282,7 +291,7 @@ bool Trial::slip(double quiet, int rounds_max)
         has_settled_ = change <= settled * normal_sum();
         if (has_settled_) return reached;
     }
-    slip_once(0.0);
+    slip_once(0.0); // within the limit
     return reached;
 }
 
@@ -295,23 +304,10 @@ double rounding_of(const ContactBlock& block, const Modal& velocity)
                         (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
 }
 
-/// Whether friction is at its limit and opposes a slip.
-bool slips_already(const ContactBlock& block, const Modal& velocity, double quiet)
+Modal finish(ContactBlock& block, const Trial& trial, const Trial& begun)
 {
-    const ContactImpulse& held = block.impulse;
-    const double along = held.tangent_1 * velocity[3] + held.tangent_2 * velocity[4];
-    const double size2 = held.tangent_1 * held.tangent_1 + held.tangent_2 * held.tangent_2;
-    const double limit = block.friction * block.normal_sum();
-    constexpr double nearly = 0.99;
-    return size2 >= nearly * limit * limit && size2 > 0.0 && along < 0.0 &&
-           along * along > quiet * quiet * size2;
-}
-
-Modal finish(ContactBlock& block, const ContactImpulse& answer)
-{
-    const Modal change = minus(modal(block, answer), modal(block, block.impulse));
-    block.impulse = answer;
-    return change;
+    block.impulse = trial.answer();
+    return minus(trial.impulse(), begun.impulse());
 }
 
 } // namespace
@@ -359,11 +355,11 @@ Modal solve(ContactBlock& block, const Modal& velocity, double quiet)
     const bool slips = slips_already(block, velocity, still);
     Trial slipping = begun;
     if (slips && slipping.slip(still, rounds) && slipping.has_settled())
-        return finish(block, slipping.answer());
+        return finish(block, slipping, begun);
     Trial sticking = begun;
-    if (sticking.stick(still)) return finish(block, sticking.answer());
+    if (sticking.stick(still)) return finish(block, sticking, begun);
     if (!slips) slipping.slip(still, rounds);
-    return finish(block, slipping.answer());
+    return finish(block, slipping, begun);
 }
 
 Modal improve(ContactBlock& block, const Modal& velocity, double quiet)
@@ -374,22 +370,23 @@ Modal improve(ContactBlock& block, const Modal& velocity, double quiet)
     Trial slipping = begun;
     // What slipped slips.
     bool& slipped = block.factors.slipped;
-    if (slipped && slipping.slip(still, 1)) return finish(block, slipping.answer());
+    if (slipped && slipping.slip(still, 1)) return finish(block, slipping, begun);
     Trial sticking = begun;
     if (sticking.stick(still)) {
         slipped = false;
-        return finish(block, sticking.answer());
+        return finish(block, sticking, begun);
     }
     if (!slipped) slipping.slip(still, 1);
     slipped = true;
-    return finish(block, slipping.answer());
+    return finish(block, slipping, begun);
 }
 
 Modal solve_normals(ContactBlock& block, const Modal& velocity, double quiet)
 {
-    Trial trial{block, velocity};
+    const Trial begun{block, velocity};
+    Trial trial = begun;
     trial.push(std::max(quiet, rounding_of(block, velocity)));
-    return finish(block, trial.answer());
+    return finish(block, trial, begun);
 }
 
 } // namespace hapnet::scene

@@ -13,9 +13,8 @@ namespace {
 /// The impulses of a block as numbers of one kind, N s.
 constexpr std::size_t parts = 7;
 
-// What a large island may cost: so many visits to its blocks, but a few sweeps in any case.
-constexpr std::uint32_t visits_max = 1200;
-constexpr std::uint32_t sweeps_min = 7;
+// A few sweeps are made of any island: the first, to and fro.
+constexpr std::uint32_t sweeps_min = 3;
 // Islands larger than this are swept without mixing: what they may cost is used up before it helps.
 constexpr std::size_t mixed_max = 1024;
 
@@ -35,6 +34,13 @@ void write(ContactBlock& block, const double* from)
     impulse.tangent_1 = from[4];
     impulse.tangent_2 = from[5];
     if (block.torsion_arm > 0.0) impulse.torsion = from[6] * block.torsion_arm;
+}
+
+double size2(std::span<const double> a)
+{
+    double sum = 0.0;
+    for (const double part : a) sum += part * part;
+    return sum;
 }
 
 double distance2(std::span<const double> a, std::span<const double> b)
@@ -119,29 +125,42 @@ SolverOutcome ContactSolver::run(const Task& task)
     }
     if (outcome.change <= task.limits.enough || blocks_.size() < 2) return outcome;
     find_islands();
+    std::size_t moving = 0;
+    for_moving_islands(task, [&](Island island) { moving += island.size(); });
+    // What may be done is shared evenly.
+    const std::size_t share = std::max<std::size_t>(
+        sweeps_min, task.limits.visits_max / std::max<std::size_t>(moving, 1));
+    Task its = task;
+    its.limits.sweeps_max = std::min(its.limits.sweeps_max, static_cast<std::uint32_t>(share));
     outcome.change = 0.0;
-    std::uint32_t end = 0;
-    for (const std::uint32_t next : starts_.all()) {
-        const Island island{&order_[end], next - end};
-        end = next;
-        const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.enough; };
-        if (island.size() < 2 || std::none_of(island.begin(), island.end(), moves)) continue;
-        const SolverOutcome its = run_island(task, island);
-        outcome.sweeps = std::max(outcome.sweeps, its.sweeps);
-        outcome.change = std::max(outcome.change, its.change);
-    }
+    for_moving_islands(task, [&](Island island) {
+        const SolverOutcome one = run_island(its, island);
+        const bool is_done = one.change <= task.limits.enough;
+        if (task.mode == Mode::contacts && !is_done) lose_energy(task, island);
+        outcome.sweeps = std::max(outcome.sweeps, one.sweeps);
+        outcome.change = std::max(outcome.change, one.change);
+    });
     return outcome;
+}
+
+/// Those that the first sweep has not settled.
+template <typename Do>
+void ContactSolver::for_moving_islands(const Task& task, Do&& act)
+{
+    const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.enough; };
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : starts_.all()) {
+        const Island island = order_.all().subspan(begin, end - begin);
+        begin = end;
+        if (island.size() > 1 && std::any_of(island.begin(), island.end(), moves)) act(island);
+    }
 }
 
 SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
-    const std::uint32_t sweeps_max = std::min<std::uint32_t>(
-        task.limits.sweeps_max,
-        std::max<std::uint32_t>(sweeps_min,
-                                visits_max / static_cast<std::uint32_t>(island.size())));
     SolverOutcome outcome{1, 0.0};
     if (island.size() > mixed_max) {
-        while (outcome.sweeps + 2 <= sweeps_max) {
+        while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
             outcome.change = sweep(task, island);
             outcome.sweeps += 2;
             if (outcome.change <= task.limits.enough) break;
@@ -154,12 +173,14 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
     anderson_.begin(parts * island.size());
     note(island, before_.all());
     double shortest2 = std::numeric_limits<double>::infinity();
+    double first2 = -1.0;
     bool has_jumped = false;
-    while (outcome.sweeps + 2 <= sweeps_max) {
+    while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
         outcome.change = sweep(task, island);
         outcome.sweeps += 2;
         if (outcome.change <= task.limits.enough) break;
         note(island, after_.all());
+        if (first2 < 0.0) first2 = size2(after_.all());
         const double step2 = distance2(before_.all(), after_.all());
         // A mixture that leads astray, because something opens or slips there, is taken back.
         constexpr double astray = 4.0;
@@ -171,11 +192,59 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
             continue;
         }
         shortest2 = std::min(shortest2, step2);
-        if (outcome.sweeps + 2 > sweeps_max) break;
+        if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
         has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
+        // Where bodies are wedged, impulses that do nothing could grow without end.
+        constexpr double too_far = 1e4;
+        if (size2(before_.all()) > too_far * too_far * first2) {
+            std::copy(after_.all().begin(), after_.all().end(), before_.all().begin());
+            anderson_.begin(parts * island.size());
+            has_jumped = false;
+        }
         if (has_jumped) jump(task, island);
     }
     return outcome;
+}
+
+/// Impulses on the way to the answer may leave more energy than none at all would have. Then they
+/// are scaled to what leaves least.
+void ContactSolver::lose_energy(const Task& task, Island island)
+{
+    const auto scale_all = [&](double by) {
+        for (const std::uint32_t i : island) {
+            Modal change = modal(blocks_[i], blocks_[i].impulse);
+            for (double& part : change) part *= by;
+            apply(blocks_[i], change, task.motions);
+        }
+    };
+    const auto product = [&] { // of the impulses and the velocities there now
+        double sum = 0.0;
+        for (const std::uint32_t i : island) {
+            const ContactBlock& block = blocks_[i];
+            const Modal impulse = modal(block, block.impulse);
+            const Modal speed = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+            for (std::size_t k = 0; k < impulse.size(); ++k) sum += impulse[k] * speed[k];
+        }
+        return sum;
+    };
+    const double with = product();
+    save(task, island);
+    scale_all(-1.0);
+    const double without = product();
+    const double answer = with - without;
+    if (with + without <= 0.0) {
+        bring_back(task, island);
+        return;
+    }
+    const double share = without < 0.0 ? -without / answer : 0.0;
+    scale_all(share);
+    for (const std::uint32_t i : island) {
+        ContactImpulse& impulse = blocks_[i].impulse;
+        for (double& normal : impulse.normal) normal *= share;
+        impulse.tangent_1 *= share;
+        impulse.tangent_2 *= share;
+        impulse.torsion *= share;
+    }
 }
 
 double ContactSolver::sweep(const Task& task, Island island)
@@ -198,11 +267,7 @@ void ContactSolver::note(Island island, std::span<double> impulses) const
 void ContactSolver::jump(const Task& task, Island island)
 {
     std::copy(after_.all().begin(), after_.all().end(), good_.all().begin());
-    saved_.resize(task.motions.size());
-    for (const std::uint32_t i : island) {
-        saved_[blocks_[i].a] = task.motions[blocks_[i].a];
-        saved_[blocks_[i].b] = task.motions[blocks_[i].b];
-    }
+    save(task, island);
     for (std::size_t i = 0; i < island.size(); ++i) {
         ContactBlock& block = blocks_[island[i]];
         Modal change = modal(block, block.impulse);
@@ -215,11 +280,26 @@ void ContactSolver::jump(const Task& task, Island island)
 
 void ContactSolver::step_back(const Task& task, Island island)
 {
+    bring_back(task, island);
     for (std::size_t i = 0; i < island.size(); ++i) {
-        ContactBlock& block = blocks_[island[i]];
-        task.motions[block.a] = saved_[block.a];
-        task.motions[block.b] = saved_[block.b];
-        write(block, &good_[parts * i]);
+        write(blocks_[island[i]], &good_[parts * i]);
+    }
+}
+
+void ContactSolver::save(const Task& task, Island island)
+{
+    saved_.resize(task.motions.size());
+    for (const std::uint32_t i : island) {
+        saved_[blocks_[i].a] = task.motions[blocks_[i].a];
+        saved_[blocks_[i].b] = task.motions[blocks_[i].b];
+    }
+}
+
+void ContactSolver::bring_back(const Task& task, Island island)
+{
+    for (const std::uint32_t i : island) {
+        task.motions[blocks_[i].a] = saved_[blocks_[i].a];
+        task.motions[blocks_[i].b] = saved_[blocks_[i].b];
     }
 }
 

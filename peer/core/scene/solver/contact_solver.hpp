@@ -7,6 +7,7 @@
 #include "peer/core/scene/solver/scratch.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace hapnet::scene {
@@ -16,6 +17,8 @@ struct SolverLimits {
     double quiet = 0.0;           // m/s: a contact that misses by less is left alone
     double enough = 0.0;          // m/s: when no contact changed its speed by more, that was it
     std::uint32_t sweeps_max = 1; // over an island
+    std::uint32_t visits_max =
+        std::numeric_limits<std::uint32_t>::max(); // over all islands, beyond a few sweeps
 };
 
 /// How far it came.
@@ -70,7 +73,12 @@ private:
     using Island = std::span<const std::uint32_t>; // its blocks
 
     SolverOutcome run(const Task& task);
+    template <typename Do>
+    void for_moving_islands(const Task& task, Do&& act);
     SolverOutcome run_island(const Task& task, Island island);
+    void save(const Task& task, Island island);
+    void bring_back(const Task& task, Island island);
+    void lose_energy(const Task& task, Island island);
     double sweep(const Task& task, Island island);
     void note(Island island, std::span<double> impulses) const;
     void jump(const Task& task, Island island);

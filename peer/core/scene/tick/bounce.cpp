@@ -72,6 +72,22 @@ void add(const Throw& thrown, const Wrench& push, double share_left)
     course.thrown_mean += share_left * change.angular_impulse;
 }
 
+/// How much of an impulse leaves the energy at most what it was. Points that bounce by themselves
+/// and friction can together ask for more (Kane, Levinson, 1985: a falling rod that slides).
+double share_without_gain(const ContactBlock& block, const Modal& velocity, const Modal& impulse)
+{
+    const Modal change = times(block.matrix, impulse);
+    double before = 0.0;
+    double change_twice = 0.0;
+    for (std::size_t i = 0; i < change.size(); ++i) {
+        before += impulse[i] * velocity[i];
+        change_twice += impulse[i] * change[i];
+    }
+    constexpr double rounding = 1e-12;
+    if (before + 0.5 * change_twice <= rounding * std::abs(before)) return 1.0;
+    return before < 0.0 ? -2.0 * before / change_twice : 0.0;
+}
+
 void bounce_one(ContactBlock& block, ContactSolver& solver, std::span<BodyCourse> courses,
                 const Scales& scales)
 {
@@ -94,7 +110,9 @@ void bounce_one(ContactBlock& block, ContactSolver& solver, std::span<BodyCourse
         block.least[i] =
             hits ? -block.restitution * speed : -out_of_play * scales.size / scales.tick;
     }
-    const Modal change = solver.solve_one(block, then, 0.0);
+    Modal change = solver.solve_one(block, then, 0.0);
+    const double kept_share = share_without_gain(block, then, change);
+    for (double& part : change) part *= kept_share;
     block.impulse = kept;
     block.least = least;
     Wrench push = wrench(block, change);
@@ -109,7 +127,6 @@ void bounce_one(ContactBlock& block, ContactSolver& solver, std::span<BodyCourse
 
 void bounce(ContactSolver& solver, std::span<BodyCourse> courses, const Scales& scales)
 {
-    for (BodyCourse& course : courses) course.rebound = course.start;
     for (ContactBlock& block : solver.blocks()) {
         if (block.restitution > 0.0) bounce_one(block, solver, courses, scales);
     }

@@ -65,25 +65,24 @@ void start(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse
     course.angular_momentum = momentum + course.angular_impulse;
 }
 
-bool turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
+void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
 {
     const BodyForm& form = bodies.form[slot];
     if (course.has_hands) {
         const glm::dvec3 more = tick * (mean.spin - course.mean.spin);
         bodies.orientation.put(slot, is_nothing(more) ? course.orientation
                                                       : turned(course.orientation, more));
-        return true;
+        return;
     }
     const glm::dquat now = bodies.orientation.at(slot);
-    if (is_nothing(tick * mean.spin)) return false;
+    if (is_nothing(tick * mean.spin)) return;
     if (turns_evenly(form)) {
         bodies.orientation.put(slot, turned(now, tick * mean.spin));
-        return true;
+        return;
     }
     const glm::dvec3 momentum =
         bodies.angular_momentum.at(slot) + 0.5 * course.angular_impulse + mean.angular_impulse;
     bodies.orientation.put(slot, spun(now, {momentum, form.inverse_inertia}, tick));
-    return true;
 }
 
 } // namespace
@@ -128,6 +127,17 @@ BodyResponse response_of(const BodyForm& form, const OrientedBox& box)
     return response;
 }
 
+void begin(BodyCourse& course)
+{
+    course.impulse = glm::dvec3{0.0};
+    course.angular_impulse = glm::dvec3{0.0};
+    course.thrown = glm::dvec3{0.0};
+    course.thrown_mean = glm::dvec3{0.0};
+    course.rubbing = 0;
+    course.drag = 0.0;
+    course.has_hands = false;
+}
+
 void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
             const Frozen& frozen)
 {
@@ -139,8 +149,13 @@ void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyRespons
                         glm::dvec3{0.0}};
     if (!turns_evenly(stage.bodies.form[slot])) {
         // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
-        course.tentative.spin += tick * (response.inverse_inertia *
-                                         glm::cross(course.angular_momentum, course.start.spin));
+        // Of what turns far in a tick that rate says nothing: it fades out.
+        constexpr double far = 0.3; // radians
+        const glm::dvec3& spin = course.start.spin;
+        const double fades = std::min(1.0, tick * tick * glm::dot(spin, spin) / (far * far));
+        course.tentative.spin +=
+            ((1.0 - fades) * tick) *
+            (response.inverse_inertia * glm::cross(course.angular_momentum, spin));
     }
     course.mean = {before + (0.5 * tick) * rate, 0.5 * (course.start.spin + course.tentative.spin),
                    glm::dvec3{0.0}};
@@ -242,14 +257,14 @@ bool keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scal
     return true;
 }
 
-bool arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
+void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
             const Scales& scales)
 {
     const double tick = scales.tick;
     const SolverIndex index = slot + 1;
     BodyMotion& mean = solver.mean(index);
     const BodyMotion& ending = solver.ending(index);
-    const bool has_turned = turn(course, bodies, slot, mean, tick);
+    turn(course, bodies, slot, mean, tick);
     const glm::dvec3 from = bodies.position.at(slot);
     if (course.has_hands) {
         bodies.position.put(slot, course.position + tick * (mean.velocity - course.mean.velocity));
@@ -260,7 +275,6 @@ bool arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& 
     bodies.angular_momentum.put(
         slot, course.angular_momentum +
                   about_free_axes(bodies.form[slot], ending.angular_impulse + course.thrown));
-    return has_turned;
 }
 
 } // namespace hapnet::scene

@@ -46,6 +46,9 @@ struct BodyCourse {
 [[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
 [[nodiscard]] BodyResponse response_of(const BodyForm& form, const OrientedBox& box);
 
+/// Nothing acts on the body yet.
+void begin(BodyCourse& course);
+
 /// The springs on one body.
 struct HandsOn {
     std::span<const HipSpring> springs;
@@ -71,8 +74,8 @@ void stop_in_time(const ContactBlock& block, const BodyCourse& course, const Bod
 /// not looked for. Returns whether it was.
 bool keep_to_path(const BodyCourse& course, BodyMotion& mean, const Scales& scales);
 
-/// Moves the body by what was solved. Returns whether it turned.
-bool arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
+/// Moves the body by what was solved.
+void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
             const Scales& scales);
 
 } // namespace hapnet::scene

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace hapnet::scene {
 
@@ -36,6 +37,7 @@ void fall_along(std::vector<double>& position, std::vector<double>& velocity, Sl
 struct Turns {
     static constexpr std::size_t room = 128;
     std::array<double, room> w, x, y, z;
+    std::array<double, room> square; // of half the angle
 };
 
 /// The turn of every body of the range. Returns how many turn too far for the short series.
@@ -58,6 +60,7 @@ double find_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange range,
         turns.x[i] = turn.sinc * x;
         turns.y[i] = turn.sinc * y;
         turns.z[i] = turn.sinc * z;
+        turns.square[i] = square;
         far += square <= small_turn_max ? 0.0 : 1.0;
     }
     return far;
@@ -69,13 +72,18 @@ void find_far_turns(Turns& turns, const Bodies::Lanes3& momentum, SlotRange rang
 {
     for (Slot slot = range.begin; slot < range.end; ++slot) {
         const std::size_t i = slot - range.begin;
-        const glm::dquat turn = turn_by((2.0 * half_turn_by_momentum[i]) * momentum.at(slot));
+        const glm::dvec3 angle = (2.0 * half_turn_by_momentum[i]) * momentum.at(slot);
+        const glm::dquat turn = turn_by(angle);
+        turns.square[i] = glm::dot(angle, angle);
         turns.w[i] = turn.w;
         turns.x[i] = turn.x;
         turns.y[i] = turn.y;
         turns.z[i] = turn.z;
     }
 }
+
+/// A turn too small to show in an orientation: half its angle, squared.
+constexpr double nothing2 = 1e-36;
 
 /// orientation = turn * orientation, unit.
 void apply(const Turns& turns, Bodies::Lanes4& orientation, SlotRange range)
@@ -94,11 +102,13 @@ void apply(const Turns& turns, Bodies::Lanes4& orientation, SlotRange range)
             turns.w[i] * y[i] + turns.y[i] * w[i] + turns.z[i] * x[i] - turns.x[i] * z[i];
         const double d =
             turns.w[i] * z[i] + turns.z[i] * w[i] + turns.x[i] * y[i] - turns.y[i] * x[i];
-        const double length = std::sqrt(a * a + b * b + c * c + d * d);
-        w[i] = a / length;
-        x[i] = b / length;
-        y[i] = c / length;
-        z[i] = d / length;
+        const double square = a * a + b * b + c * c + d * d;
+        // 1 / sqrt(square) to the first order about 1, from which rounding alone has led it away.
+        const double shrink = turns.square[i] > nothing2 ? 1.5 - 0.5 * square : 1.0;
+        w[i] = a * shrink;
+        x[i] = b * shrink;
+        y[i] = c * shrink;
+        z[i] = d * shrink;
     }
 }
 
@@ -113,8 +123,7 @@ void fall(Bodies& bodies, SlotRange range, const glm::dvec3& acceleration, doubl
     fall_along(bodies.position.z, bodies.velocity.z, range, {tick, gained.z, fallen.z});
 }
 
-void turn_evenly(Bodies& bodies, SlotRange range, std::span<const double> inverse_inertia,
-                 double tick)
+void turn_evenly(Bodies& bodies, SlotRange range, double tick)
 {
     Turns turns;
     std::array<double, Turns::room> rate;
@@ -122,7 +131,7 @@ void turn_evenly(Bodies& bodies, SlotRange range, std::span<const double> invers
         const Slot count = std::min<Slot>(Turns::room, range.end - range.begin);
         const SlotRange some{range.begin, range.begin + count};
         for (std::size_t i = 0; i < count; ++i)
-            rate[i] = (0.5 * tick) * inverse_inertia[some.begin + i];
+            rate[i] = (0.5 * tick) * bodies.ease[some.begin + i];
         if (find_turns(turns, bodies.angular_momentum, some, rate.data()) != 0.0)
             find_far_turns(turns, bodies.angular_momentum, some, rate.data());
         apply(turns, bodies.orientation, some);
@@ -133,12 +142,6 @@ void turn_evenly(Bodies& bodies, SlotRange range, std::span<const double> invers
 bool turns_evenly(const BodyForm& form)
 {
     return form.turning != Turning::free || form.is_isotropic;
-}
-
-double even_inverse_inertia(const BodyForm& form)
-{
-    const glm::dvec3& about = form.inverse_inertia;
-    return std::max(std::max(about.x, about.y), about.z);
 }
 
 void turn_freely(Bodies& bodies, Slot slot, double tick)
@@ -159,12 +162,34 @@ glm::dvec3 falling(const BodyForm& form, const glm::dvec3& gravity)
             form.inverse_mass.z > 0.0 ? gravity.z : 0.0};
 }
 
+Fliers::Fliers(const Frozen& frozen, const Bodies& bodies)
+    : tick_{frozen.tick}, gravity_{frozen.gravity}
+{
+    for (Slot slot = 0; slot < bodies.movable; ++slot) {
+        const BodyForm& form = bodies.form[slot];
+        const glm::dvec3 acceleration = falling(form, gravity_);
+        if (slot == 0) acceleration_ = acceleration;
+        are_alike_ = are_alike_ && turns_evenly(form) && acceleration == acceleration_;
+    }
+}
+
+void Fliers::move(Bodies& bodies, SlotRange range) const
+{
+    if (are_alike_) {
+        fall(bodies, range, acceleration_, tick_);
+        turn_evenly(bodies, range, tick_);
+        return;
+    }
+    for (Slot slot = range.begin; slot < range.end; ++slot) {
+        fall(bodies, {slot, slot + 1}, falling(bodies.form[slot], gravity_), tick_);
+        turn_freely(bodies, slot, tick_);
+    }
+}
+
 FlightTick::FlightTick(const Description& /*description*/, const Frozen& frozen, const Stage& stage)
-    : inverse_inertia_(stage.bodies.movable)
 {
     for (Slot slot = 0; slot < stage.bodies.movable; ++slot) {
         const BodyForm& form = stage.bodies.form[slot];
-        inverse_inertia_[slot] = even_inverse_inertia(form);
         const Kind kind = form.turning == Turning::locked ? Kind::locked
                           : turns_evenly(form)            ? Kind::even
                                                           : Kind::wobbling;
@@ -183,7 +208,7 @@ void FlightTick::tick(const Frozen& frozen, Stage& stage)
         fall(bodies, run.range, run.acceleration, tick);
         switch (run.kind) {
         case Kind::locked: break;
-        case Kind::even: turn_evenly(bodies, run.range, inverse_inertia_, tick); break;
+        case Kind::even: turn_evenly(bodies, run.range, tick); break;
         case Kind::wobbling:
             for (Slot slot = run.range.begin; slot < run.range.end; ++slot)
                 turn_freely(bodies, slot, tick);

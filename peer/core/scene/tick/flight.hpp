@@ -4,7 +4,6 @@
 
 #include "peer/core/scene/stage.hpp"
 
-#include <span>
 #include <vector>
 
 namespace hapnet::scene {
@@ -19,22 +18,33 @@ struct SlotRange {
 void fall(Bodies& bodies, SlotRange range, const glm::dvec3& acceleration, double tick);
 
 /// Turns bodies by one tick about the axis of their angular momentum, exactly. For those that turn
-/// evenly: with three equal moments of inertia, or about one axis of the world. `inverse_inertia`
-/// about that axis is by slot.
-void turn_evenly(Bodies& bodies, SlotRange range, std::span<const double> inverse_inertia,
-                 double tick);
+/// evenly: with three equal moments of inertia, or about one axis of the world. What does not turn
+/// keeps its orientation to the last bit.
+void turn_evenly(Bodies& bodies, SlotRange range, double tick);
 
 /// Whether a body turns evenly, or not at all.
 [[nodiscard]] bool turns_evenly(const BodyForm& form);
-
-/// The inverse inertia of a body that turns evenly, about whatever axis it turns; 0 when it cannot.
-[[nodiscard]] double even_inverse_inertia(const BodyForm& form);
 
 /// Turns one body of any kind by one tick in which nothing touches it.
 void turn_freely(Bodies& bodies, Slot slot, double tick);
 
 /// Gravity on what of a body is not locked.
 [[nodiscard]] glm::dvec3 falling(const BodyForm& form, const glm::dvec3& gravity);
+
+/// Moves bodies that nothing touches, whatever their kinds: many at once when all movable bodies of
+/// the scene turn evenly and fall alike, else one by one.
+class Fliers {
+public:
+    Fliers(const Frozen& frozen, const Bodies& bodies);
+
+    void move(Bodies& bodies, SlotRange range) const;
+
+private:
+    double tick_;
+    glm::dvec3 gravity_;
+    glm::dvec3 acceleration_{0.0}; // of all, when they are alike
+    bool are_alike_ = true;
+};
 
 /// Bodies that nothing touches: exact parabolas, and rotations that keep the angular momentum.
 class FlightTick {
@@ -54,7 +64,6 @@ private:
     };
 
     std::vector<Run> runs_;
-    std::vector<double> inverse_inertia_; // by slot, of those that turn evenly
 };
 
 } // namespace hapnet::scene

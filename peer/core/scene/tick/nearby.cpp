@@ -33,9 +33,14 @@ BoxMeeting meeting(const BoxPath& a, const BoxPath& b, double tick, BoxBoxMemory
 {
     const double margin = a.reach + b.reach;
     const double near = far * std::min(shortest(a.box.half), shortest(b.box.half));
+    const glm::dvec3 velocity = b.velocity - a.velocity;
+    // The spheres around them tell most pairs that fly side by side.
+    const glm::dvec3 apart = b.box.centre - a.box.centre;
+    const double nearest =
+        a.radius + b.radius + std::max(std::min(margin, near), tick * length(velocity));
+    if (glm::dot(apart, apart) > nearest * nearest) return {};
     const ContactPlaces here{a.box.centre, b.box.centre};
     if (margin < near) return {collide(a.box, b.box, margin, memory), here};
-    const glm::dvec3 velocity = b.velocity - a.velocity;
     const auto impact = first_touch(a.box, b.box, velocity, tick);
     if (!impact) return {collide(a.box, b.box, near, memory), here};
     OrientedBox there_a = a.box;

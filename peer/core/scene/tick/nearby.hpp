@@ -15,6 +15,7 @@ struct BoxPath {
     const OrientedBox& box;
     glm::dvec3 velocity{0.0};
     double reach = 0.0;
+    double radius = 0.0; // of the corners
 };
 
 /// Where two boxes touch, and their centres then.

@@ -3,7 +3,6 @@
 #include "peer/core/scene/tick/rigid.hpp"
 
 #include "peer/core/scene/contact/box_plane.hpp"
-#include "peer/core/scene/motion/rotation.hpp"
 #include "peer/core/scene/tick/bounce.hpp"
 #include "peer/core/scene/tick/nearby.hpp"
 
@@ -22,15 +21,15 @@ constexpr std::size_t contacts_per_body_max = 8;
 constexpr double quiet = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
 constexpr double enough = 1e-6;
-// ... or this many sweeps were made. (a stack of ten takes 23 from nothing, a thousandfold mass 9).
-constexpr std::uint32_t sweeps_max = 60;
+// ... or this much was done (a stack takes 23 sweeps from nothing); the next tick goes on.
+constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
 // for, and the most that is moved apart in one tick.
 constexpr double overlap_quiet = 1e-9;
 constexpr double overlap_enough = 1e-6;
 constexpr double overlap_most = 0.02;
-constexpr std::uint32_t overlap_sweeps_max = 40;
+constexpr std::uint32_t overlap_visits_max = 200;
 // Of an overlap that is there, this share is removed per tick: not all, so that contacts that
 // contradict each other settle.
 constexpr double overlap_share = 0.3;
@@ -80,36 +79,33 @@ RigidTick<crowd>::RigidTick(const Description& /*description*/, const Frozen& fr
       neighbours_{frozen, stage.bodies},
       sleep_{frozen, stage.bodies},
       hands_{frozen},
-      boxes_(stage.bodies.size()),
+      boxes_{stage.bodies, scales_},
+      fliers_{frozen, stage.bodies},
+      engaged_{stage.bodies.movable},
       courses_{stage.bodies.movable + std::size_t{1}},
       solver_{stage.bodies.movable, blocks_for(frozen, stage.bodies)}
-{
-    const Bodies& bodies = stage.bodies;
-    for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        boxes_[bodies.form[slot].id] = box_of(bodies, slot);
-    }
-}
+{}
 
 template <Crowd crowd>
 void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
 {
     Bodies& bodies = stage.bodies;
     neighbours_.update(bodies);
+    boxes_.begin_tick();
     feel(frozen, stage);
     if constexpr (sleeps) wake(stage);
-    look(stage);
+    look(bodies);
     meet_planes(frozen, stage);
     meet_bodies(stage);
     carry();
     set_out(frozen, stage);
     solve(stage);
     move_apart();
-    for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        const bool has_turned = arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
-        OrientedBox& box = boxes_[bodies.form[slot].id];
-        box.centre = bodies.position.at(slot);
-        if (has_turned) box.axes = axes_of(bodies.orientation.at(slot));
+    for (const Slot slot : engaged_.slots()) {
+        arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
     }
+    engaged_.for_others(bodies.awake, [&](SlotRange range) { fliers_.move(bodies, range); });
+    engaged_.clear();
     hands_.report(frozen, stage);
     if constexpr (sleeps) sleep_.rest(bodies, neighbours_, stage.ticks);
 }
@@ -121,7 +117,6 @@ void RigidTick<crowd>::disturbed(Stage& stage, BodyId body)
     if constexpr (sleeps) sleep_.wake(body, stage.bodies, neighbours_);
     neighbours_.forget(body);
     hands_.forget(body);
-    boxes_[body] = box_of(stage.bodies, stage.bodies.slot_of[body]);
 }
 
 /// What the hands touch; they wake it.
@@ -140,8 +135,8 @@ void RigidTick<crowd>::feel(const Frozen& frozen, Stage& stage)
                      hand, {from, from + scales_.tick * hip.velocity.value, radius})) {
                 const Slot slot = bodies.slot_of[id];
                 hands_.touch(frozen, stage, hand,
-                             {id, slot < bodies.movable, boxes_[id], bodies.velocity.at(slot),
-                              bodies.angular_velocity(slot)});
+                             {id, slot < bodies.movable, boxes_.at(bodies, id).box,
+                              bodies.velocity.at(slot), bodies.angular_velocity(slot)});
             }
         }
         hands_.end(hand);
@@ -168,30 +163,21 @@ void RigidTick<crowd>::wake(Stage& stage)
 }
 
 template <Crowd crowd>
-double RigidTick<crowd>::reach(const Stage& stage, Slot slot) const
+void RigidTick<crowd>::look(const Bodies& bodies)
 {
-    return slot < stage.bodies.awake ? reach_of(stage.bodies, slot, scales_) : 0.0;
-}
-
-/// Begins the tick for those awake.
-template <Crowd crowd>
-void RigidTick<crowd>::look(const Stage& stage)
-{
-    const Bodies& bodies = stage.bodies;
     solver_.begin(bodies.awake);
     courses_.resize(bodies.awake + std::size_t{1});
-    for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        const BodyForm& form = bodies.form[slot];
-        solver_.response(slot + 1) = response_of(form, boxes_[form.id]);
-        BodyCourse& course = courses_[slot + 1];
-        course.impulse = glm::dvec3{0.0};
-        course.angular_impulse = glm::dvec3{0.0};
-        course.thrown = glm::dvec3{0.0};
-        course.thrown_mean = glm::dvec3{0.0};
-        course.rubbing = 0;
-        course.drag = 0.0;
-        course.has_hands = false;
-    }
+    courses_[0] = {};
+}
+
+/// Begins the tick for an awake body that something acts on.
+template <Crowd crowd>
+void RigidTick<crowd>::engage(const Bodies& bodies, Slot slot)
+{
+    if (!engaged_.add(slot)) return;
+    const BodyForm& form = bodies.form[slot];
+    solver_.response(slot + 1) = response_of(form, boxes_.at(bodies, form.id).box);
+    begin(courses_[slot + 1]);
 }
 
 template <Crowd crowd>
@@ -224,12 +210,14 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
         Pair& pair = neighbours_.plane_pair(index);
         const PlaneDescription& plane = frozen.planes[pair.b];
         const Slot slot = bodies.slot_of[pair.a];
-        const OrientedBox& box = boxes_[pair.a];
+        const BoxNow& now = boxes_.at(bodies, pair.a);
+        const OrientedBox& box = now.box;
         const Manifold manifold =
-            collide(PlaneSurface{plane.normal, plane.offset_m}, box, reach(stage, slot));
+            collide(PlaneSurface{plane.normal, plane.offset_m}, box, now.reach);
         const bool is_carried = touches(pair.memory) || lies_on(manifold, touching * scales_.size);
         ContactBlock* const block = meet(manifold, {box.centre, box.centre}, pair.memory);
         if (block == nullptr) continue;
+        engage(bodies, slot);
         const BodyForm& form = bodies.form[slot];
         block->a = 0;
         block->b = slot + 1;
@@ -243,12 +231,14 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
 }
 
 template <Crowd crowd>
-BoxMeeting RigidTick<crowd>::between(const Stage& stage, Pair& pair) const
+BoxMeeting RigidTick<crowd>::between(const Stage& stage, Pair& pair)
 {
     const Bodies& bodies = stage.bodies;
     const auto box_path = [&](BodyId id) {
+        const BoxNow& now = boxes_.at(bodies, id);
         const Slot slot = bodies.slot_of[id];
-        return BoxPath{boxes_[id], bodies.velocity.at(slot), reach(stage, slot)};
+        return BoxPath{now.box, bodies.velocity.at(slot), slot < bodies.awake ? now.reach : 0.0,
+                       now.radius};
     };
     return meeting(box_path(pair.a), box_path(pair.b), scales_.tick, pair.memory.axis);
 }
@@ -257,7 +247,11 @@ template <Crowd crowd>
 void RigidTick<crowd>::meet_bodies(const Stage& stage)
 {
     const Bodies& bodies = stage.bodies;
-    const auto index_of = [&](Slot slot) { return slot < bodies.awake ? slot + 1 : 0; };
+    const auto index_of = [&](Slot slot) -> SolverIndex {
+        if (slot >= bodies.awake) return 0;
+        engage(bodies, slot);
+        return slot + 1;
+    };
     for (const PairIndex index : neighbours_.pairs()) {
         Pair& pair = neighbours_.pair(index);
         const Slot a = bodies.slot_of[pair.a];
@@ -289,20 +283,22 @@ void RigidTick<crowd>::carry()
     }
 }
 
-/// Where everyone would go.
+/// Where everyone that something acts on would go.
 template <Crowd crowd>
 void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
 {
+    for (const BodyId body : stage.pushed) engage(stage.bodies, stage.bodies.slot_of[body]);
     push_by_hands(frozen, stage);
     solver_.ending(0) = {};
     solver_.mean(0) = {};
-    for (Slot slot = 0; slot < stage.bodies.awake; ++slot) {
+    for (const Slot slot : engaged_.slots()) {
         BodyCourse& course = courses_[slot + 1];
         if (!course.has_hands) follow(course, stage, slot, solver_.response(slot + 1), frozen);
+        if (bounces_) course.rebound = course.start;
     }
     if (bounces_) bounce(solver_, courses_.all(), scales_);
-    for (SolverIndex i = 1; i <= stage.bodies.awake; ++i) {
-        solver_.ending(i) = courses_[i].tentative;
+    for (const Slot slot : engaged_.slots()) {
+        solver_.ending(slot + 1) = courses_[slot + 1].tentative;
     }
     for (ContactBlock& block : solver_.blocks()) {
         set_bend(block, courses_[block.a].start.spin, courses_[block.b].start.spin, scales_.tick);
@@ -314,6 +310,7 @@ void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
 {
     for (const HandSprings::Spring& spring : hands_.springs()) {
         const Slot slot = stage.bodies.slot_of[spring.body];
+        engage(stage.bodies, slot);
         BodyCourse& course = courses_[slot + 1];
         if (course.has_hands) continue;
         const auto [springs, work] = hands_.on(spring.body);
@@ -329,17 +326,17 @@ void RigidTick<crowd>::solve(const Stage& stage)
     const Bodies& bodies = stage.bodies;
     const std::span<ContactBlock> blocks = solver_.blocks();
     const SolverOutcome outcome =
-        solver_.solve({quiet * scales_.speed, enough * scales_.speed, sweeps_max});
+        solver_.solve({quiet * scales_.speed, enough * scales_.speed, sweeps_max, visits_max});
     counts_.contacts = static_cast<std::uint32_t>(blocks.size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
-    for (SolverIndex i = 1; i <= bodies.awake; ++i) {
-        const BodyCourse& course = courses_[i];
-        const BodyMotion& ending = solver_.ending(i);
-        solver_.mean(i) = {course.mean.velocity +
-                               0.5 * (ending.velocity - course.tentative.velocity),
-                           course.mean.spin + 0.5 * (ending.spin - course.tentative.spin),
-                           course.thrown_mean + 0.5 * ending.angular_impulse};
+    for (const Slot slot : engaged_.slots()) {
+        const BodyCourse& course = courses_[slot + 1];
+        const BodyMotion& ending = solver_.ending(slot + 1);
+        solver_.mean(slot + 1) = {course.mean.velocity +
+                                      0.5 * (ending.velocity - course.tentative.velocity),
+                                  course.mean.spin + 0.5 * (ending.spin - course.tentative.spin),
+                                  course.thrown_mean + 0.5 * ending.angular_impulse};
     }
     const auto weight_of = [&](const ContactBlock& block) {
         const double a = block.a != 0 ? bodies.form[block.a - 1].mass : 0.0;
@@ -371,11 +368,13 @@ void RigidTick<crowd>::move_apart()
         for (double& part : block.bend) part *= 0.5; // of the mean over the tick
     }
     const double length = scales_.size * scales_.rate;
-    const SolverLimits limits{overlap_quiet * length, overlap_enough * length, overlap_sweeps_max};
+    const SolverLimits limits{overlap_quiet * length, overlap_enough * length, sweeps_max,
+                              overlap_visits_max};
     solver_.separate(limits);
     // Who is thrown out of his way is held back, and the others go as far as that lets them.
     bool any_thrown = false;
-    for (SolverIndex i = 1; i < courses_.size(); ++i) {
+    for (const Slot slot : engaged_.slots()) {
+        const SolverIndex i = slot + 1;
         if (courses_[i].has_hands || !keep_to_path(courses_[i], solver_.mean(i), scales_)) continue;
         solver_.response(i) = {};
         any_thrown = true;

@@ -6,7 +6,10 @@
 #include "peer/core/scene/solver/contact_solver.hpp"
 #include "peer/core/scene/solver/sleep.hpp"
 #include "peer/core/scene/stage.hpp"
+#include "peer/core/scene/tick/boxes.hpp"
 #include "peer/core/scene/tick/courses.hpp"
+#include "peer/core/scene/tick/engaged.hpp"
+#include "peer/core/scene/tick/flight.hpp"
 #include "peer/core/scene/tick/hand_springs.hpp"
 #include "peer/core/scene/tick/nearby.hpp"
 
@@ -51,10 +54,11 @@ private:
 
     void feel(const Frozen& frozen, Stage& stage);
     void wake(Stage& stage);
-    void look(const Stage& stage);
+    void look(const Bodies& bodies);
+    void engage(const Bodies& bodies, Slot slot);
     void meet_planes(const Frozen& frozen, const Stage& stage);
     void meet_bodies(const Stage& stage);
-    [[nodiscard]] BoxMeeting between(const Stage& stage, Pair& pair) const;
+    [[nodiscard]] BoxMeeting between(const Stage& stage, Pair& pair);
     ContactBlock* meet(const Manifold& manifold, const ContactPlaces& centres,
                        ContactMemory& memory);
     void carry();
@@ -62,15 +66,16 @@ private:
     void push_by_hands(const Frozen& frozen, const Stage& stage);
     void solve(const Stage& stage);
     void move_apart();
-    [[nodiscard]] double reach(const Stage& stage, Slot slot) const;
 
     Scales scales_;
     bool bounces_ = false;
     Neighbours<search> neighbours_;
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
     HandSprings hands_;
-    std::vector<OrientedBox> boxes_; // by id, where they are
-    Scratch<BodyCourse> courses_;    // by solver index
+    Boxes boxes_;
+    Fliers fliers_;
+    Engaged engaged_;
+    Scratch<BodyCourse> courses_; // by solver index; of those engaged
     ContactSolver solver_;
     std::array<HipSpring, hips_max> springs_{}; // on one body
     std::array<HipWork, hips_max> work_{};

@@ -56,10 +56,8 @@ void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
         const PerAxis push = per_axis(stage.pushes[body_]);
         for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += laws_.inverse_mass() * push[i];
     }
-    slide.near = obstacles_.near(slide.place, 0.0);
-    if (obstacles_.put_out(slide.near, slide.place)) {
-        slide.near = obstacles_.near(slide.place, 0.0);
-    }
+    see(slide, 0.0);
+    if (obstacles_.put_out(slide.near, slide.place)) see(slide, 0.0);
 
     hands_.gather(frozen, stage, slide);
     if (slide.grip_count == 0) {
@@ -71,10 +69,18 @@ void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
 }
 
 template <bool coulomb>
+inline void SlidingTick<coulomb>::see(Slide& slide, double reach)
+{
+    slide.near = obstacles_.near(slide.place, reach);
+    slide.room = obstacles_.room(slide.place);
+}
+
+template <bool coulomb>
 void SlidingTick<coulomb>::try_holding(const Frozen& frozen, Stage& stage, Slide& start)
 {
     for (;;) { // each time a hand holds less
         Slide slide = start.copy();
+        see(slide, 0.0); // what is near may have been looked for elsewhere meanwhile
         run(frozen, slide);
         if (SlidingHands::weaken(frozen, stage, slide, start)) continue;
         conclude(frozen, stage, slide);
@@ -102,8 +108,9 @@ void SlidingTick<coulomb>::run(const Frozen& frozen, Slide& slide)
     for (int events = 1;; ++events) {
         const double reach =
             std::max(std::max(slide.axes[0].reach, slide.axes[1].reach), slide.axes[2].reach);
-        slide.near = obstacles_.near(slide.place, reach);
-        SlideEvent event = next_event(slide);
+        if (!(reach <= slide.room)) see(slide, reach);
+        SlideEvent event{.time = slide.left};
+        if (!is_uneventful(slide)) look_for_event(slide, event);
         if constexpr (coulomb) friction_event(slide, event);
         advance(slide, event.time);
         if (event.kind == SlideEvent::Kind::none) return;
@@ -113,6 +120,7 @@ void SlidingTick<coulomb>::run(const Frozen& frozen, Slide& slide)
             ++crowded_ticks_;
         }
         if (slide.left <= 0.0) return;
+        slide.room = obstacles_.room(slide.place);
         arrange<coulomb>(slide);
     }
 }

@@ -36,6 +36,8 @@ public:
     [[nodiscard]] std::uint64_t crowded_ticks() const { return crowded_ticks_; }
 
 private:
+    /// Finds what is within `reach`.
+    void see(Slide& slide, double reach);
     void run(const Frozen& frozen, Slide& slide);
     /// Where hands hold the box: again with less, when one held with more than its greatest force.
     void try_holding(const Frozen& frozen, Stage& stage, Slide& start);

@@ -212,9 +212,26 @@ void arrive(Slide& slide, const SlideEvent& event, double tick)
 
 } // namespace
 
-SlideEvent next_event(const Slide& slide)
+bool is_uneventful(const Slide& slide)
 {
-    SlideEvent first{.time = slide.left};
+    if (!slide.calm) {
+        for (const Spring& spring : slide.active_springs()) {
+            if (!keeps_acting(slide, spring, slide.left)) return false;
+        }
+        for (const SlideAxis& axis : slide.axes) {
+            if (!axis.carrier) continue;
+            if (!axis.carrier->is_plane) return false;
+            if (axis.load + axis.load_ramp * slide.left < 0.0) return false;
+        }
+    }
+    for (const std::uint32_t id : slide.near) {
+        if (!is_out_of_reach(slide, slide.obstacles[id])) return false;
+    }
+    return true;
+}
+
+void look_for_event(const Slide& slide, SlideEvent& first)
+{
     if (!slide.calm) {
         for (std::uint32_t i = 0; i < slide.spring_count; ++i) {
             if (keeps_acting(slide, slide.springs[i], first.time)) continue;
@@ -228,7 +245,6 @@ SlideEvent next_event(const Slide& slide)
         const Obstacle& obstacle = slide.obstacles[id];
         if (!is_out_of_reach(slide, obstacle)) look_for_impact(slide, obstacle, first);
     }
-    return first;
 }
 
 void apply(Slide& slide, const SlideEvent& event, double tick)

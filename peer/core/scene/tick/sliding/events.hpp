@@ -27,9 +27,12 @@ struct SlideEvent {
     const Obstacle* obstacle = nullptr; // of an impact
 };
 
-/// What happens first in what is left of the tick.
-[[nodiscard]] SlideEvent next_event(const Slide& slide);
-/// The same of dry friction, if it is before `first`.
+/// Whether nothing but dry friction can end the stretch before the tick does: so it nearly always
+/// is, and that is soon seen.
+[[nodiscard]] bool is_uneventful(const Slide& slide);
+/// What happens first in what is left of the tick, if it is before `first`.
+void look_for_event(const Slide& slide, SlideEvent& first);
+/// The same of dry friction.
 void friction_event(const Slide& slide, SlideEvent& first);
 
 /// Lets it happen; the box has been advanced to its moment. `tick` is the whole one's length.

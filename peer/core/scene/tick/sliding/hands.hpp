@@ -13,9 +13,9 @@ namespace hapnet::scene {
 
 /// A hand at a face of the box; at none: it does not touch, or at an edge or a corner.
 struct FaceTouch {
-    std::uint32_t hip;
+    std::uint32_t hip = 0;
     EnteredFace face;
-    double depth;
+    double depth = 0.0;
 };
 
 /// The hands at the box and at the fixed boxes, and what has to be remembered of them.

@@ -97,6 +97,7 @@ Slide Slide::copy() const
 {
     Slide other{hips, laws, obstacles};
     other.near = near;
+    other.room = room;
     other.left = left;
     other.calm = calm;
     other.place = place;
@@ -123,18 +124,17 @@ void set_courses(Slide& slide)
     for (const std::uint32_t id : slide.near) touch(slide, slide.obstacles[id]);
     const auto springs = add_springs(slide);
 
-    std::array<bool, 3> is_on_plane{};
+    bool is_on_plane = false;
     for (std::size_t i = 0; i < 3; ++i) {
         SlideAxis& axis = slide.axes[i];
-        press(axis, slide.courses[i].speed, slide.courses[i]);
+        if (axis.below || axis.above) press(axis, slide.courses[i].speed, slide.courses[i]);
         axis.leaving = false;
-        is_on_plane[i] = axis.carrier && axis.carrier->is_plane;
+        if (axis.carrier && axis.carrier->is_plane) is_on_plane = true;
     }
     for (std::size_t i = 0; i < 3; ++i) {
         const SlideAxis& axis = slide.axes[i];
         if (axis.is_held() || slide.courses[i].is_idle()) continue;
-        const bool with_drag = is_on_plane[(i + 1) % 3] || is_on_plane[(i + 2) % 3];
-        slide.courses[i].kernel = &slide.laws.of(springs[i], with_drag);
+        slide.courses[i].kernel = &slide.laws.of(springs[i], is_on_plane);
     }
 }
 

@@ -55,10 +55,10 @@ struct SlideAxis {
 struct Rubbing {
     enum class State : std::uint8_t { none, stuck, sliding };
     State state = State::none;
-    bool slips = false; // it has just begun to slide
-    PerAxis direction;  // of the sliding
-    double limit;       // the greatest friction, per mass
-    double limit_ramp;
+    bool slips = false;  // it has just begun to slide
+    PerAxis direction{}; // of the sliding
+    double limit = 0.0;  // the greatest friction, per mass
+    double limit_ramp = 0.0;
 };
 
 /// A box within a tick. The tick is cut into stretches at what begins or ends in it; in each of
@@ -77,6 +77,7 @@ struct Slide {
     const SlideLaws& laws;
     Obstacles& obstacles;
     std::span<const std::uint32_t> near{};
+    double room = 0.0; // how far the box may go until something else is near
 
     double left = 0.0; // of the tick, s
     bool calm = false; // too much has happened in this tick: no more changes, no more bounces

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+//
+// Random scenes under the laws of SceneLaws. Millions of them: scripts/soak.sh scene.
+#include "tests/support/scene/scene_laws.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hapnet::test {
+namespace {
+
+TEST(RandomPlay, KeepsEveryLawAndItsFutureAfterASnapshot)
+{
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const PlayOutcome outcome = judge(random_play(seed), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+    }
+}
+
+TEST(RandomPlay, IsTheSameEveryTime)
+{
+    for (std::uint64_t seed = 1000; seed < 1030; ++seed) {
+        EXPECT_EQ(judge(random_play(seed), seed).hash, judge(random_play(seed), seed).hash) << seed;
+    }
+}
+
+/// A seed that broke a law once, and what was wrong then.
+struct Scar {
+    std::uint64_t seed;
+    const char* name;
+};
+
+class Scars : public testing::TestWithParam<Scar> {};
+
+TEST_P(Scars, StayHealed)
+{
+    const std::uint64_t seed = GetParam().seed;
+    const PlayOutcome outcome = judge(random_play(seed), seed);
+    EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    RandomPlay, Scars,
+    testing::Values(Scar{1548, "PutOutOfAPlaneAlongALockedAxis"},
+                    Scar{1812, "PutElsewhereIntoAPlaneAlongALockedAxis"},
+                    Scar{276, "StoppedByFrictionAcrossALock"}, Scar{1158, "DraggedAcrossALock"},
+                    Scar{583, "PushedByADamperBeyondTheGreatestForce"},
+                    Scar{1012, "PushedBeyondTheGreatestForceAtTheFirstTouch"},
+                    Scar{277, "SettledBeyondTheGreatestForce"},
+                    Scar{237, "PushedByAFaceFromBeside"}, Scar{1648, "SqueezedWhileItTurns"},
+                    Scar{1585, "RubbedByItsOwnFastTurn"}, Scar{18, "RubbedByATurnThatIsNot"},
+                    Scar{713, "WobblingFasterThanItsTick"}, Scar{3639, "WedgedByAHair"},
+                    Scar{3790, "SqueezedByTwelve"}, Scar{914, "BouncingWithFriction"},
+                    Scar{1381, "BouncingOffThreeAtOnce"}, Scar{457, "HeldInAHeap"}),
+    [](const auto& each) { return each.param.name; });
+
+} // namespace
+} // namespace hapnet::test
