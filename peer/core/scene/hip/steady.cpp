@@ -4,6 +4,7 @@
 
 #include "peer/core/scene/hip/settle.hpp"
 #include "peer/core/scene/motion/rotation.hpp"
+#include "peer/core/scene/vector.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,21 +16,19 @@ namespace hapnet::scene {
 namespace {
 
 // How far a normal may turn in half a tick: then its mean is right to 1e-5.
-constexpr double turn_max = 0.01;
+constexpr double half_turn_max = 0.01;
 // What turns less than this has kept its directions, to rounding.
-constexpr double unturned = 1e-10;
+constexpr double kept_turn = 1e-10;
 
-constexpr std::size_t terms_max = 24;
-constexpr std::array<double, terms_max> shares = [] {
-    std::array<double, terms_max> r{};
-    for (std::size_t n = 0; n < terms_max; ++n)
+constexpr std::size_t press_terms_max = 24;
+constexpr std::array<double, press_terms_max> press_shares = [] {
+    std::array<double, press_terms_max> r{};
+    for (std::size_t n = 0; n < press_terms_max; ++n)
         r[n] = 1.0 / (static_cast<double>(n + 1) * static_cast<double>(n + 2));
     return r;
 }();
 
-double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-
-glm::dvec3 diagonal(const glm::dmat3& m) { return {m[0].x, m[1].y, m[2].z}; }
+glm::dvec3 diagonal_of(const glm::dmat3& m) { return {m[0].x, m[1].y, m[2].z}; }
 
 /// One spring and the face that it presses.
 struct Contact {
@@ -53,7 +52,7 @@ public:
           answer_{answer},
           springs_{springs},
           tick_{tick},
-          ease_{diagonal(answer.inverse_inertia)}
+          ease_{diagonal_of(answer.inverse_inertia)}
     {}
 
     /// False: it is not steady.
@@ -87,7 +86,7 @@ bool Steady<count>::hold_halfway()
 {
     const double half = 0.5 * tick_;
     const glm::dvec3 angle = half * (ease_ * body_.angular_momentum);
-    if (!(sum_of(angle) <= turn_max)) return false;
+    if (!(sum_of_sizes(angle) <= half_turn_max)) return false;
     for (std::size_t i = 0; i < count; ++i) {
         const HipSpring& spring = springs_[i];
         Contact& contact = contacts_[i];
@@ -153,7 +152,7 @@ bool Steady<count>::press()
     Each force = first;
     double last = size;
     double order = 2.0;
-    for (const double share : shares) {
+    for (const double share : press_shares) {
         Each part;
         for (std::size_t i = 0; i < count; ++i) {
             part[i] = share * force[i];
@@ -217,9 +216,9 @@ bool Steady<count>::finish(HipWork* work)
     // From amid a face to beside it is a tenth of a half edge at least.
     const glm::dvec3& size = answer_.half;
     const double room = 0.1 * std::min(size.x, std::min(size.y, size.z));
-    const double corner = (size.x + size.y + size.z) * sum_of(angle);
+    const double corner = (size.x + size.y + size.z) * sum_of_sizes(angle);
     for (std::size_t i = 0; i < count; ++i) {
-        if (!(sum_of(t * springs_[i].velocity - moved) + corner <= room)) return false;
+        if (!(sum_of_sizes(t * springs_[i].velocity - moved) + corner <= room)) return false;
     }
     body_.position += moved;
     body_.velocity += t * answer_.acceleration + answer_.inverse_mass * impulse;
@@ -227,7 +226,7 @@ bool Steady<count>::finish(HipWork* work)
     if (angle == glm::dvec3{0.0}) return true;
     const glm::dquat turn = turn_by(angle);
     body_.orientation = unit_again(turn * body_.orientation);
-    if (glm::dot(angle, angle) < unturned * unturned) return true;
+    if (glm::dot(angle, angle) < kept_turn * kept_turn) return true;
     for (std::size_t i = 0; i < count; ++i) {
         const HipSpring& spring = springs_[i];
         const Contact& contact = contacts_[i];

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/scene/solver/block.hpp"
 
+#include "peer/core/scene/vector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -81,12 +83,10 @@ void start_from(ContactBlock& block, const Manifold& manifold, const ContactMemo
     block.impulse.torsion = memory.torsion_impulse;
 }
 
-glm::dvec3 friction_of(const ContactBlock& block)
+glm::dvec3 held_by(const ContactBlock& block)
 {
     return block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
 }
-
-double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 /// How much of a tick's correction to keep. A small one also stops the speed that has gathered
 /// since the last: kept whole, it would be that much too much in the next tick, and a contact in
@@ -95,7 +95,7 @@ double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std:
 double share_to_keep(const ContactBlock& block, double weight, ContactMemory& memory)
 {
     constexpr double small = 1e-8;
-    double change = sum_of(friction_of(block) - memory.friction_impulse);
+    double change = sum_of_sizes(held_by(block) - memory.friction_impulse);
     for (std::uint32_t i = 0; i < block.count; ++i) {
         change += std::abs(block.impulse.normal[i] - block.begun[i]);
     }
@@ -169,7 +169,7 @@ void remember(const ContactBlock& block, double weight, ContactMemory& memory)
     for (std::uint32_t i = 0; i < block.count; ++i) {
         memory.normal_impulse[i] = kept(block.begun[i], block.impulse.normal[i]);
     }
-    memory.friction_impulse = kept(memory.friction_impulse, friction_of(block));
+    memory.friction_impulse = kept(memory.friction_impulse, held_by(block));
     memory.torsion_impulse = kept(memory.torsion_impulse, block.impulse.torsion);
     const double most =
         2.0 * (block.begun[0] + block.begun[1] + block.begun[2] + block.begun[3]) + weight;
@@ -228,6 +228,17 @@ void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& s
     for (std::size_t i = 0; i < block.count; ++i) {
         block.least[i] = std::min(block.least[i], block.normal_speed(block.bend, i));
     }
+}
+
+bool slips_already(const ContactBlock& block, const Modal& velocity, double quiet)
+{
+    const ContactImpulse& held = block.impulse;
+    const double along = held.tangent_1 * velocity[3] + held.tangent_2 * velocity[4];
+    const double size2 = held.tangent_1 * held.tangent_1 + held.tangent_2 * held.tangent_2;
+    const double limit = block.friction * block.normal_sum();
+    constexpr double nearly = 0.99;
+    return size2 >= nearly * limit * limit && size2 > 0.0 && along < 0.0 &&
+           along * along > quiet * quiet * size2;
 }
 
 Modal modal(const ContactBlock& block, const ContactImpulse& impulse)

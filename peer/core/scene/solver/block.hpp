@@ -130,6 +130,9 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
 /// Whether the impulses are an answer already, to `quiet` m/s.
 [[nodiscard]] bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet);
 
+/// Whether friction is at its limit, or nearly, and opposes a slip faster than `quiet` m/s.
+[[nodiscard]] bool slips_already(const ContactBlock& block, const Modal& velocity, double quiet);
+
 /// The same without regard to friction.
 [[nodiscard]] bool is_separated(const ContactBlock& block, const Modal& velocity, double quiet);
 

@@ -291,18 +291,6 @@ double rounding_of(const ContactBlock& block, const Modal& velocity)
                         (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
 }
 
-/// Whether friction is at its limit and opposes a slip.
-bool slips_already(const ContactBlock& block, const Modal& velocity, double quiet)
-{
-    const ContactImpulse& held = block.impulse;
-    const double along = held.tangent_1 * velocity[3] + held.tangent_2 * velocity[4];
-    const double size2 = held.tangent_1 * held.tangent_1 + held.tangent_2 * held.tangent_2;
-    const double limit = block.friction * block.normal_sum();
-    constexpr double nearly = 0.99;
-    return size2 >= nearly * limit * limit && size2 > 0.0 && along < 0.0 &&
-           along * along > quiet * quiet * size2;
-}
-
 Modal finish(ContactBlock& block, const Trial& trial, const Trial& begun)
 {
     block.impulse = trial.answer();

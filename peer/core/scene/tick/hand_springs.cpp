@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/scene/tick/hand_springs.hpp"
 
+#include "peer/core/scene/vector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,9 +11,6 @@
 namespace hapnet::scene {
 
 namespace {
-
-/// Not less than the length, and no root to take.
-double length_most(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 /// The spring and damper alone, at one moment.
 double force_at(const HipDescription& hips, double depth, double closing)
@@ -140,9 +139,9 @@ void HandSprings::press(const Frozen& frozen, Stage& stage, std::uint32_t index,
     if (near_by == nullptr) return;
     // Looks as far ahead as the two come nearer: a spring may begin to act within the tick.
     const glm::dvec3& centre = hip.position.value;
-    const double turning = length_most(target.spin) * length_most(target.box.half);
+    const double turning = sum_of_sizes(target.spin) * sum_of_sizes(target.box.half);
     const double ahead =
-        frozen.tick * (length_most(hip.velocity.value - target.velocity) + turning) + 0.5 * fall_;
+        frozen.tick * (sum_of_sizes(hip.velocity.value - target.velocity) + turning) + 0.5 * fall_;
     const glm::dvec3 place = seen_from(target.box, centre);
     const auto overlap = near_by->memory.find(target.box.half, place, hips.radius_m + ahead,
                                               near_by->before ? &*near_by->before : nullptr);
