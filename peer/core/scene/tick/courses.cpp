@@ -286,8 +286,8 @@ void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& 
     }
     bodies.velocity.put(slot, ending.velocity);
     bodies.angular_momentum.put(
-        slot, course.angular_momentum +
-                  about_free_axes(bodies.form[slot], ending.angular_impulse + course.thrown));
+        slot, about_free_axes(bodies.form[slot],
+                              course.angular_momentum + ending.angular_impulse + course.thrown));
 }
 
 } // namespace hapnet::scene
