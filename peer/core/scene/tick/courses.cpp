@@ -211,7 +211,7 @@ void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyR
     course.has_hands = true;
     course.position = body.position;
     course.orientation = body.orientation;
-    course.angular_momentum = body.angular_momentum;
+    course.angular_momentum = about_free_axes(bodies.form[slot], body.angular_momentum);
     course.tentative.velocity = body.velocity;
     course.tentative.spin = response.inverse_inertia * body.angular_momentum;
     course.tentative.angular_impulse = glm::dvec3{0.0};
