@@ -95,21 +95,19 @@ double spinning_energy(const BodyDescription& form, const glm::dquat& orientatio
 }
 
 /// The energy that a hand can have given to one body: what its spring stored at the tick's start
-/// and the work of its own motion; of one that holds, what its force can do at all.
+/// and the work of its own motion; of one that holds, what its force can do.
 double most_from_hand(const World& world, std::uint32_t hand, double fastest)
 {
     const scene::HipDescription& hips = world.frozen().hips;
     const scene::HipTouch& touch = world.touch(hand);
     const double impulse = world.frozen().tick * base::norm(touch.on_body);
-    constexpr double within = 2.0; // it may be faster within the tick than at its ends
-    const double most = within * impulse * fastest;
-    if (touch.holding) return most;
+    constexpr double within = 2.0; // the body may be faster within the tick than at its ends
+    if (touch.holding) return within * impulse * fastest;
     const double bend = hips.force_max_n / hips.stiffness_n_per_m;
     const double stored = touch.depth_m < bend
                               ? 0.5 * hips.stiffness_n_per_m * touch.depth_m * touch.depth_m
                               : hips.force_max_n * (touch.depth_m - 0.5 * bend);
-    return std::min(most, std::max(stored, 0.0) +
-                              impulse * base::norm(world.stage().hips[hand].velocity));
+    return std::max(stored, 0.0) + impulse * base::norm(world.stage().hips[hand].velocity);
 }
 
 /// By how much the energy of turning with one angular momentum can differ with the orientation.
