@@ -67,7 +67,8 @@ Description scene_from(Bytes& bytes)
     Description scene;
     for (auto left = 1U + bytes.byte() % 5U; left > 0; --left)
         scene.bodies.push_back(body_from(bytes));
-    if ((bytes.byte() & 1U) == 0) scene.planes.push_back({.name = {}, .offset_m = bytes.number(0.1)});
+    if ((bytes.byte() & 1U) == 0)
+        scene.planes.push_back({.name = {}, .offset_m = bytes.number(0.1)});
     scene.hips.radius_m = 0.001 + std::abs(bytes.number(0.02));
     scene.hips.stiffness_n_per_m = std::abs(bytes.number(1e9));
     scene.hips.damping_ns_per_m = std::abs(bytes.number(1e4));

@@ -51,7 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Scar{1585, "RubbedByItsOwnFastTurn"}, Scar{18, "RubbedByATurnThatIsNot"},
                     Scar{713, "WobblingFasterThanItsTick"}, Scar{3639, "WedgedByAHair"},
                     Scar{3790, "SqueezedByTwelve"}, Scar{914, "BouncingWithFriction"},
-                    Scar{1381, "BouncingOffThreeAtOnce"}, Scar{457, "HeldInAHeap"}),
+                    Scar{1381, "BouncingOffThreeAtOnce"}, Scar{457, "HeldInAHeap"},
+                    Scar{62533, "PushedWhileItTurnsFast"}, Scar{1550, "ThrownOutOfItsWay"}),
     [](const auto& each) { return each.param.name; });
 
 } // namespace

@@ -95,21 +95,19 @@ double spinning_energy(const BodyDescription& form, const glm::dquat& orientatio
 }
 
 /// The energy that a hand can have given to one body: what its spring stored at the tick's start
-/// and the work of its own motion; of one that holds, what its force can do at all.
+/// and the work of its own motion; of one that holds, what its force can do.
 double most_from_hand(const World& world, std::uint32_t hand, double fastest)
 {
     const scene::HipDescription& hips = world.frozen().hips;
     const scene::HipTouch& touch = world.touch(hand);
     const double impulse = world.frozen().tick * base::norm(touch.on_body);
-    constexpr double within = 2.0; // it may be faster within the tick than at its ends
-    const double most = within * impulse * fastest;
-    if (touch.holding) return most;
+    constexpr double within = 2.0; // the body may be faster within the tick than at its ends
+    if (touch.holding) return within * impulse * fastest;
     const double bend = hips.force_max_n / hips.stiffness_n_per_m;
     const double stored = touch.depth_m < bend
                               ? 0.5 * hips.stiffness_n_per_m * touch.depth_m * touch.depth_m
                               : hips.force_max_n * (touch.depth_m - 0.5 * bend);
-    return std::min(most, std::max(stored, 0.0) +
-                              impulse * base::norm(world.stage().hips[hand].velocity));
+    return std::max(stored, 0.0) + impulse * base::norm(world.stage().hips[hand].velocity);
 }
 
 /// By how much the energy of turning with one angular momentum can differ with the orientation.
@@ -194,6 +192,36 @@ std::optional<std::string> SceneLaws::check_hands(const World& world)
     return std::nullopt;
 }
 
+/// Gravity and pushes. The world forgets pushes at the tick's end; they are the play's.
+glm::dvec3 SceneLaws::steady_force(const World& world, BodyId id, bool sleeps) const
+{
+    const BodyDescription& form = play_.description.bodies[id];
+    glm::dvec3 force{0.0};
+    if (!sleeps) force = free_part(form, form.mass_kg * play_.description.gravity);
+    for (const auto& [body, push] : play_.ticks[world.ticks() - 1].pushes) {
+        if (body == id) force += free_part(form, push.value);
+    }
+    return force;
+}
+
+/// By how much the energy of a body that turns may be wrong.
+double SceneLaws::turning_slack(const BodyDescription& form, const Moment& was, const Moment& now,
+                                double angle)
+{
+    // The spin changes while the angular momentum stays: in the impulses of contacts it counts.
+    const glm::dvec3 inertia = scene::box_inertia(form.mass_kg, form.half);
+    const double wobble =
+        std::max({inertia.x, inertia.y, inertia.z}) / std::min({inertia.x, inertia.y, inertia.z}) -
+        1.0;
+    const double spin =
+        std::max(length(was.state.angular_velocity), length(now.state.angular_velocity));
+    const double slack =
+        wobble * angle * spin * length(now.angular_momentum - was.angular_momentum);
+    if (angle <= far_turn) return slack;
+    return slack + spinning_range(form, was.angular_momentum) +
+           spinning_range(form, now.angular_momentum);
+}
+
 void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
 {
     const BodyDescription& form = play_.description.bodies[id];
@@ -206,14 +234,7 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     const glm::dvec3 steady = 0.5 * tick * (v0 + v1);
     const double mass = form.mass_kg;
     const bool sleeps = !was.is_awake && !now.is_awake;
-    glm::dvec3 force{0.0};
-    if (!sleeps) force = free_part(form, mass * play_.description.gravity);
-    // The world forgets pushes at the tick's end; they are the play's.
-    if (world.ticks() <= play_.ticks.size()) {
-        for (const auto& [body, push] : play_.ticks[world.ticks() - 1].pushes) {
-            if (body == id) force += free_part(form, push.value);
-        }
-    }
+    const glm::dvec3 force = steady_force(world, id, sleeps);
     const glm::dquat& turned = was.state.orientation;
     balance.kinetic_before +=
         0.5 * mass * glm::dot(v0, v0) + spinning_energy(form, turned, was.angular_momentum);
@@ -228,17 +249,7 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     balance.farthest = std::max(balance.farthest, length(moved) - radius);
     balance.jolt += mass * length(v1 - v0);
     balance.momentum += mass * (length(v0) + length(v1)) + tick * length(force);
-    // The spin changes while the angular momentum stays: in the impulses of contacts it counts.
-    const glm::dvec3 inertia = scene::box_inertia(mass, form.half);
-    const double wobble =
-        std::max({inertia.x, inertia.y, inertia.z}) / std::min({inertia.x, inertia.y, inertia.z}) -
-        1.0;
-    balance.slack +=
-        wobble * tick * spin * spin * length(now.angular_momentum - was.angular_momentum);
-    if (spin * tick > far_turn) {
-        balance.slack +=
-            spinning_range(form, was.angular_momentum) + spinning_range(form, now.angular_momentum);
-    }
+    balance.slack += turning_slack(form, was, now, spin * tick);
     const double reach = length(now.state.position.value) + length(was.state.position.value);
     balance.angular += mass * reach * (length(v0) + length(v1)) + length(now.angular_momentum) +
                        length(was.angular_momentum) + tick * reach * length(force);

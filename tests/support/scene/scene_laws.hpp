@@ -68,6 +68,10 @@ private:
     [[nodiscard]] std::optional<std::string> check_body(const scene::World& world,
                                                         scene::BodyId id) const;
     [[nodiscard]] std::optional<std::string> check_hands(const scene::World& world);
+    [[nodiscard]] glm::dvec3 steady_force(const scene::World& world, scene::BodyId id,
+                                          bool sleeps) const;
+    [[nodiscard]] static double turning_slack(const scene::BodyDescription& form, const Moment& was,
+                                              const Moment& now, double angle);
     void add(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] std::optional<std::string> check_energy(const scene::World& world,
                                                           const Balance& balance);

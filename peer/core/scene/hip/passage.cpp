@@ -92,11 +92,12 @@ typename Passage<count>::Setting Passage<count>::halfway(double time) const
         if (!answer_.turns_evenly)
             setting.inverse_inertia = turned_inertia(inverse_inertia_, angle);
     }
+    const bool turns_little = glm::dot(angle, angle) <= turn_max * turn_max;
     for (std::size_t i = 0; i < count; ++i) {
         if (!turns_ && surfaces_[i].is_face()) continue;
         Hold& hold = setting.holds[i];
         const glm::dvec3 hand = hands_[i] + half * springs_[i]->velocity - moved;
-        if (is_amid_face_[i]) {
+        if (is_amid_face_[i] && turns_little) {
             // The face's normal turns with the body; by so little that two terms of the rotation
             // suffice for what is held.
             const glm::dvec3 once = glm::cross(angle, holds_[i].normal);
