@@ -5,6 +5,7 @@
 #include "peer/core/scene/hip/midpoint.hpp"
 #include "peer/core/scene/hip/passage.hpp"
 #include "peer/core/scene/hip/steady.hpp"
+#include "peer/core/scene/vector.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <array>
@@ -13,8 +14,6 @@
 namespace hapnet::scene {
 
 namespace {
-
-double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 /// How far the body and the hands may come towards each other in the tick: what they do already,
 /// twice, and what is stored in the springs that are pressed.

@@ -11,7 +11,7 @@ namespace hapnet::scene {
 /// Advances a body by a tick in which nothing begins and nothing ends, which is what most ticks
 /// are: one or two springs press amid faces of the box from the start to the end, and it turns
 /// evenly and little. What Passage does in one phase, with depths and impulses as Taylor's series
-/// to the last bit. False, and nothing has changed, when it is not so; `work` is set and not added
+/// to rounding. False, and the body has not changed, when it is not so; `work` is set and not added
 /// to.
 [[nodiscard]] bool press_steadily(MovingBody& body, const Answer& answer,
                                   std::span<const HipSpring> springs, std::span<HipWork> work,

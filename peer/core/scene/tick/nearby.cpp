@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/scene/tick/nearby.hpp"
 
+#include "peer/core/scene/vector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -16,8 +18,6 @@ constexpr double look_ahead = 0.01;
 constexpr double far = 0.5;
 
 double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.y, half.z)); }
-
-double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 } // namespace
 
