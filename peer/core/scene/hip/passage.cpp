@@ -116,7 +116,7 @@ template <std::size_t count>
 Coupling Passage<count>::couple(const Setting& setting)
 {
     Coupling coupling;
-    std::array<glm::dvec3, count> swung;
+    std::array<glm::dvec3, count> swung{};
     for (std::size_t i = 0; i < count; ++i) {
         const Hold& hold = setting.holds[i];
         Press& press = presses_[i];
@@ -166,7 +166,7 @@ bool Passage<count>::pass()
                 attempt = 3;
                 continue;
             }
-            std::array<bool, count> was_apart;
+            std::array<bool, count> was_apart{};
             for (std::size_t i = 0; i < count; ++i)
                 was_apart[i] = presses_[i].phase == Phase::apart;
             presses_ = presses;

@@ -34,7 +34,7 @@ public:
 private:
     /// What is held for a time.
     struct Setting {
-        glm::dmat3 inverse_inertia;
+        glm::dmat3 inverse_inertia{0.0};
         std::array<Hold, count> holds;
         double turned = 0.0; // of the normal that turned farthest since the start, squared
     };

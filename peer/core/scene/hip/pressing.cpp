@@ -60,6 +60,8 @@ Phase Press::due() const
     return drive() < force_max ? Phase::pressing : Phase::capped;
 }
 
+// The courses are set for the phases that there are.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 template <std::size_t count>
 Presses<count>::Presses(std::array<Press, count>& presses, const Coupling& coupling, double time)
     : presses_{presses}, coupling_{coupling}, time_{time}

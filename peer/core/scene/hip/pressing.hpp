@@ -57,6 +57,7 @@ public:
     Presses(std::array<Press, count>& presses, const Coupling& coupling, double time);
     Presses(const Presses&) = delete; // the courses point to the kernels
     Presses& operator=(const Presses&) = delete;
+    ~Presses() = default;
 
     /// Whether there is a closed form.
     [[nodiscard]] bool is_solved() const { return is_solved_; }

@@ -30,7 +30,8 @@ constexpr std::array<double, press_terms_max> press_shares = [] {
 
 glm::dvec3 diagonal_of(const glm::dmat3& m) { return {m[0].x, m[1].y, m[2].z}; }
 
-/// One spring and the face that it presses.
+/// One spring and the face that it presses. Set before it is read.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 struct Contact {
     glm::dvec3 hand; // seen from the body's centre, at the start
     glm::dvec3 away; // the body's velocity over the hand's, at the start

@@ -42,7 +42,7 @@ public:
     /// Sees what the hand does to one of the bodies that it may reach.
     void touch(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
     /// Forgets whom the hand has left.
-    void end(std::uint32_t hand);
+    void end(std::uint32_t index);
 
     [[nodiscard]] std::span<const Spring> springs() const { return springs_.all(); }
     /// Those on one body, and where they tell their work; until the next question.
@@ -77,8 +77,8 @@ private:
     };
 
     HipSpring& add(std::uint32_t hand, BodyId body);
-    bool hold(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
-    void press(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
+    bool hold(const Frozen& frozen, Stage& stage, std::uint32_t index, const Target& target);
+    void press(const Frozen& frozen, Stage& stage, std::uint32_t index, const Target& target);
     [[nodiscard]] Near* near(Hand& hand, BodyId body);
 
     std::array<Hand, hips_max> hands_;
