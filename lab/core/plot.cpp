@@ -142,11 +142,11 @@ private:
 
 } // namespace
 
-std::string svg_plot(const PlotTitles& titles, std::span<const Curve> given, Scales scales)
+std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves, Scales scales)
 {
     Range x, y;
-    std::vector<Curve> curves{given.begin(), given.end()};
-    for (Curve& curve : curves) {
+    std::vector<Curve> drawn_curves{curves.begin(), curves.end()};
+    for (Curve& curve : drawn_curves) {
         for (Point& p : curve.points) {
             p = {drawn(scales.x, p.x), drawn(scales.y, p.y)};
             if (!is_finite(p)) continue;
@@ -163,10 +163,10 @@ std::string svg_plot(const PlotTitles& titles, std::span<const Curve> given, Sca
         width, height, left, titles.title, (left + width) / 2.0, height - 8.0, titles.x,
         (top + height - bottom) / 2.0, titles.y);
     out += canvas.marks();
-    for (const Curve& curve : curves) out += canvas.line(curve);
+    for (const Curve& curve : drawn_curves) out += canvas.line(curve);
     double legend = width - right;
-    for (const Curve& curve : curves) legend -= legend_width(curve);
-    for (const Curve& curve : curves) {
+    for (const Curve& curve : drawn_curves) legend -= legend_width(curve);
+    for (const Curve& curve : drawn_curves) {
         out += fmt::format("<text x='{}' y='16' fill='{}'>{}</text>\n", legend, curve.colour,
                            curve.name);
         legend += legend_width(curve);
