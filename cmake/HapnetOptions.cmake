@@ -59,11 +59,17 @@ function(hapnet_library name)
     hapnet_precompile(${name})
 endfunction()
 
+option(HAPNET_PROGRAMS "Build the programs, which the tests end to end need" ON)
+
 # hapnet_program(NAME SOURCES ... DEPENDS ...): one binary that is installed.
 function(hapnet_program name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
     add_executable(${name} ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE hapnet_options ${arg_DEPENDS})
     hapnet_precompile(${name})
-    install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    if(HAPNET_PROGRAMS)
+        install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    else()
+        set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+    endif()
 endfunction()
