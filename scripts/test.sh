@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds, and runs every test: optimised with GCC; with Clang under
-# AddressSanitizer and UndefinedBehaviorSanitizer; and through clang-tidy.
+# Installs what is missing, builds, and runs every test: optimised with GCC; all but the programs'
+# with Clang under AddressSanitizer and UndefinedBehaviorSanitizer (for those: the workflow
+# asan-e2e); and through clang-tidy.
 set -euo pipefail
 
 usage="usage: scripts/test.sh [--quick]
