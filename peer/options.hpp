@@ -3,7 +3,7 @@
 #pragma once
 
 #include "device/simulated/task.hpp"
-#include "peer/core/algorithm.hpp"
+#include "peer/core/sync/algorithm.hpp"
 #include "peer/core/scene/description.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"

@@ -4,20 +4,12 @@
 
 #include "device/device.hpp"
 #include "device/simulated/hand_noise.hpp"
+#include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
 
 #include <optional>
 
 namespace hapnet::device {
-
-/// A hand on a stylus as a linear impedance: m h'' + b h' + k (h - intention) = force. The mass
-/// contains the device's apparent 45 g. Nominal values for a relaxed pen grip; measured arms:
-/// 0.554 kg, 6.45 N s/m, 135 N/m (Scientific Reports 6:18004).
-struct HandImpedance {
-    double mass_kg = 0.20;
-    double damping_ns_per_m = 5.0;
-    double stiffness_n_per_m = 200.0;
-};
 
 /// A PHANToM Omni in the air, per Cartesian axis: figures of its data sheet.
 struct OmniPlant {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/algorithm.hpp"
+#include "peer/core/sync/algorithm.hpp"
 #include "peer/core/handshake.hpp"
 #include "peer/core/ledger.hpp"
 #include "peer/core/outbox.hpp"

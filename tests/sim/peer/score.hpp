@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "tests/sim/peer/world.hpp"
+#include "lab/core/virtual_time/world.hpp"
 
 #include <array>
 #include <bit>

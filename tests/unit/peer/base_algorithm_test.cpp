@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Every branch of the paper's hybrid algorithm, to the last bit, against a second world that is
 // driven by hand.
-#include "peer/core/algorithm.hpp"
+#include "peer/core/sync/algorithm.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>

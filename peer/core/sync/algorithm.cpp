@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/core/algorithm.hpp"
+#include "peer/core/sync/algorithm.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "tests/sim/peer/world.hpp"
+#include "lab/core/virtual_time/world.hpp"
 
 #include <cmath>
 #include <utility>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/base_algorithm.hpp"
+#include "peer/core/sync/base_algorithm.hpp"
 #include "proto/base/result.hpp"
 
 #include <string_view>

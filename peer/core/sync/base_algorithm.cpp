@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/core/base_algorithm.hpp"
+#include "peer/core/sync/base_algorithm.hpp"
 
 #include "peer/core/shared_body.hpp"
 

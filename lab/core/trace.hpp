@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/simulated/task.hpp"
+#include "proto/base/space.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <chrono>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// One side in one tick: what its copy of the scene, its hand and its motors did.
+struct Sample {
+    base::Position body; // the shared body, after the tick
+    base::Velocity body_velocity;
+    base::Position hip; // as the device told it
+    base::Velocity hip_velocity;
+    base::Force on_hand; // what the device was told, after the governor
+    base::Force on_body; // by this side's hand
+    bool touching = false;
+    bool holding = false;
+    bool remote_touching = false; // as this side believes
+};
+
+/// What both sides of a session did while both were running, at equal times: sample i of either
+/// is at i ticks from the first. From virtual time or from two records: metrics do not know which.
+struct Trace {
+    device::Task task = device::Task::p1;
+    base::Duration tick{std::chrono::milliseconds{1}};
+    base::Duration begin{};                   // of sample 0, from the session's start
+    std::array<std::vector<Sample>, 2> sides; // 0: L, 1: R; equally long
+    /// The share of the session, 0 to 1, in which both were running; hands off not counted.
+    double overlap = 0.0;
+};
+
+} // namespace hapnet::lab

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/core/trace.hpp"
+#include "lab/core/virtual_time/setting.hpp"
+#include "proto/base/result.hpp"
+
+#include <atomic>
+
+namespace hapnet::lab {
+
+/// Plays a session from the first hello to its end in virtual time, on the cores that the daemons
+/// run. A pure function of the setting. Fails when the scene cannot be shared, or when `stop`
+/// became true meanwhile. A session that never begins gives an empty trace.
+[[nodiscard]] base::Result<Trace> play(const Setting& setting,
+                                       const std::atomic<bool>* stop = nullptr);
+
+} // namespace hapnet::lab
