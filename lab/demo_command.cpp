@@ -49,7 +49,7 @@ base::Result<TaskTrace> read_trace(const std::string& folder)
     if (!a) return tl::unexpected{a.error()};
     const auto b = record::read(folder + "/peer-2.rec");
     if (!b) return tl::unexpected{b.error()};
-    return common_session(*a, *b).map([](const Session& session) { return trace_of(session); });
+    return common_session(*a, *b).map([](const Session& session) { return task_trace_of(session); });
 }
 
 Json host()
