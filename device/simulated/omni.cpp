@@ -6,7 +6,6 @@
 #include "proto/base/math.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device {
@@ -22,7 +21,7 @@ constexpr double aside_m = 0.055; // clear of a cube at its start
 } // namespace
 
 SimulatedOmni::SimulatedOmni(Task task, const HandImpedance& hand, const OmniPlant& plant)
-    : task_{task}, hand_{hand}, plant_{plant}
+    : task_{task}, hand_{hand}, plant_{plant}, motion_{hand, plant.friction_n}
 {}
 
 void SimulatedOmni::on_cue(const Cue& cue)
@@ -31,7 +30,7 @@ void SimulatedOmni::on_cue(const Cue& cue)
     part_ =
         Part{Script{task_, cue}, HandNoise{cue.seed, cue.peer_id}, cue.start, task_ != Task::p1};
     cued_at_.reset();
-    rest_ = position_;
+    rest_ = position();
 }
 
 Intention SimulatedOmni::intention(base::TimePoint now) const
@@ -53,24 +52,29 @@ Intention SimulatedOmni::intention(base::TimePoint now) const
 Sample SimulatedOmni::read(base::TimePoint now)
 {
     if (part_ && !cued_at_) cued_at_ = now;
-    if (!simulated_to_ || now - *simulated_to_ > gap_max) simulated_to_ = now;
-    // The intention hardly changes within a millisecond: taken once per read.
     const Intention intended = intention(now);
-    while (*simulated_to_ + step <= now) {
-        advance(intended);
-        *simulated_to_ += step;
-    }
+    const bool lives = simulated_to_ && now - *simulated_to_ <= gap_max;
+    if (lives && now > *simulated_to_) advance(intended.target, now - *simulated_to_);
+    simulated_to_ = now;
+    intended_ = intended.target;
 
-    const glm::dvec3 reported = quantised(position_);
-    if (last_read_ && now > *last_read_) {
-        const double elapsed = base::to_seconds(now - *last_read_);
-        const double kept = base::exp(-base::two_pi * plant_.velocity_cutoff_hz * elapsed);
-        filtered_velocity_ =
-            kept * filtered_velocity_ + (1.0 - kept) * (reported - last_reported_) / elapsed;
-    }
+    const glm::dvec3 reported = quantised(position());
+    if (last_read_ && now > *last_read_) filter(reported, now - *last_read_);
     last_read_ = now;
     last_reported_ = reported;
     return {{reported}, {filtered_velocity_}, intended.gripping};
+}
+
+void SimulatedOmni::filter(const glm::dvec3& reported, base::Duration elapsed)
+{
+    if (elapsed != filtered_over_) {
+        filtered_over_ = elapsed;
+        const double seconds = base::to_seconds(elapsed);
+        filter_keeps_ = base::exp(-base::two_pi * plant_.velocity_cutoff_hz * seconds);
+        filter_gain_ = (1.0 - filter_keeps_) / seconds;
+    }
+    filtered_velocity_ =
+        filter_keeps_ * filtered_velocity_ + filter_gain_ * (reported - last_reported_);
 }
 
 void SimulatedOmni::apply(base::Force force)
@@ -78,37 +82,44 @@ void SimulatedOmni::apply(base::Force force)
     force_ = base::limited(force, plant_.force_max_n).value; // the motors saturate
 }
 
-void SimulatedOmni::advance(const Intention& intended)
+void SimulatedOmni::advance(const base::Position& target, base::Duration elapsed)
 {
-    const double h = base::to_seconds(step);
-    for (const int axis : {0, 1, 2}) {
-        double& x = position_[axis];
-        double& v = velocity_[axis];
-        const double pull = force_[axis] - hand_.damping_ns_per_m * v -
-                            hand_.stiffness_n_per_m * (x - intended.target.value[axis]);
-        // Coulomb friction sticks while the pull is weaker, and otherwise never turns the motion
-        // round within a step (Karnopp 1985).
-        const double free_v = v + h * pull / hand_.mass_kg;
-        const double friction_dv = h * plant_.friction_n / hand_.mass_kg;
-        v = std::abs(free_v) <= friction_dv ? 0.0 : free_v - std::copysign(friction_dv, free_v);
-        x += h * v;
-        stop_at_workspace_end(axis);
+    // The intention moves evenly from what it was. Late reads are lived through in short steps.
+    const auto steps = (elapsed + step_max - base::Duration{1}) / step_max;
+    const double seconds = base::to_seconds(elapsed) / static_cast<double>(steps);
+    motion_.set_step(seconds);
+    const glm::dvec3 change = (target - intended_).value / static_cast<double>(steps);
+    for (base::Duration::rep i = 0; i < steps; ++i) {
+        const glm::dvec3 from = intended_.value + static_cast<double>(i) * change;
+        for (const int axis : {0, 1, 2}) {
+            HandAxis& hand = axes_[static_cast<std::size_t>(axis)];
+            motion_.advance(hand, {force_[axis], from[axis], change[axis] / seconds});
+            stop_at_workspace_end(axis);
+        }
     }
 }
 
 void SimulatedOmni::stop_at_workspace_end(int axis)
 {
+    HandAxis& hand = axes_[static_cast<std::size_t>(axis)];
     const double low = centre_[axis] - plant_.half_workspace_m[axis];
     const double high = centre_[axis] + plant_.half_workspace_m[axis];
-    if (position_[axis] >= low && position_[axis] <= high) return;
-    position_[axis] = std::clamp(position_[axis], low, high);
-    velocity_[axis] = 0.0;
+    if (hand.position_m >= low && hand.position_m <= high) return;
+    hand.position_m = std::clamp(hand.position_m, low, high);
+    hand.velocity_m_per_s = 0.0;
+}
+
+glm::dvec3 SimulatedOmni::position() const
+{
+    return {axes_[0].position_m, axes_[1].position_m, axes_[2].position_m};
 }
 
 glm::dvec3 SimulatedOmni::quantised(const glm::dvec3& position) const
 {
     const auto count = [this](double x) {
-        return std::nearbyint(x / plant_.resolution_m) * plant_.resolution_m;
+        // The nearest whole number, by the rounding of an addition: std::nearbyint is a call.
+        constexpr double shift = 6755399441055744.0; // 1.5 * 2^52
+        return ((x / plant_.resolution_m + shift) - shift) * plant_.resolution_m;
     };
     return {count(position.x), count(position.y), count(position.z)};
 }

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "device/device.hpp"
+#include "device/simulated/hand_motion.hpp"
 #include "device/simulated/hand_noise.hpp"
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
 
+#include <array>
 #include <optional>
 
 namespace hapnet::device {
@@ -31,28 +33,34 @@ public:
     void on_cue(const Cue& cue) override;
     [[nodiscard]] std::string description() const override;
 
-    /// Steps of the plant's own simulation; read() advances it by whole ones.
-    static constexpr base::Duration step{std::chrono::microseconds{50}};
+    /// read() goes on in one exact step, unless it comes later than this after the last.
+    static constexpr base::Duration step_max{std::chrono::milliseconds{2}};
     /// A longer gap between reads is not lived through.
     static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};
 
 private:
     [[nodiscard]] Intention intention(base::TimePoint now) const;
-    void advance(const Intention& intended);
+    void advance(const base::Position& target, base::Duration elapsed);
     void stop_at_workspace_end(int axis);
+    void filter(const glm::dvec3& reported, base::Duration elapsed);
+    [[nodiscard]] glm::dvec3 position() const;
     [[nodiscard]] glm::dvec3 quantised(const glm::dvec3& position) const;
 
     Task task_;
     HandImpedance hand_;
     OmniPlant plant_;
     glm::dvec3 centre_{0.0}; // of the workspace, in the scene
-    glm::dvec3 position_{0.0, 0.0, 0.035};
-    glm::dvec3 velocity_{0.0};
+    HandMotion motion_;
+    std::array<HandAxis, 3> axes_{HandAxis{}, HandAxis{}, HandAxis{.position_m = 0.035}};
     glm::dvec3 force_{0.0};
+    base::Position intended_{{0.0, 0.0, 0.035}}; // at simulated_to_
     std::optional<base::TimePoint> simulated_to_;
     std::optional<base::TimePoint> last_read_;
     glm::dvec3 last_reported_{0.0};
     glm::dvec3 filtered_velocity_{0.0};
+    base::Duration filtered_over_{}; // what the next two are for
+    double filter_keeps_ = 0.0;
+    double filter_gain_ = 0.0; // 1/s
 
     struct Part {
         Script script;
