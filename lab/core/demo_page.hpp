@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lab/core/demo_report.hpp"
-#include "lab/core/plot.hpp"
+#include "lab/core/plot/plot.hpp"
 #include "lab/core/session.hpp"
 
 #include <string>

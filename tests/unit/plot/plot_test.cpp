@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/core/plot.hpp"
+#include "lab/core/plot/plot.hpp"
 
 #include <array>
 #include <gtest/gtest.h>
