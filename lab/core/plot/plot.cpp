@@ -2,176 +2,138 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/plot/plot.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::plot {
 
 namespace {
 
-// Pixels.
-constexpr double width = 900.0;
-constexpr double height = 280.0;
-constexpr double left = 60.0;
-constexpr double right = 15.0;
-constexpr double top = 34.0;
-constexpr double bottom = 44.0;
+bool can_show(const Scales& scales, const Point& p)
+{
+    return std::isfinite(p.x) && std::isfinite(p.y) && (scales.x == Scale::linear || p.x > 0.0) &&
+           (scales.y == Scale::linear || p.y > 0.0);
+}
 
-struct Range {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-
-    void include(double value)
-    {
-        low = std::min(low, value);
-        high = std::max(high, value);
+std::string_view dashes(Stroke stroke)
+{
+    switch (stroke) {
+    case Stroke::solid: break;
+    case Stroke::dashed: return " stroke-dasharray='6 3'";
+    case Stroke::dotted: return " stroke-dasharray='2 2'";
     }
+    return "";
+}
+
+struct Axes {
+    Axis x;
+    Axis y;
 };
 
-bool is_finite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
-/// The distance of tick marks that makes about `wanted` of them: 1, 2 or 5 times a power of ten.
-double round_step(const Range& range, double wanted)
+Axes axes_of(std::span<const Curve> curves, const PlotOptions& options)
 {
-    const double rough = (range.high - range.low) / wanted;
-    const double power = std::pow(10.0, std::floor(std::log10(rough)));
-    for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * power >= rough) return factor * power;
-    }
-    return 10.0 * power;
-}
-
-/// A range that is not empty, whatever went in.
-Range usable(Range range)
-{
-    if (!(range.low <= range.high)) return {0.0, 1.0};
-    if (range.low == range.high) return {range.low - 0.5, range.high + 0.5};
-    return range;
-}
-
-/// Whole powers of ten around what went in; the values are their exponents.
-Range decades(Range range)
-{
-    if (!(range.low <= range.high)) return {0.0, 1.0};
-    const double low = std::floor(range.low);
-    return {low, std::max(std::ceil(range.high), low + 1.0)};
-}
-
-/// Where the marks of an axis stand, and what they say.
-struct Marks {
-    Scale scale;
-    double step;
-
-    Marks(Scale of, const Range& range, double wanted)
-        : scale{of},
-          step{of == Scale::linear ? round_step(range, wanted)
-                                   : std::ceil((range.high - range.low) / (2.0 * wanted))}
-    {}
-
-    [[nodiscard]] std::string text(double at) const
-    {
-        if (scale == Scale::logarithmic) return fmt::format("1e{:g}", at);
-        return fmt::format("{:g}", at);
-    }
-};
-
-/// What is drawn of a value.
-double drawn(Scale scale, double value)
-{
-    return scale == Scale::linear ? value : value > 0.0 ? std::log10(value) : std::nan("");
-}
-
-double legend_width(const Curve& curve)
-{
-    return 8.0 * static_cast<double>(curve.name.size()) + 16.0;
-}
-
-class Canvas {
-public:
-    Canvas(Range x, Range y, Scales scales)
-        : x_{scales.x == Scale::linear ? usable(x) : decades(x)},
-          y_{scales.y == Scale::linear ? usable(y) : decades(y)},
-          scales_{scales}
-    {}
-
-    [[nodiscard]] double across(double x) const
-    {
-        return left + (width - left - right) * (x - x_.low) / (x_.high - x_.low);
-    }
-    [[nodiscard]] double down(double y) const
-    {
-        return height - bottom - (height - top - bottom) * (y - y_.low) / (y_.high - y_.low);
-    }
-
-    [[nodiscard]] std::string marks() const
-    {
-        std::string out;
-        const Marks x_marks{scales_.x, x_, 10.0}, y_marks{scales_.y, y_, 5.0};
-        const double x_step = x_marks.step, y_step = y_marks.step;
-        for (double x = std::ceil(x_.low / x_step) * x_step; x <= x_.high; x += x_step) {
-            out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>\n",
-                               across(x), height - bottom + 16.0, x_marks.text(x));
-        }
-        for (double y = std::ceil(y_.low / y_step) * y_step; y <= y_.high; y += y_step) {
-            const double mark = std::abs(y) < 1e-9 * y_step ? 0.0 : y;
-            out += fmt::format("<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='#ddd'/>\n"
-                               "<text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
-                               left, width - right, down(y), left - 6.0, down(y) + 4.0,
-                               y_marks.text(mark));
-        }
-        return out;
-    }
-
-    [[nodiscard]] std::string line(const Curve& curve) const
-    {
-        std::string points;
+    Range x = options.x, y = options.y;
+    for (const Curve& curve : curves) {
         for (const Point& p : curve.points) {
-            if (is_finite(p)) points += fmt::format("{:.1f},{:.1f} ", across(p.x), down(p.y));
-        }
-        return fmt::format("<polyline fill='none' stroke='{}' stroke-width='1.2' points='{}'/>\n",
-                           curve.colour, points);
-    }
-
-private:
-    Range x_;
-    Range y_;
-    Scales scales_;
-};
-
-} // namespace
-
-std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves, Scales scales)
-{
-    Range x, y;
-    std::vector<Curve> drawn_curves{curves.begin(), curves.end()};
-    for (Curve& curve : drawn_curves) {
-        for (Point& p : curve.points) {
-            p = {drawn(scales.x, p.x), drawn(scales.y, p.y)};
-            if (!is_finite(p)) continue;
+            if (!can_show(options.scales, p)) continue;
             x.include(p.x);
             y.include(p.y);
         }
     }
-    const Canvas canvas{x, y, scales};
-    std::string out = fmt::format(
-        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' role='img'>\n"
-        "<text x='{2}' y='16' font-weight='bold'>{3}</text>\n"
-        "<text x='{4}' y='{5}' text-anchor='middle'>{6}</text>\n"
-        "<text x='14' y='{7}' transform='rotate(-90 14 {7})' text-anchor='middle'>{8}</text>\n",
-        width, height, left, titles.title, (left + width) / 2.0, height - 8.0, titles.x,
-        (top + height - bottom) / 2.0, titles.y);
-    out += canvas.marks();
-    for (const Curve& curve : drawn_curves) out += canvas.line(curve);
-    double legend = width - right;
-    for (const Curve& curve : drawn_curves) legend -= legend_width(curve);
-    for (const Curve& curve : drawn_curves) {
-        out += fmt::format("<text x='{}' y='16' fill='{}'>{}</text>\n", legend, curve.colour,
-                           curve.name);
-        legend += legend_width(curve);
+    for (const Level& level : options.levels) y.include(level.y);
+    const Margins margins = margins_for(options.size, !curves.empty());
+    return {Axis{options.scales.x, x, {margins.left, options.size.width - margins.right}},
+            Axis{options.scales.y, y, {options.size.height - margins.bottom, margins.top}}};
+}
+
+/// What is drawn between the axes of a plot.
+class Canvas {
+public:
+    Canvas(const Axes& axes, const PlotOptions& options) : options_{options}, x_{axes.x}, y_{axes.y}
+    {}
+
+    [[nodiscard]] std::string marks() const
+    {
+        std::string out = options_.can_zoom ? "<g class='x-marks'>\n" : "";
+        for (const Mark& mark : x_.marks(options_.size.width < 600.0 ? 5.0 : 10.0)) {
+            out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>\n",
+                               mark.pixel, y_.pixels().from + 16.0, mark.text);
+        }
+        if (options_.can_zoom) out += "</g>\n";
+        return out + svg_grid(y_, x_.pixels());
     }
+
+    /// The part of the plot that zooming moves: its view box is what page/zoom.js sets.
+    [[nodiscard]] std::string window() const
+    {
+        const double width = x_.pixels().to - x_.pixels().from;
+        const double height = y_.pixels().from - y_.pixels().to;
+        return fmt::format("<svg class='window' x='{0}' y='{1}' width='{2}' height='{3}' "
+                           "viewBox='{0} {1} {2} {3}' preserveAspectRatio='none' "
+                           "data-low='{4}' data-high='{5}'>\n",
+                           x_.pixels().from, y_.pixels().to, width, height, x_.range().low,
+                           x_.range().high);
+    }
+
+    [[nodiscard]] std::string line(const Curve& curve) const
+    {
+        std::string points, dots;
+        for (const Point& p : curve.points) {
+            if (!can_show(options_.scales, p)) continue;
+            const double across = x_.pixel(p.x), down = y_.pixel(p.y);
+            points += fmt::format("{:.1f},{:.1f} ", across, down);
+            if (!curve.shows_points) continue;
+            dots += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='2.5' fill='{}'/>\n", across,
+                                down, curve.colour);
+        }
+        return fmt::format("<polyline fill='none' stroke='{}' stroke-width='1.2'{}{} "
+                           "points='{}'/>\n",
+                           curve.colour, dashes(curve.stroke),
+                           options_.can_zoom ? " vector-effect='non-scaling-stroke'" : "", points) +
+               dots;
+    }
+
+    [[nodiscard]] std::string level(const Level& level) const
+    {
+        const double down = y_.pixel(level.y);
+        if (!std::isfinite(down)) return "";
+        return fmt::format("<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' "
+                           "stroke='currentColor' stroke-dasharray='4 4'/>\n"
+                           "<text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
+                           x_.pixels().from, x_.pixels().to, down, x_.pixels().to - 4.0, down - 4.0,
+                           escaped(level.name));
+    }
+
+    [[nodiscard]] std::string cross(const Cross& cross) const
+    {
+        if (!can_show(options_.scales, cross.at)) return "";
+        return fmt::format("<path d='M{:.1f} {:.1f}m-6-6l12 12m0-12l-12 12' stroke='{}' "
+                           "stroke-width='2.5' fill='none'/>\n",
+                           x_.pixel(cross.at.x), y_.pixel(cross.at.y), cross.colour);
+    }
+
+private:
+    const PlotOptions& options_;
+    Axis x_;
+    Axis y_;
+};
+
+} // namespace
+
+std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
+                     const PlotOptions& options)
+{
+    const Canvas canvas{axes_of(curves, options), options};
+    std::vector<LegendEntry> legend;
+    for (const Curve& curve : curves) legend.push_back({curve.name, curve.colour});
+    std::string out = svg_head(options.size, titles, legend);
+    out += canvas.marks();
+    for (const Level& level : options.levels) out += canvas.level(level);
+    if (options.can_zoom) out += canvas.window();
+    for (const Curve& curve : curves) out += canvas.line(curve);
+    if (options.can_zoom) out += "</svg>\n";
+    for (const Cross& cross : options.crosses) out += canvas.cross(cross);
     return out + "</svg>\n";
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::plot
