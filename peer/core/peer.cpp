@@ -20,8 +20,7 @@ constexpr double speed_max_m_per_s = 1000.0;
 
 bool is_within(const glm::dvec3& v, double most)
 {
-    return base::is_finite(v) && std::abs(v.x) <= most && std::abs(v.y) <= most &&
-           std::abs(v.z) <= most;
+    return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most; // and no NaN
 }
 
 bool is_usable(const Hand& hand)
@@ -253,13 +252,13 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                               .yields = !session()->is_left};
     tick.remote_touching = remote_touching(situation);
     tick.remote_force = remote_force(situation, force_max_n_);
-    const base::Position before = body().position;
+    const base::Position before = position();
     if (body_known_) {
         tick.touched = std::visit(
             [&](auto& algorithm) { return algorithm.tick(world_, situation, tick.remote_force); },
             settings_.algorithm);
     }
-    account(tick, body().position - before, now);
+    account(tick, position() - before, now);
     tick.force = share_ * tick.touched.on_hip;
     // The governor's own fade runs along with the remote's: zero when the remote counts as gone.
     tick.permitted = usable && body_known_ && tick.freshness >= 1.0;
@@ -302,10 +301,9 @@ void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
     state.hip_velocity = hand.velocity;
     state.contact_force = tick.touched.on_body;
     if (mentions_body(now)) {
-        const scene::BodyState body = world_.body(body_);
         state.body = wire::BodyState{.body = static_cast<std::uint16_t>(body_),
-                                     .position = body.position,
-                                     .velocity = body.velocity,
+                                     .position = position(),
+                                     .velocity = velocity(),
                                      .caused_displacement_nm = ledger_.displacement_nm(),
                                      .caused_impulse_nns = ledger_.impulse_nns()};
     }
