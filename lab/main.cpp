@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "lab/core/analysis.hpp"
+#include "lab/core/analysis_report.hpp"
 #include "lab/core/csv.hpp"
 #include "lab/core/explain.hpp"
-#include "lab/core/report.hpp"
 #include "lab/demo_command.hpp"
 #include "lab/options.hpp"
 #include "lab/run_command.hpp"

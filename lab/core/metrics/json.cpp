@@ -90,7 +90,7 @@ OrderedJson written(const Value& value);
 template <typename Value>
 OrderedJson written(const std::optional<Value>& value)
 {
-    return value ? written(*value) : OrderedJson{nullptr};
+    return value ? written(*value) : OrderedJson();
 }
 
 template <typename Value, std::size_t count>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "device/simulated/task.hpp"
+#include "device/simulated/script.hpp"
 
 #include "device/simulated/minimum_jerk.hpp"
 #include "proto/base/math.hpp"
@@ -129,7 +129,7 @@ TEST(Tasks, HaveNames)
     }
     const auto unknown = task_named("P2");
     ASSERT_FALSE(unknown);
-    EXPECT_EQ(unknown.error().message, "'P2' is not a task; known: P1, T1, T3");
+    EXPECT_EQ(unknown.error().message, "'P2' is not a task; known: P1, T1, T2, T3, T4, T5, T6");
 }
 
 TEST(TaskP1, LetsTheLeftHandAloneHoldTheCubeWhileTheHandsAreOn)
