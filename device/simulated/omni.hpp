@@ -6,7 +6,8 @@
 #include "device/simulated/hand_motion.hpp"
 #include "device/simulated/hand_noise.hpp"
 #include "device/simulated/operator.hpp"
-#include "device/simulated/task.hpp"
+#include "device/simulated/reactions.hpp"
+#include "device/simulated/script.hpp"
 
 #include <array>
 #include <optional>
@@ -22,10 +23,20 @@ struct OmniPlant {
     double velocity_cutoff_hz = 30.0; // of the filter on differenced positions
 };
 
+/// Who plays what on which device.
+struct Performer {
+    Task task = Task::p1;
+    TaskOptions options{};
+    Operator person{};
+    OmniPlant plant{};
+};
+
 /// A simulated Omni held by a simulated hand that plays its part of a task. Not a human being:
-/// a linear hand with scripted intentions.
+/// a linear hand with scripted intentions. P1 is a prescribed path: there the hand neither wavers
+/// nor reacts.
 class SimulatedOmni final : public Device {
 public:
+    explicit SimulatedOmni(const Performer& performer);
     SimulatedOmni(Task task, const HandImpedance& hand, const OmniPlant& plant);
 
     [[nodiscard]] Sample read(base::TimePoint now) override;
@@ -39,18 +50,23 @@ public:
     static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};
 
 private:
-    [[nodiscard]] Intention intention(base::TimePoint now) const;
-    void advance(const base::Position& target, base::Duration elapsed);
+    /// What the hand means to do, and by how much its force is off.
+    struct Will {
+        Intention intention;
+        double force_share = 0.0;
+    };
+    [[nodiscard]] Will will(base::TimePoint now) const;
+    void advance(const Will& intended, base::TimePoint now);
+    void go_on(const base::Position& target, const glm::dvec3& force, base::Duration elapsed);
     void stop_at_workspace_end(int axis);
     void filter(const glm::dvec3& reported, base::Duration elapsed);
     [[nodiscard]] glm::dvec3 position() const;
     [[nodiscard]] glm::dvec3 quantised(const glm::dvec3& position) const;
 
-    Task task_;
-    HandImpedance hand_;
-    OmniPlant plant_;
+    Performer performer_;
     glm::dvec3 centre_{0.0}; // of the workspace, in the scene
     HandMotion motion_;
+    Reactions reactions_;
     std::array<HandAxis, 3> axes_{HandAxis{}, HandAxis{}, HandAxis{.position_m = 0.035}};
     glm::dvec3 force_{0.0};
     base::Position intended_{{0.0, 0.0, 0.035}}; // at simulated_to_
@@ -66,7 +82,7 @@ private:
         Script script;
         HandNoise noise;
         base::TimePoint start;
-        bool wavers; // an exactly prescribed path has no noise on it
+        bool is_prescribed;
     };
     std::optional<Part> part_;
     std::optional<base::TimePoint> cued_at_;

@@ -174,7 +174,7 @@ TEST(SimulatedOmni, PlaysThePrescribedPathOfP1WithoutChance)
 TEST(SimulatedOmni, SaysThatItIsSimulated)
 {
     EXPECT_EQ(omni_for(Task::p1).description(),
-              "simulated Omni held by a simulated hand (0.2 kg, 5 N s/m, 200 N/m)");
+              "simulated Omni held by a simulated hand (nominal: 0.2 kg, 5 N s/m, 200 N/m)");
 }
 
 } // namespace
