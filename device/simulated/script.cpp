@@ -117,8 +117,10 @@ Intention Script::working(double t) const
 {
     switch (task_) {
     case Task::p1: {
-        // The watcher keeps out of the carried cube's way.
+        // The watcher keeps out of the carried cube's way, and above it: a prediction may carry its
+        // copy beyond the path's end.
         Intention intention = at_x(cue_.is_left ? path_x(t) - touching_m : 0.105);
+        if (!cue_.is_left) intention.target.value.y = lift_off_m;
         intention.gripping = cue_.is_left;
         return intention;
     }
