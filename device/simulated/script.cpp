@@ -19,6 +19,8 @@ constexpr double clear_m = 0.055; // from the cube's centre, on the way to the p
 constexpr double clearance_m = 0.008;
 constexpr double closing_in_s = 1.0;
 
+constexpr double watching_x_m = 0.105; // P1
+
 // T1: the path speed over which the turn changes.
 constexpr double turn_speed_m_per_s = 0.020;
 
@@ -117,11 +119,15 @@ Intention Script::working(double t) const
 {
     switch (task_) {
     case Task::p1: {
-        // The watcher keeps out of the carried cube's way, and above it: a prediction may carry its
-        // copy beyond the path's end.
-        Intention intention = at_x(cue_.is_left ? path_x(t) - touching_m : 0.105);
-        if (!cue_.is_left) intention.target.value.y = lift_off_m;
-        intention.gripping = cue_.is_left;
+        if (cue_.is_left) {
+            Intention intention = at_x(unstopped_path_x(t) - touching_m);
+            intention.gripping = true;
+            return intention;
+        }
+        // The watcher keeps out of the way of the carried cube, also of one that a prediction
+        // carries through the static cube.
+        Intention intention = at_x(watching_x_m);
+        intention.target.value.y = lift_off_m;
         return intention;
     }
     case Task::t1: return at_x(turn_x(t));

@@ -20,8 +20,7 @@ constexpr double speed_max_m_per_s = 1000.0;
 
 bool is_within(const glm::dvec3& v, double most)
 {
-    return base::is_finite(v) && std::abs(v.x) <= most && std::abs(v.y) <= most &&
-           std::abs(v.z) <= most;
+    return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most; // and no NaN
 }
 
 bool is_usable(const Hand& hand)
@@ -263,7 +262,7 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                               .tick = settings_.tick,
                               .clock = handshake_.clock(),
                               .force_max_n = force_max_n_};
-    const base::Position before = body().position;
+    const base::Position before = position();
     if (body_known_) {
         const Outcome outcome =
             std::visit([&](auto& algorithm) { return algorithm.tick(world_, situation); },
@@ -274,7 +273,7 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
         tick.remote_force = outcome.remote_force;
         tick.remote_hip = outcome.remote_hip;
     }
-    account(tick, body().position - before, now);
+    account(tick, position() - before, now);
     // The governor's own fade runs along with the remote's: zero when the remote counts as gone.
     tick.permitted = usable && body_known_ && tick.freshness >= 1.0;
     if (!gone_) say_state(tick, now, usable ? hand : Hand{});
@@ -316,10 +315,9 @@ void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
     state.hip_velocity = hand.velocity;
     state.contact_force = tick.touched.on_body;
     if (mentions_body(now)) {
-        const scene::BodyState body = world_.body(body_);
         state.body = wire::BodyState{.body = static_cast<std::uint16_t>(body_),
-                                     .position = body.position,
-                                     .velocity = body.velocity,
+                                     .position = position(),
+                                     .velocity = velocity(),
                                      .caused_displacement_nm = ledger_.displacement_nm(),
                                      .caused_impulse_nns = ledger_.impulse_nns()};
     }

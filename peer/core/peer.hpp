@@ -121,6 +121,8 @@ public:
     [[nodiscard]] const scene::World& world() const { return world_; }
     /// The shared body in this copy of the scene.
     [[nodiscard]] scene::BodyState body() const { return world_.body(body_); }
+    [[nodiscard]] base::Position position() const { return world_.position(body_); } // of body()
+    [[nodiscard]] base::Velocity velocity() const { return world_.velocity(body_); }
     [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
     [[nodiscard]] std::optional<ClockOffset::Estimate> clock() const { return handshake_.clock(); }
     [[nodiscard]] const Counters& counters() const { return counters_; }

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/core/plot.hpp"
+#include "lab/core/plot/plot.hpp"
 
 #include <array>
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace hapnet::lab {
+namespace hapnet::lab::plot {
 namespace {
 
 std::string plot_of(const std::vector<Point>& points)
@@ -54,7 +54,7 @@ TEST(Plot, DividesALogarithmicAxisIntoWholeDecadesAndLeavesOutWhatHasNoLogarithm
     const std::vector<Point> points{{10.0, 1e-15}, {100.0, 0.0}, {1000.0, 1e-3}, {-1.0, 1.0}};
     const std::array curves{Curve{"peer 1", "#123456", points}};
     const std::string svg =
-        svg_plot({"t", "x", "y"}, curves, {Scale::logarithmic, Scale::logarithmic});
+        svg_plot({"t", "x", "y"}, curves, {.scales = {Scale::logarithmic, Scale::logarithmic}});
     EXPECT_NE(svg.find("points='60.0,236.0 885.0,34.0 '"), std::string::npos) << svg;
     for (const char* mark : {">1e1</text>", ">1e3</text>", ">1e-14</text>", ">1e-4</text>"}) {
         EXPECT_NE(svg.find(mark), std::string::npos) << mark;
@@ -62,4 +62,4 @@ TEST(Plot, DividesALogarithmicAxisIntoWholeDecadesAndLeavesOutWhatHasNoLogarithm
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::plot

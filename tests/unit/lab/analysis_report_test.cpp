@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/core/report.hpp"
+#include "lab/core/analysis_report.hpp"
 
 #include "lab/core/csv.hpp"
 #include "tests/unit/lab/recording.hpp"
