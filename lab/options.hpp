@@ -44,7 +44,13 @@ struct ExplainCommand {
     bool json = false;
 };
 
-using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand>;
+/// `hapnet-lab report DIR`
+struct ReportCommand {
+    std::string folder;
+};
+
+using Command =
+    std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand, ReportCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);
