@@ -142,7 +142,9 @@ std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
 {
     const Canvas canvas{axes_of(curves, options), options};
     std::vector<LegendEntry> legend;
-    for (const Curve& curve : curves) legend.push_back({curve.name, curve.colour});
+    for (const Curve& curve : curves) {
+        if (!curve.name.empty()) legend.push_back({curve.name, curve.colour});
+    }
     std::string out = svg_head(options.size, titles, legend);
     out += canvas.marks();
     for (const Level& level : options.levels) out += canvas.level(level);

@@ -22,7 +22,7 @@ enum class Stroke : std::uint8_t { solid, dashed, dotted };
 
 /// A curve of a plot. Points that are not finite are left out.
 struct Curve {
-    std::string_view name;
+    std::string_view name;   // in the legend; empty: not there
     std::string_view colour; // as CSS writes it
     std::vector<Point> points;
     Stroke stroke = Stroke::solid;

@@ -63,7 +63,9 @@ std::string curve_plot(const std::vector<CurveRow>& rows, const Criterion& crite
     const auto algorithms = distinct(rows, [](const auto& row) { return row.algorithm; });
     for (const std::string& algorithm : algorithms) {
         const auto colour = colour_of(algorithm);
-        plot::Curve curve{algorithm, colour, {}, plot::Stroke::solid, true};
+        // Sep often lies on base: both are to be seen.
+        const auto stroke = algorithm == "sep" ? plot::Stroke::dashed : plot::Stroke::solid;
+        plot::Curve curve{algorithm, colour, {}, stroke, true};
         bool has_failed = false;
         for (const auto& [level, found] : levels_of(rows, algorithm, criterion)) {
             if (!found.value) continue;
@@ -91,11 +93,11 @@ std::string by_task(const std::vector<CurveRow>& rows)
         }
         for (const Criterion& criterion : criteria_drawn) {
             const auto title = fmt::format("{}: {}", task, criterion.name);
-            const auto svg = curve_plot(of_task, criterion, title, {440.0, 250.0});
+            const auto svg = curve_plot(of_task, criterion, title, {360.0, 240.0});
             if (!svg.empty()) out += figure(svg, escaped(title));
         }
     }
-    return "<div class='panels'>\n" + out + "</div>\n";
+    return "<div class='panels small'>\n" + out + "</div>\n";
 }
 
 } // namespace
@@ -112,10 +114,10 @@ std::optional<Section> curves_section(const Results& results)
         for (const CurveRow& row : results.curves) {
             if (row.impairment == name) rows.push_back(row);
         }
-        section.html +=
-            fmt::format("<h3>{}</h3>\n<div class='panels'>\n", escaped(impairment_text(name)));
+        section.html += fmt::format("<h3>{}</h3>\n<div class='panels small'>\n",
+                                    escaped(impairment_text(name)));
         for (const Criterion& criterion : criteria_drawn) {
-            auto svg = curve_plot(rows, criterion, std::string{criterion.title}, {440.0, 270.0});
+            auto svg = curve_plot(rows, criterion, std::string{criterion.title}, {360.0, 250.0});
             if (svg.empty()) continue;
             section.add_figure(fmt::format("curve-{}-{}", name, criterion.name), std::move(svg),
                                "Worst of tasks and seeds.");

@@ -26,34 +26,35 @@ std::vector<plot::Point> points_of(const Rows& rows, double TrajectoryRow::*valu
     return plot::thinned(points, points_max);
 }
 
-std::string cubes_plot(const Rows& rows, const plot::Range& range)
+/// What is drawn of both sides over time.
+struct BothSides {
+    std::string_view title; // after the algorithm's name
+    std::string_view left_name;
+    std::string_view right_name;
+    std::string_view unit;
+    double TrajectoryRow::*left;
+    double TrajectoryRow::*right;
+};
+
+constexpr BothSides cubes{
+    "", "cube at L", "cube at R", "x, mm", &TrajectoryRow::cube_l_mm, &TrajectoryRow::cube_r_mm};
+constexpr BothSides hands{
+    ": hands", "hand L", "hand R", "x, mm", &TrajectoryRow::hand_l_mm, &TrajectoryRow::hand_r_mm};
+constexpr BothSides forces{": forces",
+                           "on hand L",
+                           "on hand R",
+                           "x, N",
+                           &TrajectoryRow::force_l_n,
+                           &TrajectoryRow::force_r_n};
+
+std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot::Range& range = {})
 {
-    const std::array curves{
-        plot::Curve{"cube at L", left_colour, points_of(rows, &TrajectoryRow::cube_l_mm)},
-        plot::Curve{"cube at R", right_colour, points_of(rows, &TrajectoryRow::cube_r_mm),
-                    plot::Stroke::dashed}};
-    return plot::svg_plot({rows.front().algorithm, "s", "x, mm"}, curves,
+    // R first: what shakes must not hide what does not.
+    const std::array curves{plot::Curve{both.right_name, right_colour, points_of(rows, both.right)},
+                            plot::Curve{both.left_name, left_colour, points_of(rows, both.left)}};
+    const std::string title = rows.front().algorithm + std::string{both.title};
+    return plot::svg_plot({title, "s", both.unit}, curves,
                           {.size = {900.0, 230.0}, .y = range, .can_zoom = true});
-}
-
-std::string hands_plot(const Rows& rows)
-{
-    const std::array curves{
-        plot::Curve{"hand L", left_colour, points_of(rows, &TrajectoryRow::hand_l_mm)},
-        plot::Curve{"hand R", right_colour, points_of(rows, &TrajectoryRow::hand_r_mm),
-                    plot::Stroke::dashed}};
-    return plot::svg_plot({rows.front().algorithm + ": hands", "s", "x, mm"}, curves,
-                          {.size = {900.0, 200.0}, .can_zoom = true});
-}
-
-std::string forces_plot(const Rows& rows)
-{
-    const std::array curves{
-        plot::Curve{"on hand L", left_colour, points_of(rows, &TrajectoryRow::force_l_n)},
-        plot::Curve{"on hand R", right_colour, points_of(rows, &TrajectoryRow::force_r_n),
-                    plot::Stroke::dashed}};
-    return plot::svg_plot({rows.front().algorithm + ": forces", "s", "x, N"}, curves,
-                          {.size = {900.0, 200.0}, .can_zoom = true});
 }
 
 std::string apart_text(const Rows& rows)
@@ -89,8 +90,9 @@ std::optional<Section> fig7_section(const Results& results)
         for (const TrajectoryRow& row : results.trajectories) {
             if (row.algorithm == name) rows.push_back(row);
         }
-        section.add_figure("fig7-" + name, cubes_plot(rows, range), apart_text(rows));
-        more += figure(hands_plot(rows), escaped(name)) + figure(forces_plot(rows), escaped(name));
+        section.add_figure("fig7-" + name, both_sides_plot(rows, cubes, range), apart_text(rows));
+        more += figure(both_sides_plot(rows, hands), escaped(name)) +
+                figure(both_sides_plot(rows, forces), escaped(name));
     }
     section.html += folded("Hands and forces", more) + "</div>\n";
     return section;

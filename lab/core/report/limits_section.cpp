@@ -87,7 +87,8 @@ std::string task_bars(const std::vector<LimitRow>& rows)
     return plot::svg_bars({title, "", unit_text(first.unit)}, groups, legend, {440.0, 260.0});
 }
 
-std::string limits_table(const std::vector<LimitRow>& rows)
+/// Of the worst of the tasks, or of each.
+std::string limits_table(const std::vector<LimitRow>& rows, bool of_worst)
 {
     const std::string caption =
         fmt::format("Limits of {}: the last level that passed before the first that failed",
@@ -98,17 +99,14 @@ std::string limits_table(const std::vector<LimitRow>& rows)
         const auto paper =
             row.paper_limit ? limit_text(*row.paper_limit, false, row.unit) : std::string{"–"};
         table.rows.push_back({{escaped(row.algorithm)},
-                              {escaped(row.task)},
+                              {escaped(row.task), "name"},
                               {escaped(measured_text(row)), is_missed ? "ours missed" : "ours"},
                               {escaped(paper), "paper"},
                               {std::string{limit_band(row.algorithm, row.impairment)}, "band"},
                               {claim_badge(row.status)}});
     };
     for (const LimitRow& row : rows) {
-        if (row.task == worst) add(row);
-    }
-    for (const LimitRow& row : rows) {
-        if (row.task != worst) add(row);
+        if ((row.task == worst) == of_worst) add(row);
     }
     return html_of(table);
 }
@@ -123,7 +121,8 @@ void add_impairment(Section& section, const std::vector<LimitRow>& rows)
                        "never failed as far as was tried.");
     section.add_figure("limit-" + impairment + "-by-task", task_bars(rows),
                        "What is hard for one task is easy for another.");
-    section.html += "</div>\n" + limits_table(rows);
+    section.html += "</div>\n" + limits_table(rows, true) +
+                    folded("Each task on its own", limits_table(rows, false));
 }
 
 std::optional<Section> limits_section(const Results& results, Section section,

@@ -55,7 +55,8 @@ std::string plane_map(const std::vector<QosRow>& rows, const std::vector<double>
     }
     plot::HeatMap map;
     for (const double delay : delays) map.columns.push_back(plain(delay));
-    for (const double jitter : jitters) map.rows.push_back("± " + plain(jitter));
+    for (const double jitter : jitters)
+        map.rows.push_back((jitter > 0.0 ? "± " : "") + plain(jitter));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (cells[i].tip.empty()) continue; // not tried
         map.cells.push_back({i % delays.size(), i / delays.size(), rating_colour(cells[i].worst),
@@ -64,15 +65,14 @@ std::string plane_map(const std::vector<QosRow>& rows, const std::vector<double>
     const std::string title =
         fmt::format("{}, {} % loss", rows.front().algorithm, plain(rows.front().loss_percent));
     const double height = 90.0 + 34.0 * static_cast<double>(jitters.size());
-    return plot::svg_heat_map({title, "delay, ms", "jitter, ms"}, map, {330.0, height});
+    return plot::svg_heat_map({title, "delay, ms", "jitter, ms"}, map, {280.0, height});
 }
 
 std::string legend()
 {
     std::string out = "<p class='legend'>";
     for (const Rating rating : {Rating::good, Rating::usable, Rating::unusable}) {
-        out += fmt::format("<span class='badge tier-{0}'>{1} {0}</span> ", rating_text(rating),
-                           rating_symbol(rating));
+        out += rating_badge(rating) + " ";
     }
     return out + "worst of the tasks; point at a field for its numbers</p>\n";
 }
@@ -88,7 +88,7 @@ std::optional<Section> qos_section(const Results& results)
     const auto jitters = ascending(results.qos, &QosRow::jitter_ms);
     const auto losses = ascending(results.qos, &QosRow::loss_percent);
     for (const auto& name : distinct(results.qos, [](const auto& row) { return row.algorithm; })) {
-        section.html += fmt::format("<h3>{}</h3>\n<div class='panels small'>\n", escaped(name));
+        section.html += fmt::format("<h3>{}</h3>\n<div class='panels tiny'>\n", escaped(name));
         for (const double loss : losses) {
             std::vector<QosRow> rows;
             for (const QosRow& row : results.qos) {

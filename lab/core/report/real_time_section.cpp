@@ -42,7 +42,7 @@ std::string times_table(const std::vector<RealTimeRow>& rows)
         const std::string_view style = row.is_valid ? "" : "excluded";
         table.rows.push_back(
             {{escaped(row.algorithm)},
-             {escaped(row.where)},
+             {escaped(row.where), "name"},
              {shown(row.mean_mm, 2), style},
              {shown(row.virtual_mean_mm, 2)},
              difference_cell(row, row.mean_mm, row.virtual_mean_mm),

@@ -106,10 +106,10 @@ constexpr std::string_view player = R"html(<div class="player" tabindex="0" role
 </select></label>
 </div>
 <div class="stage">
-<figure><canvas class="left" width="900" height="600" role="img"
+<figure><canvas class="left" width="900" height="382" role="img"
  aria-label="what L’s computer holds: its cube and its hand"></canvas>
 <figcaption>what L’s computer holds</figcaption></figure>
-<figure><canvas class="right" width="900" height="600" role="img"
+<figure><canvas class="right" width="900" height="382" role="img"
  aria-label="what R’s computer holds: its cube and its hand"></canvas>
 <figcaption>what R’s computer holds</figcaption></figure>
 </div>

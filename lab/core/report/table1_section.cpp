@@ -92,7 +92,7 @@ std::string bars_of(const Results& results, const Quantity& quantity)
     }
     const std::string title = fmt::format("Table 1: {}", quantity.name);
     return plot::svg_bars({title, "left: paper, right: this run", "mm"}, groups, {},
-                          {440.0, 250.0});
+                          {360.0, 240.0});
 }
 
 } // namespace
@@ -104,7 +104,7 @@ std::optional<Section> table1_section(const Results& results)
     section.html = "<p>One hand carries the cube; the other side sees it late. The distance "
                    "between the two copies is what the network costs. Sep stands where the paper "
                    "has TiDeC.</p>\n" +
-                   table_of(results) + "<div class='panels'>\n";
+                   table_of(results) + "<div class='panels small'>\n";
     for (const Quantity& quantity : quantities) {
         section.add_figure(fmt::format("table1-{}", quantity.name), bars_of(results, quantity),
                            fmt::format("Dashed: the paper. Filled: this run, {}.", quantity.name));
@@ -118,10 +118,10 @@ std::optional<Section> tasks_section(const Results& results)
     if (results.tasks.empty()) return std::nullopt;
     HtmlTable table{"Closed-loop tasks: worst of the seeds; discrepancy mean and std: mean over "
                     "the seeds",
-                    {"task", "algorithm", "seeds", "mean<br>mm", "std<br>mm", "max<br>mm",
+                    {"task", "algorithm", "tier", "seeds", "mean<br>mm", "std<br>mm", "max<br>mm",
                      "vibration<br>mm", "stiffness<br>ratio", "force<br>vibration, N",
                      "forces<br>apart, %", "contact<br>lost, %", "force<br>step, N", "drag<br>N",
-                     "energy<br>mJ", "tier", "limited by"}};
+                     "energy<br>mJ", "limited by"}};
     const auto percent = [](std::optional<double> share) {
         return shown(share ? std::optional{100.0 * *share} : std::nullopt, 1);
     };
@@ -129,24 +129,22 @@ std::optional<Section> tasks_section(const Results& results)
         for (const TaskRow& row : results.tasks) {
             if (row.task != task) continue;
             const Judged& judged = row.judged;
-            table.rows.push_back(
-                {{escaped(task)},
-                 {escaped(row.algorithm)},
-                 {plain(row.seeds)},
-                 {shown(judged.mean_mm, 2)},
-                 {shown(row.std_mm, 2)},
-                 {shown(row.max_mm, 2)},
-                 {shown(judged.vibration_mm, 3)},
-                 {shown(judged.stiffness_ratio, 3)},
-                 {shown(judged.force_vibration_n, 3)},
-                 {percent(row.force_discrepancy)},
-                 {percent(row.contact_lost)},
-                 {shown(row.force_step_n, 3)},
-                 {shown(row.drag_n, 3)},
-                 {shown(row.energy_mj, 2)},
-                 {fmt::format("<span class='badge tier-{0}'>{1} {0}</span>",
-                              rating_text(judged.tier), rating_symbol(judged.tier))},
-                 {escaped(row.limited_by), "words"}});
+            table.rows.push_back({{escaped(task)},
+                                  {escaped(row.algorithm), "name"},
+                                  {rating_badge(judged.tier), "name"},
+                                  {plain(row.seeds)},
+                                  {shown(judged.mean_mm, 2)},
+                                  {shown(row.std_mm, 2)},
+                                  {shown(row.max_mm, 2)},
+                                  {shown(judged.vibration_mm, 3)},
+                                  {shown(judged.stiffness_ratio, 3)},
+                                  {shown(judged.force_vibration_n, 3)},
+                                  {percent(row.force_discrepancy)},
+                                  {percent(row.contact_lost)},
+                                  {shown(row.force_step_n, 3)},
+                                  {shown(row.drag_n, 3)},
+                                  {shown(row.energy_mj, 2)},
+                                  {escaped(row.limited_by), "words"}});
         }
     }
     return Section{"tasks", "The closed-loop tasks beside it",

@@ -40,19 +40,18 @@ std::string ways_table(const std::vector<ConventionRow>& rows)
     const std::string caption =
         fmt::format("Limit of {}, {}, by the order of the 20 Hz filter and the hands",
                     impairment_text(rows.front().impairment), unit_text(rows.front().unit));
-    HtmlTable table{caption, {"algorithm", "task"}};
+    HtmlTable table{caption, {"algorithm", "task", "from … to"}};
     const auto ways = distinct(rows, way_of);
     for (const Way& way : ways) {
         table.heads.push_back(
             fmt::format("order {}<br>{}", plain(way.filter_order), escaped(way.hand)));
     }
-    table.heads.emplace_back("from<br>to");
     std::vector<std::pair<std::string, std::string>> seen;
     for (const ConventionRow& like : rows) {
         const std::pair key{like.algorithm, like.task};
         if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
         seen.push_back(key);
-        std::vector<HtmlCell> cells{{escaped(like.algorithm)}, {escaped(like.task)}};
+        std::vector<HtmlCell> cells;
         plot::Range range;
         bool is_open = false;
         for (const Way& way : ways) {
@@ -63,12 +62,23 @@ std::string ways_table(const std::vector<ConventionRow>& rows)
             range.include(row->limit);
             is_open |= row->is_open && row->limit >= range.high;
         }
-        cells.push_back({escaped(fmt::format("{} to {}{}", plain(range.low), is_open ? "> " : "",
-                                             plain(range.high))),
-                         "ours"});
+        const auto span =
+            fmt::format("{} … {}{}", plain(range.low), is_open ? "> " : "", plain(range.high));
+        cells.insert(
+            cells.begin(),
+            {{escaped(like.algorithm)}, {escaped(like.task), "name"}, {escaped(span), "ours"}});
         table.rows.push_back(std::move(cells));
     }
     return html_of(table);
+}
+
+/// The hands in the order of their strokes: nominal first.
+std::vector<std::string> hands_of(const std::vector<ConventionRow>& rows)
+{
+    auto hands = distinct(rows, [](const auto& row) { return row.hand; });
+    std::stable_partition(hands.begin(), hands.end(),
+                          [](const std::string& hand) { return hand == "nominal"; });
+    return hands;
 }
 
 /// The least limit over the tasks, by algorithm, hand and order.
@@ -84,7 +94,7 @@ std::string ways_plot(const std::vector<ConventionRow>& rows)
     }
     constexpr std::array strokes{plot::Stroke::solid, plot::Stroke::dashed, plot::Stroke::dotted};
     std::vector<plot::Curve> curves;
-    const auto hands = distinct(rows, [](const auto& row) { return row.hand; });
+    const auto hands = hands_of(rows);
     const auto algorithms = distinct(rows, [](const auto& row) { return row.algorithm; });
     for (const std::string& algorithm : algorithms) {
         for (std::size_t i = 0; i < hands.size(); ++i) {
@@ -110,7 +120,7 @@ std::string strokes_caption(const std::vector<ConventionRow>& rows)
 {
     constexpr std::array<std::string_view, 3> names{"solid", "dashed", "dotted"};
     std::string out = "Least of the tasks. Hands: ";
-    const auto hands = distinct(rows, [](const auto& row) { return row.hand; });
+    const auto hands = hands_of(rows);
     for (std::size_t i = 0; i < hands.size(); ++i) {
         out +=
             fmt::format("{}{} {}", i == 0 ? "" : ", ", names[i % names.size()], escaped(hands[i]));
@@ -128,17 +138,18 @@ std::optional<Section> trust_section(const Results& results)
                     "measure is taken: with the order of the filter that separates vibration from "
                     "motion, and with how firmly the hand holds. What moves little is a finding; "
                     "what moves much is a convention.</p>\n"};
+    section.html += "<div class='panels'>\n";
+    std::string tables;
     const auto names = distinct(results.conventions, [](const auto& r) { return r.impairment; });
     for (const std::string& name : names) {
         std::vector<ConventionRow> rows;
         for (const ConventionRow& row : results.conventions) {
             if (row.impairment == name) rows.push_back(row);
         }
-        section.html +=
-            fmt::format("<h3>{}</h3>\n<div class='panels'>\n", escaped(impairment_text(name)));
         section.add_figure("trust-" + name, ways_plot(rows), strokes_caption(rows));
-        section.html += "</div>\n" + ways_table(rows);
+        tables += ways_table(rows);
     }
+    section.html += "</div>\n" + tables;
     return section;
 }
 

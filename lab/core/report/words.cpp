@@ -94,6 +94,12 @@ std::string_view rating_symbol(Rating rating)
     return "";
 }
 
+std::string rating_badge(Rating rating)
+{
+    return fmt::format("<span class='badge tier-{0}'>{1} {0}</span>", rating_text(rating),
+                       rating_symbol(rating));
+}
+
 std::string_view rating_colour(Rating rating)
 {
     switch (rating) {

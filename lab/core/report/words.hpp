@@ -30,6 +30,7 @@ namespace hapnet::lab::report {
 [[nodiscard]] std::string claim_badge(Claim claim);     // as HTML; empty for none
 [[nodiscard]] std::string_view rating_text(Rating rating);
 [[nodiscard]] std::string_view rating_symbol(Rating rating);
+[[nodiscard]] std::string rating_badge(Rating rating); // as HTML
 [[nodiscard]] std::string_view rating_colour(Rating rating);
 
 /// The colour of an algorithm, the same all over the page; of what a person need not tell apart

@@ -41,7 +41,7 @@
 
   // Oblique: x to the right, y up, z toward the viewer and so down to the left.
   const slant = 0.38;
-  const window3d = { left: -150, right: 185, top: 105, bottom: -75 }; // mm, of the picture
+  const window3d = { left: -150, right: 185, top: 84, bottom: -58 }; // mm, of the picture
   const project = (canvas, x, y, z) => {
     const scale = canvas.width / (window3d.right - window3d.left);
     return [(x - slant * z - window3d.left) * scale, (window3d.top - y + slant * z) * scale];
