@@ -32,6 +32,18 @@ CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
     return command;
 }
 
+CLI::App* add_report(CLI::App& app, ReportCommand& report)
+{
+    auto* command = app.add_subcommand(
+        "report", "Write report.html, one page that needs nothing else: what the experiments of a\n"
+                  "folder found, beside the paper; also figures/*.svg and gnuplot/*");
+    command
+        ->add_option("DIR", report.folder,
+                     "a folder with the files of an experiment, or with such folders")
+        ->required();
+    return command;
+}
+
 /// The text of its tick is read afterwards: its complaint is ours.
 CLI::App* add_explain(CLI::App& app, ExplainCommand& explain, std::string& tick)
 {
@@ -139,6 +151,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
 
     DemoReportCommand demo;
     auto* demo_command = add_demo_report(app, demo);
+    ReportCommand report;
+    auto* report_command = add_report(app, report);
     ExplainCommand explain;
     std::string tick = "1ms";
     auto* explain_command = add_explain(app, explain, tick);
@@ -158,12 +172,14 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
         if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
         return base::fail(
             std::string{"'"} + words[1] +
-            "' is not a command; use analyse, explain, export or run, see hapnet-lab --help");
+            "' is not a command; use analyse, explain, export, report or run, "
+            "see hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }
     if (analyse_command->parsed()) return Command{analyse};
     if (demo_command->parsed()) return Command{demo};
+    if (report_command->parsed()) return Command{report};
     if (explain_command->parsed()) return command_of(explain, tick);
     if (run_command->parsed()) return command_of(std::move(run), words);
     exported.rows = rows == "messages" ? ExportRows::messages : ExportRows::ticks;

@@ -57,8 +57,13 @@ struct RunCommand {
     std::string command; // what was typed
 };
 
-using Command =
-    std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand, RunCommand>;
+/// `hapnet-lab report DIR`
+struct ReportCommand {
+    std::string folder;
+};
+
+using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,
+                             ReportCommand, RunCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

@@ -32,7 +32,7 @@ SimulatedOmni::SimulatedOmni(Task task, const HandImpedance& hand, const OmniPla
 void SimulatedOmni::on_cue(const Cue& cue)
 {
     centre_.x = cue.is_left ? -workspace_offset_m : workspace_offset_m;
-    part_ = Part{Script{performer_.task, cue, performer_.options},
+    part_ = Part{Script{performer_.task, cue, performer_.options, performer_.person.hand},
                  HandNoise{cue.seed, cue.peer_id, performer_.person}, cue.start,
                  performer_.task == Task::p1};
     cued_at_.reset();

@@ -31,10 +31,15 @@ public:
     [[nodiscard]] Reaction to(const Felt& felt, base::TimePoint now, base::Duration elapsed);
 
 private:
+    [[nodiscard]] double farther(const Felt& felt, base::TimePoint now, base::Duration elapsed);
+
     Operator person_;
     DelayLine stretched_;
     DelayLine missed_;
-    double smoothed_m_ = 0.0;
+    double missing_n_ = 0.0; // smoothed
+    double farther_m_ = 0.0;
+    base::Duration smoothed_over_{}; // what the next one is for
+    double smoothing_keeps_ = 1.0;
 };
 
 } // namespace hapnet::device

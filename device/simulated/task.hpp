@@ -38,4 +38,8 @@ inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3,
 /// maximum). Starts at 0 and swings in within the first second.
 [[nodiscard]] double path_x(double seconds);
 
+/// The path as it would go on if the static cube did not cut it off: where the hand that carries
+/// the cube aims. What stops the cube is the static one.
+[[nodiscard]] double unstopped_path_x(double seconds);
+
 } // namespace hapnet::device

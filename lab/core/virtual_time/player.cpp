@@ -61,9 +61,8 @@ void VirtualPlayer::turn(base::TimePoint now)
 
 Sample VirtualPlayer::sample() const
 {
-    const scene::BodyState body = peer->body();
-    return {.body = body.position,
-            .body_velocity = body.velocity,
+    return {.body = peer->position(),
+            .body_velocity = peer->velocity(),
             .hip = hand.hip,
             .hip_velocity = hand.velocity,
             .on_hand = applied,

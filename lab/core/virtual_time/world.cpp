@@ -35,7 +35,11 @@ void VirtualWorld::add(const Setting& setting, emulator::QueueLimits limits)
         const PlayerSetting& player = setting.players.at(is_up ? 0 : 1);
         seats_.push_back({.player = std::nullopt,
                           .out = emulator::Link{is_up ? path.up : path.down,
-                                                {setting.seed, direction, start, limits, {}}},
+                                                {.seed = setting.seed,
+                                                 .direction = direction,
+                                                 .start = start,
+                                                 .limits = limits,
+                                                 .has_lens = false}},
                           .undelayed = {},
                           .next_tick = start + setting.tick + player.phase,
                           .tick = setting.tick});
