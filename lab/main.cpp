@@ -7,6 +7,7 @@
 #include "lab/demo_command.hpp"
 #include "lab/options.hpp"
 #include "lab/report_command.hpp"
+#include "lab/run_command.hpp"
 #include "peer/core/scene/text/text.hpp"
 #include "proto/net/text_file.hpp"
 #include "proto/record/reader.hpp"
@@ -92,6 +93,8 @@ base::Result<int> run(const ReportCommand& command)
         return 0;
     });
 }
+
+base::Result<int> run(const RunCommand& command) { return run_experiment(command); }
 
 base::Result<int> execute(const Command& command)
 {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/options.hpp"
 
+#include "lab/core/experiment/read_kind.hpp"
+#include "lab/core/experiment/text.hpp"
 #include "peer/core/scene/text/text.hpp"
 #include "peer/core/scene/world.hpp"
 #include "proto/base/text.hpp"
@@ -11,6 +13,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hapnet::lab {
@@ -64,6 +67,44 @@ CLI::App* add_explain(CLI::App& app, ExplainCommand& explain, std::string& tick)
     return command;
 }
 
+CLI::App* add_run(CLI::App& app, RunCommand& run)
+{
+    constexpr std::uint32_t jobs_max = 1024;
+    std::vector<std::string_view> names;
+    for (const BuiltInExperiment& built_in : built_in_experiments()) names.push_back(built_in.name);
+    auto* command = app.add_subcommand(
+        "run", "Carry out an experiment in virtual time and write its results as CSV. Run again\n"
+               "after Ctrl-C, or with more seeds, it plays only what it has not played yet");
+    command
+        ->add_option(
+            "EXPERIMENT", run.experiment,
+            fmt::format("a file (docs/EXPERIMENTS.md), or one of {}", fmt::join(names, ", ")))
+        ->required();
+    command
+        ->add_option("--set", run.settings,
+                     "another value for a key of the experiment, such as both.delay=100ms")
+        ->option_text("KEY=VALUE ...")
+        ->expected(1)
+        ->take_all();
+    command->add_option("--seeds", run.seeds, "how many seeds")
+        ->option_text("N")
+        ->check(CLI::Range(1U, seeds_max));
+    command->add_option("--jobs", run.jobs, "how many threads; does not change the results")
+        ->option_text("N [all processors]")
+        ->check(CLI::Range(1U, jobs_max));
+    command->add_flag("--quick", run.quick, "what the experiment says under [quick]: rougher");
+    command->add_option("--out", run.out, "the folder for the results")
+        ->option_text("DIR")
+        ->required();
+    return command;
+}
+
+net::CommandLine<Command> command_of(RunCommand run, std::span<char*> words)
+{
+    run.command = fmt::format("{}", fmt::join(words, " "));
+    return Command{std::move(run)};
+}
+
 net::CommandLine<Command> command_of(ExplainCommand explain, const std::string& tick)
 {
     const auto duration = base::parse_duration(tick);
@@ -81,7 +122,8 @@ net::CommandLine<Command> command_of(ExplainCommand explain, const std::string& 
 
 net::CommandLine<Command> parse_command_line(std::span<char*> words)
 {
-    CLI::App app{"Reads the records that hapnet-peer --record writes, and explains scenes",
+    CLI::App app{"Carries out experiments in virtual time, reads the records of hapnet-peer, and "
+                 "explains scenes",
                  "hapnet-lab"};
     app.set_version_flag("--version", base::version_line("hapnet-lab"));
     app.require_subcommand(1);
@@ -115,6 +157,9 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     std::string tick = "1ms";
     auto* explain_command = add_explain(app, explain, tick);
 
+    RunCommand run;
+    auto* run_command = add_run(app, run);
+
     try {
         app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::CallForHelp&) {
@@ -125,9 +170,9 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     } catch (const CLI::RequiredError& error) {
         const bool names_one = words.size() > 1 && app.get_subcommands().empty();
         if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
-        return base::fail(
-            std::string{"'"} + words[1] +
-            "' is not a command; use analyse, export, report or explain, see hapnet-lab --help");
+        return base::fail(std::string{"'"} + words[1] +
+                          "' is not a command; use analyse, explain, export, report or run; see "
+                          "hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }
@@ -135,6 +180,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     if (demo_command->parsed()) return Command{demo};
     if (report_command->parsed()) return Command{report};
     if (explain_command->parsed()) return command_of(explain, tick);
+    if (run_command->parsed()) return command_of(std::move(run), words);
     exported.rows = rows == "messages" ? ExportRows::messages : ExportRows::ticks;
     return Command{exported};
 }

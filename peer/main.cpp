@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "device/simulated/omni.hpp"
+#include "peer/core/sync/text.hpp"
 #include "peer/options.hpp"
 #include "peer/report.hpp"
 #include "peer/servo.hpp"
@@ -86,7 +87,7 @@ std::string ready_line(const Options& options, const net::UdpSocket& socket,
 {
     return fmt::format("ready id={} listen={} remote={} task={} algorithm={} seed={}\n", options.id,
                        socket.local().to_text(), remote.to_text(), device::name_of(options.task),
-                       options.algorithm_name, options.seed.value());
+                       name_of(options.algorithm), options.seed.value());
 }
 
 /// The servo on a thread of its own; an exception in it comes out of join().

@@ -4,6 +4,7 @@
 
 #include "peer/core/scene/text/text.hpp"
 #include "peer/core/shared_body.hpp"
+#include "peer/core/sync/text.hpp"
 #include "proto/base/quantity.hpp"
 #include "proto/base/text.hpp"
 #include "proto/base/version.hpp"
@@ -31,6 +32,13 @@ Each ends with 3 s hands off, within --duration (half of it when that is below 6
 need the same task, and should be given the same --duration. A peer waits for the other for as
 long as it takes; --duration counts from their common start.
 
+Algorithms (docs/ALGORITHMS.md; the two peers may use different ones):
+  base            the paper's: the sum of the forces moves what both push, and what only the other
+                  pushes is where it was heard to be
+  dead-reckoning  the same, with the other's cube where it should be by now
+  sep             the same, with the other hand's force as it should be by now
+A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from.
+
 Examples, with hapnet-emulator listening on ports 7001 and 7002 of this machine:
   hapnet-peer --id 1 --remote 127.0.0.1:7001 --task T3 --duration 20s --record a.rec
   hapnet-peer --id 2 --remote 127.0.0.1:7002 --task T3 --duration 20s --record b.rec
@@ -48,6 +56,7 @@ struct Texts {
     std::string grip_damping = "4Ns/m";
     std::string task = "P1";
     std::string algorithm = "base";
+    std::optional<std::string> print_algorithm;
     std::string seed = "1";
     std::string duration = "30s";
     std::optional<std::string> key;
@@ -76,8 +85,12 @@ void add_options(CLI::App& app, Texts& texts)
         "a stylus): contacts that need more to be rendered safely feel softer",
         "DAMPING");
     add("--task", texts.task, "What the simulated hands do (default P1)", "P1|T1|T3");
-    add("--algorithm", texts.algorithm, "How the two cubes are kept together (default base)",
-        "base");
+    add("--algorithm", texts.algorithm,
+        "How the two cubes are kept together: base (default), dead-reckoning, sep, or a file of\n"
+        "parameters in TOML",
+        "NAME|FILE");
+    add("--print-algorithm", texts.print_algorithm,
+        "Print an algorithm's parameters in TOML, with what each is for, and end", "NAME|FILE");
     add("--seed", texts.seed, "Of all chance in the hands; the lower id's counts (default 1)",
         "NUMBER");
     add("--duration", texts.duration, "Length of the session from its common start (default 30s)",
@@ -132,6 +145,15 @@ private:
     std::optional<std::string> error_;
 };
 
+net::CommandLine<Options> algorithm_answer(const std::string& name_or_file)
+{
+    const auto algorithm = load_algorithm(name_or_file, net::text_of_file);
+    if (!algorithm) {
+        return base::fail(fmt::format("--print-algorithm: {}", algorithm.error().message));
+    }
+    return net::Answer{explain_algorithm(*algorithm)};
+}
+
 net::CommandLine<Options> options_from(const Texts& texts)
 {
     Options options;
@@ -143,7 +165,8 @@ net::CommandLine<Options> options_from(const Texts& texts)
     taker.take(options.remote, "--remote", net::parse_host_port(texts.remote));
     taker.require(options.remote.port != 0, "--remote: needs a port");
     taker.take(options.task, "--task", device::task_named(texts.task));
-    taker.take(options.algorithm, "--algorithm", algorithm_named(texts.algorithm));
+    taker.take(options.algorithm, "--algorithm",
+               load_algorithm(texts.algorithm, net::text_of_file));
     taker.take(options.seed, "--seed",
                base::parse_count(texts.seed, std::numeric_limits<std::uint64_t>::max()));
     taker.take(options.duration, "--duration", base::parse_duration(texts.duration));
@@ -160,7 +183,6 @@ net::CommandLine<Options> options_from(const Texts& texts)
     taker.require(texts.record != "-", "--record: '-' is not a file: a record needs one");
     if (taker.error()) return base::fail(*taker.error());
     options.scene_name = texts.scene;
-    options.algorithm_name = texts.algorithm;
     options.insecure = texts.insecure;
     options.record = texts.record;
     options.stats = texts.stats;
@@ -185,6 +207,7 @@ net::CommandLine<Options> parse_options(std::span<char*> words)
     } catch (const CLI::ParseError& error) {
         return base::fail(fmt::format("{}; see hapnet-peer --help", error.what()));
     }
+    if (texts.print_algorithm) return algorithm_answer(*texts.print_algorithm);
     return options_from(texts);
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "device/simulated/task.hpp"
-#include "peer/core/sync/algorithm.hpp"
 #include "peer/core/scene/description.hpp"
+#include "peer/core/sync/algorithm.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
@@ -27,7 +27,6 @@ struct Options {
     scene::Description scene; // one that two peers can share
     double grip_damping_ns_per_m = 4.0;
     device::Task task = device::Task::p1;
-    std::string algorithm_name = "base";
     Algorithm algorithm;
     base::Seed seed{1};
     base::Duration duration{std::chrono::seconds{30}};

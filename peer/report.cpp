@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/report.hpp"
 
+#include "peer/core/sync/text.hpp"
 #include "proto/base/text.hpp"
 #include "proto/base/version.hpp"
 #include "proto/net/clock.hpp"
@@ -97,7 +98,8 @@ json configuration_json(const Options& options, std::string_view device)
             {"scene", options.scene_name},
             {"scene_hash", fmt::format("{:016x}", scene::hash(options.scene))},
             {"grip_damping_ns_per_m", options.grip_damping_ns_per_m},
-            {"algorithm", options.algorithm_name},
+            {"algorithm", name_of(options.algorithm)},
+            {"algorithm_toml", print_algorithm(options.algorithm)},
             {"seed", options.seed.value()},
             {"device", device},
             {"duration_s", base::to_seconds(options.duration)},

@@ -43,7 +43,7 @@ std::string plots_of(std::string_view what, const TaskTrace& trace)
 
 } // namespace
 
-TaskTrace trace_of(const Session& session)
+TaskTrace task_trace_of(const Session& session)
 {
     TaskTrace trace;
     const auto add = [&](const record::TickRow& row, base::TimePoint at, auto& cube, auto& force) {

@@ -20,7 +20,7 @@ struct TaskTrace {
     std::vector<plot::Point> force_b_n;
 };
 
-[[nodiscard]] TaskTrace trace_of(const Session& session);
+[[nodiscard]] TaskTrace task_trace_of(const Session& session);
 
 /// The page that the demo leaves behind: the table, the plots of both tasks and the manifest in
 /// one HTML file that needs nothing else.

@@ -40,8 +40,8 @@ Setting setting_of(std::uint64_t seed)
     setting.task = static_cast<device::Task>(draw.below(3, 10));
     setting.seed = base::Seed{seed};
     setting.length = length;
-    setting.up = conditions_of(draw, 0);
-    setting.down = conditions_of(draw, 1);
+    setting.profile.path.up = conditions_of(draw, 0);
+    setting.profile.path.down = conditions_of(draw, 1);
     return setting;
 }
 
@@ -56,7 +56,7 @@ std::string words_for(const emulator::Conditions& c)
 std::string words_for(const Setting& s)
 {
     return fmt::format("seed {}, {}; up: {}; down: {}", s.seed.value(), device::name_of(s.task),
-                       words_for(s.up), words_for(s.down));
+                       words_for(s.profile.path.up), words_for(s.profile.path.down));
 }
 
 void expect_invariants(const World& world)
@@ -98,7 +98,7 @@ TEST_P(Conditions, OfEveryKindLeaveForcesFiniteLinksAccountedForAndCopiesEqualIn
     while (world.now() < start + hands_on + 2s)
         ASSERT_TRUE(step()) << world.now().time_since_epoch().count();
     ASSERT_TRUE(world.side(1).peer->session());
-    EXPECT_LE(world.discrepancy_x(), 0.1e-3);
+    EXPECT_LE(discrepancy_x(world), 0.1e-3);
     while (world.now() < start + length + 500ms) ASSERT_TRUE(step());
     EXPECT_TRUE(world.side(0).peer->finished());
     EXPECT_TRUE(world.side(1).peer->finished());
@@ -137,7 +137,7 @@ TEST_P(Deaths, OfEitherSideAtAnyTimeEndInOneSessionWithEqualCopies)
     const base::TimePoint start = world.side(0).peer->session()->start;
     while (world.now() < start + world.side(0).peer->hands_on() + 2s) world.step();
     expect_invariants(world);
-    EXPECT_LE(world.discrepancy_x(), 0.1e-3);
+    EXPECT_LE(discrepancy_x(world), 0.1e-3);
     EXPECT_GT(world.side(0).last.freshness + world.side(1).last.freshness, 0.0);
 }
 
@@ -147,8 +147,8 @@ TEST(Conditions, WhereOneOf100MessagesArrivesStillEndWithEqualCopies)
 {
     Setting setting = under(device::Task::t3, {});
     setting.length = 60s;
-    setting.up.loss =
-        setting.down.loss = {emulator::RandomLoss{base::Probability::from_fraction(0.99).value()}};
+    setting.profile.path.up.loss = setting.profile.path.down.loss = {
+        emulator::RandomLoss{base::Probability::from_fraction(0.99).value()}};
     World world{setting};
     for (int ms = 0; ms < 120'000 && !world.side(1).peer->session(); ++ms) {
         world.step();
@@ -159,7 +159,7 @@ TEST(Conditions, WhereOneOf100MessagesArrivesStillEndWithEqualCopies)
     ASSERT_LT(world.now(), start + 50s) << "the other side heard of the start too late to play";
     while (world.now() < start + world.side(0).peer->hands_on() + 2s) world.step();
     expect_invariants(world);
-    EXPECT_LE(world.discrepancy_x(), 0.1e-3);
+    EXPECT_LE(discrepancy_x(world), 0.1e-3);
 }
 
 } // namespace
