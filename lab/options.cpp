@@ -20,6 +20,18 @@ namespace hapnet::lab {
 
 namespace {
 
+CLI::App* add_analyse(CLI::App& app, AnalyseCommand& analyse)
+{
+    auto* command = app.add_subcommand(
+        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
+                   "forces were apart, what the network did, whether the run is valid.\n"
+                   "A run that is not valid says so; the exit code stays 0");
+    command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
+    command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
+    command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
+    return command;
+}
+
 CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
 {
     auto* command = app.add_subcommand(
@@ -130,13 +142,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     app.footer("Exit codes: 0 done, 1 failed, 2 usage or bad input, 3 the environment.");
 
     AnalyseCommand analyse;
-    auto* analyse_command = app.add_subcommand(
-        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
-                   "forces were apart, what the network did, whether the run is valid.\n"
-                   "A run that is not valid says so; the exit code stays 0");
-    analyse_command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
-    analyse_command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
-    analyse_command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
+    auto* analyse_command = add_analyse(app, analyse);
 
     ExportCommand exported;
     auto* export_command =
@@ -170,10 +176,9 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     } catch (const CLI::RequiredError& error) {
         const bool names_one = words.size() > 1 && app.get_subcommands().empty();
         if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
-        return base::fail(
-            std::string{"'"} + words[1] +
-            "' is not a command; use analyse, explain, export, report or run, "
-            "see hapnet-lab --help");
+        return base::fail(std::string{"'"} + words[1] +
+                          "' is not a command; use analyse, explain, export, report or run; see "
+                          "hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }

@@ -21,6 +21,9 @@ namespace {
 
 constexpr double vibration_above_hz = 20.0;
 constexpr double felt_below_hz = 300.0;
+// Who learns late of the session's start has to catch up first. That is in the discrepancy, and in
+// nothing else.
+constexpr double catching_up_s = 0.5;
 constexpr double path_every_s = 0.010;
 constexpr double wall_x_m = 0.0747; // of the body's centre when it is at the static cube
 constexpr double fallen_m = 0.025;  // half the height to which the body is lifted
@@ -40,6 +43,8 @@ struct Taken {
         const double index = std::ceil((seconds - begin_s) / tick_s - 1e-6);
         return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(count())));
     }
+    /// From when on all has caught up.
+    [[nodiscard]] std::size_t steady() const { return index_at(begin_s + catching_up_s); }
     [[nodiscard]] std::span<const double> cut(const std::vector<double>& column,
                                               const Stretch& stretch) const
     {
@@ -69,7 +74,7 @@ std::optional<double> path_rms(const Taken& taken, const Columns& side)
     const auto stride = static_cast<std::size_t>(std::max(1.0, path_every_s / taken.tick_s));
     double sum = 0.0;
     double count = 0.0;
-    for (std::size_t i = 0; i < side.body_x.size(); i += stride) {
+    for (std::size_t i = taken.steady(); i < side.body_x.size(); i += stride) {
         const double time = taken.begin_s + static_cast<double>(i) * taken.tick_s;
         const double apart = side.body_x[i] - device::path_x(taken.exercise.path_pace * time);
         sum += apart * apart;
@@ -93,17 +98,20 @@ void measure_side(const Taken& taken, std::size_t index, Metrics& metrics)
 {
     const Columns& side = taken.sides[index];
     const Cutoff above{vibration_above_hz, taken.tick_s};
-    std::span<const std::uint8_t> counts;
-    if (taken.exercise.by_turns) counts = side.follows;
-    metrics.body_vibration_m[index] = vibration_of(side.body_x, counts, above);
-    metrics.force_vibration_n[index] = vibration_of(side.hand_force, {}, above);
+    const auto body_x = std::span{side.body_x}.subspan(taken.steady());
+    const auto force = std::span{side.hand_force}.subspan(taken.steady());
+    const auto follows = std::span{side.follows}.subspan(taken.steady());
+    metrics.body_vibration_m[index] = vibration_of(
+        body_x, taken.exercise.by_turns ? follows : std::span<const std::uint8_t>{}, above);
+    metrics.force_vibration_n[index] = vibration_of(force, {}, above);
     metrics.felt_vibration_n[index] =
-        band_vibration_of(side.hand_force, above, {felt_below_hz, taken.tick_s});
+        band_vibration_of(force, above, {felt_below_hz, taken.tick_s});
     metrics.contact_lost[index] = contact_lost(taken, side);
-    metrics.force_steps[index] = force_steps_of(side.hand_force, taken.tick_s);
+    metrics.force_steps[index] = force_steps_of(force, taken.tick_s);
     if (taken.exercise.at_wall) {
-        const double farthest = *std::max_element(side.body_x.begin(), side.body_x.end());
-        metrics.overshoot_m[index] = std::max(0.0, farthest - wall_x_m);
+        double farthest = wall_x_m;
+        for (const double x : body_x) farthest = std::max(farthest, x);
+        metrics.overshoot_m[index] = farthest - wall_x_m;
     }
     if (!taken.exercise.along_path) return;
     metrics.drag_n[index] = drag_of(side, taken.tick_s);

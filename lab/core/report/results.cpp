@@ -26,7 +26,14 @@ Outcome add_run(const File& file, Results& results)
 {
     auto json = nlohmann::ordered_json::parse(file.text, nullptr, false);
     if (!json.is_object()) return base::fail(file.path + ":1: expected one JSON object");
-    results.runs.push_back({folder_of(file.path), std::move(json)});
+    Run run{folder_of(file.path), std::move(json), std::nullopt};
+    const auto criteria = run.manifest.find("criteria");
+    if (criteria != run.manifest.end() && criteria->is_string()) {
+        auto parsed = parse_criteria(criteria->get<std::string>(), file.path + ": criteria");
+        if (!parsed) return tl::unexpected{parsed.error()};
+        run.criteria = *parsed;
+    }
+    results.runs.push_back(std::move(run));
     return {};
 }
 
@@ -141,6 +148,15 @@ bool Run::is_valid() const
 {
     const auto found = manifest.find("valid");
     return found != manifest.end() && found->is_boolean() && found->get<bool>();
+}
+
+std::optional<Criteria> Results::criteria() const
+{
+    if (runs.empty()) return std::nullopt;
+    const auto first = runs.front().criteria;
+    const bool is_one = std::all_of(runs.begin(), runs.end(),
+                                    [&](const Run& run) { return run.criteria == first; });
+    return is_one ? first : std::nullopt;
 }
 
 bool is_result_file(std::string_view path) { return kind_of(path) != nullptr; }

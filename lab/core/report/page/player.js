@@ -85,7 +85,8 @@
     const scale = canvas.width / (window3d.right - window3d.left);
     context.beginPath();
     context.arc(x, y, data.hip_radius * scale, 0, 2 * Math.PI);
-    Object.assign(context, { fillStyle: colour }).fill();
+    Object.assign(context, { fillStyle: colour, strokeStyle: colours.ink, lineWidth: 3 }).fill();
+    context.stroke();
     const length = force * mmPerNewton * scale;
     if (Math.abs(length) < 3) return;
     const head = Math.sign(length) * Math.min(16, Math.abs(length));
