@@ -31,11 +31,17 @@ peer::Settings settings_of(const Setting& setting, const Seat& seat)
     return settings;
 }
 
+device::Performer performer_of(const Setting& setting, const Seat& seat)
+{
+    return {.task = setting.task,
+            .options = setting.task_options,
+            .person = setting.players.at(seat.side).person};
+}
+
 } // namespace
 
 VirtualPlayer::VirtualPlayer(const Setting& setting, const Seat& seat)
-    : device{std::make_unique<device::SimulatedOmni>(
-          setting.task, setting.players.at(seat.side).person.hand, device::OmniPlant{})},
+    : device{std::make_unique<device::SimulatedOmni>(performer_of(setting, seat))},
       peer{std::make_unique<peer::Peer>(settings_of(setting, seat))},
       governor{{.tick = setting.tick}},
       clock_ahead{setting.players.at(seat.side).clock_ahead},

@@ -4,6 +4,7 @@
 
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
+#include "device/simulated/task_options.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "peer/core/scene/description.hpp"
 #include "peer/core/sync/algorithm.hpp"
@@ -31,6 +32,7 @@ struct PlayerSetting {
 /// All that a session in virtual time follows from: equal settings, equal bits.
 struct Setting {
     device::Task task = device::Task::p1;
+    device::TaskOptions task_options{};
     scene::Description scene = scene::paper_scene();
     base::Seed seed{42}; // of the links, whatever the profile says, and of the hands
     base::Duration length{std::chrono::seconds{30}}; // hands off included
