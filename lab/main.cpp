@@ -6,6 +6,7 @@
 #include "lab/core/explain.hpp"
 #include "lab/demo_command.hpp"
 #include "lab/options.hpp"
+#include "lab/report_command.hpp"
 #include "lab/run_command.hpp"
 #include "peer/core/scene/text/text.hpp"
 #include "proto/net/text_file.hpp"
@@ -83,6 +84,14 @@ base::Result<int> run(const ExplainCommand& command)
     const auto explanation = explain(*scene, command.tick, command.sleeping);
     print(command.json ? to_json(explanation).dump(2) + '\n' : to_table(explanation));
     return 0;
+}
+
+base::Result<int> run(const ReportCommand& command)
+{
+    return write_report(command).map([](const std::string& page) {
+        print(page + '\n');
+        return 0;
+    });
 }
 
 base::Result<int> run(const RunCommand& command) { return run_experiment(command); }

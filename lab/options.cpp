@@ -20,6 +20,18 @@ namespace hapnet::lab {
 
 namespace {
 
+CLI::App* add_analyse(CLI::App& app, AnalyseCommand& analyse)
+{
+    auto* command = app.add_subcommand(
+        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
+                   "forces were apart, what the network did, whether the run is valid.\n"
+                   "A run that is not valid says so; the exit code stays 0");
+    command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
+    command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
+    command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
+    return command;
+}
+
 CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
 {
     auto* command = app.add_subcommand(
@@ -29,6 +41,18 @@ CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
     command->add_option("--command", demo.command, "what was typed, for the manifest");
     command->add_option("--start", demo.start, "when it began, for the manifest");
     command->add_option("--wall-time", demo.wall_time_s, "seconds since, for the manifest");
+    return command;
+}
+
+CLI::App* add_report(CLI::App& app, ReportCommand& report)
+{
+    auto* command = app.add_subcommand(
+        "report", "Write report.html, one page that needs nothing else: what the experiments of a\n"
+                  "folder found, beside the paper; also figures/*.svg and gnuplot/*");
+    command
+        ->add_option("DIR", report.folder,
+                     "a folder with the files of an experiment, or with such folders")
+        ->required();
     return command;
 }
 
@@ -118,13 +142,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     app.footer("Exit codes: 0 done, 1 failed, 2 usage or bad input, 3 the environment.");
 
     AnalyseCommand analyse;
-    auto* analyse_command = app.add_subcommand(
-        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
-                   "forces were apart, what the network did, whether the run is valid.\n"
-                   "A run that is not valid says so; the exit code stays 0");
-    analyse_command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
-    analyse_command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
-    analyse_command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
+    auto* analyse_command = add_analyse(app, analyse);
 
     ExportCommand exported;
     auto* export_command =
@@ -139,6 +157,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
 
     DemoReportCommand demo;
     auto* demo_command = add_demo_report(app, demo);
+    ReportCommand report;
+    auto* report_command = add_report(app, report);
     ExplainCommand explain;
     std::string tick = "1ms";
     auto* explain_command = add_explain(app, explain, tick);
@@ -156,14 +176,15 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     } catch (const CLI::RequiredError& error) {
         const bool names_one = words.size() > 1 && app.get_subcommands().empty();
         if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
-        return base::fail(
-            std::string{"'"} + words[1] +
-            "' is not a command; use analyse, explain, export or run, see hapnet-lab --help");
+        return base::fail(std::string{"'"} + words[1] +
+                          "' is not a command; use analyse, explain, export, report or run; see "
+                          "hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }
     if (analyse_command->parsed()) return Command{analyse};
     if (demo_command->parsed()) return Command{demo};
+    if (report_command->parsed()) return Command{report};
     if (explain_command->parsed()) return command_of(explain, tick);
     if (run_command->parsed()) return command_of(std::move(run), words);
     exported.rows = rows == "messages" ? ExportRows::messages : ExportRows::ticks;

@@ -46,6 +46,11 @@ struct ExplainCommand {
     bool json = false;
 };
 
+/// `hapnet-lab report DIR`
+struct ReportCommand {
+    std::string folder;
+};
+
 /// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`
 struct RunCommand {
     std::string experiment; // a file, or the name of a built-in one
@@ -57,8 +62,8 @@ struct RunCommand {
     std::string command; // what was typed
 };
 
-using Command =
-    std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand, RunCommand>;
+using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,
+                             ReportCommand, RunCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

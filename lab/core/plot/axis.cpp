@@ -38,6 +38,13 @@ Range decades(Range range)
     return {low, std::max(high, low + 1.0)};
 }
 
+/// A power of ten: "0.01", "100", beyond a thousand "1e4".
+std::string power_text(double exponent)
+{
+    return std::abs(exponent) <= 3.0 ? fmt::format("{:g}", std::pow(10.0, exponent))
+                                     : fmt::format("1e{:g}", exponent);
+}
+
 double legend_width(const LegendEntry& entry)
 {
     return 8.0 * static_cast<double>(entry.name.size()) + 16.0;
@@ -75,9 +82,8 @@ std::vector<Mark> Axis::marks(double wanted) const
         scale_ == Scale::linear ? round_step(range_, wanted) : std::ceil(span / (2.0 * wanted));
     for (double at = std::ceil(range_.low / step) * step; at <= range_.high; at += step) {
         const double value = std::abs(at) < 1e-9 * step ? 0.0 : at;
-        marks.push_back(
-            {pixels_.from + (pixels_.to - pixels_.from) * (value - range_.low) / span,
-             scale_ == Scale::linear ? fmt::format("{:g}", value) : fmt::format("1e{:g}", value)});
+        marks.push_back({pixels_.from + (pixels_.to - pixels_.from) * (value - range_.low) / span,
+                         scale_ == Scale::linear ? fmt::format("{:g}", value) : power_text(value)});
     }
     return marks;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/plot/plot.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
@@ -120,12 +121,30 @@ private:
 
 } // namespace
 
+std::vector<Point> thinned(std::span<const Point> points, std::size_t count_max)
+{
+    if (points.size() <= count_max) return {points.begin(), points.end()};
+    const std::size_t stretches = std::max<std::size_t>(count_max / 2, 1);
+    const std::size_t length = (points.size() + stretches - 1) / stretches;
+    std::vector<Point> kept;
+    for (std::size_t begin = 0; begin < points.size(); begin += length) {
+        const auto part = points.subspan(begin, std::min(length, points.size() - begin));
+        const auto [low, high] = std::minmax_element(
+            part.begin(), part.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+        kept.push_back(*std::min(low, high));
+        if (low != high) kept.push_back(*std::max(low, high));
+    }
+    return kept;
+}
+
 std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
                      const PlotOptions& options)
 {
     const Canvas canvas{axes_of(curves, options), options};
     std::vector<LegendEntry> legend;
-    for (const Curve& curve : curves) legend.push_back({curve.name, curve.colour});
+    for (const Curve& curve : curves) {
+        if (!curve.name.empty()) legend.push_back({curve.name, curve.colour});
+    }
     std::string out = svg_head(options.size, titles, legend);
     out += canvas.marks();
     for (const Level& level : options.levels) out += canvas.level(level);

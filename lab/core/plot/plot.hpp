@@ -4,6 +4,7 @@
 
 #include "lab/core/plot/axis.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -21,7 +22,7 @@ enum class Stroke : std::uint8_t { solid, dashed, dotted };
 
 /// A curve of a plot. Points that are not finite are left out.
 struct Curve {
-    std::string_view name;
+    std::string_view name;   // in the legend; empty: not there
     std::string_view colour; // as CSS writes it
     std::vector<Point> points;
     Stroke stroke = Stroke::solid;
@@ -55,6 +56,10 @@ struct PlotOptions {
     Range y{};
     bool can_zoom = false; // page/zoom.js finds what it needs
 };
+
+/// At most about so many of the points of a curve, ascending in x: the lowest and the highest of
+/// each stretch, so that no peak is lost.
+[[nodiscard]] std::vector<Point> thinned(std::span<const Point> points, std::size_t count_max);
 
 /// A plot as one SVG element with axes, round tick marks and a legend.
 [[nodiscard]] std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
