@@ -92,6 +92,11 @@ CLI::App* add_run(CLI::App& app, RunCommand& run)
     command->add_option("--jobs", run.jobs, "how many threads; does not change the results")
         ->option_text("N [all processors]")
         ->check(CLI::Range(1U, jobs_max));
+    command
+        ->add_option("--criteria", run.criteria,
+                     "what a session must keep to be usable: a file (docs/METRICS.md), or what\n"
+                     "was calibrated on the paper")
+        ->option_text("FILE [paper]");
     command->add_flag("--quick", run.quick, "what the experiment says under [quick]: rougher");
     command->add_option("--out", run.out, "the folder for the results")
         ->option_text("DIR")
@@ -170,10 +175,9 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     } catch (const CLI::RequiredError& error) {
         const bool names_one = words.size() > 1 && app.get_subcommands().empty();
         if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
-        return base::fail(
-            std::string{"'"} + words[1] +
-            "' is not a command; use analyse, explain, export, report or run, "
-            "see hapnet-lab --help");
+        return base::fail(std::string{"'"} + words[1] +
+                          "' is not a command; use analyse, explain, export, report or run, "
+                          "see hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }
