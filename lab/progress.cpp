@@ -55,7 +55,8 @@ ProgressLine::ProgressLine(base::TimePoint start)
 void ProgressLine::show(const RunProgress& progress, base::TimePoint now)
 {
     const bool is_last = progress.parts_done == progress.parts;
-    if (now < next_ && !is_last) return;
+    if (is_over_ || (now < next_ && !is_last)) return;
+    is_over_ = is_last;
     next_ = now + (is_terminal_ ? terminal_interval : line_interval);
     const auto text = progress_text(progress, now - start_);
     net::tell(is_terminal_ ? fmt::format("\r\x1b[K{}", text) : text + '\n');

@@ -27,6 +27,7 @@ private:
     base::TimePoint next_;
     bool is_terminal_;
     bool is_open_ = false;
+    bool is_over_ = false; // the last has been shown
 };
 
 } // namespace hapnet::lab

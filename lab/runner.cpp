@@ -23,7 +23,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// How often the caller's thread looks after the others.
-constexpr base::Duration look_interval = 100ms;
+constexpr base::Duration look_interval = 20ms;
 
 /// The threads of a run and what they share.
 class Crew {

@@ -32,7 +32,7 @@ struct Runner {
     SessionStore& store;
     StoppablePlay play;
     unsigned jobs = 1;
-    /// Called on the caller's thread a few times a second.
+    /// Called on the caller's thread every 20 ms, and at the end.
     std::function<void(const RunProgress&)> on_progress;
 };
 

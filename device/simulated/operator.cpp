@@ -29,7 +29,6 @@ Operator lifelike()
     result.tremor.amplitude_m = 1.5e-4;
     result.force_noise = 3_percent;
     result.reflex.gain = 0.2;
-    result.will.gain_m_per_n = 2e-3;
     return result;
 }
 
@@ -86,7 +85,7 @@ Operator varied(const Operator& person, base::Seed seed, std::uint32_t index, st
     result.force_noise = base::Probability::from_fraction(std::min(noise, 1.0)).value();
     vary(result.reflex.gain, "reflex/gain");
     vary_time(result.reflex.delay, "reflex/delay");
-    vary(result.will.gain_m_per_n, "will/gain");
+    vary(result.will.gain_m_per_ns, "will/gain");
     vary_time(result.will.delay, "will/delay");
     return result;
 }

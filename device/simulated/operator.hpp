@@ -47,12 +47,13 @@ struct Reflex {
     friend bool operator==(const Reflex&, const Reflex&) = default;
 };
 
-/// The will: in a task that asks for a force, the intention moves by `gain` for what is missing of
-/// the force, as felt `delay` ago and smoothed by a first-order low-pass. Reactions to what is felt
-/// take about 150 ms, to what is seen 200 ms (general knowledge). `gain` times the stiffness that
-/// the hand works against (143 N/m at a nominal hand's contact) has to be below 1.
+/// The will: where a task asks for a force, the intention moves on for as long as force is missing,
+/// by `gain` per second and newton, at most 20 mm; what is missing is what was felt `delay` ago,
+/// smoothed by a first-order low-pass. Reactions to what is felt take about 150 ms, to what is seen
+/// 200 ms (general knowledge). With the 143 N/m of a nominal hand's contact the force comes back
+/// with a time constant of 0.7 s.
 struct Will {
-    double gain_m_per_n = 0.0; // 0: none
+    double gain_m_per_ns = 0.010; // 0: none
     double cutoff_hertz = 1.5;
     base::Duration delay{std::chrono::milliseconds{150}};
 
@@ -75,8 +76,8 @@ struct Operator {
     friend bool operator==(const Operator&, const Operator&) = default;
 };
 
-/// "relaxed", "nominal", "firm": three grips, with wander and tremor and without reactions.
-/// "lifelike": the nominal grip with force noise, stretch reflex and will.
+/// "relaxed", "nominal", "firm": three grips with wander, tremor and will. "lifelike": the nominal
+/// grip with more of them, force noise and a stretch reflex.
 [[nodiscard]] base::Result<Operator> operator_named(std::string_view name);
 
 /// A preset's name, or a table with `preset = "nominal"` and what differs from it; nullopt when a

@@ -16,7 +16,7 @@ constexpr Range hand_damping{base::damping_kind, 0.0, 1e4};
 constexpr Range hand_stiffness{base::stiffness_kind, 1.0, 1e6};
 constexpr Range unrest_amplitude{base::length_kind, 0.0, 0.1};
 constexpr Range unrest_frequency{base::frequency_kind, 0.0, 100.0};
-constexpr Range will_gain{base::compliance_kind, 0.0, 1.0};
+constexpr Range will_gain{base::mobility_kind, 0.0, 1.0};
 constexpr Range will_cutoff{base::frequency_kind, 0.01, 100.0};
 constexpr Plain reflex_gain{0.0, 10.0};
 
@@ -41,7 +41,7 @@ void list_operator_keys(Keys& keys, Person& person)
         inner.value("delay", person.reflex.delay, DelayLine::delay_max);
     });
     keys.group("will", [&person](auto& inner) {
-        inner.value("gain", person.will.gain_m_per_n, will_gain);
+        inner.value("gain", person.will.gain_m_per_ns, will_gain);
         inner.value("cutoff", person.will.cutoff_hertz, will_cutoff);
         inner.value("delay", person.will.delay, DelayLine::delay_max);
     });

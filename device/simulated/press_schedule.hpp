@@ -19,13 +19,13 @@ struct PressInterval {
     double hertz = 0.0;
 };
 
-/// The whole of T2: L presses at 0.5, 1 and 2 Hz, then R does. It needs 26.5 s with hands on.
-inline constexpr std::array<PressInterval, 6> press_schedule{{{1.5, 7.5, true, 0.5},
-                                                              {7.5, 11.5, true, 1.0},
-                                                              {11.5, 13.5, true, 2.0},
-                                                              {14.5, 20.5, false, 0.5},
-                                                              {20.5, 24.5, false, 1.0},
-                                                              {24.5, 26.5, false, 2.0}}};
+/// The whole of T2: L presses at 0.5, 1 and 2 Hz, then R does. It needs 26.75 s with hands on.
+inline constexpr std::array<PressInterval, 6> press_schedule{{{2.0, 8.0, true, 0.5},
+                                                              {8.0, 12.0, true, 1.0},
+                                                              {12.0, 14.0, true, 2.0},
+                                                              {14.75, 20.75, false, 0.5},
+                                                              {20.75, 24.75, false, 1.0},
+                                                              {24.75, 26.75, false, 2.0}}};
 
 /// The same with what the options change of it: all at one frequency, each interval cut to whole
 /// cycles, maybe none.

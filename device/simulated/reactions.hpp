@@ -11,9 +11,9 @@ namespace hapnet::device {
 
 /// What a hand meets in a moment.
 struct Felt {
-    glm::dvec3 deviation{0.0};      // of the hand from its intention, metres
-    double pressing_n = 0.0;        // the force with which it presses
-    std::optional<double> wanted_n; // with which it wants to; nullopt: it does not care
+    glm::dvec3 deviation{0.0};        // of the hand from its intention, metres
+    double pressing_n = 0.0;          // the force with which it presses
+    std::optional<double> wanted_n{}; // with which it wants to; nullopt: it does not care
 };
 
 /// What it does about it.
@@ -31,10 +31,15 @@ public:
     [[nodiscard]] Reaction to(const Felt& felt, base::TimePoint now, base::Duration elapsed);
 
 private:
+    [[nodiscard]] double farther(const Felt& felt, base::TimePoint now, base::Duration elapsed);
+
     Operator person_;
     DelayLine stretched_;
     DelayLine missed_;
-    double smoothed_m_ = 0.0;
+    double missing_n_ = 0.0; // smoothed
+    double farther_m_ = 0.0;
+    base::Duration smoothed_over_{}; // what the next one is for
+    double smoothing_keeps_ = 1.0;
 };
 
 } // namespace hapnet::device

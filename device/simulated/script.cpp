@@ -15,47 +15,47 @@ namespace {
 constexpr double touching_m = 0.025;
 constexpr double clear_m = 0.055; // from the cube's centre, on the way to the part
 
-// How far a hand keeps off before it closes in, and how long that takes. In T1: the idle hand.
+// How far a hand keeps off before it closes in. In T1: the idle hand.
 constexpr double clearance_m = 0.008;
-constexpr double closing_in_s = 1.0;
+// It closes in until it is so near, and then presses gently: a cube that two hands touch gives way
+// unopposed for as long as their forces travel.
+constexpr double near_m = 0.001;
+constexpr double near_after_s = 0.5;
+constexpr double pressing_after_s = 2.0;
 
 constexpr double watching_x_m = 0.105; // P1
 
 // T1: the path speed over which the turn changes.
 constexpr double turn_speed_m_per_s = 0.020;
 
-// What a nominal hand's aim within the cube presses with: its 200 N/m in series with the
-// contact's 500 N/m.
-constexpr double pressing_n_per_m = 200.0 * 500.0 / 700.0;
-constexpr double usual_squeeze_m = 0.004;
+// Of the contact between a finger and the cube.
+constexpr double contact_n_per_m = 500.0;
+
+// T3: what 4 mm of a nominal hand's aim press with; the mean stays below 0.8 N.
+constexpr double carry_squeeze_n = 4.0 / 7.0;
 
 // T4: the friction between finger and cube carries the cube's 0.5 N on 0.86 N of squeeze twice
 // over. The aim goes a little farther than the cube is to: so much do the hands give way.
-constexpr double lift_squeeze_m = 0.006;
 constexpr double lift_aim_m = 0.0525;
-constexpr double lift_every_s = 12.5;
-constexpr double lift_begins_s = 2.5; // of each round
-constexpr double lift_takes_s = 1.5;
+constexpr double lift_begins_s = 6.0; // until then delayed forces have been made up for
+constexpr double lift_takes_s = 2.0;
 constexpr double lift_holds_s = 5.0;
 
-// T5: the cube is at the static one at this x. Both hands press its left face, side by side.
-constexpr double wall_x_m = 0.0747;
-constexpr double wall_reached_s = 4.0;
-constexpr double wall_squeeze_m = 0.005;
-constexpr double wall_apart_m = 0.010; // along z from the face's middle
-constexpr double wall_lets_go_s = 8.0; // R; then every 5 s one of them, by turns
+// T5: the cube stands before the static one, and both hands press its left face, side by side.
+constexpr double wall_apart_m = 0.006; // along z, from the face's middle
+constexpr double wall_lets_go_s = 5.0; // R; then every 5 s one of them, by turns
 constexpr double wall_every_s = 5.0;
-constexpr double wall_back_off_m = 0.015;
+constexpr int wall_rounds = 2;
+constexpr double wall_back_off_m = 0.020;
 constexpr double wall_back_off_takes_s = 0.05;
 constexpr double wall_away_s = 2.0;
 constexpr double wall_returns_s = 1.0;
 
 // T6: the tapping hand swings about a point off the face, so that it meets it on its way in.
-constexpr double taps_begin_s = 1.5;
+constexpr double taps_begin_s = 2.0;
 constexpr double tap_hertz = 3.0;
-constexpr double tap_amplitude_m = 0.013;
+constexpr double tap_amplitude_m = 0.014;
 constexpr double tap_off_m = 0.008;
-constexpr double tap_rest_m = 0.001;
 
 constexpr double let_go_m = 0.020;
 constexpr double lift_off_m = 0.045; // above the cube, whose upper face is at 20 mm
@@ -80,16 +80,24 @@ double between(double begin, double end, double t)
     return minimum_jerk((t - begin) / (end - begin));
 }
 
+/// How far within the cube's face a hand aims that closes in from the start on.
+double closing(double squeeze, double t)
+{
+    return -clearance_m + (clearance_m - near_m) * between(0.0, near_after_s, t) +
+           (near_m + squeeze) * between(near_after_s, pressing_after_s, t);
+}
+
 Intention at_x(double x) { return {.target = {{x, 0.0, 0.0}}}; }
 
 } // namespace
 
-Script::Script(Task task, const Cue& cue, const TaskOptions& options)
+Script::Script(Task task, const Cue& cue, const TaskOptions& options, const HandImpedance& hand)
     : task_{task},
       cue_{cue},
       options_{options},
       presses_{press_schedule_of(options)},
-      side_{cue.is_left ? -1.0 : 1.0}
+      side_{cue.is_left ? -1.0 : 1.0},
+      depth_m_per_n_{1.0 / hand.stiffness_n_per_m + 1.0 / contact_n_per_m}
 {
     // In T5 both are left of the cube.
     if (task == Task::t5) side_ = -1.0;
@@ -99,7 +107,19 @@ double Script::aside_x() const { return side_ * clear_m; }
 
 double Script::pressing_toward() const { return -side_; }
 
-double Script::squeeze_m(double usual) const { return options_.squeeze_m.value_or(usual); }
+double Script::squeeze_n() const
+{
+    if (options_.squeeze_n) return *options_.squeeze_n;
+    switch (task_) {
+    case Task::t3: return carry_squeeze_n;
+    case Task::t4: return 0.86;
+    case Task::t5: return 0.71;
+    case Task::t6: return 0.14;
+    default: return 0.0;
+    }
+}
+
+double Script::depth_m(double force_n) const { return force_n * depth_m_per_n_; }
 
 Intention Script::at(base::TimePoint now) const
 {
@@ -132,11 +152,7 @@ Intention Script::working(double t) const
     }
     case Task::t1: return at_x(turn_x(t));
     case Task::t2: return at_x(press_x(t));
-    case Task::t3: {
-        Intention intention = at_x(carry_x(t));
-        intention.pressing_n = pressing_n_per_m * squeeze_m(usual_squeeze_m);
-        return intention;
-    }
+    case Task::t3: return at_x(carry_x(t));
     case Task::t4: return lift(t);
     case Task::t5: return wall(t);
     case Task::t6: return at_x(tap_x(t));
@@ -153,8 +169,7 @@ double Script::turn_x(double t) const
 
 double Script::press_x(double t) const
 {
-    const double closed = between(0.0, closing_in_s, t);
-    double depth = closed * (clearance_m + squeeze_m(usual_squeeze_m)) - clearance_m;
+    double depth = closing(options_.press_depth_m, t);
     for (const PressInterval& press : presses_) {
         if (press.left_presses != cue_.is_left || t < press.begin_s || t >= press.end_s) continue;
         depth += options_.press_amplitude_m * sine_of_turns(press.hertz * (t - press.begin_s));
@@ -165,54 +180,47 @@ double Script::press_x(double t) const
 double Script::carry_x(double t) const
 {
     const double lag = cue_.is_left ? 0.0 : base::to_seconds(options_.follower_lag);
-    return path_x(options_.pace * (t - lag)) + side_ * (touching_m - squeeze_m(usual_squeeze_m));
+    return path_x(options_.pace * (t - lag)) + side_ * (touching_m - depth_m(squeeze_n()));
 }
 
 Intention Script::lift(double t) const
 {
-    const int round = t < lift_every_s ? 0 : 1;
-    const double in_round = t - round * lift_every_s;
-    const double squeeze = squeeze_m(lift_squeeze_m);
+    const double squeeze = depth_m(squeeze_n());
     constexpr double up = lift_begins_s + lift_takes_s;
     constexpr double down = up + lift_holds_s;
     constexpr double lowered = down + lift_takes_s;
-    const double height = between(lift_begins_s, up, in_round) - between(down, lowered, in_round);
-    // Closed until the cube stands again and has settled.
-    const double closed = between(0.0, closing_in_s, in_round) -
-                          between(lowered + 0.5, lowered + 0.5 + closing_in_s, in_round);
-    const double depth = closed * (clearance_m + squeeze) - clearance_m;
+    constexpr double opens = lowered + 0.5; // the cube stands again and has settled
+    const double opened = between(opens, opens + 1.0, t);
+    const double depth = closing(squeeze, t) - opened * (clearance_m + squeeze);
     Intention intention = at_x(side_ * (touching_m - depth));
-    intention.target.value.y = lift_aim_m * height;
-    if (closed >= 1.0) intention.pressing_n = pressing_n_per_m * squeeze;
+    intention.target.value.y =
+        lift_aim_m * (between(lift_begins_s, up, t) - between(down, lowered, t));
+    if (t >= pressing_after_s && t < opens) intention.pressing_n = squeeze_n();
     return intention;
 }
 
 Intention Script::wall(double t) const
 {
-    const double squeeze = squeeze_m(wall_squeeze_m);
-    double depth = between(0.0, closing_in_s, t) * (clearance_m + squeeze) - clearance_m;
-    bool presses = t >= wall_reached_s;
+    const double squeeze = depth_m(squeeze_n());
+    double depth = closing(squeeze, t);
+    bool presses = t >= pressing_after_s;
     // R lets go first.
-    const double first = wall_lets_go_s + (cue_.is_left ? wall_every_s : 0.0);
-    for (const double go : {first, first + 2.0 * wall_every_s}) {
+    double go = wall_lets_go_s + (cue_.is_left ? wall_every_s : 0.0);
+    for (int round = 0; round < wall_rounds; ++round, go += 2.0 * wall_every_s) {
         const double back = go + wall_away_s;
         depth -= wall_back_off_m * (between(go, go + wall_back_off_takes_s, t) -
                                     between(back, back + wall_returns_s, t));
         if (t >= go && t < back + wall_returns_s) presses = false;
     }
-    const double cube = wall_x_m * between(closing_in_s, wall_reached_s, t);
-    Intention intention = at_x(cube - touching_m + depth);
+    Intention intention = at_x(-touching_m + depth);
     intention.target.value.z = cue_.is_left ? -wall_apart_m : wall_apart_m;
-    if (presses) intention.pressing_n = pressing_n_per_m * squeeze;
+    if (presses) intention.pressing_n = squeeze_n();
     return intention;
 }
 
 double Script::tap_x(double t) const
 {
-    const double closed = between(0.0, closing_in_s, t);
-    if (!cue_.is_left) {
-        return touching_m + clearance_m - closed * (clearance_m + squeeze_m(tap_rest_m));
-    }
+    if (!cue_.is_left) return touching_m - closing(depth_m(squeeze_n()), t);
     const double swing = t < taps_begin_s ? 0.0 : sine_of_turns(tap_hertz * (t - taps_begin_s));
     return -touching_m - tap_off_m + tap_amplitude_m * swing;
 }

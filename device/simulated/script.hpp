@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/device.hpp"
+#include "device/simulated/operator.hpp"
 #include "device/simulated/press_schedule.hpp"
 #include "device/simulated/task.hpp"
 
@@ -20,7 +21,9 @@ struct Intention {
 /// One hand's part in a task: a pure function of time.
 class Script {
 public:
-    Script(Task task, const Cue& cue, const TaskOptions& options = {});
+    /// `hand` is whose it is: how far it has to aim into the cube to press as it means to.
+    Script(Task task, const Cue& cue, const TaskOptions& options = {},
+           const HandImpedance& hand = {});
 
     [[nodiscard]] Intention at(base::TimePoint now) const;
 
@@ -38,13 +41,16 @@ private:
     [[nodiscard]] Intention lift(double t) const;
     [[nodiscard]] Intention wall(double t) const;
     [[nodiscard]] double tap_x(double t) const;
-    [[nodiscard]] double squeeze_m(double usual) const;
+    [[nodiscard]] double squeeze_n() const;
+    /// How far within the face the hand aims to press so.
+    [[nodiscard]] double depth_m(double force_n) const;
 
     Task task_;
     Cue cue_;
     TaskOptions options_;
     std::array<PressInterval, 6> presses_;
     double side_; // -1: left of the cube
+    double depth_m_per_n_;
 };
 
 } // namespace hapnet::device

@@ -39,7 +39,12 @@ base::Result<Task> task_named(std::string_view name)
 
 std::string_view name_of(Task task) { return task_names.at(static_cast<std::size_t>(task)); }
 
-std::string_view scene_of(Task task) { return task == Task::t4 ? "lift" : "paper"; }
+std::string_view scene_of(Task task)
+{
+    if (task == Task::t4) return "lift";
+    if (task == Task::t5) return "wall";
+    return "paper";
+}
 
 double path_x(double seconds)
 {

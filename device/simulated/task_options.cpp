@@ -8,6 +8,7 @@ namespace hapnet::device {
 
 namespace {
 
+constexpr Range squeeze{base::force_kind, 0.0, 3.3};
 constexpr Range aim{base::length_kind, 0.0, 0.02};
 constexpr Range press_frequency{base::frequency_kind, 0.1, 10.0};
 constexpr Plain path_pace{0.1, 2.0};
@@ -16,7 +17,8 @@ constexpr base::Duration lag_max{std::chrono::seconds{1}};
 template <typename Keys, typename Options>
 void list_task_keys(Keys& keys, Options& options)
 {
-    keys.value("squeeze", options.squeeze_m, aim);
+    keys.value("squeeze", options.squeeze_n, squeeze);
+    keys.value("press_depth", options.press_depth_m, aim);
     keys.value("press_amplitude", options.press_amplitude_m, aim);
     keys.value("press_frequency", options.press_hertz, press_frequency);
     keys.value("pace", options.pace, path_pace);

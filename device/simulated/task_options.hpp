@@ -13,10 +13,10 @@ namespace hapnet::device {
 
 /// What may be chosen of a task. What is not set is the task's own.
 struct TaskOptions {
-    /// How far within the cube's face each hand aims: T2 4 mm, T3 4 mm, T4 6 mm, T5 6 mm, T6 1 mm
-    /// (the resting hand). A nominal hand's 200 N/m in series with the contact's 500 N/m make
-    /// 0.14 N of a millimetre.
-    std::optional<double> squeeze_m{};
+    /// T3 to T6: the force that a hand aims to press with on a cube that stays where it is.
+    /// T3 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N (the resting hand).
+    std::optional<double> squeeze_n{};
+    double press_depth_m = 0.004;        // T2: each aim within the cube
     double press_amplitude_m = 0.0035;   // T2: of the presser's aim
     std::optional<double> press_hertz{}; // T2: instead of 0.5, 1 and 2 Hz
     double pace = 0.5;                   // T3: of the path; 1 is that of P1 and T1
@@ -25,8 +25,8 @@ struct TaskOptions {
     friend bool operator==(const TaskOptions&, const TaskOptions&) = default;
 };
 
-/// Reads the table at `node`, with the keys squeeze, press_amplitude, press_frequency, pace and
-/// follower_lag; nullopt when a complaint was made.
+/// Reads the table at `node`, with the keys squeeze, press_depth, press_amplitude,
+/// press_frequency, pace and follower_lag; nullopt when a complaint was made.
 [[nodiscard]] std::optional<TaskOptions> read_task_options(const base::Node& node,
                                                            base::Reading& reading);
 

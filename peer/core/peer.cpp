@@ -43,6 +43,12 @@ scene::World world_of(const Settings& settings)
     return *std::move(world);
 }
 
+std::optional<FingerFriction> friction_of(const Settings& settings)
+{
+    if (settings.scene.hips.friction == 0.0) return std::nullopt;
+    return FingerFriction{settings.scene.hips};
+}
+
 /// How much of the force on the hand may be rendered.
 double rendered_share(const Settings& settings)
 {
@@ -59,6 +65,7 @@ Peer::Peer(const Settings& settings)
       remote_{settings.staleness, base_options(settings.algorithm).stale},
       body_{shared_body_of(settings)},
       world_{world_of(settings)},
+      friction_{friction_of(settings)},
       force_max_n_{std::min(settings.scene.hips.force_max_n, scene::force_max_n)},
       share_{rendered_share(settings)}
 {}
@@ -249,11 +256,10 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
     }
     const bool usable = is_usable(hand);
     if (!usable) ++counters_.unusable_hand;
-    world_.hip(own_hand, {.position = usable ? hand.hip : base::Position{},
-                          .velocity = usable ? hand.velocity : base::Velocity{},
-                          .present = usable,
-                          .gripping = hand.gripping});
-
+    const scene::HipInput input{.position = usable ? hand.hip : base::Position{},
+                                .velocity = usable ? hand.velocity : base::Velocity{},
+                                .present = usable,
+                                .gripping = hand.gripping};
     const Situation situation{.now = now,
                               .body = body_,
                               .remote = remote_,
@@ -263,20 +269,35 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                               .clock = handshake_.clock(),
                               .force_max_n = force_max_n_};
     const base::Position before = position();
-    if (body_known_) {
-        const Outcome outcome =
-            std::visit([&](auto& algorithm) { return algorithm.tick(world_, situation); },
-                       settings_.algorithm);
-        tick.touched = outcome.touched;
-        tick.force = share_ * outcome.on_hand;
-        tick.remote_touching = outcome.remote_touching;
-        tick.remote_force = outcome.remote_force;
-        tick.remote_hip = outcome.remote_hip;
-    }
+    if (body_known_) move_world(tick, situation, input);
     account(tick, position() - before, now);
     // The governor's own fade runs along with the remote's: zero when the remote counts as gone.
     tick.permitted = usable && body_known_ && tick.freshness >= 1.0;
     if (!gone_) say_state(tick, now, usable ? hand : Hand{});
+}
+
+void Peer::move_world(Tick& tick, const Situation& situation, const scene::HipInput& hand)
+{
+    world_.hip(own_hand, hand);
+    base::Force rubbing;
+    if (friction_) {
+        rubbing = friction_->on_body(hand, world_.body(body_));
+        world_.push(body_, rubbing);
+    }
+    const Outcome outcome = std::visit(
+        [&](auto& algorithm) { return algorithm.tick(world_, situation); }, settings_.algorithm);
+    tick.touched = outcome.touched;
+    base::Force on_hand = outcome.on_hand;
+    tick.remote_touching = outcome.remote_touching;
+    tick.remote_force = outcome.remote_force;
+    tick.remote_hip = outcome.remote_hip;
+    if (friction_) {
+        friction_->on_touch(tick.touched);
+        tick.touched.on_body += rubbing;
+        tick.touched.on_hip += -rubbing;
+        on_hand += -rubbing;
+    }
+    tick.force = share_ * on_hand;
 }
 
 void Peer::account(const Tick& tick, base::Displacement moved, base::TimePoint now)

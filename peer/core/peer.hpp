@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/finger_friction.hpp"
 #include "peer/core/handshake.hpp"
 #include "peer/core/ledger.hpp"
 #include "peer/core/outbox.hpp"
@@ -151,6 +152,7 @@ private:
     [[nodiscard]] Phase phase_at(base::TimePoint now) const;
     void note(Phase phase, double freshness, base::TimePoint now);
     void play(Tick& tick, base::TimePoint now, const Hand& hand);
+    void move_world(Tick& tick, const Situation& situation, const scene::HipInput& hand);
     void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
     void say_state(Tick& tick, base::TimePoint now, const Hand& hand);
     void say_bye(base::TimePoint now);
@@ -161,8 +163,9 @@ private:
     Remote remote_;
     scene::BodyId body_; // the shared one
     scene::World world_;
-    double force_max_n_; // of the remote hand
-    double share_;       // of the forces on the hand, that may be rendered
+    std::optional<FingerFriction> friction_; // where the scene's hands have any
+    double force_max_n_;                     // of the remote hand
+    double share_;                           // of the forces on the hand, that may be rendered
     Ledger ledger_;
     Outbox<wire::Datagram, 8> outbox_;
     Outbox<Event, 32> events_;

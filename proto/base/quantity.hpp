@@ -55,8 +55,8 @@ inline constexpr QuantityKind acceleration_kind{
 
 inline constexpr QuantityKind frequency_kind{
     "a frequency", "0.5Hz or 10Hz", {{{"Hz", 0, 1.0, true}, {"mHz", -3}, {"kHz", 3}}}};
-inline constexpr QuantityKind compliance_kind{
-    "a compliance", "2mm/N", {{{"m/N", 0, 1.0, true}, {"mm/N", -3, 1.0, true}, {"um/N", -6}}}};
+inline constexpr QuantityKind mobility_kind{
+    "a mobility", "10mm/Ns", {{{"m/Ns", 0, 1.0, true}, {"mm/Ns", -3, 1.0, true}}}};
 
 inline constexpr double radians_per_degree = 0.017453292519943295769; // pi / 180
 inline constexpr QuantityKind angle_kind{

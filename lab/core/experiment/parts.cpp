@@ -58,11 +58,11 @@ struct PartsOf {
         for_each_search(limits, experiment.tasks,
                         [&](SearchPart part) { parts.emplace_back(std::move(part)); });
         if (!limits.convention) return;
-        for (const Hands& hands : limits.convention->hands) {
-            for_each_search(limits, limits.convention->tasks, [&](const SearchPart& part) {
+        for_each_search(limits, limits.convention->tasks, [&](const SearchPart& part) {
+            for (const Hands& hands : limits.convention->hands) {
                 parts.emplace_back(ConventionPart{part.algorithm, part.task, part.range, hands});
-            });
-        }
+            }
+        });
     }
     void operator()(const Trajectories& trajectories) const
     {

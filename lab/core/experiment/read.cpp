@@ -177,7 +177,10 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
         base::complain_of(quick, "[quick]", reading);
         return base::fail(*reading.complaint());
     }
-    if (adjustments.quick) overlay(document, quick);
+    Node quick_document = document;
+    overlay(quick_document, quick);
+    if (auto read = read_tree(quick_document, Reading{source}); !read) return read;
+    if (adjustments.quick) document = std::move(quick_document);
     Node adjusted = document;
     for (const std::string& setting : adjustments.settings) {
         const auto table = setting_table(setting);

@@ -5,6 +5,7 @@
 #include "emulator/core/profile/text.hpp"
 #include "peer/core/scene/text/text.hpp"
 #include "peer/core/sync/text.hpp"
+#include "proto/base/ensure.hpp"
 #include "proto/base/text.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -15,6 +16,17 @@ namespace {
 
 /// 64 bits: among 10^5 sessions two are alike by chance once in 10^9 experiments.
 std::uint64_t hash_of(std::string_view text) { return base::Seed{}.stream(text).bits(0); }
+
+/// The scene that a task is made for.
+scene::Description scene_for(device::Task task)
+{
+    const auto name = device::scene_of(task);
+    if (name == "paper") return scene::paper_scene();
+    const auto built_in = scene::load_scene(
+        std::string{name}, [](const std::string& file) { return base::fail(file); });
+    base::ensure(built_in.has_value());
+    return *built_in;
+}
 
 std::string player_text(const PlayerSetting& player)
 {
@@ -30,6 +42,7 @@ SessionSpec spec_of(const Experiment& experiment, const Cell& cell, const emulat
     SessionSpec spec;
     Setting& setting = spec.setting;
     setting.task = cell.task;
+    setting.scene = scene_for(cell.task);
     setting.seed = base::Seed{cell.seed};
     setting.length = experiment.duration;
     setting.tick = experiment.tick;

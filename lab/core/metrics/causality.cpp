@@ -3,62 +3,47 @@
 #include "lab/core/metrics/causality.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace hapnet::lab {
 
 namespace {
 
-constexpr double moved_m = 0.1e-3;
-constexpr double rest_m = 0.02e-3;
-constexpr double rest_over_s = 0.010;
-constexpr double wait_s = 1.0;
-
-std::size_t samples_in(double seconds, double tick_s)
-{
-    return static_cast<std::size_t>(seconds / tick_s + 0.5);
-}
-
-/// Of the touches of one side.
-struct Responses {
-    double sum_s = 0.0;
-    double count = 0.0;
-};
-
-Responses responses_to(const Columns& pusher, const Columns& other, double tick_s)
-{
-    const std::size_t count = std::min(pusher.body_x.size(), other.body_x.size());
-    const std::size_t before = samples_in(rest_over_s, tick_s);
-    const std::size_t wait = samples_in(wait_s, tick_s);
-    const auto rests = [&](const Columns& side, std::size_t i) {
-        return std::abs(side.body_x[i] - side.body_x[i - before]) < rest_m;
-    };
-    Responses responses;
-    for (std::size_t i = before + 1; i < count; ++i) {
-        const bool begins = pusher.touching[i] != 0 && pusher.touching[i - 1] == 0;
-        if (!begins || other.touching[i] != 0) continue;
-        if (!rests(pusher, i - 1) || !rests(other, i - 1)) continue;
-        const std::size_t last = std::min(count - 1, i + wait);
-        for (std::size_t j = i; j <= last; ++j) {
-            if (std::abs(other.body_x[j] - other.body_x[i - 1]) < moved_m) continue;
-            responses.sum_s += static_cast<double>(j - i) * tick_s;
-            responses.count += 1.0;
-            break;
-        }
-    }
-    return responses;
-}
+constexpr double moves_m_per_s = 0.020;
+constexpr double still_min_s = 0.050;
+constexpr double apart_min_s = 0.100;
+constexpr double wait_max_s = 0.6;
 
 } // namespace
 
-std::optional<double> response_of(const Columns& left, const Columns& right, double tick_s)
+std::optional<double> response_of(const Columns& pusher, const Columns& other, double tick_s)
 {
-    const Responses to_left = responses_to(left, right, tick_s);
-    const Responses to_right = responses_to(right, left, tick_s);
-    const double count = to_left.count + to_right.count;
-    if (count == 0.0) return std::nullopt;
-    return (to_left.sum_s + to_right.sum_s) / count;
+    const std::size_t count = std::min(pusher.touching.size(), other.body_x.size());
+    const double moves_m = moves_m_per_s * tick_s;
+    double sum_s = 0.0;
+    double responses = 0.0;
+    double still_s = 0.0; // for how long the other's copy has been
+    double apart_s = 0.0; // for how long the pusher has not touched
+    bool waits = false;
+    double waited_s = 0.0; // since a touch
+    for (std::size_t i = 1; i < count; ++i) {
+        const bool touches = pusher.touching[i] != 0;
+        if (touches && !waits && apart_s >= apart_min_s && still_s >= still_min_s) {
+            waits = true;
+            waited_s = 0.0;
+        }
+        const bool moves = std::abs(other.body_x[i] - other.body_x[i - 1]) > moves_m;
+        if (waits && moves) {
+            sum_s += waited_s;
+            responses += 1.0;
+        }
+        apart_s = touches ? 0.0 : apart_s + tick_s;
+        still_s = moves ? 0.0 : still_s + tick_s;
+        waited_s += tick_s;
+        waits = waits && !moves && waited_s <= wait_max_s;
+    }
+    if (responses == 0.0) return std::nullopt;
+    return sum_s / responses;
 }
 
 } // namespace hapnet::lab

@@ -157,7 +157,7 @@ std::string print_criteria(const Criteria& criteria)
     text += "# B at 1 Hz. Calibrated: base is to be usable up to 160 ms of delay and no further.\n";
     text +=
         fmt::format("stiffness_ratio_min = {}\n", base::value_text(criteria.stiffness_ratio_min));
-    text += "# E. A working limit, from no source: a tenth of what a hand at rest pushes.\n";
+    text += "# E, what the network adds of it. A working limit, from no source.\n";
     text += fmt::format("force_vibration_max = {}\n", newtons(criteria.force_vibration_max_n));
     text += "# Of the time that both sides would run: a session that hardly took place is none.\n";
     text += fmt::format("scored_share_min = {}\n\n[good]\n",

@@ -77,6 +77,7 @@ void each_member(auto& of, const Visit& visit) requires requires
     visit("drag_n", of.drag_n);
     visit("path_rms_m", of.path_rms_m);
     visit("drops", of.drops);
+    visit("overshoot_m", of.overshoot_m);
     visit("response_s", of.response_s);
     visit("similarity", of.similarity);
 }

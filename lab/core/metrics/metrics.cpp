@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/metrics/metrics.hpp"
 
+#include "device/simulated/press_schedule.hpp"
 #include "lab/core/metrics/causality.hpp"
 #include "lab/core/metrics/columns.hpp"
 #include "lab/core/metrics/contact.hpp"
 #include "lab/core/metrics/energy.hpp"
 #include "lab/core/metrics/exercise.hpp"
-#include "lab/core/metrics/presses.hpp"
 #include "lab/core/metrics/stiffness.hpp"
 
 #include <algorithm>
@@ -21,8 +21,12 @@ namespace {
 
 constexpr double vibration_above_hz = 20.0;
 constexpr double felt_below_hz = 300.0;
-constexpr double press_settles_s = 0.5; // a press is not yet steady then
+// Who learns late of the session's start has to catch up first. That is in the discrepancy, and in
+// nothing else.
+constexpr double catching_up_s = 0.5;
 constexpr double path_every_s = 0.010;
+constexpr double wall_x_m = 0.0747; // of the body's centre when it is at the static cube
+constexpr double fallen_m = 0.025;  // half the height to which the body is lifted
 
 /// A trace as columns, and where its samples stand in time.
 struct Taken {
@@ -39,6 +43,8 @@ struct Taken {
         const double index = std::ceil((seconds - begin_s) / tick_s - 1e-6);
         return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(count())));
     }
+    /// From when on all has caught up.
+    [[nodiscard]] std::size_t steady() const { return index_at(begin_s + catching_up_s); }
     [[nodiscard]] std::span<const double> cut(const std::vector<double>& column,
                                               const Stretch& stretch) const
     {
@@ -68,7 +74,7 @@ std::optional<double> path_rms(const Taken& taken, const Columns& side)
     const auto stride = static_cast<std::size_t>(std::max(1.0, path_every_s / taken.tick_s));
     double sum = 0.0;
     double count = 0.0;
-    for (std::size_t i = 0; i < side.body_x.size(); i += stride) {
+    for (std::size_t i = taken.steady(); i < side.body_x.size(); i += stride) {
         const double time = taken.begin_s + static_cast<double>(i) * taken.tick_s;
         const double apart = side.body_x[i] - device::path_x(taken.exercise.path_pace * time);
         sum += apart * apart;
@@ -78,44 +84,73 @@ std::optional<double> path_rms(const Taken& taken, const Columns& side)
     return std::sqrt(sum / count);
 }
 
+std::optional<double> contact_lost(const Taken& taken, const Columns& side)
+{
+    std::vector<double> push;
+    for (const Stretch& stretch : taken.exercise.contact) {
+        const auto part = taken.cut(side.push, stretch);
+        push.insert(push.end(), part.begin(), part.end());
+    }
+    return contact_lost_of(push);
+}
+
 void measure_side(const Taken& taken, std::size_t index, Metrics& metrics)
 {
     const Columns& side = taken.sides[index];
     const Cutoff above{vibration_above_hz, taken.tick_s};
-    const std::span<const std::uint8_t> follows{side.follows};
+    const auto body_x = std::span{side.body_x}.subspan(taken.steady());
+    const auto force = std::span{side.hand_force}.subspan(taken.steady());
+    const auto follows = std::span{side.follows}.subspan(taken.steady());
     metrics.body_vibration_m[index] = vibration_of(
-        side.body_x, taken.exercise.by_turns ? follows : std::span<const std::uint8_t>{}, above);
-    metrics.force_vibration_n[index] = vibration_of(side.hand_force, {}, above);
+        body_x, taken.exercise.by_turns ? follows : std::span<const std::uint8_t>{}, above);
+    metrics.force_vibration_n[index] = vibration_of(force, {}, above);
     metrics.felt_vibration_n[index] =
-        band_vibration_of(side.hand_force, above, {felt_below_hz, taken.tick_s});
-    metrics.contact_lost[index] = contact_lost_of(taken.cut(side.push, taken.exercise.contact));
-    metrics.force_steps[index] = force_steps_of(side.hand_force, taken.tick_s);
+        band_vibration_of(force, above, {felt_below_hz, taken.tick_s});
+    metrics.contact_lost[index] = contact_lost(taken, side);
+    metrics.force_steps[index] = force_steps_of(force, taken.tick_s);
+    if (taken.exercise.at_wall) {
+        double farthest = wall_x_m;
+        for (const double x : body_x) farthest = std::max(farthest, x);
+        metrics.overshoot_m[index] = farthest - wall_x_m;
+    }
     if (!taken.exercise.along_path) return;
     metrics.drag_n[index] = drag_of(side, taken.tick_s);
     metrics.path_rms_m[index] = path_rms(taken, side);
 }
 
-void measure_presses(const Taken& taken, std::span<const Press> presses, Metrics& metrics)
+void measure_presses(const Taken& taken, Metrics& metrics)
 {
-    for (const Press& press : presses) {
-        const Stretch steady{press.begin_s + press_settles_s, press.end_s};
-        if (!taken.covers(steady)) continue;
+    for (const device::PressInterval& press : device::press_schedule) {
+        const Stretch steady{press.begin_s + 1.0 / press.hertz, press.end_s};
         const auto at = std::find(press_hertz.begin(), press_hertz.end(), press.hertz);
-        if (at == press_hertz.end()) continue;
-        const Columns& side = taken.sides[press.side];
-        metrics.stiffness_n_per_m[static_cast<std::size_t>(at - press_hertz.begin())][press.side] =
+        if (!taken.covers(steady) || at == press_hertz.end()) continue;
+        const std::size_t presser = press.left_presses ? 0 : 1;
+        const Columns& side = taken.sides[presser];
+        metrics.stiffness_n_per_m[static_cast<std::size_t>(at - press_hertz.begin())][presser] =
             stiffness_of(taken.cut(side.hand_force, steady), taken.cut(side.hip_x, steady),
                          press.hertz, taken.tick_s);
     }
-    if (presses.empty()) return;
-    // The first hand's part of the task: from its first press to its last.
-    Stretch first{presses[0].begin_s, presses[0].end_s};
-    for (const Press& press : presses) {
-        if (press.side == presses[0].side) first.end_s = press.end_s;
+    Stretch left{device::press_schedule[0].begin_s, device::press_schedule[0].end_s};
+    for (const device::PressInterval& press : device::press_schedule) {
+        if (press.left_presses) left.end_s = press.end_s;
     }
-    metrics.similarity =
-        similarity_of(taken.cut(taken.sides[presses[0].side].hand_force, first),
-                      taken.cut(taken.sides[1 - presses[0].side].hand_force, first), taken.tick_s);
+    metrics.similarity = similarity_of(taken.cut(taken.sides[0].hand_force, left),
+                                       taken.cut(taken.sides[1].hand_force, left), taken.tick_s);
+}
+
+std::optional<double> drops(const Taken& taken)
+{
+    double count = 0.0;
+    for (const Stretch& stretch : taken.exercise.lifted) {
+        if (!taken.covers(stretch)) return std::nullopt;
+        const auto falls = [&](const Columns& side) {
+            const auto heights = taken.cut(side.body_y, stretch);
+            return std::any_of(heights.begin(), heights.end(),
+                               [](double height) { return height < fallen_m; });
+        };
+        if (falls(taken.sides[0]) || falls(taken.sides[1])) count += 1.0;
+    }
+    return count;
 }
 
 } // namespace
@@ -132,12 +167,13 @@ Metrics metrics_of(const Trace& trace)
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
         measure_side(taken, side, metrics);
     }
-    measure_presses(taken, presses_of(trace.task), metrics);
+    if (taken.exercise.presses) measure_presses(taken, metrics);
+    if (!taken.exercise.lifted.empty()) metrics.drops = drops(taken);
     const auto& [left, right] = taken.sides;
-    metrics.force_discrepancy = force_discrepancy_of(left, right);
+    if (taken.exercise.presses) metrics.force_discrepancy = force_discrepancy_of(left, right);
     metrics.discrepancy_m = body_discrepancy(taken);
     metrics.energy_taken_j = energy_taken_of(left.work, right.work);
-    metrics.response_s = response_of(left, right, taken.tick_s);
+    if (taken.exercise.taps) metrics.response_s = response_of(left, right, taken.tick_s);
     return metrics;
 }
 

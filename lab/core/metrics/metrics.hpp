@@ -53,9 +53,11 @@ struct Metrics {
     BySide<double> drag_n{};
     /// J: root mean square of the distance, in x, of a side's body from the path it is to follow.
     BySide<double> path_rms_m{};
-    /// J: how often the lifted body fell.
+    /// J: in how many of the two lifts a side's body is down, by half, while it is to be held up.
     std::optional<double> drops{};
-    /// K: from a push to the motion of the other side's body, seconds.
+    /// J: how far a side's body was beyond where the static cube stops it, metres.
+    BySide<double> overshoot_m{};
+    /// K: from a tap of L to the motion of R's body, seconds.
     std::optional<double> response_s{};
     /// L: of what the resting hand feels to what the pressing hand does.
     std::optional<Similarity> similarity{};

@@ -75,11 +75,12 @@ const auto ratio_of = [](double value, double reference) -> std::optional<double
     return value / reference;
 };
 
-std::optional<double> softest(const BySide<double>& impaired, const BySide<double>& perfect)
+/// Of the stiffness that both hands feel when it is their turn to press: the mean of them, as both
+/// press on the same coupling, and each on its own is off by how the hands waver meanwhile.
+std::optional<double> stiffness_ratio(const BySide<double>& impaired, const BySide<double>& perfect)
 {
-    const BySide<double> ratios = against(impaired, perfect, ratio_of);
-    if (!ratios[0] || !ratios[1]) return ratios[0] ? ratios[0] : ratios[1];
-    return std::min(*ratios[0], *ratios[1]);
+    if (!impaired[0] || !impaired[1] || !perfect[0] || !perfect[1]) return std::nullopt;
+    return ratio_of(*impaired[0] + *impaired[1], *perfect[0] + *perfect[1]);
 }
 
 } // namespace
@@ -107,11 +108,12 @@ Scores scores_of(const Metrics& impaired, const Metrics& perfect)
         .path_rms_m = worse(impaired.path_rms_m),
         .path_rms_ratio = worse(against(impaired.path_rms_m, perfect.path_rms_m, ratio_of)),
         .drops = impaired.drops,
+        .overshoot_m = worse(impaired.overshoot_m),
         .response_added_s = difference(impaired.response_s, perfect.response_s),
         .similarity = impaired.similarity};
     for (std::size_t i = 0; i < press_hertz.size(); ++i) {
         scores.stiffness_ratio[i] =
-            softest(impaired.stiffness_n_per_m[i], perfect.stiffness_n_per_m[i]);
+            stiffness_ratio(impaired.stiffness_n_per_m[i], perfect.stiffness_n_per_m[i]);
     }
     return scores;
 }

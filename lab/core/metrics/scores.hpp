@@ -18,7 +18,8 @@ struct Scores {
 
     /// A: sqrt(a^2 - a0^2), a the vibration, a0 that on the perfect network; 0 when it is less.
     std::optional<ByOrder> vibration_m{};
-    /// B: stiffness over that on the perfect network, by press_hertz; can be below 0.
+    /// B: mean stiffness of both hands over that on the perfect network, by press_hertz; can be
+    /// below 0.
     std::array<std::optional<double>, press_hertz.size()> stiffness_ratio{};
     /// C as measured, and the part of it that the perfect network does not show.
     std::optional<double> force_discrepancy{};
@@ -41,6 +42,7 @@ struct Scores {
     std::optional<double> path_rms_m{};
     std::optional<double> path_rms_ratio{};
     std::optional<double> drops{};
+    std::optional<double> overshoot_m{};
     /// K: the response's time beyond that on the perfect network: the delay, if all is well.
     std::optional<double> response_added_s{};
     /// L as measured.

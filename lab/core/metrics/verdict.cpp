@@ -18,7 +18,7 @@ struct Wording {
 
 constexpr Wording vibration_words{"vibration", " mm", 1e3};
 constexpr Wording stiffness_words{"stiffness ratio", "", 1.0};
-constexpr Wording force_vibration_words{"force vibration", " N", 1.0};
+constexpr Wording force_vibration_words{"force vibration added", " N", 1.0};
 constexpr Wording scored_words{"time together", " %", 1e2};
 constexpr Wording force_discrepancy_words{"force discrepancy", " %", 1e2};
 constexpr Wording contact_words{"contact lost", " %", 1e2};
@@ -74,7 +74,7 @@ Judgement judge(const Scores& scores, const Criteria& criteria)
     at_most(judged(scores.vibration_m, order), at_order(criteria.vibration_max_m, order),
             vibration_words, failures);
     at_least(stiffness, criteria.stiffness_ratio_min, stiffness_words, failures);
-    at_most(judged(scores.force_vibration_n, order), criteria.force_vibration_max_n,
+    at_most(judged(scores.force_vibration_added_n, order), criteria.force_vibration_max_n,
             force_vibration_words, failures);
 
     auto& shortcomings = judgement.shortcomings;

@@ -35,7 +35,9 @@ peer::Settings settings_of(const Setting& setting, const Seat& seat)
 
 VirtualPlayer::VirtualPlayer(const Setting& setting, const Seat& seat)
     : device{std::make_unique<device::SimulatedOmni>(
-          setting.task, setting.players.at(seat.side).person.hand, device::OmniPlant{})},
+          device::Performer{.task = setting.task,
+                            .options = setting.task_options,
+                            .person = setting.players.at(seat.side).person})},
       peer{std::make_unique<peer::Peer>(settings_of(setting, seat))},
       governor{{.tick = setting.tick}},
       clock_ahead{setting.players.at(seat.side).clock_ahead},

@@ -31,6 +31,7 @@ struct PlayerSetting {
 /// All that a session in virtual time follows from: equal settings, equal bits.
 struct Setting {
     device::Task task = device::Task::p1;
+    device::TaskOptions task_options{};
     scene::Description scene = scene::paper_scene();
     base::Seed seed{42}; // of the links, whatever the profile says, and of the hands
     base::Duration length{std::chrono::seconds{30}}; // hands off included

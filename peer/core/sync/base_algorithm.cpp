@@ -40,6 +40,10 @@ Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation, con
         world.push(situation.body, remote.force);
         outcome.remote_force = remote.force;
     }
+    if (options_.follow == Follow::relative) {
+        place_before_ = world.body(situation.body).position;
+        remote_moved_ = remote_displacement(remote);
+    }
     world.tick();
     const scene::HipTouch& own = world.touch(own_hand);
     outcome.touched = own;
@@ -49,7 +53,6 @@ Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation, con
         outcome.on_hand += remote.force;
     }
     if (const auto& state = situation.remote.state()) outcome.remote_hip = state->hip;
-    if (options_.follow == Follow::relative) remote_moved_ = remote_displacement(remote);
 
     if (own.touching || remote.touching) {
         untouched_since_.reset();
@@ -102,7 +105,8 @@ void BaseAlgorithm::follow(scene::World& world, const Situation& situation, cons
     }
     const bool onward = options_.displacement == DisplacementSign::current_minus_previous;
     const double sign = onward ? 1.0 : -1.0;
-    base::Position position = world.body(situation.body).position + sign * remote_moved_;
+    // Instead of what this copy's own dynamics made of the tick.
+    base::Position position = place_before_ + sign * remote_moved_;
     if (options_.bleed) {
         const double constant_s = base::to_seconds(*options_.bleed);
         const double tick_s = base::to_seconds(situation.tick);

@@ -56,6 +56,7 @@ private:
     std::optional<base::Position> remote_before_; // where the other side had the body a tick ago
     base::Displacement increments_;               // heard since the last tick
     base::Displacement remote_moved_;             // since the last tick
+    base::Position place_before_;                 // of the body, before this tick
 };
 
 } // namespace hapnet::peer

@@ -12,7 +12,7 @@ namespace hapnet::peer {
 
 struct EstimatorPredictorOptions {
     base::Duration time_constant{std::chrono::milliseconds{10}}; // of the filters
-    base::Duration force_ahead_max{std::chrono::milliseconds{50}};
+    base::Duration force_ahead_max{std::chrono::milliseconds{10}};
     /// The hand's place is predicted by at most the median delay and so much.
     base::Duration hip_ahead_beyond_delay{std::chrono::milliseconds{20}};
     /// A sample older than the median delay and so much is predicted on less and less, ...

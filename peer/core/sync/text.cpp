@@ -41,22 +41,28 @@ bool is_word(const Node& node, std::string_view word)
     return text != nullptr && *text == word;
 }
 
-/// Complains of a text that is neither of the words nor, where it can be, a time.
-void complain_of_word(const Node& node, std::span<const std::string_view> words, bool or_time,
-                      Reading& reading)
+/// Complains of what is none of the words.
+void complain_of_word(const Node& node, std::span<const std::string_view> words, Reading& reading)
 {
-    const auto* text = std::get_if<std::string>(&node.value);
-    if (text == nullptr) {
-        std::string all;
-        for (const auto word : words) {
-            all += (all.empty() ? "" : ", ") + base::quoted(word);
-        }
-        return base::complain_of(node, fmt::format("one of {}{}", all, or_time ? " or a time" : ""),
-                                 reading);
+    if (const auto* text = std::get_if<std::string>(&node.value)) {
+        return reading.complain(node.place,
+                                fmt::format("{} is not possible here: {}", base::what_it_is(node),
+                                            base::suggestion(*text, words)));
     }
-    reading.complain(node.place, fmt::format("{} is not possible here: {}{}",
-                                             base::what_it_is(node), base::suggestion(*text, words),
-                                             or_time ? ", or a time such as 160ms" : ""));
+    std::string all;
+    for (const auto word : words) all += (all.empty() ? "" : ", ") + base::quoted(word);
+    base::complain_of(node, fmt::format("one of {}", all), reading);
+}
+
+/// A time where a word may stand, too; complains of what is neither.
+void read_time_or(std::span<const std::string_view> words, const Node& node, base::Duration& target,
+                  Reading& reading)
+{
+    const auto text = base::quantity(node);
+    if (text && base::parse_duration(*text)) return read_time(node, target, reading);
+    std::string all;
+    for (const auto word : words) all += fmt::format(" or {}", base::quoted(word));
+    base::complain_of(node, fmt::format("a time such as \"160ms\"{}", all), reading);
 }
 
 // What is read into a member of each type. `key` knows its limits and words.
@@ -69,7 +75,7 @@ void read_member(const Key<Options, Enum>& /*key*/, const Node& node, Enum& targ
     constexpr auto& words = Words<Enum>::all;
     const auto* text = std::get_if<std::string>(&node.value);
     const auto found = text == nullptr ? words.end() : std::find(words.begin(), words.end(), *text);
-    if (found == words.end()) return complain_of_word(node, words, false, reading);
+    if (found == words.end()) return complain_of_word(node, words, reading);
     target = static_cast<Enum>(found - words.begin());
 }
 
@@ -88,11 +94,8 @@ void read_member(const Key<Options, std::optional<base::Duration>>& key, const N
         target.reset();
         return;
     }
-    const auto text = base::quantity(node);
-    const bool is_time = text && base::parse_duration(*text);
-    if (!is_time) return complain_of_word(node, std::array{key.absent}, true, reading);
     base::Duration value{};
-    read_time(node, value, reading);
+    read_time_or(std::array{key.absent}, node, value, reading);
     target = value;
 }
 
@@ -107,11 +110,8 @@ void read_member(const Key<Options, Horizon>& /*key*/, const Node& node, Horizon
             return;
         }
     }
-    const auto text = base::quantity(node);
-    const bool is_time = text && base::parse_duration(*text);
-    if (!is_time) return complain_of_word(node, words, true, reading);
     target.law = Horizon::Law::fixed;
-    read_time(node, target.fixed, reading);
+    read_time_or(words, node, target.fixed, reading);
 }
 
 template <typename Options>

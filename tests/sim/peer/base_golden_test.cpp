@@ -3,49 +3,12 @@
 // The paper's algorithm with its named defaults, bit by bit, as it was before it had options. Two
 // peers, hands that follow straight lines, and a path that delays, reorders, duplicates and loses:
 // nothing here but the peers' core and the scene can change the bits.
-#include "proto/base/random.hpp"
-#include "tests/unit/peer/pair.hpp"
+#include "tests/sim/peer/letters.hpp"
 
 #include <bit>
 
 namespace hapnet::peer {
 namespace {
-
-class Letters {
-public:
-    void send(std::size_t to, const wire::Datagram& datagram, base::TimePoint now)
-    {
-        const std::uint64_t number = sent_++;
-        const double chance = stream_.uniform(number, 0);
-        if (chance < 0.3) return;
-        const int copies = chance < 0.35 ? 2 : 1;
-        for (std::uint32_t copy = 0; copy < static_cast<std::uint32_t>(copies); ++copy) {
-            const auto delay = std::chrono::microseconds{stream_.below(30'000, number, 1 + copy)};
-            letters_.push_back({to, datagram, now + 40ms + delay});
-        }
-    }
-
-    void deliver(std::array<std::unique_ptr<Peer>, 2>& peers, base::TimePoint now)
-    {
-        const auto is_due = [now](const Letter& letter) { return letter.arrives <= now; };
-        for (const Letter& letter : letters_) {
-            if (is_due(letter)) {
-                peers.at(letter.to)->on_datagram(letter.datagram.bytes(), letter.arrives);
-            }
-        }
-        std::erase_if(letters_, is_due);
-    }
-
-private:
-    struct Letter {
-        std::size_t to = 0;
-        wire::Datagram datagram;
-        base::TimePoint arrives;
-    };
-    base::RandomStream stream_ = base::Seed{7}.stream("letters");
-    std::uint64_t sent_ = 0;
-    std::vector<Letter> letters_;
-};
 
 class Bits {
 public:
@@ -76,7 +39,7 @@ TEST(BaseAlgorithm, HasTheBitsThatItHadBeforeItHadOptions)
 {
     std::array<std::unique_ptr<Peer>, 2> peers{std::make_unique<Peer>(settings_of(0)),
                                                std::make_unique<Peer>(settings_of(1))};
-    Letters letters;
+    Letters letters{{}};
     Bits bits;
     base::TimePoint now{1h};
     int touched_by_both = 0;

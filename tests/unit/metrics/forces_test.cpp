@@ -133,20 +133,20 @@ TEST(Response, IsTheTimeFromATouchUntilTheOthersBodyMoves)
 {
     Columns left = resting(1000);
     Columns right = resting(1000);
-    for (std::size_t i = 100; i < 200; ++i) left.touching[i] = 1;
-    for (std::size_t i = 100; i < 1000; ++i) left.body_x[i] = 0.005;
-    for (std::size_t i = 163; i < 1000; ++i) right.body_x[i] = 0.005;
-    EXPECT_DOUBLE_EQ(*response_of(left, right, tick_s), 0.063);
+    for (std::size_t i = 200; i < 230; ++i) left.touching[i] = 1;
+    for (std::size_t i = 240; i < 300; ++i) left.touching[i] = 1; // bounces: no tap of its own
+    for (std::size_t i = 263; i < 1000; ++i) right.body_x[i] = 0.005;
+    EXPECT_NEAR(*response_of(left, right, tick_s), 0.063, 1e-12);
 }
 
 TEST(Response, LooksOnlyAtWhatBeginsAtRest)
 {
     Columns left = resting(1000);
     Columns right = resting(1000);
-    for (std::size_t i = 100; i < 200; ++i) left.touching[i] = 1;
-    for (std::size_t i = 50; i < 1000; ++i) right.body_x[i] = 1e-5 * static_cast<double>(i);
-    EXPECT_FALSE(response_of(left, right, tick_s));
-    EXPECT_FALSE(response_of(left, resting(1000), tick_s)); // nothing moves
+    for (std::size_t i = 200; i < 300; ++i) left.touching[i] = 1;
+    EXPECT_FALSE(response_of(left, right, tick_s)); // nothing moves
+    for (std::size_t i = 150; i < 1000; ++i) right.body_x[i] = 3e-5 * static_cast<double>(i);
+    EXPECT_FALSE(response_of(left, right, tick_s)); // it moves already, at 30 mm/s
     EXPECT_FALSE(response_of(resting(5), resting(5), tick_s));
     EXPECT_FALSE(response_of({}, {}, tick_s));
 }
