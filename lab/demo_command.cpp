@@ -4,6 +4,7 @@
 
 #include "lab/core/demo_page.hpp"
 #include "lab/core/demo_report.hpp"
+#include "lab/host.hpp"
 #include "proto/record/reader.hpp"
 
 #include <cerrno>
@@ -11,9 +12,7 @@
 #include <fstream>
 #include <spdlog/fmt/fmt.h>
 #include <string>
-#include <sys/utsname.h>
 #include <system_error>
-#include <thread>
 
 namespace hapnet::lab {
 
@@ -49,17 +48,8 @@ base::Result<TaskTrace> read_trace(const std::string& folder)
     if (!a) return tl::unexpected{a.error()};
     const auto b = record::read(folder + "/peer-2.rec");
     if (!b) return tl::unexpected{b.error()};
-    return common_session(*a, *b).map([](const Session& session) { return trace_of(session); });
-}
-
-Json host()
-{
-    utsname system{};
-    uname(&system);
-    return {{"name", system.nodename},
-            {"system", fmt::format("{} {}", system.sysname, system.release)},
-            {"machine", system.machine},
-            {"processors", std::thread::hardware_concurrency()}};
+    return common_session(*a, *b).map(
+        [](const Session& session) { return task_trace_of(session); });
 }
 
 void write(const std::string& path, const std::string& text)

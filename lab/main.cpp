@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "lab/core/analysis.hpp"
+#include "lab/core/analysis_report.hpp"
 #include "lab/core/csv.hpp"
 #include "lab/core/explain.hpp"
-#include "lab/core/report.hpp"
 #include "lab/demo_command.hpp"
 #include "lab/options.hpp"
+#include "lab/report_command.hpp"
+#include "lab/run_command.hpp"
 #include "peer/core/scene/text/text.hpp"
 #include "proto/net/text_file.hpp"
 #include "proto/record/reader.hpp"
@@ -83,6 +85,16 @@ base::Result<int> run(const ExplainCommand& command)
     print(command.json ? to_json(explanation).dump(2) + '\n' : to_table(explanation));
     return 0;
 }
+
+base::Result<int> run(const ReportCommand& command)
+{
+    return write_report(command).map([](const std::string& page) {
+        print(page + '\n');
+        return 0;
+    });
+}
+
+base::Result<int> run(const RunCommand& command) { return run_experiment(command); }
 
 base::Result<int> execute(const Command& command)
 {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/options.hpp"
 
+#include "lab/core/experiment/read_kind.hpp"
+#include "lab/core/experiment/text.hpp"
 #include "peer/core/scene/text/text.hpp"
 #include "peer/core/scene/world.hpp"
 #include "proto/base/text.hpp"
@@ -11,11 +13,24 @@
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hapnet::lab {
 
 namespace {
+
+CLI::App* add_analyse(CLI::App& app, AnalyseCommand& analyse)
+{
+    auto* command = app.add_subcommand(
+        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
+                   "forces were apart, what the network did, whether the run is valid.\n"
+                   "A run that is not valid says so; the exit code stays 0");
+    command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
+    command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
+    command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
+    return command;
+}
 
 CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
 {
@@ -26,6 +41,18 @@ CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
     command->add_option("--command", demo.command, "what was typed, for the manifest");
     command->add_option("--start", demo.start, "when it began, for the manifest");
     command->add_option("--wall-time", demo.wall_time_s, "seconds since, for the manifest");
+    return command;
+}
+
+CLI::App* add_report(CLI::App& app, ReportCommand& report)
+{
+    auto* command = app.add_subcommand(
+        "report", "Write report.html, one page that needs nothing else: what the experiments of a\n"
+                  "folder found, beside the paper; also figures/*.svg and gnuplot/*");
+    command
+        ->add_option("DIR", report.folder,
+                     "a folder with the files of an experiment, or with such folders")
+        ->required();
     return command;
 }
 
@@ -52,6 +79,44 @@ CLI::App* add_explain(CLI::App& app, ExplainCommand& explain, std::string& tick)
     return command;
 }
 
+CLI::App* add_run(CLI::App& app, RunCommand& run)
+{
+    constexpr std::uint32_t jobs_max = 1024;
+    std::vector<std::string_view> names;
+    for (const BuiltInExperiment& built_in : built_in_experiments()) names.push_back(built_in.name);
+    auto* command = app.add_subcommand(
+        "run", "Carry out an experiment in virtual time and write its results as CSV. Run again\n"
+               "after Ctrl-C, or with more seeds, it plays only what it has not played yet");
+    command
+        ->add_option(
+            "EXPERIMENT", run.experiment,
+            fmt::format("a file (docs/EXPERIMENTS.md), or one of {}", fmt::join(names, ", ")))
+        ->required();
+    command
+        ->add_option("--set", run.settings,
+                     "another value for a key of the experiment, such as both.delay=100ms")
+        ->option_text("KEY=VALUE ...")
+        ->expected(1)
+        ->take_all();
+    command->add_option("--seeds", run.seeds, "how many seeds")
+        ->option_text("N")
+        ->check(CLI::Range(1U, seeds_max));
+    command->add_option("--jobs", run.jobs, "how many threads; does not change the results")
+        ->option_text("N [all processors]")
+        ->check(CLI::Range(1U, jobs_max));
+    command->add_flag("--quick", run.quick, "what the experiment says under [quick]: rougher");
+    command->add_option("--out", run.out, "the folder for the results")
+        ->option_text("DIR")
+        ->required();
+    return command;
+}
+
+net::CommandLine<Command> command_of(RunCommand run, std::span<char*> words)
+{
+    run.command = fmt::format("{}", fmt::join(words, " "));
+    return Command{std::move(run)};
+}
+
 net::CommandLine<Command> command_of(ExplainCommand explain, const std::string& tick)
 {
     const auto duration = base::parse_duration(tick);
@@ -69,20 +134,15 @@ net::CommandLine<Command> command_of(ExplainCommand explain, const std::string& 
 
 net::CommandLine<Command> parse_command_line(std::span<char*> words)
 {
-    CLI::App app{"Reads the records that hapnet-peer --record writes, and explains scenes",
+    CLI::App app{"Carries out experiments in virtual time, reads the records of hapnet-peer, and "
+                 "explains scenes",
                  "hapnet-lab"};
     app.set_version_flag("--version", base::version_line("hapnet-lab"));
     app.require_subcommand(1);
     app.footer("Exit codes: 0 done, 1 failed, 2 usage or bad input, 3 the environment.");
 
     AnalyseCommand analyse;
-    auto* analyse_command = app.add_subcommand(
-        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
-                   "forces were apart, what the network did, whether the run is valid.\n"
-                   "A run that is not valid says so; the exit code stays 0");
-    analyse_command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
-    analyse_command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
-    analyse_command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
+    auto* analyse_command = add_analyse(app, analyse);
 
     ExportCommand exported;
     auto* export_command =
@@ -97,9 +157,14 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
 
     DemoReportCommand demo;
     auto* demo_command = add_demo_report(app, demo);
+    ReportCommand report;
+    auto* report_command = add_report(app, report);
     ExplainCommand explain;
     std::string tick = "1ms";
     auto* explain_command = add_explain(app, explain, tick);
+
+    RunCommand run;
+    auto* run_command = add_run(app, run);
 
     try {
         app.parse(static_cast<int>(words.size()), words.data());
@@ -111,15 +176,17 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     } catch (const CLI::RequiredError& error) {
         const bool names_one = words.size() > 1 && app.get_subcommands().empty();
         if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
-        return base::fail(
-            std::string{"'"} + words[1] +
-            "' is not a command; use analyse, export or explain, see hapnet-lab --help");
+        return base::fail(std::string{"'"} + words[1] +
+                          "' is not a command; use analyse, explain, export, report or run; see "
+                          "hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }
     if (analyse_command->parsed()) return Command{analyse};
     if (demo_command->parsed()) return Command{demo};
+    if (report_command->parsed()) return Command{report};
     if (explain_command->parsed()) return command_of(explain, tick);
+    if (run_command->parsed()) return command_of(std::move(run), words);
     exported.rows = rows == "messages" ? ExportRows::messages : ExportRows::ticks;
     return Command{exported};
 }

@@ -7,9 +7,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace hapnet::lab {
 
@@ -44,7 +46,24 @@ struct ExplainCommand {
     bool json = false;
 };
 
-using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand>;
+/// `hapnet-lab report DIR`
+struct ReportCommand {
+    std::string folder;
+};
+
+/// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`
+struct RunCommand {
+    std::string experiment; // a file, or the name of a built-in one
+    std::vector<std::string> settings;
+    std::optional<std::uint32_t> seeds;
+    std::optional<unsigned> jobs; // nullopt: as many as there are processors
+    bool quick = false;
+    std::string out;
+    std::string command; // what was typed
+};
+
+using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,
+                             ReportCommand, RunCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

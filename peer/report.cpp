@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/report.hpp"
 
+#include "peer/core/sync/text.hpp"
 #include "proto/base/text.hpp"
 #include "proto/base/version.hpp"
 #include "proto/net/clock.hpp"
@@ -97,9 +98,12 @@ json configuration_json(const Options& options, std::string_view device)
             {"scene", options.scene_name},
             {"scene_hash", fmt::format("{:016x}", scene::hash(options.scene))},
             {"grip_damping_ns_per_m", options.grip_damping_ns_per_m},
-            {"algorithm", options.algorithm_name},
+            {"algorithm", name_of(options.algorithm)},
+            {"algorithm_toml", print_algorithm(options.algorithm)},
             {"seed", options.seed.value()},
             {"device", device},
+            {"operator", options.replay ? json{} : json(options.person.name)},
+            {"operator_toml", options.replay ? json{} : json(print_operator(options.person))},
             {"duration_s", base::to_seconds(options.duration)},
             {"tick_ns", 1'000'000},
             {"boot_id", net::boot_id()},

@@ -2,30 +2,38 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/simulated/operator.hpp"
 #include "proto/base/random.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace hapnet::device {
 
-/// The involuntary part of where a hand wants to be, along x: slow wander (0.3 to 0.9 Hz, 2 mm
-/// amplitude in all) and physiological tremor (8 to 12 Hz, 0.1 mm). Sums of sines whose
-/// frequencies and phases come from the seed, so that it is a pure function of time.
+/// What a hand does without meaning to: wander and tremor along x, and what its force lacks of
+/// being even. Sums of sines whose frequencies and phases come from the seed, so that it is a pure
+/// function of time.
 class HandNoise {
 public:
-    HandNoise(base::Seed seed, std::uint16_t peer_id);
+    HandNoise(base::Seed seed, std::uint16_t peer_id, const Operator& person);
 
-    /// Metres, `seconds` from the start.
-    [[nodiscard]] double at(double seconds) const;
+    struct Value {
+        double away_m = 0.0;      // from where the hand wants to be
+        double force_share = 0.0; // of its force, more or less
+    };
+    /// `seconds` from the start.
+    [[nodiscard]] Value at(double seconds) const;
 
 private:
-    struct Swing {
-        double amplitude_m = 0.0;
-        double hertz = 0.0;
-        double phase = 0.0;
-    };
-    std::array<Swing, 6> swings_;
+    static constexpr std::size_t swings_each = 3;
+    static constexpr std::size_t swings = 3 * swings_each; // of wander, tremor and force
+
+    std::array<double, swings> hertz_{};
+    std::array<double, swings> turn_{}; // at the start
+    double wander_m_;                   // of each
+    double tremor_m_;
+    double force_share_;
 };
 
 } // namespace hapnet::device

@@ -3,10 +3,8 @@
 #include "device/simulated/omni.hpp"
 
 #include "device/simulated/minimum_jerk.hpp"
-#include "proto/base/math.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device {
@@ -17,106 +15,132 @@ namespace {
 constexpr double workspace_offset_m = 0.025;
 // The hand takes this long from its rest to its part.
 constexpr double approach_s = 0.8;
-constexpr double aside_m = 0.055; // clear of a cube at its start
 
 } // namespace
 
-SimulatedOmni::SimulatedOmni(Task task, const HandImpedance& hand, const OmniPlant& plant)
-    : task_{task}, hand_{hand}, plant_{plant}
+SimulatedOmni::SimulatedOmni(const Performer& performer)
+    : performer_{performer},
+      motion_{performer.person.hand, performer.plant.friction_n},
+      reactions_{performer.person},
+      velocity_{performer.plant.velocity_cutoff_hz}
 {}
 
 void SimulatedOmni::on_cue(const Cue& cue)
 {
     centre_.x = cue.is_left ? -workspace_offset_m : workspace_offset_m;
-    part_ =
-        Part{Script{task_, cue}, HandNoise{cue.seed, cue.peer_id}, cue.start, task_ != Task::p1};
+    part_ = Part{Script{performer_.task, cue, performer_.options, performer_.person.hand},
+                 HandNoise{cue.seed, cue.peer_id, performer_.person}, cue.start,
+                 performer_.task == Task::p1};
     cued_at_.reset();
-    rest_ = position_;
+    rest_ = position();
 }
 
-Intention SimulatedOmni::intention(base::TimePoint now) const
+SimulatedOmni::Aim SimulatedOmni::aim(base::TimePoint now) const
 {
-    if (!part_ || !cued_at_) return {.target = {rest_}};
-    Intention intended = part_->script.at(now);
-    if (part_->wavers) {
-        intended.target.value.x += part_->noise.at(base::to_seconds(now - part_->start));
+    if (!part_ || !cued_at_) return {.intention = {.target = {rest_}}};
+    Aim aim{.intention = part_->script.at(now)};
+    glm::dvec3& target = aim.intention.target.value;
+    if (!part_->is_prescribed) {
+        const HandNoise::Value noise = part_->noise.at(base::to_seconds(now - part_->start));
+        target.x += noise.away_m;
+        aim.force_share = noise.force_share;
     }
     // First aside, then to the part: the straight way might push the cube.
     const double u = base::to_seconds(now - *cued_at_) / approach_s;
-    const glm::dvec3 aside{centre_.x < 0.0 ? -aside_m : aside_m, 0.0, rest_.z};
+    if (u >= 1.0) return aim;
+    const glm::dvec3 aside{part_->script.aside_x(), 0.0, rest_.z};
     const glm::dvec3 on_the_way = rest_ + minimum_jerk(2.0 * u) * (aside - rest_);
-    intended.target = {on_the_way +
-                       minimum_jerk(2.0 * u - 1.0) * (intended.target.value - on_the_way)};
-    return intended;
+    target = on_the_way + minimum_jerk(2.0 * u - 1.0) * (target - on_the_way);
+    return aim;
 }
 
 Sample SimulatedOmni::read(base::TimePoint now)
 {
     if (part_ && !cued_at_) cued_at_ = now;
-    if (!simulated_to_ || now - *simulated_to_ > gap_max) simulated_to_ = now;
-    // The intention hardly changes within a millisecond: taken once per read.
-    const Intention intended = intention(now);
-    while (*simulated_to_ + step <= now) {
-        advance(intended);
-        *simulated_to_ += step;
-    }
+    const Aim intended = aim(now);
+    const bool lives = simulated_to_ && now - *simulated_to_ <= gap_max;
+    if (lives && now > *simulated_to_) advance(intended, now);
+    if (!lives) intended_ = intended.intention.target;
+    simulated_to_ = now;
 
-    const glm::dvec3 reported = quantised(position_);
-    if (last_read_ && now > *last_read_) {
-        const double elapsed = base::to_seconds(now - *last_read_);
-        const double kept = base::exp(-base::two_pi * plant_.velocity_cutoff_hz * elapsed);
-        filtered_velocity_ =
-            kept * filtered_velocity_ + (1.0 - kept) * (reported - last_reported_) / elapsed;
-    }
-    last_read_ = now;
-    last_reported_ = reported;
-    return {{reported}, {filtered_velocity_}, intended.gripping};
+    const base::Position reported{quantised(position())};
+    return {reported, velocity_.at(reported, now), intended.intention.gripping};
 }
 
 void SimulatedOmni::apply(base::Force force)
 {
-    force_ = base::limited(force, plant_.force_max_n).value; // the motors saturate
+    force_ = base::limited(force, performer_.plant.force_max_n).value; // the motors saturate
 }
 
-void SimulatedOmni::advance(const Intention& intended)
+void SimulatedOmni::advance(const Aim& intended, base::TimePoint now)
 {
-    const double h = base::to_seconds(step);
-    for (const int axis : {0, 1, 2}) {
-        double& x = position_[axis];
-        double& v = velocity_[axis];
-        const double pull = force_[axis] - hand_.damping_ns_per_m * v -
-                            hand_.stiffness_n_per_m * (x - intended.target.value[axis]);
-        // Coulomb friction sticks while the pull is weaker, and otherwise never turns the motion
-        // round within a step (Karnopp 1985).
-        const double free_v = v + h * pull / hand_.mass_kg;
-        const double friction_dv = h * plant_.friction_n / hand_.mass_kg;
-        v = std::abs(free_v) <= friction_dv ? 0.0 : free_v - std::copysign(friction_dv, free_v);
-        x += h * v;
-        stop_at_workspace_end(axis);
+    const base::Duration elapsed = now - *simulated_to_;
+    base::Position target = intended.intention.target;
+    glm::dvec3 force = force_;
+    if (part_ && !part_->is_prescribed) {
+        const double toward = part_->script.pressing_toward();
+        const glm::dvec3 deviation = position() - intended_.value;
+        const Reaction reaction = reactions_.to(
+            {deviation, -toward * force_.x, intended.intention.pressing_n}, now, elapsed);
+        target.value.x += toward * reaction.farther_m;
+        force += reaction.force -
+                 (intended.force_share * performer_.person.hand.stiffness_n_per_m) * deviation;
+    }
+    go_on(target, force, elapsed);
+    intended_ = target;
+}
+
+void SimulatedOmni::go_on(const base::Position& target, const glm::dvec3& force,
+                          base::Duration elapsed)
+{
+    // The intention moves evenly from what it was. Late reads are lived through in short steps.
+    const auto steps = (elapsed + step_max - base::Duration{1}) / step_max;
+    const double share = 1.0 / static_cast<double>(steps);
+    const double seconds = share * base::to_seconds(elapsed);
+    motion_.set_step(seconds);
+    const glm::dvec3 change = share * (target - intended_).value;
+    for (base::Duration::rep i = 0; i < steps; ++i) {
+        const glm::dvec3 from = intended_.value + static_cast<double>(i) * change;
+        for (const int axis : {0, 1, 2}) {
+            HandAxis& hand = axes_[static_cast<std::size_t>(axis)];
+            motion_.advance(hand, {force[axis], from[axis], change[axis] / seconds});
+            stop_at_workspace_end(axis);
+        }
     }
 }
 
 void SimulatedOmni::stop_at_workspace_end(int axis)
 {
-    const double low = centre_[axis] - plant_.half_workspace_m[axis];
-    const double high = centre_[axis] + plant_.half_workspace_m[axis];
-    if (position_[axis] >= low && position_[axis] <= high) return;
-    position_[axis] = std::clamp(position_[axis], low, high);
-    velocity_[axis] = 0.0;
+    HandAxis& hand = axes_[static_cast<std::size_t>(axis)];
+    const double low = centre_[axis] - performer_.plant.half_workspace_m[axis];
+    const double high = centre_[axis] + performer_.plant.half_workspace_m[axis];
+    if (hand.position_m >= low && hand.position_m <= high) return;
+    hand.position_m = std::clamp(hand.position_m, low, high);
+    hand.velocity_m_per_s = 0.0;
+}
+
+glm::dvec3 SimulatedOmni::position() const
+{
+    return {axes_[0].position_m, axes_[1].position_m, axes_[2].position_m};
 }
 
 glm::dvec3 SimulatedOmni::quantised(const glm::dvec3& position) const
 {
     const auto count = [this](double x) {
-        return std::nearbyint(x / plant_.resolution_m) * plant_.resolution_m;
+        // The nearest whole number, by the rounding of an addition: std::nearbyint is a call.
+        constexpr double shift = 6755399441055744.0; // 1.5 * 2^52
+        return ((x / performer_.plant.resolution_m + shift) - shift) *
+               performer_.plant.resolution_m;
     };
     return {count(position.x), count(position.y), count(position.z)};
 }
 
 std::string SimulatedOmni::description() const
 {
-    return fmt::format("simulated Omni held by a simulated hand ({} kg, {} N s/m, {} N/m)",
-                       hand_.mass_kg, hand_.damping_ns_per_m, hand_.stiffness_n_per_m);
+    const HandImpedance& hand = performer_.person.hand;
+    return fmt::format("simulated Omni held by a simulated hand ({}: {} kg, {} N s/m, {} N/m)",
+                       performer_.person.name, hand.mass_kg, hand.damping_ns_per_m,
+                       hand.stiffness_n_per_m);
 }
 
 } // namespace hapnet::device

@@ -3,10 +3,14 @@
 #pragma once
 
 #include "device/device.hpp"
+#include "device/simulated/hand_motion.hpp"
 #include "device/simulated/hand_noise.hpp"
 #include "device/simulated/operator.hpp"
-#include "device/simulated/task.hpp"
+#include "device/simulated/reactions.hpp"
+#include "device/simulated/script.hpp"
+#include "device/velocity_filter.hpp"
 
+#include <array>
 #include <optional>
 
 namespace hapnet::device {
@@ -20,45 +24,59 @@ struct OmniPlant {
     double velocity_cutoff_hz = 30.0; // of the filter on differenced positions
 };
 
+/// Who plays what on which device.
+struct Performer {
+    Task task = Task::p1;
+    TaskOptions options{};
+    Operator person{};
+    OmniPlant plant{};
+};
+
 /// A simulated Omni held by a simulated hand that plays its part of a task. Not a human being:
-/// a linear hand with scripted intentions.
+/// a linear hand with scripted intentions. P1 is a prescribed path: there the hand neither wavers
+/// nor reacts.
 class SimulatedOmni final : public Device {
 public:
-    SimulatedOmni(Task task, const HandImpedance& hand, const OmniPlant& plant);
+    explicit SimulatedOmni(const Performer& performer);
 
     [[nodiscard]] Sample read(base::TimePoint now) override;
     void apply(base::Force force) override;
     void on_cue(const Cue& cue) override;
     [[nodiscard]] std::string description() const override;
 
-    /// Steps of the plant's own simulation; read() advances it by whole ones.
-    static constexpr base::Duration step{std::chrono::microseconds{50}};
+    /// read() goes on in one exact step, unless it comes later than this after the last.
+    static constexpr base::Duration step_max{std::chrono::milliseconds{2}};
     /// A longer gap between reads is not lived through.
     static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};
 
 private:
-    [[nodiscard]] Intention intention(base::TimePoint now) const;
-    void advance(const Intention& intended);
+    /// What the hand means to do, and by how much its force is off.
+    struct Aim {
+        Intention intention;
+        double force_share = 0.0;
+    };
+    [[nodiscard]] Aim aim(base::TimePoint now) const;
+    void advance(const Aim& intended, base::TimePoint now);
+    void go_on(const base::Position& target, const glm::dvec3& force, base::Duration elapsed);
     void stop_at_workspace_end(int axis);
+    [[nodiscard]] glm::dvec3 position() const;
     [[nodiscard]] glm::dvec3 quantised(const glm::dvec3& position) const;
 
-    Task task_;
-    HandImpedance hand_;
-    OmniPlant plant_;
+    Performer performer_;
     glm::dvec3 centre_{0.0}; // of the workspace, in the scene
-    glm::dvec3 position_{0.0, 0.0, 0.035};
-    glm::dvec3 velocity_{0.0};
+    HandMotion motion_;
+    Reactions reactions_;
+    std::array<HandAxis, 3> axes_{HandAxis{}, HandAxis{}, HandAxis{.position_m = 0.035}};
     glm::dvec3 force_{0.0};
+    base::Position intended_{{0.0, 0.0, 0.035}}; // at simulated_to_
     std::optional<base::TimePoint> simulated_to_;
-    std::optional<base::TimePoint> last_read_;
-    glm::dvec3 last_reported_{0.0};
-    glm::dvec3 filtered_velocity_{0.0};
+    VelocityFilter velocity_;
 
     struct Part {
         Script script;
         HandNoise noise;
         base::TimePoint start;
-        bool wavers; // an exactly prescribed path has no noise on it
+        bool is_prescribed;
     };
     std::optional<Part> part_;
     std::optional<base::TimePoint> cued_at_;

@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/probability.hpp"
+#include "proto/base/random.hpp"
 #include "proto/base/reading.hpp"
 #include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
 
+#include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,7 +18,8 @@ namespace hapnet::device {
 
 /// A hand on a stylus as a linear impedance: m h'' + b h' + k (h - intention) = force. The mass
 /// contains the device's apparent 45 g. Nominal values for a relaxed pen grip; measured arms:
-/// 0.554 kg, 6.45 N s/m, 135 N/m (Scientific Reports 6:18004).
+/// 0.554 kg, 6.45 N s/m, 135 N/m (Scientific Reports 6:18004). Damping and stiffness rise with
+/// the grip (Hasser, Cutkosky 2002).
 struct HandImpedance {
     double mass_kg = 0.20;
     double damping_ns_per_m = 5.0;
@@ -22,23 +28,73 @@ struct HandImpedance {
     friend bool operator==(const HandImpedance&, const HandImpedance&) = default;
 };
 
+/// An involuntary motion along x: a sum of three sines, each a third of the amplitude, whose
+/// frequencies and phases come from the seed.
+struct Unrest {
+    double amplitude_m = 0.0;
+    double least_hertz = 0.0;
+    double most_hertz = 0.0;
+
+    friend bool operator==(const Unrest&, const Unrest&) = default;
+};
+
+/// The stretch reflex: the hand answers where it was, `delay` ago, off its intention, with `gain`
+/// times its own stiffness. Spinal and long-loop reflexes take 30 to 60 ms (general knowledge).
+struct Reflex {
+    double gain = 0.0; // 0: none
+    base::Duration delay{std::chrono::milliseconds{50}};
+
+    friend bool operator==(const Reflex&, const Reflex&) = default;
+};
+
+/// The will: where a task asks for a force, the intention moves on for as long as force is missing,
+/// by `gain` per second and newton, at most 20 mm; what is missing is what was felt `delay` ago,
+/// smoothed by a first-order low-pass. Reactions to what is felt take about 150 ms, to what is seen
+/// 200 ms (general knowledge). With the 143 N/m of a nominal hand's contact the force comes back
+/// with a time constant of 0.7 s.
+struct Will {
+    double gain_m_per_ns = 0.010; // 0: none
+    double cutoff_hertz = 1.5;
+    base::Duration delay{std::chrono::milliseconds{150}};
+
+    friend bool operator==(const Will&, const Will&) = default;
+};
+
 /// A simulated person at a device: how the hand yields and how its will wavers, reacts and lags.
 /// Not a human being: a linear hand with scripted intentions.
 struct Operator {
     std::string name = "nominal";
     HandImpedance hand{};
+    Unrest wander{.amplitude_m = 2e-3, .least_hertz = 0.3, .most_hertz = 0.9};
+    Unrest tremor{.amplitude_m = 1e-4, .least_hertz = 8.0, .most_hertz = 12.0}; // physiological
+    /// Standard deviation of the hand's force as a share of that force, 1 to 10 Hz. Isometric
+    /// forces have 2 to 4 % (Jones, Hamilton, Wolpert 2002).
+    base::Probability force_noise{};
+    Reflex reflex{};
+    Will will{};
 
     friend bool operator==(const Operator&, const Operator&) = default;
 };
 
-/// "relaxed", "nominal", "firm"
+/// "relaxed", "nominal", "firm": three grips with wander, tremor and will. "lifelike": the nominal
+/// grip with more of them, force noise and a stretch reflex.
 [[nodiscard]] base::Result<Operator> operator_named(std::string_view name);
 
 /// A preset's name, or a table with `preset = "nominal"` and what differs from it; nullopt when a
 /// complaint was made.
 [[nodiscard]] std::optional<Operator> read_operator(const base::Node& node, base::Reading& reading);
 
-/// TOML that reads back as the same operator.
+/// A preset's name, or a TOML file with the keys of read_operator()'s table: what holds a '/' or
+/// ends in ".toml" is a file.
+[[nodiscard]] base::Result<Operator> load_operator(const std::string& name_or_file,
+                                                   const base::OpenFile& open);
+
+/// TOML that reads back as the same operator; of every parameter.
 [[nodiscard]] std::string print_operator(const Operator& person);
+
+/// One of `of` operators that together spread every parameter evenly over +-30 % of `person`'s: a
+/// latin hypercube (McKay, Beckman, Conover 1979). A pure function of its arguments; 0 stays 0.
+[[nodiscard]] Operator varied(const Operator& person, base::Seed seed, std::uint32_t index,
+                              std::uint32_t of);
 
 } // namespace hapnet::device

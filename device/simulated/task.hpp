@@ -2,23 +2,35 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/device.hpp"
+#include "device/simulated/task_options.hpp"
 #include "proto/base/result.hpp"
 
+#include <array>
+#include <cstdint>
 #include <string_view>
 
 namespace hapnet::device {
 
-/// What the two simulated hands play together.
+/// What the two simulated hands play together. docs/TASKS.md tells of each.
 enum class Task : std::uint8_t {
     p1, // L holds the cube and carries it along a prescribed path; R watches (Table 1)
     t1, // by turns: L pushes the cube where the path rises, R where it falls
+    t2, // against each other: one holds, the other presses at 0.5, 1 and 2 Hz; then swapped
     t3, // both squeeze the cube between them and carry it along the path at half speed
+    t4, // both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down; twice
+    t5, // both press the cube against the static one, and one lets go suddenly; then the other
+    t6, // L taps the cube at 3 Hz while R rests on its far side
 };
 
-/// "P1", "T1", "T3"
+inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3,
+                                      Task::t4, Task::t5, Task::t6};
+
+/// "P1", "T1", ... "T6"
 [[nodiscard]] base::Result<Task> task_named(std::string_view name);
 [[nodiscard]] std::string_view name_of(Task task);
+
+/// The name of the built-in scene that the task is made for.
+[[nodiscard]] std::string_view scene_of(Task task);
 
 /// The x of the path that the cube is to follow, metres, `seconds` from the start: the sum of
 /// four sines, cut off at the static cube, fitted so that the one-way delay of 160 ms alone gives
@@ -26,24 +38,8 @@ enum class Task : std::uint8_t {
 /// maximum). Starts at 0 and swings in within the first second.
 [[nodiscard]] double path_x(double seconds);
 
-/// Where a hand wants to be, and whether it grips.
-struct Intention {
-    base::Position target;
-    bool gripping = false;
-};
-
-/// One hand's part in a task: a pure function of time.
-class Script {
-public:
-    Script(Task task, const Cue& cue) : task_{task}, cue_{cue} {}
-
-    [[nodiscard]] Intention at(base::TimePoint now) const;
-
-private:
-    [[nodiscard]] double working_x(double t) const;
-
-    Task task_;
-    Cue cue_;
-};
+/// The path as it would go on if the static cube did not cut it off: where the hand that carries
+/// the cube aims. What stops the cube is the static one.
+[[nodiscard]] double unstopped_path_x(double seconds);
 
 } // namespace hapnet::device

@@ -56,7 +56,7 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     if (const auto* drop = std::get_if<Drop>(&admission.verdict)) {
         ++statistics_.dropped_by(drop->cause);
     }
-    lens_.on_packet(fate);
+    if (setup_.has_lens) lens_.on_packet(fate);
     return admission;
 }
 
@@ -177,7 +177,7 @@ std::optional<Departure> Link::poll(base::TimePoint now)
 }
 
 /// Moves on what has left the bottleneck by `now`, and what has waited long enough to be overtaken.
-void Link::advance(base::TimePoint now)
+void Link::move_on(base::TimePoint now)
 {
     while (const auto sent = bottleneck_.pop(now)) {
         if (sent->item.datagram.slot != Slab::no_slot) schedule(sent->item, sent->at);
@@ -208,7 +208,8 @@ void Link::on_sent(const Departure& departure, base::TimePoint at)
     ++statistics_.delivered;
     statistics_.bytes_out += departure.bytes.size();
     statistics_.lateness.add(at - departure.due);
-    lens_.on_sent({departure.number, departure.arrival, at, departure.is_copy});
+    if (setup_.has_lens)
+        lens_.on_sent({departure.number, departure.arrival, at, departure.is_copy});
     if (departure.number >= beyond_highest_delivered_) {
         beyond_highest_delivered_ = departure.number + 1;
     } else if (!departure.is_copy) {

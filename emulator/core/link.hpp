@@ -53,6 +53,7 @@ public:
         base::TimePoint start{}; // time 0 of windows and periods
         QueueLimits limits{};
         std::optional<Replay> replay{}; // gives the fates instead of the conditions
+        bool has_lens = true;           // false: nobody will ask for lens()
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
@@ -101,7 +102,12 @@ private:
     void schedule(const Held& held, base::TimePoint ready);
     void schedule_copy(const Datagram& original, base::Duration after);
     void release_displaced(std::uint64_t scheduled, base::TimePoint due);
-    void advance(base::TimePoint now);
+    void advance(base::TimePoint now)
+    {
+        const bool is_plain = bottleneck_.is_idle() && displaced_.empty();
+        if (!is_plain) move_on(now);
+    }
+    void move_on(base::TimePoint now);
 
     Conditions conditions_;
     Setup setup_;

@@ -3,19 +3,12 @@
 #pragma once
 
 #include "lab/core/session.hpp"
+#include "lab/core/spread.hpp"
 #include "proto/base/time.hpp"
 
 #include <optional>
 
 namespace hapnet::lab {
-
-/// In metres; `std` is the population's.
-struct Spread {
-    double mean = 0.0;
-    double min = 0.0;
-    double max = 0.0;
-    double std = 0.0;
-};
 
 /// In newtons.
 struct ForceDiscrepancy {
@@ -34,7 +27,7 @@ struct TouchShares {
 /// How well both copies of the scene agree at equal times, namely at each tick of A; B's state
 /// then is interpolated linearly between its ticks.
 struct Agreement {
-    /// |x_A - x_B| of the cube while both are running; nullopt when they never are.
+    /// |x_A - x_B| of the cube, in metres, while both are running; nullopt when they never are.
     std::optional<Spread> discrepancy_x;
     /// ||F_A| - |F_B|| of the contact forces while both are running and touch; nullopt when they
     /// never do.

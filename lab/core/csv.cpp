@@ -53,7 +53,7 @@ struct Columns {
     void operator()(std::string_view name, const auto&) const { line += fmt::format(",{}", name); }
 };
 
-std::string number(double value)
+std::string decimal(double value)
 {
     return std::isfinite(value) ? fmt::format("{:.6f}", value) : "";
 }
@@ -78,7 +78,7 @@ struct Cells {
     void operator()(std::string_view, const V& vector) const
     {
         for (const double part : {vector.x(), vector.y(), vector.z()}) {
-            line += ',' + number(Shown<V>::scale * part);
+            line += ',' + decimal(Shown<V>::scale * part);
         }
     }
     void operator()(std::string_view, record::Phase phase) const

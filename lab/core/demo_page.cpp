@@ -29,35 +29,21 @@ bool is_in_session(const record::TickRow& row)
            row.phase == record::Phase::alone;
 }
 
-std::string escaped(std::string_view text)
-{
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-        case '<': out += "&lt;"; break;
-        case '>': out += "&gt;"; break;
-        case '&': out += "&amp;"; break;
-        default: out += c;
-        }
-    }
-    return out;
-}
-
 std::string plots_of(std::string_view what, const TaskTrace& trace)
 {
     const std::string cube_title = fmt::format("{}: where each peer has the cube", what);
     const std::string force_title = fmt::format("{}: the force on each hand", what);
-    const std::array cubes{Curve{"peer 1", colour_a, trace.cube_a_mm},
-                           Curve{"peer 2", colour_b, trace.cube_b_mm}};
-    const std::array forces{Curve{"peer 1", colour_a, trace.force_a_n},
-                            Curve{"peer 2", colour_b, trace.force_b_n}};
-    return svg_plot({cube_title, "s from the start", "x, mm"}, cubes) +
-           svg_plot({force_title, "s from the start", "N"}, forces);
+    const std::array cubes{plot::Curve{"peer 1", colour_a, trace.cube_a_mm},
+                           plot::Curve{"peer 2", colour_b, trace.cube_b_mm}};
+    const std::array forces{plot::Curve{"peer 1", colour_a, trace.force_a_n},
+                            plot::Curve{"peer 2", colour_b, trace.force_b_n}};
+    return plot::svg_plot({cube_title, "s from the start", "x, mm"}, cubes) +
+           plot::svg_plot({force_title, "s from the start", "N"}, forces);
 }
 
 } // namespace
 
-TaskTrace trace_of(const Session& session)
+TaskTrace task_trace_of(const Session& session)
 {
     TaskTrace trace;
     const auto add = [&](const record::TickRow& row, base::TimePoint at, auto& cube, auto& force) {
@@ -81,14 +67,14 @@ std::string demo_page(const DemoRun& run, const DemoCircumstances& circumstances
                       const TaskTrace& p1, const TaskTrace& t3)
 {
     std::string page{head};
-    page += fmt::format("<p>{}</p>\n<pre>{}</pre>\n", escaped(circumstances.start),
-                        escaped(demo_table(run)));
+    page += fmt::format("<p>{}</p>\n<pre>{}</pre>\n", plot::escaped(circumstances.start),
+                        plot::escaped(demo_table(run)));
     page += "<p>While the left hand moves the cube, the right copy is where the left one was "
             "160 ms ago. In the last 3 s both hands are off, and the copies agree again.</p>\n";
     page += plots_of("P1, the left hand carries the cube", p1);
     page += plots_of("T3, both hands squeeze and carry it", t3);
     page += fmt::format("<h2>How to repeat it</h2>\n<pre>{}</pre>\n</html>\n",
-                        escaped(demo_manifest(run, circumstances).dump(2)));
+                        plot::escaped(demo_manifest(run, circumstances).dump(2)));
     return page;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lab/core/demo_report.hpp"
-#include "lab/core/plot.hpp"
+#include "lab/core/plot/plot.hpp"
 #include "lab/core/session.hpp"
 
 #include <string>
@@ -14,13 +14,13 @@ namespace hapnet::lab {
 /// What a task of the demo looked like over time: every tenth tick of both peers, in seconds
 /// from the session's start on A's clock.
 struct TaskTrace {
-    std::vector<Point> cube_a_mm; // x of each copy of the cube
-    std::vector<Point> cube_b_mm;
-    std::vector<Point> force_a_n; // what each device was told
-    std::vector<Point> force_b_n;
+    std::vector<plot::Point> cube_a_mm; // x of each copy of the cube
+    std::vector<plot::Point> cube_b_mm;
+    std::vector<plot::Point> force_a_n; // what each device was told
+    std::vector<plot::Point> force_b_n;
 };
 
-[[nodiscard]] TaskTrace trace_of(const Session& session);
+[[nodiscard]] TaskTrace task_trace_of(const Session& session);
 
 /// The page that the demo leaves behind: the table, the plots of both tasks and the manifest in
 /// one HTML file that needs nothing else.

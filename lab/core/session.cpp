@@ -18,6 +18,7 @@ struct Peer {
     std::int64_t id = 0;
     std::string boot_id;
     base::Duration tick{};
+    std::string task;
 };
 
 base::Result<Peer> peer_of(const record::Record& record)
@@ -33,7 +34,8 @@ base::Result<Peer> peer_of(const record::Record& record)
     const bool sane = tick.is_number_integer() && tick >= 1 && tick <= 1'000'000'000;
     if (!sane) return base::fail("its config has no whole number \"tick_ns\" up to a second");
     return Peer{id.get<std::int64_t>(), boot_id.get<std::string>(),
-                base::Duration{tick.get<std::int64_t>()}};
+                base::Duration{tick.get<std::int64_t>()},
+                find("/task").is_string() ? find("/task").get<std::string>() : ""};
 }
 
 bool knows(const record::Record& record, std::uint32_t session)
@@ -52,7 +54,7 @@ std::optional<std::uint32_t> last_common_session(const record::Record& a, const 
 
 /// The part of a record that belongs to a session which it knows. The newest terms count: the
 /// clock offset gets better with time.
-Side side_of(const record::Record& record, std::uint32_t session)
+Side side_of(const record::Record& record, std::uint32_t session, std::int64_t peer_id)
 {
     const auto& rows = record.sessions;
     std::size_t first = 0;
@@ -63,7 +65,8 @@ Side side_of(const record::Record& record, std::uint32_t session)
     const std::size_t from = record.ticks_before_session[first];
     const std::size_t to =
         end < rows.size() ? record.ticks_before_session[end] : record.ticks.size();
-    return {rows[end - 1], std::span{record.ticks}.subspan(from, to - from), record.messages};
+    return {rows[end - 1], std::span{record.ticks}.subspan(from, to - from), record.messages,
+            peer_id};
 }
 
 Clock clock_between(const Peer& a, const Peer& b, const record::SessionRow& terms_of_a)
@@ -88,7 +91,11 @@ base::Result<Session> common_session(const record::Record& a, const record::Reco
     if (!session)
         return base::fail("the records share no session: were they made in the same run?");
 
-    Session common{side_of(a, *session), side_of(b, *session), {}, peer_a->tick};
+    Session common{side_of(a, *session, peer_a->id),
+                   side_of(b, *session, peer_b->id),
+                   {},
+                   peer_a->tick,
+                   peer_a->task};
     common.clock = clock_between(*peer_a, *peer_b, common.a.terms);
     return common;
 }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace hapnet::lab {
 
@@ -33,6 +34,7 @@ struct Side {
     std::span<const record::TickRow> ticks;
     /// All that the record holds: what belongs to the session says its messages themselves.
     std::span<const record::MessageRow> messages;
+    std::int64_t peer_id = 0;
 };
 
 /// What two records tell of the same session.
@@ -41,6 +43,7 @@ struct Session {
     Side b;
     Clock clock;
     base::Duration tick{};
+    std::string task; // as A's record names it; "" when it does not
 };
 
 /// The last session that both records know. Refers into both records. Refuses records that share

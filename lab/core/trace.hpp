@@ -31,9 +31,14 @@ struct Trace {
     device::Task task = device::Task::p1;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration begin{};                   // of sample 0, from the session's start
-    std::array<std::vector<Sample>, 2> sides; // 0: L, 1: R; equally long
+    std::array<std::vector<Sample>, 2> sides{}; // 0: L, 1: R; equally long
     /// The share of the session, 0 to 1, in which both were running; hands off not counted.
     double overlap = 0.0;
+    base::Duration simulated{}; // that was played for it, from the first hello; 0 for records
 };
+
+/// Where a side was between two of its samples, `share` (0 to 1) of the way: straight lines. Flags
+/// are those of the earlier one, and with share 0 all is.
+[[nodiscard]] Sample between(const Sample& earlier, const Sample& later, double share);
 
 } // namespace hapnet::lab

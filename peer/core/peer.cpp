@@ -20,8 +20,7 @@ constexpr double speed_max_m_per_s = 1000.0;
 
 bool is_within(const glm::dvec3& v, double most)
 {
-    return base::is_finite(v) && std::abs(v.x) <= most && std::abs(v.y) <= most &&
-           std::abs(v.z) <= most;
+    return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most; // and no NaN
 }
 
 bool is_usable(const Hand& hand)
@@ -44,6 +43,12 @@ scene::World world_of(const Settings& settings)
     return *std::move(world);
 }
 
+std::optional<FingerFriction> friction_of(const Settings& settings)
+{
+    if (settings.scene.hips.friction == 0.0) return std::nullopt;
+    return FingerFriction{settings.scene.hips};
+}
+
 /// How much of the force on the hand may be rendered.
 double rendered_share(const Settings& settings)
 {
@@ -57,9 +62,10 @@ double rendered_share(const Settings& settings)
 Peer::Peer(const Settings& settings)
     : settings_{settings},
       handshake_{settings.introduction},
-      remote_{settings.staleness},
+      remote_{settings.staleness, base_options(settings.algorithm).stale},
       body_{shared_body_of(settings)},
       world_{world_of(settings)},
+      friction_{friction_of(settings)},
       force_max_n_{std::min(settings.scene.hips.force_max_n, scene::force_max_n)},
       share_{rendered_share(settings)}
 {}
@@ -107,6 +113,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
                                           : Numbering{.number = session()->number});
     agreed_at_ = arrived;
     remote_.forget();
+    std::visit([](auto& algorithm) { algorithm.forget(); }, settings_.algorithm);
     gone_ = false;
     lost_ = false;
     body_known_ = !session()->joined_late;
@@ -125,7 +132,15 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived)
     }
     handshake_.on_state();
     handshake_.on_echo(state.echo, state.sent, arrived);
-    ++(remote_.update(state, arrived) ? counters_.states : counters_.outdated);
+    const bool taken = remote_.update(state, arrived);
+    ++(taken ? counters_.states : counters_.outdated);
+    const Heard heard{.state = state,
+                      .arrived = arrived,
+                      .taken = taken,
+                      .clock = handshake_.clock(),
+                      .tick = settings_.tick,
+                      .force_max_n = force_max_n_};
+    std::visit([&](auto& algorithm) { algorithm.hear(heard); }, settings_.algorithm);
 }
 
 std::uint32_t Peer::sequence_max(base::TimePoint arrived) const
@@ -241,29 +256,48 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
     }
     const bool usable = is_usable(hand);
     if (!usable) ++counters_.unusable_hand;
-    world_.hip(own_hand, {.position = usable ? hand.hip : base::Position{},
-                          .velocity = usable ? hand.velocity : base::Velocity{},
-                          .present = usable,
-                          .gripping = hand.gripping});
-
+    const scene::HipInput input{.position = usable ? hand.hip : base::Position{},
+                                .velocity = usable ? hand.velocity : base::Velocity{},
+                                .present = usable,
+                                .gripping = hand.gripping};
     const Situation situation{.now = now,
                               .body = body_,
                               .remote = remote_,
                               .freshness = tick.freshness,
-                              .yields = !session()->is_left};
-    tick.remote_touching = remote_touching(situation);
-    tick.remote_force = remote_force(situation, force_max_n_);
-    const base::Position before = body().position;
-    if (body_known_) {
-        tick.touched = std::visit(
-            [&](auto& algorithm) { return algorithm.tick(world_, situation, tick.remote_force); },
-            settings_.algorithm);
-    }
-    account(tick, body().position - before, now);
-    tick.force = share_ * tick.touched.on_hip;
+                              .yields = !session()->is_left,
+                              .tick = settings_.tick,
+                              .clock = handshake_.clock(),
+                              .force_max_n = force_max_n_};
+    const base::Position before = position();
+    if (body_known_) move_world(tick, situation, input);
+    account(tick, position() - before, now);
     // The governor's own fade runs along with the remote's: zero when the remote counts as gone.
     tick.permitted = usable && body_known_ && tick.freshness >= 1.0;
     if (!gone_) say_state(tick, now, usable ? hand : Hand{});
+}
+
+void Peer::move_world(Tick& tick, const Situation& situation, const scene::HipInput& hand)
+{
+    world_.hip(own_hand, hand);
+    base::Force rubbing;
+    if (friction_) {
+        rubbing = friction_->on_body(hand, world_.body(body_));
+        world_.push(body_, rubbing);
+    }
+    const Outcome outcome = std::visit(
+        [&](auto& algorithm) { return algorithm.tick(world_, situation); }, settings_.algorithm);
+    tick.touched = outcome.touched;
+    base::Force on_hand = outcome.on_hand;
+    tick.remote_touching = outcome.remote_touching;
+    tick.remote_force = outcome.remote_force;
+    tick.remote_hip = outcome.remote_hip;
+    if (friction_) {
+        friction_->on_touch(tick.touched);
+        tick.touched.on_body += rubbing;
+        tick.touched.on_hip += -rubbing;
+        on_hand += -rubbing;
+    }
+    tick.force = share_ * on_hand;
 }
 
 void Peer::account(const Tick& tick, base::Displacement moved, base::TimePoint now)
@@ -276,7 +310,7 @@ void Peer::account(const Tick& tick, base::Displacement moved, base::TimePoint n
         last_touch_.reset(); // the other hand has taken the body over
     }
     // The body still coasts from this hand's push for a while after it.
-    const bool ours = last_touch_ && now - *last_touch_ < BaseAlgorithm::settle_after;
+    const bool ours = last_touch_ && now - *last_touch_ < push_lasts;
     if (ours) ledger_.add(moved);
     if (touching || base::norm(moved) > 1e-9) last_stir_ = now;
 }
@@ -302,10 +336,9 @@ void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
     state.hip_velocity = hand.velocity;
     state.contact_force = tick.touched.on_body;
     if (mentions_body(now)) {
-        const scene::BodyState body = world_.body(body_);
         state.body = wire::BodyState{.body = static_cast<std::uint16_t>(body_),
-                                     .position = body.position,
-                                     .velocity = body.velocity,
+                                     .position = position(),
+                                     .velocity = velocity(),
                                      .caused_displacement_nm = ledger_.displacement_nm(),
                                      .caused_impulse_nns = ledger_.impulse_nns()};
     }

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/sync/algorithm.hpp"
+#include "peer/core/finger_friction.hpp"
 #include "peer/core/handshake.hpp"
 #include "peer/core/ledger.hpp"
 #include "peer/core/outbox.hpp"
 #include "peer/core/remote.hpp"
 #include "peer/core/shared_body.hpp"
+#include "peer/core/sync/algorithm.hpp"
 
 #include <optional>
 #include <span>
@@ -60,7 +61,7 @@ struct Counters {
     std::uint64_t states = 0; // taken
     std::uint64_t hellos = 0;
     std::uint64_t byes = 0;
-    std::uint64_t outdated = 0; // states older than one already known, and duplicates
+    std::uint64_t outdated = 0; // older than one already known, or duplicates, and dropped
     std::uint64_t other_session = 0;
     std::uint64_t malformed = 0;
     std::uint64_t other_version = 0;
@@ -76,7 +77,8 @@ struct Tick {
     base::Force force;      // on the hand, before the governor
     scene::HipTouch touched;
     bool remote_touching = false;
-    base::Force remote_force;
+    base::Force remote_force;                 // that counted
+    std::optional<base::Position> remote_hip; // as the algorithm shows it
     double freshness = 0.0;
     std::uint32_t sequence = 0; // of the state that was sent; 0: none
 };
@@ -91,6 +93,8 @@ public:
     /// Without a state for so long after the start, the other side counts as silent.
     static constexpr base::Duration first_word_within{std::chrono::seconds{1}};
     static constexpr base::Duration body_lingers{std::chrono::seconds{1}};
+    /// So long after its last touch a hand is taken to have caused what the body still moves.
+    static constexpr base::Duration push_lasts{std::chrono::milliseconds{200}};
     static constexpr std::uint32_t body_every = 64; // messages
     static constexpr int byes = 5;
     static constexpr base::Duration bye_every{std::chrono::milliseconds{5}};
@@ -118,6 +122,8 @@ public:
     [[nodiscard]] const scene::World& world() const { return world_; }
     /// The shared body in this copy of the scene.
     [[nodiscard]] scene::BodyState body() const { return world_.body(body_); }
+    [[nodiscard]] base::Position position() const { return world_.position(body_); } // of body()
+    [[nodiscard]] base::Velocity velocity() const { return world_.velocity(body_); }
     [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
     [[nodiscard]] std::optional<ClockOffset::Estimate> clock() const { return handshake_.clock(); }
     [[nodiscard]] const Counters& counters() const { return counters_; }
@@ -146,6 +152,7 @@ private:
     [[nodiscard]] Phase phase_at(base::TimePoint now) const;
     void note(Phase phase, double freshness, base::TimePoint now);
     void play(Tick& tick, base::TimePoint now, const Hand& hand);
+    void move_world(Tick& tick, const Situation& situation, const scene::HipInput& hand);
     void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
     void say_state(Tick& tick, base::TimePoint now, const Hand& hand);
     void say_bye(base::TimePoint now);
@@ -156,8 +163,9 @@ private:
     Remote remote_;
     scene::BodyId body_; // the shared one
     scene::World world_;
-    double force_max_n_; // of the remote hand
-    double share_;       // of the forces on the hand, that may be rendered
+    std::optional<FingerFriction> friction_; // where the scene's hands have any
+    double force_max_n_;                     // of the remote hand
+    double share_;                           // of the forces on the hand, that may be rendered
     Ledger ledger_;
     Outbox<wire::Datagram, 8> outbox_;
     Outbox<Event, 32> events_;

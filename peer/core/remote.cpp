@@ -8,7 +8,8 @@ namespace hapnet::peer {
 
 bool Remote::update(const wire::State& state, base::TimePoint arrived)
 {
-    if (state_ && state.sequence <= state_->sequence) return false;
+    const bool is_stale = state_ && state.sequence <= state_->sequence;
+    if (is_stale && stale_ == Stale::drop) return false;
     arrived_ = arrived_ ? std::max(*arrived_, arrived) : arrived;
     state_ = state;
     if (state.body) body_ = state.body;

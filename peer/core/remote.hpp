@@ -5,6 +5,7 @@
 #include "proto/base/time.hpp"
 #include "proto/wire/message.hpp"
 
+#include <cstdint>
 #include <optional>
 
 namespace hapnet::peer {
@@ -15,13 +16,19 @@ struct Staleness {
     base::Duration fade{std::chrono::milliseconds{50}};
 };
 
-/// The other side as its newest state tells. Older states that arrive late are dropped (they
-/// are counted), and between states everything is held.
+/// What becomes of a state that is not newer than one that is known already: an older one that was
+/// overtaken on its way, or a duplicate.
+enum class Stale : std::uint8_t { drop, take };
+
+/// The other side as its newest state tells, or the one that arrived last when the stale ones are
+/// taken, too. Between states everything is held.
 class Remote {
 public:
-    explicit Remote(Staleness staleness) : staleness_{staleness} {}
+    explicit Remote(Staleness staleness, Stale stale = Stale::drop)
+        : staleness_{staleness}, stale_{stale}
+    {}
 
-    /// False when the state is not newer than what is known.
+    /// False when the state is stale and dropped.
     bool update(const wire::State& state, base::TimePoint arrived);
     void forget();
 
@@ -36,6 +43,7 @@ public:
 
 private:
     Staleness staleness_;
+    Stale stale_;
     std::optional<wire::State> state_;
     std::optional<wire::BodyState> body_;
     std::optional<base::TimePoint> arrived_;

@@ -4,14 +4,32 @@
 
 #include "proto/base/ensure.hpp"
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <type_traits>
 
 namespace hapnet::base {
+
+/// The number whose bytes in memory, on this machine, are those of `value` in little-endian order,
+/// and the other way round.
+template <std::unsigned_integral T>
+[[nodiscard]] constexpr T in_little_endian(T value)
+{
+    if constexpr (std::endian::native == std::endian::little) {
+        return value;
+    } else {
+        T swapped = 0;
+        for (std::size_t i = 0; i < sizeof(T); ++i) {
+            swapped = static_cast<T>(swapped << 8 | ((value >> (8 * i)) & 0xffU));
+        }
+        return swapped;
+    }
+}
 
 /// Reads little-endian fields one after another. Running short is remembered, not reported at
 /// each field: read straight through, then ask complete() once.
@@ -54,12 +72,9 @@ private:
     [[nodiscard]] T unsigned_of()
     {
         if (!take(sizeof(T))) return 0;
-        std::uint64_t value = 0;
-        for (std::size_t i = sizeof(T); i > 0; --i) {
-            value =
-                value << 8 | std::to_integer<std::uint64_t>(bytes_[position_ - sizeof(T) + i - 1]);
-        }
-        return static_cast<T>(value);
+        std::array<std::byte, sizeof(T)> bytes{};
+        std::memcpy(bytes.data(), bytes_.data() + (position_ - sizeof(T)), sizeof(T));
+        return in_little_endian(std::bit_cast<T>(bytes));
     }
 
     std::span<const std::byte> bytes_;
@@ -91,10 +106,9 @@ private:
     void put(T value)
     {
         ensure(buffer_.size() - position_ >= sizeof(T));
-        for (std::size_t i = 0; i < sizeof(T); ++i) {
-            buffer_[position_++] = static_cast<std::byte>(value & 0xffU);
-            if constexpr (sizeof(T) > 1) value = static_cast<T>(value >> 8);
-        }
+        const T ordered = in_little_endian(value);
+        std::memcpy(buffer_.data() + position_, &ordered, sizeof(T));
+        position_ += sizeof(T);
     }
 
     std::span<std::byte> buffer_;

@@ -89,6 +89,27 @@ double sin(double radians) { return circular(radians, 0); }
 
 double cos(double radians) { return circular(radians, 1); }
 
+void sines_of_turns(std::span<double> turns)
+{
+    // Without a branch, so that compilers make lanes of it.
+    for (double& t : turns) {
+        const double halves = nearest(2.0 * t);
+        const double odd = halves - 2.0 * nearest(0.5 * halves); // -1, 0 or 1
+        const double x = t - 0.5 * halves;                       // exact, |x| <= 1/4
+        const double z = x * x;
+        const double z2 = z * z;
+        // Taylor's series of sin(2 pi x); the next term is below 1e-19.
+        const double tail = (1.04229162208139838897e-01 + z * -1.20315859421206271945e-02) +
+                            z2 * (1.13092374825179628473e-03 + z * -8.82353359924300568876e-05);
+        const double middle = (4.20586939448976551148e+01 + z * -1.50946425768229897102e+01) +
+                              z2 * (3.81995258484828204004e+00 + z * -7.18122301778500560232e-01);
+        const double head = (6.28318530717958623200e+00 + z * -4.13417022403997620472e+01) +
+                            z2 * (8.16052492760750567413e+01 + z * -7.67058597530613894833e+01);
+        const double z4 = z2 * z2;
+        t = (1.0 - 2.0 * odd * odd) * x * (head + z4 * (middle + z4 * tail));
+    }
+}
+
 double exp(double x)
 {
     if (x != x) return not_a_number;

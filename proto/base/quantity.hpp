@@ -46,10 +46,17 @@ inline constexpr QuantityKind damping_kind{
     "a damping", "2Ns/m or 0.5Ns/m", {{{"Ns/m", 0, 1.0, true}, {"Ns/mm", 3}}}};
 inline constexpr QuantityKind force_kind{
     "a force", "3.3N, 500mN or 1kN", {{{"N", 0, 1.0, true}, {"mN", -3}, {"kN", 3}}}};
+inline constexpr QuantityKind force_rate_kind{
+    "a change of force", "500N/s or 0.5N/ms", {{{"N/s", 0, 1.0, true}, {"N/ms", 3}}}};
 inline constexpr QuantityKind speed_kind{
     "a velocity", "0.2m/s or 200mm/s", {{{"m/s", 0, 1.0, true}, {"mm/s", -3}, {"cm/s", -2}}}};
 inline constexpr QuantityKind acceleration_kind{
     "an acceleration", "-9.81m/s2", {{{"m/s2", 0, 1.0, true}, {"m/s^2", 0}, {"mm/s2", -3}}}};
+
+inline constexpr QuantityKind frequency_kind{
+    "a frequency", "0.5Hz or 10Hz", {{{"Hz", 0, 1.0, true}, {"mHz", -3}, {"kHz", 3}}}};
+inline constexpr QuantityKind mobility_kind{
+    "a mobility", "10mm/Ns", {{{"m/Ns", 0, 1.0, true}, {"mm/Ns", -3, 1.0, true}}}};
 
 inline constexpr double radians_per_degree = 0.017453292519943295769; // pi / 180
 inline constexpr QuantityKind angle_kind{

@@ -130,11 +130,13 @@ void put(ByteWriter& out, const Hello& hello)
     for (auto i = task.size(); i < TaskName::bytes_max; ++i) out.u8(0);
 }
 
-Result<Message> take_hello(ByteReader& in)
+/// What was wrong with a message; nullptr: nothing.
+using Fault = const char*;
+
+Fault take(ByteReader& in, Hello& hello)
 {
     bool canonical = in.u32() == 0; // no session yet
     const std::uint8_t flags = in.u8();
-    Hello hello;
     hello.nonce = in.u32();
     hello.nonce_heard = in.u32();
     hello.peer_id = in.u16();
@@ -147,7 +149,7 @@ Result<Message> take_hello(ByteReader& in)
     hello.start_heard = take_optional_time(in, (flags & flag_start_heard) != 0, canonical);
     hello.in_session = (flags & flag_in_session) != 0;
     const auto name = in.raw(TaskName::bytes_max);
-    if (!in.complete()) return fail("hello: wrong length");
+    if (!in.complete()) return "hello: wrong length";
     const auto end = std::find(name.begin(), name.end(), std::byte{0});
     canonical =
         canonical && std::all_of(end, name.end(), [](std::byte b) { return b == std::byte{0}; });
@@ -156,10 +158,10 @@ Result<Message> take_hello(ByteReader& in)
                    [](std::byte b) { return static_cast<char>(b); });
     const auto task = TaskName::from_text(text);
     if (!task || hello.nonce == 0 || (flags & ~flags_known) != 0 || !canonical) {
-        return fail("hello: not canonical");
+        return "hello: not canonical";
     }
     hello.task = *task;
-    return hello;
+    return nullptr;
 }
 
 void put(ByteWriter& out, const BodyState& body)
@@ -171,15 +173,13 @@ void put(ByteWriter& out, const BodyState& body)
     for (const auto component : body.caused_impulse_nns) out.i64(component);
 }
 
-BodyState take_body(ByteReader& in)
+void take(ByteReader& in, BodyState& body)
 {
-    BodyState body;
     body.body = in.u16();
     body.position = {take_vector(in)};
     body.velocity = {take_vector(in)};
     for (auto& component : body.caused_displacement_nm) component = in.i64();
     for (auto& component : body.caused_impulse_nns) component = in.i64();
-    return body;
 }
 
 void put(ByteWriter& out, const State& state)
@@ -209,10 +209,9 @@ bool is_finite(const State& state)
            base::is_finite(state.contact_force) && body_is;
 }
 
-Result<Message> take_state(ByteReader& in)
+Fault take(ByteReader& in, State& state)
 {
     bool canonical = true;
-    State state;
     state.session = in.u32();
     state.sequence = in.u32();
     state.sent = take_time(in, canonical);
@@ -224,14 +223,14 @@ Result<Message> take_state(ByteReader& in)
     state.hip = {take_vector(in)};
     state.hip_velocity = {take_vector(in)};
     state.contact_force = {take_vector(in)};
-    if ((flags & flag_body) != 0) state.body = take_body(in);
-    if (!in.complete()) return fail("state: wrong length");
-    if (!is_finite(state)) return fail("state: not finite");
+    if ((flags & flag_body) != 0) take(in, state.body.emplace());
+    if (!in.complete()) return "state: wrong length";
+    if (!is_finite(state)) return "state: not finite";
     if (state.sequence == 0 || reserved != 0 || (flags & ~flags_known) != 0 || !canonical ||
         (state.holding && !state.touching)) {
-        return fail("state: not canonical");
+        return "state: not canonical";
     }
-    return state;
+    return nullptr;
 }
 
 void put(ByteWriter& out, const Bye& bye)
@@ -240,13 +239,23 @@ void put(ByteWriter& out, const Bye& bye)
     out.u8(static_cast<std::uint8_t>(bye.reason));
 }
 
-Result<Message> take_bye(ByteReader& in)
+Fault take(ByteReader& in, Bye& bye)
 {
-    const std::uint32_t session = in.u32();
+    bye.session = in.u32();
     const std::uint8_t reason = in.u8();
-    if (!in.complete()) return fail("bye: wrong length");
-    if (reason >= bye_reasons) return fail("bye: unknown reason");
-    return Bye{session, static_cast<ByeReason>(reason)};
+    if (!in.complete()) return "bye: wrong length";
+    if (reason >= bye_reasons) return "bye: unknown reason";
+    bye.reason = static_cast<ByeReason>(reason);
+    return nullptr;
+}
+
+/// Read where it is to be: a state is long, and comes a thousand times a second.
+template <typename Kind>
+Result<Message> taken(ByteReader& in)
+{
+    Result<Message> result{tl::in_place, std::in_place_type<Kind>};
+    if (const Fault fault = take(in, *std::get_if<Kind>(&*result))) result = fail(fault);
+    return result;
 }
 
 } // namespace
@@ -267,13 +276,23 @@ std::string_view TaskName::text() const
     return {characters_.data(), static_cast<std::size_t>(end - characters_.begin())};
 }
 
-Datagram encode(const Message& message)
+template <typename Kind>
+Datagram Datagram::of(const Kind& message)
 {
     Datagram datagram;
     ByteWriter out{datagram.bytes_};
-    std::visit([&out](const auto& m) { put(out, m); }, message);
+    put(out, message);
     datagram.size_ = out.written().size();
     return datagram;
+}
+
+Datagram encode(const Hello& hello) { return Datagram::of(hello); }
+Datagram encode(const State& state) { return Datagram::of(state); }
+Datagram encode(const Bye& bye) { return Datagram::of(bye); }
+
+Datagram encode(const Message& message)
+{
+    return std::visit([](const auto& m) { return encode(m); }, message);
 }
 
 Result<Message> decode(std::span<const std::byte> datagram)
@@ -282,9 +301,9 @@ Result<Message> decode(std::span<const std::byte> datagram)
     if (in.u16() != magic || !in.ok()) return fail("not one of ours");
     if (in.u8() != protocol_version) return fail("another protocol version");
     switch (in.u8()) {
-    case type_hello: return take_hello(in);
-    case type_state: return take_state(in);
-    case type_bye: return take_bye(in);
+    case type_hello: return taken<Hello>(in);
+    case type_state: return taken<State>(in);
+    case type_bye: return taken<Bye>(in);
     default: return fail("unknown type");
     }
 }

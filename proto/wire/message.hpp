@@ -125,7 +125,11 @@ public:
     [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.data(), size_}; }
 
 private:
-    friend Datagram encode(const Message& message);
+    friend Datagram encode(const Hello& hello);
+    friend Datagram encode(const State& state);
+    friend Datagram encode(const Bye& bye);
+    template <typename Kind>
+    [[nodiscard]] static Datagram of(const Kind& message);
 
     std::array<std::byte, message_bytes_max> bytes_{};
     std::size_t size_ = 0;
@@ -134,6 +138,9 @@ private:
 /// Ensures what decode() checks: finite vectors, times within 2^60 ns, no zero nonce, echo age in
 /// range. Positions,
 /// velocities and forces are rounded to single precision (4 nm at 10 cm).
+[[nodiscard]] Datagram encode(const Hello& hello);
+[[nodiscard]] Datagram encode(const State& state);
+[[nodiscard]] Datagram encode(const Bye& bye);
 [[nodiscard]] Datagram encode(const Message& message);
 
 /// The message in a datagram. Refuses whatever is not canonical: accepted bytes encode to

@@ -2,43 +2,69 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/core/metrics/high_pass.hpp"
+#include "lab/core/metrics/similarity.hpp"
+#include "lab/core/metrics/steps.hpp"
+#include "lab/core/spread.hpp"
 #include "lab/core/trace.hpp"
 
-#include <nlohmann/json.hpp>
+#include <array>
+#include <cstddef>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace hapnet::lab {
 
+/// Of L and of R.
+template <typename Value>
+using BySide = std::array<std::optional<Value>, 2>;
+
+/// The frequencies at which stiffness is measured.
+inline constexpr std::array press_hertz{0.5, 1.0, 2.0};
+inline constexpr std::size_t judged_press = 1; // of them
+
 /// What a session is measured by, A to L. SI units. What a task does not exercise is nullopt.
 /// As measured: what has to be taken relative to the unimpaired session is, in scores_of().
-struct Metrics {};
+/// docs/METRICS.md says what each can tell and what not.
+struct Metrics {
+    device::Task task = device::Task::p1;
+    double scored_s = 0.0; // how long both sides were running
 
-[[nodiscard]] Metrics metrics_of(const Trace& trace);
+    /// A: root mean square of the body's x above 20 Hz, metres; in a task by turns only while the
+    /// side follows.
+    BySide<ByOrder> body_vibration_m{};
+    /// B: by the frequency of pressing (press_hertz) and the side that presses, N/m.
+    std::array<BySide<double>, press_hertz.size()> stiffness_n_per_m{};
+    /// C: mean ||F_L| - |F_R|| over the mean force, at equal times.
+    std::optional<double> force_discrepancy{};
+    /// D: |x_L - x_R| of the body at equal times, metres.
+    std::optional<Spread> discrepancy_m{};
+    /// E: root mean square of the force on the hand in x above 20 Hz, newtons.
+    BySide<ByOrder> force_vibration_n{};
+    /// E between 20 and 300 Hz. Not weighted by how well a stylus transmits: no table of that was
+    /// in reach.
+    BySide<double> felt_vibration_n{};
+    /// F: the share of the time of commanded contact, 0 to 1, without 0.02 N of it.
+    BySide<double> contact_lost{};
+    /// G: of the force on the hand in x.
+    BySide<ForceSteps> force_steps{};
+    /// H: the most energy that the hands together got out of their devices, joules.
+    std::optional<double> energy_taken_j{};
+    /// I: mean force on the hand at a speed of about 0.1 m/s, newtons.
+    BySide<double> drag_n{};
+    /// J: root mean square of the distance, in x, of a side's body from the path it is to follow.
+    BySide<double> path_rms_m{};
+    /// J: in how many of the two lifts a side's body is down, by half, while it is to be held up.
+    std::optional<double> drops{};
+    /// J: how far a side's body was beyond where the static cube stops it, metres.
+    BySide<double> overshoot_m{};
+    /// K: from a tap of L to the motion of R's body, seconds.
+    std::optional<double> response_s{};
+    /// L: of what the resting hand feels to what the pressing hand does.
+    std::optional<Similarity> similarity{};
 
-/// Exact: metrics_from(to_json(m)) == m.
-[[nodiscard]] nlohmann::ordered_json to_json(const Metrics& metrics);
-[[nodiscard]] std::optional<Metrics> metrics_from(const nlohmann::json& json);
-
-/// Metrics against those of the same session (task, algorithm, hands, seed) on a perfect network.
-struct Scores {};
-
-[[nodiscard]] Scores scores_of(const Metrics& impaired, const Metrics& perfect);
-
-/// The two-tier convention; see criteria.toml for where each number comes from.
-struct Criteria {};
-
-enum class Tier : std::uint8_t { unusable, usable, good };
-[[nodiscard]] std::string_view to_text(Tier tier);
-
-struct Judgement {
-    Tier tier = Tier::unusable;
-    /// What keeps it from `usable`, e.g. "vibration 1.31 mm > 0.95 mm"; empty when usable.
-    std::vector<std::string> failures;
+    friend bool operator==(const Metrics&, const Metrics&) = default;
 };
 
-[[nodiscard]] Judgement judge(const Scores& scores, const Criteria& criteria);
+[[nodiscard]] Metrics metrics_of(const Trace& trace);
 
 } // namespace hapnet::lab

@@ -12,6 +12,8 @@
 
 #include <array>
 #include <chrono>
+#include <optional>
+#include <string>
 
 namespace hapnet::lab {
 
@@ -21,17 +23,24 @@ struct PlayerSetting {
     device::Operator person{};
     base::Duration clock_ahead{}; // of the world's time
     base::Duration phase{};       // of its ticks, 0 to less than a tick
+    /// What it offers for the hands, as `hapnet-peer --seed` does: L's counts. nullopt: the
+    /// setting's.
+    std::optional<base::Seed> seed{};
 };
 
 /// All that a session in virtual time follows from: equal settings, equal bits.
 struct Setting {
     device::Task task = device::Task::p1;
+    device::TaskOptions task_options{};
     scene::Description scene = scene::paper_scene();
-    base::Seed seed{42};
+    base::Seed seed{42}; // of the links, whatever the profile says, and of the hands
     base::Duration length{std::chrono::seconds{30}}; // hands off included
     base::Duration tick{std::chrono::milliseconds{1}};
-    emulator::Profile profile{}; // conditions both ways, and their timeline
-    std::array<PlayerSetting, 2> players{};
+    emulator::Profile profile{}; // conditions both ways; its timeline counts from the first hello
+    std::array<PlayerSetting, 2> players{}; // 0: L, with the lower id; up is from L to R
 };
+
+/// Why no session can be played so, in words that say what to do; nullopt: it can.
+[[nodiscard]] std::optional<std::string> objection(const Setting& setting);
 
 } // namespace hapnet::lab

@@ -2,114 +2,123 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/virtual_time/world.hpp"
 
-#include <cmath>
-#include <utility>
+#include <algorithm>
 
-namespace hapnet::sim {
+namespace hapnet::lab {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
+namespace {
 
-Side::Side(const Setting& setting, std::uint16_t id_of_side, std::uint32_t nonce)
-    : omni{std::make_unique<device::SimulatedOmni>(setting.task, device::HandImpedance{},
-                                                   device::OmniPlant{})},
-      id{id_of_side}
+using emulator::Direction;
+
+/// The side at the other end.
+std::size_t partner_of(std::size_t side) { return side ^ 1U; }
+
+} // namespace
+
+VirtualWorld::VirtualWorld(const Setting& setting, emulator::QueueLimits limits)
+    : VirtualWorld{std::span{&setting, 1}, limits}
+{}
+
+VirtualWorld::VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits)
 {
-    peer::Settings settings;
-    settings.introduction.id = id_of_side;
-    settings.introduction.nonce = nonce;
-    settings.introduction.scene_hash = scene::hash(settings.scene);
-    settings.introduction.seed = setting.seed.value() + id_of_side;
-    settings.introduction.task = wire::TaskName::from_text(device::name_of(setting.task)).value();
-    settings.length = setting.length;
-    peer = std::make_unique<peer::Peer>(settings);
+    pairs_.reserve(settings.size());
+    seats_.reserve(2 * settings.size());
+    for (const Setting& setting : settings) add(setting, limits);
 }
 
-World::World(const Setting& setting)
-    : setting_{setting},
-      links_{emulator::Link{setting.up, {setting.seed, emulator::Direction::up, now_, {}}},
-             emulator::Link{setting.down, {setting.seed, emulator::Direction::down, now_, {}}}}
+void VirtualWorld::add(const Setting& setting, emulator::QueueLimits limits)
 {
-    revive(0);
-    revive(1);
-}
-
-void World::kill(std::size_t side) { sides_[side].reset(); }
-
-void World::revive(std::size_t side)
-{
-    sides_[side].emplace(setting_, static_cast<std::uint16_t>(side + 1), next_nonce_++);
-}
-
-double World::discrepancy_x() const
-{
-    return std::abs(sides_[0]->peer->body().position.x() - sides_[1]->peer->body().position.x());
-}
-
-void World::deliver(std::size_t from)
-{
-    auto& receiver = sides_[1 - from];
-    const auto hand_over = [&](const emulator::Departure& departure) {
-        if (receiver) {
-            receiver->peer->on_datagram(departure.bytes, departure.due + receiver->clock_ahead);
-        }
-        links_[from].on_sent(departure, now_);
-    };
-    for (auto& passing : undelayed_[from]) {
-        passing.departure.bytes = passing.bytes;
-        hand_over(passing.departure);
-    }
-    undelayed_[from].clear();
-    while (const auto departure = links_[from].poll(now_)) hand_over(*departure);
-}
-
-void World::turn(std::size_t index)
-{
-    if (!sides_[index]) return;
-    Side& side = *sides_[index];
-    const base::TimePoint now = now_ + side.clock_ahead;
-    const device::Sample sample = side.omni->read(now);
-    side.last = side.peer->tick(now, {sample.hip, sample.velocity, sample.gripping});
-    side.applied = side.governor.limit(side.last.force, side.last.permitted, now);
-    side.omni->apply(side.applied);
-    while (const auto datagram = side.peer->poll()) {
-        if (cut_) continue;
-        const auto admission = links_[index].on_packet(datagram->bytes(), now_);
-        if (!admission.departure) continue;
-        const auto bytes = admission.departure->bytes;
-        undelayed_[index].push_back({*admission.departure, {bytes.begin(), bytes.end()}});
-    }
-    while (const auto event = side.peer->event()) side.events.push_back(*event);
-    const auto& session = side.peer->session();
-    if (session && side.cued != session->start) {
-        side.cued = session->start;
-        side.omni->on_cue({session->start, side.peer->hands_on(), base::Seed{session->seed},
-                           side.id, session->is_left});
+    pairs_.push_back({setting, emulator::Director{setting.profile, start}});
+    const emulator::Path& path = pairs_.back().director.path();
+    for (const Direction direction : {Direction::up, Direction::down}) {
+        const bool is_up = direction == Direction::up;
+        const PlayerSetting& player = setting.players.at(is_up ? 0 : 1);
+        seats_.push_back({.player = std::nullopt,
+                          .out = emulator::Link{is_up ? path.up : path.down,
+                                                {.seed = setting.seed,
+                                                 .direction = direction,
+                                                 .start = start,
+                                                 .limits = limits,
+                                                 .has_lens = false}},
+                          .undelayed = {},
+                          .next_tick = start + setting.tick + player.phase,
+                          .tick = setting.tick});
+        revive(seats_.size() - 1);
     }
 }
 
-void World::step()
+void VirtualWorld::revive(std::size_t side)
 {
-    now_ += milliseconds{1};
-    deliver(0);
-    deliver(1);
-    turn(0);
-    turn(1);
+    Pair& pair = pairs_[side / 2];
+    seats_[side].player.emplace(pair.setting, Seat{side % 2, pair.next_nonce++});
 }
 
-void World::run_for(base::Duration duration)
+base::TimePoint VirtualWorld::next_deadline() const
+{
+    base::TimePoint next = seats_.front().next_tick;
+    for (const Place& place : seats_) next = std::min(next, place.next_tick);
+    for (const Pair& pair : pairs_) {
+        if (const auto change = pair.director.next_change()) next = std::min(next, *change);
+    }
+    return next;
+}
+
+void VirtualWorld::step()
+{
+    now_ = next_deadline();
+    for (std::size_t pair = 0; pair < pairs_.size(); ++pair) follow_timeline(pair);
+    // What is sent at a tick reaches nobody whose tick is at the same time.
+    for (std::size_t side = 0; side < seats_.size(); ++side) {
+        if (seats_[side].next_tick == now_) deliver(side);
+    }
+    for (std::size_t side = 0; side < seats_.size(); ++side) {
+        if (seats_[side].next_tick != now_) continue;
+        if (seats_[side].player) turn(side);
+        seats_[side].next_tick += seats_[side].tick;
+    }
+}
+
+void VirtualWorld::run_for(base::Duration duration)
 {
     const auto end = now_ + duration;
-    while (now_ < end) step();
+    while (next_deadline() <= end) step();
+    now_ = end;
 }
 
-void World::run_until_started()
+void VirtualWorld::follow_timeline(std::size_t pair)
 {
-    const auto end = now_ + seconds{10};
-    const auto runs = [this](std::size_t i) {
-        return sides_[i]->last.phase == peer::Phase::running;
-    };
-    while (now_ < end && !(runs(0) && runs(1))) step();
+    emulator::Director& director = pairs_[pair].director;
+    if (!director.advance(now_)) return;
+    seats_[2 * pair].out.change(director.path().up, now_);
+    seats_[2 * pair + 1].out.change(director.path().down, now_);
 }
 
-} // namespace hapnet::sim
+void VirtualWorld::deliver(std::size_t to)
+{
+    Place& from = seats_[partner_of(to)];
+    auto& receiver = seats_[to].player;
+    for (const Passing& passing : from.undelayed) {
+        emulator::Departure departure = passing.departure;
+        departure.bytes = passing.datagram.bytes();
+        if (receiver) receiver->receive(departure.bytes, departure.due);
+        from.out.on_sent(departure, departure.due);
+    }
+    from.undelayed.clear();
+    while (const auto departure = from.out.poll(now_)) {
+        if (receiver) receiver->receive(departure->bytes, departure->due);
+        from.out.on_sent(*departure, departure->due);
+    }
+}
+
+void VirtualWorld::turn(std::size_t side)
+{
+    Place& place = seats_[side];
+    place.player->turn(now_);
+    while (const auto datagram = place.player->peer->poll()) {
+        if (pairs_[side / 2].is_cut) continue;
+        const auto admission = place.out.on_packet(datagram->bytes(), now_);
+        if (admission.departure) place.undelayed.push_back({*admission.departure, *datagram});
+    }
+}
+
+} // namespace hapnet::lab

@@ -2,86 +2,88 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/governor.hpp"
-#include "device/simulated/omni.hpp"
-#include "emulator/core/conditions.hpp"
+#include "emulator/core/director.hpp"
 #include "emulator/core/link.hpp"
-#include "peer/core/peer.hpp"
+#include "lab/core/virtual_time/player.hpp"
 
 #include <array>
-#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
-namespace hapnet::sim {
+namespace hapnet::lab {
 
-/// The conditions of a simulated session.
-struct Setting {
-    device::Task task = device::Task::p1;
-    base::Seed seed{42};
-    base::Duration length{std::chrono::seconds{30}};
-    emulator::Conditions up;
-    emulator::Conditions down;
-};
-
-/// One side: everything a peer daemon has but sockets, clock and threads.
-struct Side {
-    Side(const Setting& setting, std::uint16_t id, std::uint32_t nonce);
-
-    std::unique_ptr<device::SimulatedOmni> omni;
-    std::unique_ptr<peer::Peer> peer;
-    device::Governor governor{{}};
-    peer::Tick last;
-    base::Force applied;
-    std::vector<peer::Event> events;
-    std::optional<base::TimePoint> cued; // the start it was cued for
-    base::Duration clock_ahead{};        // of the world's time
-    std::uint16_t id;
-};
-
-/// Two peers, two links and two simulated hands in virtual time, one tick after another.
-class World {
+/// Pairs of players and the links between them on one timeline, which jumps from deadline to
+/// deadline: to the next tick of any player, or to the next step of a profile. A datagram that is
+/// due between two ticks of its receiver waits in the receiver's socket: it is handed over at the
+/// next tick, stamped with the time at which it was due.
+///
+/// Sides are counted through: those of pair p are 2p, its L, and 2p + 1, its R.
+class VirtualWorld {
 public:
-    explicit World(const Setting& setting);
+    /// When every world begins, and the timelines of its profiles.
+    static constexpr base::TimePoint start{std::chrono::seconds{1000}};
+    /// How many datagrams a link holds unless it is said: 4 s of them, and a sixteenth of the
+    /// emulator's own bound, whose memory costs more than a session.
+    static constexpr emulator::QueueLimits few{4096};
 
-    /// One millisecond.
+    /// One pair. Ensures that there is no objection() to the setting.
+    explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);
+    /// One pair for each setting.
+    explicit VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits = few);
+
+    /// To the next deadline, and all that happens then.
     void step();
+    /// All that happens within `duration` from now, its end included.
     void run_for(base::Duration duration);
-    /// Until both run, at most 10 s.
-    void run_until_started();
 
     /// Kills a side on the spot; nothing is said.
-    void kill(std::size_t side);
+    void kill(std::size_t side) { seats_[side].player.reset(); }
     /// Starts it again as a new run.
     void revive(std::size_t side);
-    [[nodiscard]] bool is_alive(std::size_t side) const { return sides_[side].has_value(); }
+    [[nodiscard]] bool is_alive(std::size_t side) const { return seats_[side].player.has_value(); }
+    /// Nothing passes between the sides of a pair while it is true.
+    void cut(bool is_cut, std::size_t pair = 0) { pairs_[pair].is_cut = is_cut; }
 
-    [[nodiscard]] Side& side(std::size_t index) { return *sides_[index]; }
-    [[nodiscard]] const Side& side(std::size_t index) const { return *sides_[index]; }
+    [[nodiscard]] VirtualPlayer& side(std::size_t index) { return *seats_[index].player; }
+    [[nodiscard]] const VirtualPlayer& side(std::size_t index) const
+    {
+        return *seats_[index].player;
+    }
     [[nodiscard]] base::TimePoint now() const { return now_; }
-    /// |x_A - x_B| of the cubes, metres.
-    [[nodiscard]] double discrepancy_x() const;
-    [[nodiscard]] const emulator::Link& link(std::size_t from) const { return links_[from]; }
-    /// Nothing passes while it is true.
-    void cut(bool is_cut) { cut_ = is_cut; }
+    [[nodiscard]] std::size_t sides() const { return seats_.size(); }
+    [[nodiscard]] const emulator::Link& link(std::size_t from) const { return seats_[from].out; }
 
 private:
-    /// Undelayed: it arrives in the next millisecond all the same.
+    /// Undelayed: it left at once, and waits in the receiver's socket.
     struct Passing {
-        emulator::Departure departure;
-        std::vector<std::byte> bytes;
+        emulator::Departure departure; // but for its bytes
+        wire::Datagram datagram;
+    };
+    /// A side's place: it stays when the player is killed.
+    struct Place {
+        std::optional<VirtualPlayer> player;
+        emulator::Link out; // to the other side
+        std::vector<Passing> undelayed;
+        base::TimePoint next_tick;
+        base::Duration tick;
+    };
+    struct Pair {
+        Setting setting;
+        emulator::Director director;
+        std::uint32_t next_nonce = 100;
+        bool is_cut = false;
     };
 
-    void deliver(std::size_t from);
-    void turn(std::size_t index);
+    void add(const Setting& setting, emulator::QueueLimits limits);
+    [[nodiscard]] base::TimePoint next_deadline() const;
+    void follow_timeline(std::size_t pair);
+    void deliver(std::size_t to);
+    void turn(std::size_t side);
 
-    Setting setting_;
-    base::TimePoint now_{std::chrono::seconds{1000}};
-    std::array<std::optional<Side>, 2> sides_;
-    std::array<emulator::Link, 2> links_;
-    std::array<std::vector<Passing>, 2> undelayed_;
-    std::uint32_t next_nonce_ = 100;
-    bool cut_ = false;
+    base::TimePoint now_ = start;
+    std::vector<Pair> pairs_;
+    std::vector<Place> seats_; // two of each pair
 };
 
-} // namespace hapnet::sim
+} // namespace hapnet::lab

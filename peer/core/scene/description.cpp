@@ -105,6 +105,7 @@ base::Result<void> check_hips(const HipDescription& hips)
     check.within("stiffness in N/m", hips.stiffness_n_per_m, 0.0, stiffness_max_n_per_m);
     check.within("damping in N s/m", hips.damping_ns_per_m, 0.0, damping_max_ns_per_m);
     check.within("grip reach in m", hips.grip_reach_m, 0.0, size_max_m);
+    check.within("friction", hips.friction, 0.0, friction_max);
     check.holds(std::isinf(hips.force_max_n) || hips.force_max_n <= force_max_n,
                 fmt::format("force_max is more than {} N; infinity: no limit", force_max_n));
     check.holds(hips.force_max_n >= 0.0, "force_max is below 0");
@@ -190,6 +191,8 @@ std::uint64_t hash(const Description& description)
     }
     hash.add(std::uint64_t{hips.count});
     hash.add(description.gravity);
+    // Scenes without it keep the hash that they had before there was any.
+    if (hips.friction != 0.0) hash.add(hips.friction);
     return hash.value();
 }
 

@@ -54,14 +54,16 @@ struct PlaneDescription {
     friend bool operator==(const PlaneDescription&, const PlaneDescription&) = default;
 };
 
-/// The hands' spheres (haptic interface points), all alike: a spring and a damper, without
-/// friction, between the sphere and what it touches.
+/// The hands' spheres (haptic interface points), all alike: a spring and a damper between the
+/// sphere and what it touches. The world's hands have no friction; what plays a session adds it
+/// from outside (peer::FingerFriction).
 struct HipDescription {
     double radius_m = 0.005;
     double stiffness_n_per_m = 500.0;
     double damping_ns_per_m = 2.0;
     double force_max_n = 3.3;    // of one contact; infinity: not limited
     double grip_reach_m = 0.005; // how near the surface a hand must be to take hold
+    double friction = 0.0;       // Coulomb's coefficient, 0..friction_max
     std::uint32_t count = 2;     // 0..hips_max
 
     friend bool operator==(const HipDescription&, const HipDescription&) = default;

@@ -175,17 +175,9 @@ bool World::is_movable(BodyId id) const
     return id < stage_.bodies.size() && stage_.bodies.slot_of[id] < stage_.bodies.movable;
 }
 
-BodyState World::body(BodyId id) const
-{
-    base::ensure(id < stage_.bodies.size());
-    return stage_.bodies.state(stage_.bodies.slot_of[id]);
-}
+BodyState World::body(BodyId id) const { return stage_.bodies.state(slot_of(id)); }
 
-bool World::is_awake(BodyId id) const
-{
-    base::ensure(id < stage_.bodies.size());
-    return stage_.bodies.slot_of[id] < stage_.bodies.awake;
-}
+bool World::is_awake(BodyId id) const { return slot_of(id) < stage_.bodies.awake; }
 
 void World::restore(const Snapshot& snapshot)
 {

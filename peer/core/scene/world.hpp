@@ -5,6 +5,7 @@
 #include "peer/core/scene/profile.hpp"
 #include "peer/core/scene/stage.hpp"
 #include "peer/core/scene/tick/ticks.hpp"
+#include "proto/base/ensure.hpp"
 #include "proto/base/time.hpp"
 
 #include <optional>
@@ -43,6 +44,15 @@ public:
     void tick();
 
     [[nodiscard]] BodyState body(BodyId id) const;
+    /// body(id)'s, without the rest.
+    [[nodiscard]] base::Position position(BodyId id) const
+    {
+        return {stage_.bodies.position.at(slot_of(id))};
+    }
+    [[nodiscard]] base::Velocity velocity(BodyId id) const
+    {
+        return {stage_.bodies.velocity.at(slot_of(id))};
+    }
     [[nodiscard]] bool is_awake(BodyId id) const;
     [[nodiscard]] const HipTouch& touch(std::uint32_t hip) const { return stage_.touches[hip]; }
     [[nodiscard]] const Stage& stage() const { return stage_; }
@@ -67,6 +77,11 @@ public:
 private:
     World(const Description& description, const FreezeOptions& options, Profile profile);
     std::optional<Refusal> refuse(Refusal refusal);
+    [[nodiscard]] Slot slot_of(BodyId id) const
+    {
+        base::ensure(id < stage_.bodies.size());
+        return stage_.bodies.slot_of[id];
+    }
     [[nodiscard]] bool is_movable(BodyId id) const;
 
     Frozen frozen_;

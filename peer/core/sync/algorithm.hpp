@@ -3,6 +3,8 @@
 #pragma once
 
 #include "peer/core/sync/base_algorithm.hpp"
+#include "peer/core/sync/dead_reckoning.hpp"
+#include "peer/core/sync/estimator_predictor.hpp"
 #include "proto/base/result.hpp"
 
 #include <string_view>
@@ -10,11 +12,15 @@
 
 namespace hapnet::peer {
 
-/// How two copies of the shared body are kept together: a closed set, chosen by name. To add one,
-/// write a value with BaseAlgorithm's tick() and name it here.
-using Algorithm = std::variant<BaseAlgorithm>;
+/// How two copies of the shared body are kept together: a closed set, chosen by name. Each is a
+/// small value that is told of every state that arrives (hear()), moves the world (tick()), and
+/// forgets a run of the other side that has ended (forget()). docs/ALGORITHMS.md describes them.
+using Algorithm = std::variant<BaseAlgorithm, DeadReckoning, EstimatorPredictor>;
 
-/// "base"
+/// "base", "dead-reckoning" or "sep", with all defaults.
 [[nodiscard]] base::Result<Algorithm> algorithm_named(std::string_view name);
+
+/// The options that every algorithm has.
+[[nodiscard]] const BaseOptions& base_options(const Algorithm& algorithm);
 
 } // namespace hapnet::peer

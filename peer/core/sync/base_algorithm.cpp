@@ -8,54 +8,141 @@
 
 namespace hapnet::peer {
 
-bool remote_touching(const Situation& situation)
+void BaseAlgorithm::hear(const Heard& heard)
 {
-    const auto& state = situation.remote.state();
-    return situation.freshness > 0.0 && state && state->touching;
+    if (options_.follow != Follow::relative) return;
+    if (options_.displacement_from != DisplacementFrom::increments) return;
+    const auto& body = heard.state.body;
+    const bool counts = heard.state.touching || options_.follow_while == FollowWhile::always;
+    // What the sender's body moved in its tick; no message holds it, but its velocity tells it.
+    if (heard.taken && body && counts) increments_ += body->velocity * heard.tick;
 }
 
-base::Force remote_force(const Situation& situation, double force_max_n)
+void BaseAlgorithm::forget()
 {
-    if (!remote_touching(situation)) return {};
-    return situation.freshness *
-           base::limited(situation.remote.state()->contact_force, force_max_n);
+    lead_.reset();
+    remote_before_.reset();
+    increments_ = {};
 }
 
-scene::HipTouch BaseAlgorithm::tick(scene::World& world, const Situation& situation,
-                                    base::Force from_remote)
+Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation)
 {
-    const bool remote_touches = remote_touching(situation);
-    if (remote_touches) world.push(situation.body, from_remote);
+    return tick(world, situation, presence_of(situation, options_));
+}
+
+Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation, const Presence& remote)
+{
+    Outcome outcome;
+    outcome.remote_touching = remote.touching;
+    const bool alone = options_.both_push == BothPush::stronger;
+    const bool leads = alone && remote_leads(situation, remote);
+    if (remote.touching && !alone) {
+        world.push(situation.body, remote.force);
+        outcome.remote_force = remote.force;
+    }
+    if (options_.follow == Follow::relative) {
+        place_before_ = world.body(situation.body).position;
+        remote_moved_ = remote_displacement(remote);
+    }
     world.tick();
-    const scene::HipTouch own = world.touch(own_hand);
-    if (own.touching || remote_touches) {
+    const scene::HipTouch& own = world.touch(own_hand);
+    outcome.touched = own;
+    outcome.on_hand = own.on_hip;
+    own_force_n_ = base::norm(own.on_body);
+    if (own.touching && options_.remote_force_on == RemoteForceOn::body_and_hand) {
+        outcome.on_hand += remote.force;
+    }
+    if (const auto& state = situation.remote.state()) outcome.remote_hip = state->hip;
+
+    if (own.touching || remote.touching) {
         untouched_since_.reset();
         blend_.reset();
     }
-    const auto& heard = situation.remote.body();
-    if (own.touching) return own;
-    if (remote_touches && heard) {
-        put(world, situation.body, heard->position, heard->velocity);
-    } else {
-        settle(world, situation);
+    const bool always = options_.follow_while == FollowWhile::always && remote.heard;
+    const bool follows = own.touching ? leads : remote.touching || always;
+    if (follows && remote.pose) {
+        follow(world, situation, remote);
+    } else if (!own.touching) {
+        settle(world, situation, remote);
     }
-    return own;
+    return outcome;
 }
 
-void BaseAlgorithm::settle(scene::World& world, const Situation& situation)
+bool BaseAlgorithm::remote_leads(const Situation& situation, const Presence& remote)
+{
+    if (!remote.touching) {
+        lead_.reset();
+        return false;
+    }
+    const double remote_n = base::norm(remote.force);
+    const bool is_stronger =
+        remote_n > own_force_n_ || (remote_n == own_force_n_ && situation.yields);
+    const base::Duration round_trip =
+        situation.clock ? 2 * situation.clock->uncertainty : base::Duration{0};
+    const base::Duration kept = std::max(options_.hysteresis, round_trip);
+    if (!lead_ || (lead_->is_remote != is_stronger && situation.now - lead_->since >= kept)) {
+        lead_ = Lead{is_stronger, situation.now};
+    }
+    return lead_->is_remote;
+}
+
+base::Displacement BaseAlgorithm::remote_displacement(const Presence& remote)
+{
+    const base::Displacement increments = increments_;
+    increments_ = {};
+    base::Displacement between;
+    if (remote.pose) {
+        if (remote_before_) between = remote.pose->position - *remote_before_;
+        remote_before_ = remote.pose->position;
+    }
+    return options_.displacement_from == DisplacementFrom::increments ? increments : between;
+}
+
+void BaseAlgorithm::follow(scene::World& world, const Situation& situation, const Presence& remote)
+{
+    if (options_.follow == Follow::absolute) {
+        return put_there(world, situation.body, *remote.pose);
+    }
+    const bool onward = options_.displacement == DisplacementSign::current_minus_previous;
+    const double sign = onward ? 1.0 : -1.0;
+    // Instead of what this copy's own dynamics made of the tick.
+    base::Position position = place_before_ + sign * remote_moved_;
+    if (options_.bleed) {
+        const double constant_s = base::to_seconds(*options_.bleed);
+        const double tick_s = base::to_seconds(situation.tick);
+        const double share = tick_s < constant_s ? tick_s / constant_s : 1.0;
+        position = position + share * (remote.pose->position - position);
+    }
+    put_there(world, situation.body, {position, sign * remote.pose->velocity});
+}
+
+void BaseAlgorithm::settle(scene::World& world, const Situation& situation, const Presence& remote)
 {
     if (!untouched_since_) untouched_since_ = situation.now;
-    const auto& heard = situation.remote.body();
-    const bool waited = situation.now - *untouched_since_ >= settle_after;
-    if (!situation.yields || !waited || !heard || situation.freshness <= 0.0) {
+    const bool waited =
+        options_.settle_after && situation.now - *untouched_since_ >= *options_.settle_after;
+    if (!situation.yields || !waited || !remote.pose || situation.freshness <= 0.0) {
         blend_.reset();
         return;
     }
     if (!blend_) blend_ = Blend{situation.now, world.body(situation.body).position};
-    const double share = std::min(1.0, base::to_seconds(situation.now - blend_->start) /
-                                           base::to_seconds(settle_within));
-    put(world, situation.body, blend_->from + share * (heard->position - blend_->from),
-        heard->velocity);
+    const base::Duration since = situation.now - blend_->start;
+    const double share = since < options_.settle_within
+                             ? base::to_seconds(since) / base::to_seconds(options_.settle_within)
+                             : 1.0;
+    put_there(
+        world, situation.body,
+        {blend_->from + share * (remote.pose->position - blend_->from), remote.pose->velocity});
+}
+
+void BaseAlgorithm::put_there(scene::World& world, scene::BodyId body, Presence::Pose there) const
+{
+    if (options_.axes == Axes::x) {
+        const scene::BodyState own = world.body(body);
+        there.position.value = {there.position.x(), own.position.y(), own.position.z()};
+        there.velocity.value = {there.velocity.x(), own.velocity.y(), own.velocity.z()};
+    }
+    put(world, body, there.position, there.velocity);
 }
 
 } // namespace hapnet::peer

@@ -2,27 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/remote.hpp"
-#include "peer/core/scene/world.hpp"
+#include "peer/core/sync/presence.hpp"
 
 #include <optional>
 
 namespace hapnet::peer {
 
-/// This peer's hand among those of its copy of the scene. The other side's is none of them: it is
-/// there by its force.
-inline constexpr std::uint32_t own_hand = 0;
-
-/// What one tick of an algorithm decides from, besides this peer's hand, which the world knows.
-struct Situation {
-    base::TimePoint now;
-    scene::BodyId body = 0; // the shared one
-    const Remote& remote;   // the other side as last heard
-    double freshness = 0.0; // of that word, 0 to 1
-    bool yields = false;    // at rest, this peer takes the other's pose (the higher id)
-};
-
-/// The paper's hybrid algorithm, without any compensation of delay:
+/// The paper's hybrid algorithm, without any compensation of delay. With the default options:
 /// - this hand touches at some time of the tick: the body moves by this copy's own dynamics under
 ///   the sum of the local contact force and the remote one as last received (the stronger decides
 ///   the direction);
@@ -32,29 +18,45 @@ struct Situation {
 ///   within 100 ms, so that the copies agree again.
 class BaseAlgorithm {
 public:
-    static constexpr base::Duration settle_after{std::chrono::milliseconds{200}};
-    static constexpr base::Duration settle_within{std::chrono::milliseconds{100}};
+    BaseAlgorithm() = default;
+    explicit BaseAlgorithm(const BaseOptions& options) : options_{options} {}
 
-    /// Moves the world by one tick and says what this hand did in it; `from_remote` is what
-    /// remote_force() says of the situation.
-    [[nodiscard]] scene::HipTouch tick(scene::World& world, const Situation& situation,
-                                       base::Force from_remote);
+    /// Every state of the session, in the order of arrival.
+    void hear(const Heard& heard);
+    /// Moves the world by one tick.
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    /// The same with the other side as `remote` shows it.
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation,
+                               const Presence& remote);
+    /// The other side's run has ended; its next state is of another.
+    void forget();
+
+    [[nodiscard]] const BaseOptions& options() const { return options_; }
 
 private:
-    void settle(scene::World& world, const Situation& situation);
+    [[nodiscard]] bool remote_leads(const Situation& situation, const Presence& remote);
+    [[nodiscard]] base::Displacement remote_displacement(const Presence& remote);
+    void follow(scene::World& world, const Situation& situation, const Presence& remote);
+    void settle(scene::World& world, const Situation& situation, const Presence& remote);
+    void put_there(scene::World& world, scene::BodyId body, Presence::Pose there) const;
 
     struct Blend {
         base::TimePoint start;
         base::Position from;
     };
+    struct Lead {
+        bool is_remote = false;
+        base::TimePoint since;
+    };
+    BaseOptions options_;
     std::optional<base::TimePoint> untouched_since_;
     std::optional<Blend> blend_;
+    std::optional<Lead> lead_;                    // the stronger of two hands
+    double own_force_n_ = 0.0;                    // of the last tick, on the body
+    std::optional<base::Position> remote_before_; // where the other side had the body a tick ago
+    base::Displacement increments_;               // heard since the last tick
+    base::Displacement remote_moved_;             // since the last tick
+    base::Position place_before_;                 // of the body, before this tick
 };
-
-/// The force of the remote hand on the body that counts now: as last received, faded with age,
-/// and never more than a contact of this scene can exert.
-[[nodiscard]] base::Force remote_force(const Situation& situation, double force_max_n);
-/// Whether the remote hand counts as touching.
-[[nodiscard]] bool remote_touching(const Situation& situation);
 
 } // namespace hapnet::peer

@@ -12,18 +12,28 @@
 namespace hapnet::peer {
 
 // Algorithms as TOML: `algorithm = "dead-reckoning"` and the keys of its parameters. What is left
-// out has its named default.
+// out has its named default. docs/ALGORITHMS.md lists them.
 
-/// Reads the table at `node`; nullopt when a complaint was made.
+/// Reads the table at `node`, or the name of an algorithm or of a file of one; nullopt when a
+/// complaint was made.
 [[nodiscard]] std::optional<Algorithm> read_algorithm(const base::Node& node,
                                                       base::Reading& reading);
 
-/// A name ("base", "sep", "dead-reckoning") with all defaults, or a TOML file.
+/// Reads a whole text. `source` names it in errors, which begin with "FILE:LINE:COLUMN: " and say
+/// what is wrong and what would be right.
+[[nodiscard]] base::Result<Algorithm> parse_algorithm(std::string_view text,
+                                                      const std::string& source);
+
+/// A name ("base", "sep", "dead-reckoning") with all defaults, or a TOML file: what holds a '/' or
+/// ends in ".toml".
 [[nodiscard]] base::Result<Algorithm> load_algorithm(const std::string& name_or_file,
                                                      const base::OpenFile& open);
 
 /// TOML that reads back as the same algorithm; of every parameter, also the defaults.
 [[nodiscard]] std::string print_algorithm(const Algorithm& algorithm);
+
+/// The same with a few words about every parameter, for a person who wants to change it.
+[[nodiscard]] std::string explain_algorithm(const Algorithm& algorithm);
 
 /// "base", "sep", "dead-reckoning"
 [[nodiscard]] std::string_view name_of(const Algorithm& algorithm);

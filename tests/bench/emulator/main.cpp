@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/core/plot.hpp"
+#include "lab/core/plot/plot.hpp"
 #include "proto/base/text.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
@@ -94,9 +94,9 @@ std::string plot_of(const Accuracy& accuracy)
     constexpr std::array colours{"#7fbf7b", "#1b7837", "#00441b", "#b2182b", "#2166ac"};
     constexpr int steps = 400;
     constexpr double error_us_max = 200.0;
-    std::vector<lab::Curve> curves;
+    std::vector<lab::plot::Curve> curves;
     for (const Distribution& one : accuracy.distributions) {
-        lab::Curve curve{one.subject, colours[curves.size() % colours.size()], {}};
+        lab::plot::Curve curve{one.subject, colours[curves.size() % colours.size()], {}};
         for (int i = 0; i <= steps; ++i) {
             const double limit_us = error_us_max * i / steps;
             const auto below = std::upper_bound(one.errors.begin(), one.errors.end(),
@@ -107,9 +107,10 @@ std::string plot_of(const Accuracy& accuracy)
         }
         curves.push_back(std::move(curve));
     }
-    return lab::svg_plot({"Error against a configured delay of 10 ms, 1000 datagrams per second",
-                          "later than configured by at most (us)", "share of datagrams (%)"},
-                         curves);
+    return lab::plot::svg_plot(
+        {"Error against a configured delay of 10 ms, 1000 datagrams per second",
+         "later than configured by at most (us)", "share of datagrams (%)"},
+        curves);
 }
 
 base::Result<int> run(const Options& options)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/scene/precision.hpp"
 
-#include "lab/core/plot.hpp"
+#include "lab/core/plot/plot.hpp"
 #include "tests/bench/scene/compare.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace hapnet::bench {
 namespace {
 
 constexpr double drawn_error_min = 1e-17; // what is exact is drawn here: a logarithm has no zero
-constexpr int panel_height = 280;         // of lab::svg_plot
+constexpr int panel_height = 280;         // of lab::plot::svg_plot
 constexpr int panel_width = 900;
 
 std::vector<Scenario> chosen()
@@ -43,7 +43,7 @@ const char* colour_of(std::string_view subject)
 /// One panel: the points of one scenario, which lie next to each other.
 std::string panel_of(std::span<const WorkPoint> points)
 {
-    std::vector<lab::Curve> curves;
+    std::vector<lab::plot::Curve> curves;
     for (const WorkPoint& point : points) {
         if (curves.empty() || curves.back().name != point.subject) {
             curves.push_back({point.subject, colour_of(point.subject), {}});
@@ -52,8 +52,9 @@ std::string panel_of(std::span<const WorkPoint> points)
             {point.ns_per_simulated_ms, std::max(point.error, drawn_error_min)});
     }
     const std::string title = points.front().scenario + ", tick 4 to 0.25 ms";
-    return lab::svg_plot({title, "cost, ns per simulated ms", points.front().metric}, curves,
-                         {lab::Scale::logarithmic, lab::Scale::logarithmic});
+    return lab::plot::svg_plot(
+        {title, "cost, ns per simulated ms", points.front().metric}, curves,
+        {.scales = {lab::plot::Scale::logarithmic, lab::plot::Scale::logarithmic}});
 }
 
 /// The power of the tick with which the errors grow, between the longest and the shortest.

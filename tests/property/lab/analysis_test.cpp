@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/analysis.hpp"
 
+#include "lab/core/analysis_report.hpp"
 #include "lab/core/csv.hpp"
-#include "lab/core/report.hpp"
 #include "proto/record/fields.hpp"
 #include "proto/wire/message.hpp"
 #include "tests/property/record/random_fields.hpp"

@@ -11,6 +11,27 @@
 
 namespace hapnet::sim {
 
+using World = lab::VirtualWorld;
+using Side = lab::VirtualPlayer;
+using lab::Setting;
+
+/// |x_A - x_B| of the cubes, metres.
+[[nodiscard]] inline double discrepancy_x(const World& world)
+{
+    return std::abs(world.side(0).peer->body().position.x() -
+                    world.side(1).peer->body().position.x());
+}
+
+/// Until both run, at most 10 s.
+inline void run_until_started(World& world)
+{
+    const auto end = world.now() + std::chrono::seconds{10};
+    const auto runs = [&](std::size_t i) {
+        return world.side(i).last.phase == peer::Phase::running;
+    };
+    while (world.now() < end && !(runs(0) && runs(1))) world.step();
+}
+
 /// Mean, deviation and maximum of what is added.
 class Spread {
 public:
@@ -47,9 +68,9 @@ struct Score {
 [[nodiscard]] inline Score play(World& world)
 {
     Score score;
-    world.run_until_started();
+    run_until_started(world);
     while (world.side(0).last.phase == peer::Phase::running) {
-        score.discrepancy_mm.add(1e3 * world.discrepancy_x());
+        score.discrepancy_mm.add(1e3 * discrepancy_x(world));
         for (const std::size_t i : {0U, 1U}) {
             score.force_n.at(i).add(base::norm(world.side(i).applied));
         }
@@ -61,7 +82,9 @@ struct Score {
 /// Both directions alike.
 [[nodiscard]] inline Setting under(device::Task task, const emulator::Conditions& conditions)
 {
-    return {.task = task, .up = conditions, .down = conditions};
+    Setting setting{.task = task};
+    setting.profile.path = {conditions, conditions};
+    return setting;
 }
 
 /// FNV-1a over the bits of the numbers added.

@@ -26,7 +26,7 @@ bool told(const Side& side, Event event)
 World squeezing()
 {
     World world{under(Task::t3, {.delay = emulator::constant(delay)})};
-    world.run_until_started();
+    run_until_started(world);
     world.run_for(3s);
     for (const std::size_t i : {0U, 1U}) {
         EXPECT_GT(base::norm(world.side(i).applied), 0.1) << i;
@@ -76,7 +76,7 @@ TEST_P(Death, OfASideIsOverWhenItComesBackAndItTakesTheCubeOfTheOneThatStayed)
         // up to what that one moved meanwhile.
         ASSERT_LT(++ms, 1000);
     }
-    EXPECT_LT(world.discrepancy_x(), 0.33 * base::to_seconds(2 * delay));
+    EXPECT_LT(discrepancy_x(world), 0.33 * base::to_seconds(2 * delay));
     world.run_for(3s);
     EXPECT_TRUE(told(world.side(restarted), Event::joined));
     EXPECT_TRUE(told(world.side(stayed), Event::restarted));
@@ -91,7 +91,7 @@ TEST_P(Death, OfASideIsOverWhenItComesBackAndItTakesTheCubeOfTheOneThatStayed)
     }
     while (world.side(0).last.phase == Phase::running) world.step();
     world.run_for(2s);
-    EXPECT_LE(world.discrepancy_x(), 0.1e-3);
+    EXPECT_LE(discrepancy_x(world), 0.1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfSide, Death, testing::Values(0, 1));
@@ -118,7 +118,7 @@ TEST(Cut, FadesBothForcesToZeroAndHeals)
     }
     while (world.side(0).last.phase == Phase::running) world.step();
     world.run_for(2s);
-    EXPECT_LE(world.discrepancy_x(), 0.1e-3);
+    EXPECT_LE(discrepancy_x(world), 0.1e-3);
 }
 
 TEST(Cut, BeforeTheStartOnlyDelaysIt)

@@ -23,7 +23,7 @@ TEST(TaskTrace, HoldsEveryTenthTickOfTheSessionInMillimetresAndNewtons)
     b.session(1s).ticks(20ms, 50ms, Phase::running, move);
     const auto session = common_session(a.content(), b.content());
     ASSERT_TRUE(session);
-    const TaskTrace trace = trace_of(*session);
+    const TaskTrace trace = task_trace_of(*session);
     ASSERT_EQ(trace.cube_a_mm.size(), 5U);
     EXPECT_DOUBLE_EQ(trace.cube_a_mm[3].x, 0.030);
     EXPECT_DOUBLE_EQ(trace.cube_a_mm[3].y, 30.0);

@@ -45,9 +45,9 @@ public:
         world.hip(own_hand, hand);
         const Situation situation{
             .now = now, .remote = remote_, .freshness = freshness, .yields = yields};
-        const auto touched = algorithm_.tick(world, situation, remote_force(situation, 3.3));
+        const Outcome outcome = algorithm_.tick(world, situation);
         now += 1ms;
-        return touched;
+        return outcome.touched;
     }
     [[nodiscard]] double x() const { return world.body(0).position.x(); }
     [[nodiscard]] double speed() const { return world.body(0).velocity.x(); }
@@ -128,7 +128,9 @@ TEST(BaseAlgorithm, TakesTheRemoteForceFadedWithItsAgeAndNeverMoreThanAContactEx
     Remote remote{{}};
     remote.update(heard(true, -1e30, 0.0, 0.0), start);
     const auto force_at = [&](double freshness) {
-        return remote_force({.now = start, .remote = remote, .freshness = freshness}, 3.3).x();
+        const Situation situation{
+            .now = start, .remote = remote, .freshness = freshness, .force_max_n = 3.3};
+        return presence_of(situation, {}).force.x();
     };
     EXPECT_NEAR(force_at(1.0), -3.3, 1e-12);
     EXPECT_NEAR(force_at(0.5), -1.65, 1e-12);
@@ -201,10 +203,11 @@ TEST(BaseAlgorithm, BreaksABlendOffWhenAHandTouchesAndWaitsAnewAfterwards)
 
 TEST(Algorithms, HaveNames)
 {
-    EXPECT_TRUE(algorithm_named("base"));
+    for (const char* name : {"base", "dead-reckoning", "sep"}) EXPECT_TRUE(algorithm_named(name));
     const auto unknown = algorithm_named("best");
     ASSERT_FALSE(unknown);
-    EXPECT_EQ(unknown.error().message, "'best' is not an algorithm; known: base");
+    EXPECT_EQ(unknown.error().message,
+              "'best' is not an algorithm; known: base, dead-reckoning, sep");
 }
 
 } // namespace

@@ -260,6 +260,9 @@ void read_hips(TableReader& table, HipDescription& hips)
         quantity("stiffness", hips.stiffness_n_per_m, stiffness_span);
         quantity("damping", hips.damping_ns_per_m, drag_span);
         quantity("grip_reach", hips.grip_reach_m, reach_span);
+        with(keys, "friction", [&](const Node& friction) {
+            text::read_share(friction, hips.friction, friction_max, reading);
+        });
         with(keys, "force_max", [&](const Node& force) {
             const auto* word = std::get_if<std::string>(&force.value);
             if (word == nullptr || *word != "none") {

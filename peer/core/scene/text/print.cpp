@@ -103,6 +103,8 @@ void print_hips(Lines& lines, const HipDescription& hips)
                                ? base::quoted("none")
                                : with_unit(hips.force_max_n, base::force_kind));
     lines.add("grip_reach", hips.grip_reach_m, base::length_kind);
+    constexpr HipDescription usual;
+    if (!is_same(hips.friction, usual.friction)) lines.add("friction", number_text(hips.friction));
 }
 
 void print_plane(Lines& lines, const PlaneDescription& plane)

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/simulated/operator.hpp"
+
+namespace hapnet::device {
+
+/// One axis of a hand on a device.
+struct HandAxis {
+    double position_m = 0.0;
+    double velocity_m_per_s = 0.0;
+};
+
+/// What acts on an axis during a step: a constant force, and a target that moves evenly.
+struct HandDrive {
+    double force_n = 0.0;
+    double target_m = 0.0; // at the start of the step
+    double target_velocity_m_per_s = 0.0;
+};
+
+/// How a mass on a damped spring answers in a time: x' and x from the start's velocity, from the
+/// acceleration that the spring and the forces give it at the start, and from that one's even
+/// growth. Exact for every damping; below, at and above the critical one.
+struct HandResponse {
+    double position_by_velocity = 0.0;     // s
+    double velocity_by_velocity = 1.0;     //
+    double position_by_acceleration = 0.0; // s^2; velocity_by_acceleration = position_by_velocity
+    double position_by_jerk = 0.0;         // s^3; velocity_by_jerk = position_by_acceleration
+};
+
+/// The hand's motion along one axis, m x'' + b x' + k (x - target) = force + friction, in closed
+/// form over a step. Coulomb friction keeps its sign until the motion ends; then it sticks while
+/// the pull is weaker (Karnopp 1985), and else the motion goes on the other way within the step.
+/// One end of a motion in a step is followed: steps are to be short against the hand's own periods.
+class HandMotion {
+public:
+    /// Mass and stiffness above 0, damping and friction not below.
+    HandMotion(const HandImpedance& hand, double friction_n);
+
+    /// How long the steps are from now on. Costs an exponential and two sines; nothing when it is
+    /// what it was.
+    void set_step(double seconds);
+
+    void advance(HandAxis& axis, const HandDrive& drive) const;
+
+private:
+    /// What drives an axis whose friction has one sign, at the start of a step.
+    struct Pull {
+        double acceleration = 0.0; // by spring, force and friction
+        double jerk = 0.0;         // by the target's motion
+    };
+    [[nodiscard]] static double velocity_after(const HandResponse& response, double velocity,
+                                               const Pull& pull);
+    static void move(HandAxis& axis, const HandResponse& response, const Pull& pull);
+
+    [[nodiscard]] HandResponse response_after(double seconds) const;
+    /// When in a step the motion ends whose velocity has changed its sign at the step's end.
+    [[nodiscard]] double rest_between(double velocity, double velocity_at_end,
+                                      const Pull& pull) const;
+    /// From rest, once a part of the step has passed.
+    void start(HandAxis& axis, const HandDrive& drive, double passed) const;
+
+    double half_damping_; // b / 2m, 1/s
+    double stiffness_;    // k / m, 1/s^2
+    double inverse_mass_; // 1/kg
+    double friction_;     // c / m, m/s^2
+    double step_s_ = 0.0; // what response_ is for
+    HandResponse response_;
+};
+
+} // namespace hapnet::device

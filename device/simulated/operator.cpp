@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/simulated/operator.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+#include <vector>
+
+namespace hapnet::device {
+
+namespace {
+
+using namespace base::literals;
+
+Operator person(std::string_view name, const HandImpedance& hand)
+{
+    return {.name = std::string{name}, .hand = hand};
+}
+
+Operator lifelike()
+{
+    Operator result = person("lifelike", {});
+    result.wander.amplitude_m = 2.5e-3;
+    result.tremor.amplitude_m = 1.5e-4;
+    result.force_noise = 3_percent;
+    result.reflex.gain = 0.2;
+    return result;
+}
+
+/// Which of `of` slices falls to each index: a shuffle (Fisher, Yates).
+std::uint32_t slice_of(const base::RandomStream& stream, std::uint32_t index, std::uint32_t of)
+{
+    std::vector<std::uint32_t> slices(of);
+    std::iota(slices.begin(), slices.end(), 0U);
+    for (std::uint32_t i = of - 1; i > 0; --i) {
+        std::swap(slices[i], slices[stream.below(i + 1, i)]);
+    }
+    return slices[index];
+}
+
+} // namespace
+
+base::Result<Operator> operator_named(std::string_view name)
+{
+    const std::array presets{person("relaxed", {0.15, 3.0, 100.0}), person("nominal", {}),
+                             person("firm", {0.25, 10.0, 500.0}), lifelike()};
+    std::array<std::string_view, presets.size()> names;
+    for (std::size_t i = 0; i < presets.size(); ++i) {
+        if (presets[i].name == name) return presets[i];
+        names[i] = presets[i].name;
+    }
+    return base::fail(
+        fmt::format("'{}' is not an operator: {}", name, base::suggestion(name, names)));
+}
+
+Operator varied(const Operator& person, base::Seed seed, std::uint32_t index, std::uint32_t of)
+{
+    base::ensure(index < of);
+    Operator result = person;
+    result.name = fmt::format("{} {}/{}", person.name, index + 1, of);
+    const auto factor = [&](std::string_view parameter) {
+        constexpr double spread = 0.3;
+        const auto stream = seed.stream(fmt::format("operator/{}", parameter));
+        const double place = slice_of(stream, index, of) + stream.uniform(index, 1);
+        return 1.0 + spread * (2.0 * place / of - 1.0);
+    };
+    const auto vary = [&](double& value, std::string_view parameter) {
+        value *= factor(parameter);
+    };
+    const auto vary_time = [&](base::Duration& value, std::string_view parameter) {
+        value = base::from_seconds(base::to_seconds(value) * factor(parameter));
+    };
+    vary(result.hand.mass_kg, "mass");
+    vary(result.hand.damping_ns_per_m, "damping");
+    vary(result.hand.stiffness_n_per_m, "stiffness");
+    vary(result.wander.amplitude_m, "wander");
+    vary(result.tremor.amplitude_m, "tremor");
+    double noise = result.force_noise.fraction();
+    vary(noise, "force-noise");
+    result.force_noise = base::Probability::from_fraction(std::min(noise, 1.0)).value();
+    vary(result.reflex.gain, "reflex/gain");
+    vary_time(result.reflex.delay, "reflex/delay");
+    vary(result.will.gain_m_per_ns, "will/gain");
+    vary_time(result.will.delay, "will/delay");
+    return result;
+}
+
+} // namespace hapnet::device

@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/simulated/script.hpp"
+
+#include "device/simulated/minimum_jerk.hpp"
+#include "proto/base/math.hpp"
+
+#include <algorithm>
+
+namespace hapnet::device {
+
+namespace {
+
+// The scene as a hand must know it: the HIP touches the cube's face 25 mm from its centre.
+constexpr double touching_m = 0.025;
+constexpr double clear_m = 0.055; // from the cube's centre, on the way to the part
+
+// How far a hand keeps off before it closes in. In T1: the idle hand.
+constexpr double clearance_m = 0.008;
+// It closes in until it is so near, and then presses gently: a cube that two hands touch gives way
+// unopposed for as long as their forces travel.
+constexpr double near_m = 0.001;
+constexpr double near_after_s = 0.5;
+constexpr double pressing_after_s = 2.0;
+
+constexpr double watching_x_m = 0.105; // P1
+
+// T1: the path speed over which the turn changes.
+constexpr double turn_speed_m_per_s = 0.020;
+
+// Of the contact between a finger and the cube.
+constexpr double contact_n_per_m = 500.0;
+
+// T3: what 4 mm of a nominal hand's aim press with; the mean stays below 0.8 N.
+constexpr double carry_squeeze_n = 4.0 / 7.0;
+
+// T4: the friction between finger and cube carries the cube's 0.5 N on 0.86 N of squeeze twice
+// over. The aim goes a little farther than the cube is to: so much do the hands give way.
+constexpr double lift_aim_m = 0.0525;
+constexpr double lift_begins_s = 6.0; // until then delayed forces have been made up for
+constexpr double lift_takes_s = 2.0;
+constexpr double lift_holds_s = 5.0;
+
+// T5: the cube stands before the static one, and both hands press its left face, side by side.
+constexpr double wall_apart_m = 0.006; // along z, from the face's middle
+constexpr double wall_lets_go_s = 5.0; // R; then every 5 s one of them, by turns
+constexpr double wall_every_s = 5.0;
+constexpr int wall_rounds = 2;
+constexpr double wall_back_off_m = 0.020;
+constexpr double wall_back_off_takes_s = 0.05;
+constexpr double wall_away_s = 2.0;
+constexpr double wall_returns_s = 1.0;
+
+// T6: the tapping hand swings about a point off the face, so that it meets it on its way in.
+constexpr double taps_begin_s = 2.0;
+constexpr double tap_hertz = 3.0;
+constexpr double tap_amplitude_m = 0.014;
+constexpr double tap_off_m = 0.008;
+
+constexpr double let_go_m = 0.020;
+constexpr double lift_off_m = 0.045; // above the cube, whose upper face is at 20 mm
+constexpr double let_go_s = 0.5;
+
+double path_speed(double seconds)
+{
+    constexpr double half_step = 0.005;
+    return (path_x(seconds + half_step) - path_x(seconds - half_step)) / (2.0 * half_step);
+}
+
+double sine_of_turns(double turns)
+{
+    std::array<double, 1> sine{turns};
+    base::sines_of_turns(sine);
+    return sine[0];
+}
+
+/// From 0 to 1 between two times, smoothly.
+double between(double begin, double end, double t)
+{
+    return minimum_jerk((t - begin) / (end - begin));
+}
+
+/// How far within the cube's face a hand aims that closes in from the start on.
+double closing(double squeeze, double t)
+{
+    return -clearance_m + (clearance_m - near_m) * between(0.0, near_after_s, t) +
+           (near_m + squeeze) * between(near_after_s, pressing_after_s, t);
+}
+
+Intention at_x(double x) { return {.target = {{x, 0.0, 0.0}}}; }
+
+} // namespace
+
+Script::Script(Task task, const Cue& cue, const TaskOptions& options, const HandImpedance& hand)
+    : task_{task},
+      cue_{cue},
+      options_{options},
+      presses_{press_schedule_of(options)},
+      side_{cue.is_left ? -1.0 : 1.0},
+      depth_m_per_n_{1.0 / hand.stiffness_n_per_m + 1.0 / contact_n_per_m}
+{
+    // In T5 both are left of the cube.
+    if (task == Task::t5) side_ = -1.0;
+}
+
+double Script::aside_x() const { return side_ * clear_m; }
+
+double Script::pressing_toward() const { return -side_; }
+
+double Script::squeeze_n() const
+{
+    if (options_.squeeze_n) return *options_.squeeze_n;
+    switch (task_) {
+    case Task::t3: return carry_squeeze_n;
+    case Task::t4: return 0.86;
+    case Task::t5: return 0.71;
+    case Task::t6: return 0.14;
+    default: return 0.0;
+    }
+}
+
+double Script::depth_m(double force_n) const { return force_n * depth_m_per_n_; }
+
+Intention Script::at(base::TimePoint now) const
+{
+    const double t = base::to_seconds(now - cue_.start);
+    const double hands_on = base::to_seconds(cue_.hands_on);
+    Intention intention = working(std::clamp(t, 0.0, hands_on));
+    if (t < 0.0 || t >= hands_on) intention.gripping = false;
+    if (t < hands_on) return intention;
+    // Up and aside: after an outage the two copies may be apart, and aside alone may not be off.
+    const double gone = minimum_jerk((t - hands_on) / let_go_s);
+    intention.target.value += glm::dvec3{side_ * let_go_m * gone, lift_off_m * gone, 0.0};
+    intention.pressing_n.reset();
+    return intention;
+}
+
+Intention Script::working(double t) const
+{
+    switch (task_) {
+    case Task::p1: {
+        if (cue_.is_left) {
+            Intention intention = at_x(unstopped_path_x(t) - touching_m);
+            intention.gripping = true;
+            return intention;
+        }
+        // The watcher keeps out of the way of the carried cube, also of one that a prediction
+        // carries through the static cube.
+        Intention intention = at_x(watching_x_m);
+        intention.target.value.y = lift_off_m;
+        return intention;
+    }
+    case Task::t1: return at_x(turn_x(t));
+    case Task::t2: return at_x(press_x(t));
+    case Task::t3: return at_x(carry_x(t));
+    case Task::t4: return lift(t);
+    case Task::t5: return wall(t);
+    case Task::t6: return at_x(tap_x(t));
+    }
+    return {};
+}
+
+double Script::turn_x(double t) const
+{
+    const double rising = std::clamp(0.5 + path_speed(t) / (2.0 * turn_speed_m_per_s), 0.0, 1.0);
+    const double turn = cue_.is_left ? rising : 1.0 - rising;
+    return path_x(t) + side_ * (touching_m + clearance_m * (1.0 - turn));
+}
+
+double Script::press_x(double t) const
+{
+    double depth = closing(options_.press_depth_m, t);
+    for (const PressInterval& press : presses_) {
+        if (press.left_presses != cue_.is_left || t < press.begin_s || t >= press.end_s) continue;
+        depth += options_.press_amplitude_m * sine_of_turns(press.hertz * (t - press.begin_s));
+    }
+    return side_ * (touching_m - depth);
+}
+
+double Script::carry_x(double t) const
+{
+    const double lag = cue_.is_left ? 0.0 : base::to_seconds(options_.follower_lag);
+    return path_x(options_.pace * (t - lag)) + side_ * (touching_m - depth_m(squeeze_n()));
+}
+
+Intention Script::lift(double t) const
+{
+    const double squeeze = depth_m(squeeze_n());
+    constexpr double up = lift_begins_s + lift_takes_s;
+    constexpr double down = up + lift_holds_s;
+    constexpr double lowered = down + lift_takes_s;
+    constexpr double opens = lowered + 0.5; // the cube stands again and has settled
+    const double opened = between(opens, opens + 1.0, t);
+    const double depth = closing(squeeze, t) - opened * (clearance_m + squeeze);
+    Intention intention = at_x(side_ * (touching_m - depth));
+    intention.target.value.y =
+        lift_aim_m * (between(lift_begins_s, up, t) - between(down, lowered, t));
+    if (t >= pressing_after_s && t < opens) intention.pressing_n = squeeze_n();
+    return intention;
+}
+
+Intention Script::wall(double t) const
+{
+    const double squeeze = depth_m(squeeze_n());
+    double depth = closing(squeeze, t);
+    bool presses = t >= pressing_after_s;
+    // R lets go first.
+    double go = wall_lets_go_s + (cue_.is_left ? wall_every_s : 0.0);
+    for (int round = 0; round < wall_rounds; ++round, go += 2.0 * wall_every_s) {
+        const double back = go + wall_away_s;
+        depth -= wall_back_off_m * (between(go, go + wall_back_off_takes_s, t) -
+                                    between(back, back + wall_returns_s, t));
+        if (t >= go && t < back + wall_returns_s) presses = false;
+    }
+    Intention intention = at_x(-touching_m + depth);
+    intention.target.value.z = cue_.is_left ? -wall_apart_m : wall_apart_m;
+    if (presses) intention.pressing_n = squeeze_n();
+    return intention;
+}
+
+double Script::tap_x(double t) const
+{
+    if (!cue_.is_left) return touching_m - closing(depth_m(squeeze_n()), t);
+    const double swing = t < taps_begin_s ? 0.0 : sine_of_turns(tap_hertz * (t - taps_begin_s));
+    return -touching_m - tap_off_m + tap_amplitude_m * swing;
+}
+
+} // namespace hapnet::device

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/simulated/operator.hpp"
+#include "device/simulated/press_schedule.hpp"
+#include "device/simulated/task.hpp"
+
+#include <optional>
+
+namespace hapnet::device {
+
+/// Where a hand wants to be, whether it grips, and with which force it wants to press.
+struct Intention {
+    base::Position target;
+    bool gripping = false;
+    std::optional<double> pressing_n{}; // where the task asks for a force
+};
+
+/// One hand's part in a task: a pure function of time.
+class Script {
+public:
+    /// `hand` is whose it is: how far it has to aim into the cube to press as it means to.
+    Script(Task task, const Cue& cue, const TaskOptions& options = {},
+           const HandImpedance& hand = {});
+
+    [[nodiscard]] Intention at(base::TimePoint now) const;
+
+    /// The x of the way from its rest to its part, clear of a cube at its start.
+    [[nodiscard]] double aside_x() const;
+    /// +1: it presses toward +x, -1: toward -x.
+    [[nodiscard]] double pressing_toward() const;
+
+private:
+    /// In the time of the task, from its start on, while the hands are on.
+    [[nodiscard]] Intention working(double t) const;
+    [[nodiscard]] double turn_x(double t) const;
+    [[nodiscard]] double press_x(double t) const;
+    [[nodiscard]] double carry_x(double t) const;
+    [[nodiscard]] Intention lift(double t) const;
+    [[nodiscard]] Intention wall(double t) const;
+    [[nodiscard]] double tap_x(double t) const;
+    [[nodiscard]] double squeeze_n() const;
+    /// How far within the face the hand aims to press so.
+    [[nodiscard]] double depth_m(double force_n) const;
+
+    Task task_;
+    Cue cue_;
+    TaskOptions options_;
+    std::array<PressInterval, 6> presses_;
+    double side_; // -1: left of the cube
+    double depth_m_per_n_;
+};
+
+} // namespace hapnet::device

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/reading.hpp"
+#include "proto/base/time.hpp"
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace hapnet::device {
+
+/// What may be chosen of a task. What is not set is the task's own.
+struct TaskOptions {
+    /// T3 to T6: the force that a hand aims to press with on a cube that stays where it is.
+    /// T3 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N (the resting hand).
+    std::optional<double> squeeze_n{};
+    double press_depth_m = 0.004;        // T2: each aim within the cube
+    double press_amplitude_m = 0.0035;   // T2: of the presser's aim
+    std::optional<double> press_hertz{}; // T2: instead of 0.5, 1 and 2 Hz
+    double pace = 0.5;                   // T3: of the path; 1 is that of P1 and T1
+    base::Duration follower_lag{std::chrono::milliseconds{60}}; // T3: of R behind L
+
+    friend bool operator==(const TaskOptions&, const TaskOptions&) = default;
+};
+
+/// Reads the table at `node`, with the keys squeeze, press_depth, press_amplitude,
+/// press_frequency, pace and follower_lag; nullopt when a complaint was made.
+[[nodiscard]] std::optional<TaskOptions> read_task_options(const base::Node& node,
+                                                           base::Reading& reading);
+
+/// TOML that reads back as the same options.
+[[nodiscard]] std::string print_task_options(const TaskOptions& options);
+
+} // namespace hapnet::device

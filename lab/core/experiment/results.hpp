@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/core/experiment/parts.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// A file of a folder of results: docs/EXPERIMENTS.md says what its columns are.
+struct ResultText {
+    std::string name; // relative to the folder
+    std::string text;
+};
+
+/// What an experiment found, as files: equal findings, equal bytes. `findings` are those of
+/// parts_of(experiment), in that order.
+[[nodiscard]] std::vector<ResultText> results_of(const Experiment& experiment,
+                                                 const Criteria& criteria,
+                                                 std::span<const Finding> findings);
+
+} // namespace hapnet::lab

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+
+namespace hapnet::lab {
+
+/// The most energy, in joules, that two hands have together got out of their devices beyond what
+/// they had put in until then: max(0, -min E), E the running sum of `work` of both, from 0. What
+/// the system between them makes up, which a passive one does not; the energy stored in springs
+/// counts as put in. One device alone may well give what the other hand put in elsewhere.
+/// nullopt when there is no sample.
+[[nodiscard]] std::optional<double> energy_taken_of(std::span<const double> left_work,
+                                                    std::span<const double> right_work);
+
+} // namespace hapnet::lab

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/simulated/task.hpp"
+
+#include <span>
+
+namespace hapnet::lab {
+
+/// From when to when, in seconds from the session's start.
+struct Stretch {
+    double begin_s = 0.0;
+    double end_s = 0.0;
+};
+
+/// What a task has its hands do, as far as metrics care. A metric of what they do not do is not
+/// taken. Of the tasks with their default options.
+struct Exercise {
+    /// One side at a time only receives: its body's vibration counts then. Otherwise both push,
+    /// and count all the time.
+    bool by_turns = false;
+    bool along_path = false;            // device::path_x()
+    double path_pace = 1.0;             // of it
+    bool presses = false;               // as device::press_schedule says
+    bool taps = false;                  // L taps while all rests
+    bool at_wall = false;               // the path, or the task, ends at the static cube
+    std::span<const Stretch> contact{}; // while both hands are to push
+    std::span<const Stretch> lifted{};  // while the body is to be up
+};
+
+[[nodiscard]] Exercise exercise_of(device::Task task);
+
+} // namespace hapnet::lab

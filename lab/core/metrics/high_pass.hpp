@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace hapnet::lab {
+
+/// Where a filter begins to pass, in hertz, and its sampling.
+struct Cutoff {
+    double hertz = 20.0;
+    double tick_s = 0.001;
+};
+
+/// A filter's section of second order, or of first with b2 = a2 = 0: y = b0 x + b1 x' + b2 x'' -
+/// a1 y' - a2 y''. In the transposed direct form II, whose rounding stays small at low cutoffs.
+class Section {
+public:
+    struct Coefficients {
+        double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;
+    };
+
+    explicit Section(const Coefficients& coefficients) : c_{coefficients} {}
+
+    double step(double x)
+    {
+        const double y = c_.b0 * x + first_;
+        first_ = c_.b1 * x - c_.a1 * y + second_;
+        second_ = c_.b2 * x - c_.a2 * y;
+        return y;
+    }
+
+    /// As if the input had been `x` for ever. Returns what the output then is.
+    double settle(double x);
+
+private:
+    Coefficients c_;
+    double first_ = 0.0;
+    double second_ = 0.0;
+};
+
+// Butterworth filters by the bilinear transform with the cutoff where it is meant to be: the gain
+// there is 1/sqrt(2). The bits are the same everywhere.
+
+[[nodiscard]] Section first_order_high_pass(const Cutoff& cutoff);
+/// `quality` is 1/sqrt(2) for a filter of this section alone.
+[[nodiscard]] Section second_order_high_pass(const Cutoff& cutoff, double quality);
+[[nodiscard]] Section second_order_low_pass(const Cutoff& cutoff, double quality);
+
+/// A value for each of the filter orders in which vibration is measured.
+struct ByOrder {
+    double first = 0.0;
+    double second = 0.0;
+    double fourth = 0.0;
+
+    friend bool operator==(const ByOrder&, const ByOrder&) = default;
+};
+
+/// The root mean square of what is above `cutoff` in `signal`, by Butterworth high-passes of
+/// first, second and fourth order, over the samples that `counts` marks (all when it is empty;
+/// the filters see every sample all the same). In the signal's unit. The signal is taken to have
+/// been at its first value before. nullopt when nothing counts.
+[[nodiscard]] std::optional<ByOrder> vibration_of(std::span<const double> signal,
+                                                  std::span<const std::uint8_t> counts,
+                                                  const Cutoff& cutoff);
+
+/// The root mean square of `signal` between two cutoffs, by a high- and a low-pass of second
+/// order. nullopt when it is empty.
+[[nodiscard]] std::optional<double> band_vibration_of(std::span<const double> signal,
+                                                      const Cutoff& from, const Cutoff& to);
+
+} // namespace hapnet::lab

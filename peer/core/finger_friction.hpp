@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/scene/description.hpp"
+#include "peer/core/scene/input.hpp"
+
+#include <optional>
+
+namespace hapnet::peer {
+
+/// Dry friction between this peer's finger and the shared body, which does not turn: a spring and
+/// a damper along the face, as stiff as the contact across it, from where the finger touched first.
+/// It gives at most the hips' friction times the contact's force; beyond that its anchor slips
+/// along (Hayward, Armstrong 2000). The world knows nothing of it: it is a push on the body, known
+/// at the start of a tick from the contact's force in the tick before, and its opposite on the
+/// hand.
+class FingerFriction {
+public:
+    explicit FingerFriction(const scene::HipDescription& hips) : hips_{hips} {}
+
+    /// On the body, to be held for the coming tick: of a hand that is there and moves so now.
+    [[nodiscard]] base::Force on_body(const scene::HipInput& hand, const scene::BodyState& body);
+    /// What the world's contact did in that tick, whose start on_body() was asked for.
+    void on_touch(const scene::HipTouch& touch);
+
+private:
+    struct Contact {
+        glm::dvec3 normal{0.0};             // unit, into the body
+        double force_n = 0.0;               // along it
+        std::optional<glm::dvec3> anchor{}; // on the body, seen from its centre
+    };
+
+    scene::HipDescription hips_;
+    std::optional<Contact> contact_;
+};
+
+} // namespace hapnet::peer

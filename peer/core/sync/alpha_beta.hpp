@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <glm/vec3.hpp>
+
+namespace hapnet::peer {
+
+/// An alpha-beta filter for samples at uneven times: the value of a signal and its slope,
+/// critically damped (P. R. Kalata: The tracking index, 1984; fading memory with the share theta =
+/// exp(-dt / time constant), N. Morrison: Introduction to sequential smoothing and prediction,
+/// 1969). It follows a ramp without lag.
+class AlphaBeta {
+public:
+    /// `time_constant_s`: how long a sample counts, 0 or more.
+    explicit AlphaBeta(double time_constant_s) : time_constant_s_{time_constant_s} {}
+
+    /// Starts from this sample with no slope.
+    void restart(const glm::dvec3& sample, base::TimePoint at);
+    /// A sample that is later than the last one; others are ignored.
+    void add(const glm::dvec3& sample, base::TimePoint at);
+
+    [[nodiscard]] base::TimePoint at() const { return at_; } // of the last sample
+    [[nodiscard]] const glm::dvec3& value() const { return value_; }
+    [[nodiscard]] const glm::dvec3& slope() const { return slope_; } // per second
+
+private:
+    double time_constant_s_;
+    base::TimePoint at_;
+    glm::dvec3 value_{0.0};
+    glm::dvec3 slope_{0.0};
+};
+
+} // namespace hapnet::peer

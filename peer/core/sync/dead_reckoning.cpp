@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/sync/dead_reckoning.hpp"
+
+#include <algorithm>
+
+namespace hapnet::peer {
+
+DeadReckoning::DeadReckoning(const DeadReckoningOptions& options)
+    : options_{options}, base_{options.base}, delay_{options.horizon_memory}
+{}
+
+void DeadReckoning::hear(const Heard& heard)
+{
+    base_.hear(heard);
+    const auto age = one_way_delay(heard);
+    if (age) delay_.add(*age);
+    if (!heard.taken) return;
+    const auto& body = heard.state.body;
+    if (!body && !newest_) return;
+    // A message without a body says that nothing moves it.
+    const Fix fix{.place = body ? body->position : newest_->place,
+                  .arrived = heard.arrived,
+                  .sent = heard.state.sent,
+                  .age = std::max(base::Duration{0}, age.value_or(base::Duration{0}))};
+    velocity_ = newest_ ? velocity_to(fix, heard.tick) : base::Velocity{};
+    newest_ = fix;
+    has_news_ = true;
+}
+
+void DeadReckoning::forget()
+{
+    base_.forget();
+    delay_.reset();
+    newest_.reset();
+    velocity_ = {};
+    course_.reset();
+    has_news_ = false;
+}
+
+base::Velocity DeadReckoning::velocity_to(const Fix& next, base::Duration tick) const
+{
+    const base::Duration sent_apart = next.sent - newest_->sent;
+    if (std::chrono::abs(sent_apart) > options_.gap_max) return {};
+    base::Duration apart = tick;
+    if (options_.velocity == VelocityRule::arrival) apart = next.arrived - newest_->arrived;
+    if (options_.velocity == VelocityRule::sender) apart = sent_apart;
+    // Arrived at once, or a duplicate: no time has passed that tells of a velocity.
+    const bool tells = options_.velocity == VelocityRule::sender ? apart != base::Duration{0}
+                                                                 : apart > base::Duration{0};
+    if (!tells) return velocity_;
+    const base::Displacement moved = next.place - newest_->place;
+    const base::Velocity velocity{moved.value / base::to_seconds(apart)};
+    return base::limited(velocity, options_.speed_max_m_per_s);
+}
+
+base::Duration DeadReckoning::horizon() const
+{
+    switch (options_.horizon.law) {
+    case Horizon::Law::none: break;
+    case Horizon::Law::one_way: return delay_.mean();
+    case Horizon::Law::packet_age: return newest_ ? newest_->age : base::Duration{0};
+    case Horizon::Law::fixed: return options_.horizon.fixed;
+    }
+    return base::Duration{0};
+}
+
+std::optional<base::Position> DeadReckoning::predicted(base::TimePoint now) const
+{
+    if (!newest_) return std::nullopt;
+    base::Duration ahead = (now - newest_->arrived) + horizon();
+    if (options_.ahead_max) ahead = std::min(ahead, *options_.ahead_max);
+    return newest_->place + base::limited(velocity_ * ahead, options_.lead_max_m);
+}
+
+Outcome DeadReckoning::tick(scene::World& world, const Situation& situation)
+{
+    Presence remote = presence_of(situation, options_.base);
+    if (const auto place = predicted(situation.now); place && remote.pose) {
+        remote.pose->position = *place;
+        if (options_.blend_within) remote.pose->position = blended(*place, world, situation);
+    }
+    const Outcome outcome = base_.tick(world, situation, remote);
+    // The blend begins anew from where this hand has left the body.
+    if (outcome.touched.touching || !remote.touching) course_.reset();
+    has_news_ = false;
+    return outcome;
+}
+
+base::Position DeadReckoning::blended(base::Position target, const scene::World& world,
+                                      const Situation& situation)
+{
+    const base::TimePoint before = situation.now - situation.tick;
+    if (!course_) {
+        const scene::BodyState own = world.body(situation.body);
+        course_ = Course{own.position, own.velocity, before};
+    } else if (has_news_) {
+        course_ = shown_;
+    }
+    const base::Duration since = situation.now - course_->start;
+    const double share = since < *options_.blend_within
+                             ? base::to_seconds(since) / base::to_seconds(*options_.blend_within)
+                             : 1.0;
+    const base::Velocity old = course_->velocity;
+    const base::Velocity velocity{old.value + share * (velocity_.value - old.value)};
+    const base::Position onward = course_->from + velocity * since;
+    shown_ = Course{onward + share * (target - onward), velocity, situation.now};
+    return shown_.from;
+}
+
+} // namespace hapnet::peer

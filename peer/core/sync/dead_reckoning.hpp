@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/base_algorithm.hpp"
+#include "peer/core/sync/one_way_delay.hpp"
+
+#include <optional>
+
+namespace hapnet::peer {
+
+/// How far apart in time two consecutive states are taken to be: one tick, whatever was lost
+/// between them (the paper); as they arrived; as they were sent.
+enum class VelocityRule : std::uint8_t { nominal, arrival, sender };
+
+/// How old a body's place was when its message arrived: nobody asks; so old as the path's mean
+/// delay makes it, which varies slowly; so old as this very message's stamp says; a fixed time.
+struct Horizon {
+    enum class Law : std::uint8_t { none, one_way, packet_age, fixed };
+
+    Law law = Law::one_way;
+    base::Duration fixed{}; // of the law of this name
+
+    friend bool operator==(const Horizon&, const Horizon&) = default;
+};
+
+struct DeadReckoningOptions {
+    VelocityRule velocity = VelocityRule::nominal;
+    Horizon horizon{};
+    std::uint32_t horizon_memory = 500; // messages in the mean delay
+    /// Over what time a new prediction takes over from the last one (projective velocity blending;
+    /// E. Murphy: Believable dead reckoning for networked games, 2011); nullopt: at once.
+    std::optional<base::Duration> blend_within{};
+    /// The farthest into the future from a message's sending; nullopt: without a limit.
+    std::optional<base::Duration> ahead_max{};
+    /// Of the estimated velocity. A hand reaches 0.3 m/s in the paper's task, which the nominal
+    /// rule multiplies by the number of ticks between two messages: 60 at 80 % loss.
+    double speed_max_m_per_s = 100.0;
+    double lead_max_m = 1.0; // of the prediction before the message's place
+    /// Across a longer gap between two messages, by their sender's stamps, there is no velocity.
+    base::Duration gap_max{std::chrono::milliseconds{250}};
+    BaseOptions base{};
+
+    friend bool operator==(const DeadReckoningOptions&, const DeadReckoningOptions&) = default;
+};
+
+/// The paper's dead reckoning: the base algorithm, with the other side's body where it should be by
+/// now, from its last two places by a first-order prediction,
+///     x^ = x_k + v (t - t_arrived,k + H),  v = (x_k - x_k-1) / dt.
+/// It stands for the received place wherever that is used: while only the other hand touches, and
+/// as where a body at rest settles. Forces and velocities are as received.
+class DeadReckoning {
+public:
+    DeadReckoning() : DeadReckoning(DeadReckoningOptions{}) {}
+    explicit DeadReckoning(const DeadReckoningOptions& options);
+
+    void hear(const Heard& heard);
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    void forget();
+
+    [[nodiscard]] const DeadReckoningOptions& options() const { return options_; }
+    /// Where the other side's body should be at `now`; nullopt before the first word of it.
+    [[nodiscard]] std::optional<base::Position> predicted(base::TimePoint now) const;
+    /// H for the newest message.
+    [[nodiscard]] base::Duration horizon() const;
+
+private:
+    /// A place that a message told, and when.
+    struct Fix {
+        base::Position place;
+        base::TimePoint arrived;
+        base::TimePoint sent;
+        base::Duration age{}; // at its arrival; 0 when the clocks are unknown
+    };
+    /// A prediction that another takes over from.
+    struct Course {
+        base::Position from;
+        base::Velocity velocity;
+        base::TimePoint start;
+    };
+
+    [[nodiscard]] base::Velocity velocity_to(const Fix& next, base::Duration tick) const;
+    [[nodiscard]] base::Position blended(base::Position target, const scene::World& world,
+                                         const Situation& situation);
+
+    DeadReckoningOptions options_;
+    BaseAlgorithm base_;
+    OneWayDelay delay_;
+    std::optional<Fix> newest_;
+    base::Velocity velocity_;
+    std::optional<Course> course_; // while a body follows with a blend
+    Course shown_;                 // in the last tick
+    bool has_news_ = false;        // since the last tick
+};
+
+} // namespace hapnet::peer

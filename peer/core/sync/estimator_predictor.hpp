@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/alpha_beta.hpp"
+#include "peer/core/sync/base_algorithm.hpp"
+#include "peer/core/sync/one_way_delay.hpp"
+
+#include <optional>
+
+namespace hapnet::peer {
+
+struct EstimatorPredictorOptions {
+    base::Duration time_constant{std::chrono::milliseconds{10}}; // of the filters
+    base::Duration force_ahead_max{std::chrono::milliseconds{10}};
+    /// The hand's place is predicted by at most the median delay and so much.
+    base::Duration hip_ahead_beyond_delay{std::chrono::milliseconds{20}};
+    /// A sample older than the median delay and so much is predicted on less and less, ...
+    base::Duration fade_after{std::chrono::milliseconds{10}};
+    base::Duration fade_within{std::chrono::milliseconds{50}}; // ... down to not at all
+    /// What is given out changes by at most so much: 0.5 N a tick is where people notice a step.
+    double force_slew_n_per_s = 500.0;
+    double hip_slew_m_per_s = 5.0;
+    /// After a longer gap between two messages the filters start anew.
+    base::Duration gap_max{std::chrono::milliseconds{250}};
+    BaseOptions base{};
+
+    friend bool operator==(const EstimatorPredictorOptions&,
+                           const EstimatorPredictorOptions&) = default;
+};
+
+/// SEP, the synchronised estimator and predictor: the base algorithm with the remote hand's force
+/// and place predicted to now from their senders' stamps by alpha-beta filters. It stands in for
+/// TiDeC, of which no equations are published, and like it leaves the body's pose alone.
+class EstimatorPredictor {
+public:
+    EstimatorPredictor() : EstimatorPredictor(EstimatorPredictorOptions{}) {}
+    explicit EstimatorPredictor(const EstimatorPredictorOptions& options);
+
+    void hear(const Heard& heard);
+    [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
+    void forget();
+
+    [[nodiscard]] const EstimatorPredictorOptions& options() const { return options_; }
+
+private:
+    /// How far the filters' values are carried on.
+    struct Ahead {
+        double force_s = 0.0;
+        double hip_s = 0.0;
+    };
+
+    [[nodiscard]] Ahead ahead(const Situation& situation) const;
+    [[nodiscard]] base::Force force(const Situation& situation, double ahead_s);
+    [[nodiscard]] base::Position hip(const Situation& situation, double ahead_s);
+
+    EstimatorPredictorOptions options_;
+    BaseAlgorithm base_;
+    OneWayDelay delay_;
+    AlphaBeta force_;
+    AlphaBeta hip_;
+    base::Force sample_;      // the last one, as limited
+    base::TimePoint arrived_; // of the last sample
+    bool touching_ = false;   // as the last sample had it
+    bool has_heard_ = false;
+    std::optional<base::Force> force_shown_; // in the last tick
+    std::optional<base::Position> hip_shown_;
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/clock_offset.hpp"
+#include "peer/core/remote.hpp"
+#include "peer/core/scene/world.hpp"
+
+#include <optional>
+
+namespace hapnet::peer {
+
+/// This peer's hand among those of its copy of the scene. The other side's is none of them: it is
+/// there by its force.
+inline constexpr std::uint32_t own_hand = 0;
+
+/// A state of the other side as it arrives, to be told to an algorithm once and at once: several
+/// may arrive between two ticks.
+struct Heard {
+    const wire::State& state;
+    base::TimePoint arrived;
+    /// False: it is older than one that was taken, or its duplicate. It tells of the network's
+    /// delay and of nothing else.
+    bool taken = true;
+    std::optional<ClockOffset::Estimate> clock{}; // the other side's, as far as it is known
+    base::Duration tick{std::chrono::milliseconds{1}};
+    double force_max_n = scene::force_max_n; // that a contact of this scene can exert
+};
+
+/// What one tick of an algorithm decides from, besides this peer's hand, which the world knows.
+struct Situation {
+    base::TimePoint now;
+    scene::BodyId body = 0; // the shared one
+    const Remote& remote;   // the other side as last heard
+    double freshness = 0.0; // of that word, 0 to 1
+    bool yields = false;    // at rest, this peer takes the other's pose (the higher id)
+    base::Duration tick{std::chrono::milliseconds{1}}; // this and what follows: as in Heard
+    std::optional<ClockOffset::Estimate> clock{};
+    double force_max_n = scene::force_max_n;
+};
+
+/// What one tick of an algorithm came to.
+struct Outcome {
+    scene::HipTouch touched;                  // by this peer's hand
+    base::Force on_hand;                      // what that hand is to feel
+    bool remote_touching = false;             // whether the remote hand counts as touching
+    base::Force remote_force;                 // that it counts as exerting on the body
+    std::optional<base::Position> remote_hip; // where it is taken to be: to be shown, not felt
+};
+
+/// The delay of a message from the stamps of both sides; nullopt while the clocks are unknown, or
+/// when it is out of any network's reach (`believable_delay`). A delay that is not the same both
+/// ways shifts it by half the difference, which nothing here can see (RFC 5905).
+[[nodiscard]] std::optional<base::Duration> one_way_delay(const Heard& heard);
+inline constexpr base::Duration believable_delay{std::chrono::seconds{5}};
+
+} // namespace hapnet::peer

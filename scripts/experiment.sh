@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# Carries out experiments in virtual time, one after the other, and writes one report of them:
+# table1.sh, fig6a.sh, ... are this script with a name.
+set -euo pipefail
+
+usage="usage: scripts/experiment.sh NAME[,NAME...] [--out DIR] [--quick] [--seeds N] [--jobs N]
+                             [--set KEY=VALUE]
+Installs what is missing, builds hapnet-lab, carries out the experiments of these names
+(scripts/experiments/NAME.toml, docs/EXPERIMENTS.md) and writes CSV, manifest.json and report.html
+to DIR (results/NAME-<time> when not given; several: one folder each in it). Run again with the same
+--out after an interruption: nothing is computed twice. --quick is rougher, with fewer seeds; --jobs
+is the number of threads (all processors) and does not change the results. Exits 0 when done, 1 when
+stopped, 2 for an unknown name or argument, 3 when something that it needs cannot be installed."
+
+refuse() {
+    echo "experiment: $1"$'\n'"$usage" >&2
+    exit 2
+}
+
+names=() out='' options=()
+while (($# > 0)); do
+    case $1 in
+    --quick) options+=(--quick) && shift ;;
+    --out)
+        (($# > 1)) || refuse "--out: which directory?"
+        out=$(realpath -m "$2") && shift 2
+        ;;
+    --seeds | --jobs | --set)
+        (($# > 1)) || refuse "$1: which value?"
+        options+=("$1" "$2") && shift 2
+        ;;
+    -h | --help) echo "$usage" && exit 0 ;;
+    -*) refuse "unknown argument '$1'" ;;
+    *) IFS=, read -r -a names <<<"$1" && shift ;;
+    esac
+done
+((${#names[@]} > 0)) || refuse "which experiment?"
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+time=$(date -u +%Y%m%dT%H%M%SZ)
+title=${names[0]}
+((${#names[@]} == 1)) || title=reproduce
+out=${out:-$PWD/results/$title-$time}
+lab=build/release/bin/hapnet-lab
+
+build() {
+    scripts/setup.sh
+    [[ -e build/release/build.ninja ]] || cmake --preset release -DHAPNET_TESTS=OFF
+    local quiet=()
+    [[ ! -x $lab ]] || quiet=(-- --quiet)
+    cmake --build --preset release --target hapnet-lab "${quiet[@]}"
+}
+
+build >&2
+for name in "${names[@]}"; do
+    folder=$out
+    ((${#names[@]} == 1)) || folder=$out/$name
+    "$lab" run "$name" "${options[@]}" --out "$folder"
+done
+"$lab" report "$out"
