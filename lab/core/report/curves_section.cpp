@@ -113,8 +113,9 @@ std::optional<Section> curves_section(const Results& results)
     Section section{"curves", "The curves behind the limits",
                     "<p>Every point is the worst session that the search played at that level. "
                     "A cross marks the first level at which an algorithm fails, by whichever "
-                    "criterion. The dashed line is what usable means.</p>\n"};
+                    "criterion.</p>\n"};
     const auto criteria = results.criteria();
+    if (criteria) section.html += "<p>The dashed line is where usable ends.</p>\n";
     for (const auto& name : distinct(results.curves, [](const auto& r) { return r.impairment; })) {
         std::vector<CurveRow> rows;
         for (const CurveRow& row : results.curves) {

@@ -12,6 +12,7 @@ namespace hapnet::lab::report {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
 using Outcome = base::Result<void>;
 
 std::string_view name_of(std::string_view path) { return path.substr(path.rfind('/') + 1); }
@@ -24,7 +25,11 @@ std::string folder_of(std::string_view path)
 
 Outcome add_run(const File& file, Results& results)
 {
-    auto json = nlohmann::ordered_json::parse(file.text, nullptr, false);
+    // What nests deeper than anything that we write is left out: it could exhaust the stack.
+    constexpr int depth_max = 16;
+    auto json = Json::parse(
+        file.text, [](int depth, Json::parse_event_t, const Json&) { return depth <= depth_max; },
+        false);
     if (!json.is_object()) return base::fail(file.path + ":1: expected one JSON object");
     Run run{folder_of(file.path), std::move(json), std::nullopt};
     const auto criteria = run.manifest.find("criteria");
