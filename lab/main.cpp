@@ -86,7 +86,6 @@ base::Result<int> run(const ExplainCommand& command)
     return 0;
 }
 
-base::Result<int> run(const RunCommand& command) { return run_experiment(command); }
 base::Result<int> run(const ReportCommand& command)
 {
     return write_report(command).map([](const std::string& page) {
@@ -94,6 +93,8 @@ base::Result<int> run(const ReportCommand& command)
         return 0;
     });
 }
+
+base::Result<int> run(const RunCommand& command) { return run_experiment(command); }
 
 base::Result<int> execute(const Command& command)
 {

@@ -46,6 +46,11 @@ struct ExplainCommand {
     bool json = false;
 };
 
+/// `hapnet-lab report DIR`
+struct ReportCommand {
+    std::string folder;
+};
+
 /// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`
 struct RunCommand {
     std::string experiment; // a file, or the name of a built-in one
@@ -56,11 +61,6 @@ struct RunCommand {
     bool quick = false;
     std::string out;
     std::string command; // what was typed
-};
-
-/// `hapnet-lab report DIR`
-struct ReportCommand {
-    std::string folder;
 };
 
 using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "device/replay/replay.hpp"
 #include "device/simulated/omni.hpp"
 #include "peer/core/sync/text.hpp"
 #include "peer/options.hpp"
@@ -15,6 +16,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
 #include <thread>
@@ -74,6 +76,13 @@ Settings settings_of(const Options& options)
     settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m;
     settings.length = options.duration;
     return settings;
+}
+
+std::unique_ptr<device::Device> device_of(const Options& options)
+{
+    if (options.replay) return std::make_unique<device::Replay>(*options.replay, options.device);
+    return std::make_unique<device::SimulatedOmni>(
+        device::Performer{.task = options.task, .person = options.person});
 }
 
 std::optional<record::Writer> writer_for(const Options& options, std::string_view device)
@@ -157,14 +166,14 @@ base::Result<int> play(const Options& options)
     if (!places) return tl::unexpected{places.error()};
     net::StopSignal stop;
     net::UdpSocket socket{places->listen};
-    device::SimulatedOmni omni{options.task, device::HandImpedance{}, device::OmniPlant{}};
-    const std::string device = omni.description();
+    const auto hand = device_of(options);
+    const std::string device = hand->description();
     Journal journal;
     Watcher watcher{journal, writer_for(options, device), options.id};
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Peer peer{settings_of(options)};
-    Servo servo{{peer, omni, socket, places->remote, journal, options.id}};
+    Servo servo{{peer, *hand, socket, places->remote, journal, options.id}};
 
     watch(servo, watcher, stop, ready_line(options, socket, places->remote));
 

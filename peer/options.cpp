@@ -24,10 +24,14 @@ constexpr const char* description =
     "other peer, directly or through hapnet-emulator.";
 
 constexpr const char* footer =
-    R"(Tasks of the simulated hands (the lower --id is L and pushes from the left):
+    R"(Tasks of the simulated hands (docs/TASKS.md; the lower --id is L and pushes from the left):
   P1  L holds the cube and carries it along a prescribed path, R watches (the paper's Table 1)
   T1  by turns: L pushes the cube where the path rises, R where it falls
+  T2  one holds, the other presses against it at 0.5, 1 and 2 Hz; then the other way round
   T3  both squeeze the cube between them and carry it along the path at half speed
+  T4  both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down
+  T5  both press the cube against the static one; by turns one lets go suddenly
+  T6  L taps the cube at 3 Hz while R rests on its far side
 Each ends with 3 s hands off, within --duration (half of it when that is below 6s). Both peers
 need the same task, and should be given the same --duration. A peer waits for the other for as
 long as it takes; --duration counts from their common start.
@@ -52,7 +56,8 @@ struct Texts {
     std::string listen = "127.0.0.1:0";
     std::string remote;
     std::string device = "sim";
-    std::string scene = "paper";
+    std::optional<std::string> scene;
+    std::string person = "nominal";
     std::string grip_damping = "4Ns/m";
     std::string task = "P1";
     std::string algorithm = "base";
@@ -75,16 +80,22 @@ void add_options(CLI::App& app, Texts& texts)
         "HOST:PORT");
     add("--remote", texts.remote, "The other peer, or the emulator's side for this one (required)",
         "HOST:PORT");
-    add("--device", texts.device, "sim: a simulated Omni in a simulated hand (default)", "sim");
+    add("--device", texts.device,
+        "sim: a simulated Omni in a simulated hand (default); replay:FILE: a hand that goes the\n"
+        "way in FILE, CSV with time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it",
+        "sim|replay:FILE");
+    add("--operator", texts.person,
+        "Whose hand is simulated: relaxed, nominal (default), firm, lifelike, or a TOML file",
+        "NAME|FILE");
     add("--scene", texts.scene,
-        "A scene in TOML, or one of hapnet's by name (default paper); it has one movable\n"
-        "body, which does not turn",
+        "A scene in TOML, or one of hapnet's by name (default: the task's; lift for T4, wall\n"
+        "for T5, paper for the others); it has one movable body, which does not turn",
         "FILE|NAME");
     add("--grip-damping", texts.grip_damping,
         "Damping of the device and the loosest grip on it (default 4Ns/m, a nominal grip on\n"
         "a stylus): contacts that need more to be rendered safely feel softer",
         "DAMPING");
-    add("--task", texts.task, "What the simulated hands do (default P1)", "P1|T1|T3");
+    add("--task", texts.task, "What the simulated hands do (default P1)", "P1|T1|...|T6");
     add("--algorithm", texts.algorithm,
         "How the two cubes are kept together: base (default), dead-reckoning, sep, or a file of\n"
         "parameters in TOML",
@@ -123,6 +134,13 @@ base::Result<scene::Description> scene_for_a_session(const std::string& file_or_
     return scene;
 }
 
+base::Result<device::HandTrace> hand_trace_in(const std::string& file)
+{
+    const auto text = net::text_of_file(file);
+    if (!text) return tl::unexpected{text.error()};
+    return device::parse_hand_trace(*text, file);
+}
+
 /// Takes parsed texts; the first error stays and names its option.
 class Taker {
 public:
@@ -144,6 +162,22 @@ public:
 private:
     std::optional<std::string> error_;
 };
+
+void take_device(Options& options, Taker& taker, const Texts& texts)
+{
+    taker.take(options.person, "--operator",
+               device::load_operator(texts.person, net::text_of_file));
+    constexpr std::string_view replay = "replay:";
+    if (texts.device.starts_with(replay)) {
+        const std::string file = texts.device.substr(replay.size());
+        taker.take(options.replay, "--device", hand_trace_in(file));
+        return;
+    }
+    taker.require(texts.device == "sim",
+                  fmt::format("--device: '{}' is not available; this version has sim, the "
+                              "simulated Omni, and replay:FILE",
+                              texts.device));
+}
 
 net::CommandLine<Options> algorithm_answer(const std::string& name_or_file)
 {
@@ -171,18 +205,16 @@ net::CommandLine<Options> options_from(const Texts& texts)
                base::parse_count(texts.seed, std::numeric_limits<std::uint64_t>::max()));
     taker.take(options.duration, "--duration", base::parse_duration(texts.duration));
     taker.require(options.duration >= std::chrono::seconds{1}, "--duration: at least 1s");
-    taker.require(texts.device == "sim",
-                  fmt::format("--device: '{}' is not available; this version has only sim, the "
-                              "simulated Omni",
-                              texts.device));
-    taker.take(options.scene, "--scene", scene_for_a_session(texts.scene));
+    take_device(options, taker, texts);
+    options.scene_name = texts.scene.value_or(std::string{device::scene_of(options.task)});
+    taker.take(options.scene, "--scene", scene_for_a_session(options.scene_name));
     taker.take(options.grip_damping_ns_per_m, "--grip-damping",
                parse_grip_damping(texts.grip_damping));
     taker.require(!texts.key, "--key: authenticated sessions are not available yet; use --insecure "
                               "on a network you trust");
     taker.require(texts.record != "-", "--record: '-' is not a file: a record needs one");
     if (taker.error()) return base::fail(*taker.error());
-    options.scene_name = texts.scene;
+    options.device = texts.device;
     options.insecure = texts.insecure;
     options.record = texts.record;
     options.stats = texts.stats;

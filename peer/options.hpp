@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/replay/hand_trace.hpp"
+#include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
 #include "peer/core/scene/description.hpp"
 #include "peer/core/sync/algorithm.hpp"
@@ -23,6 +25,8 @@ struct Options {
     net::HostPort listen{"127.0.0.1", 0};
     net::HostPort remote;
     std::string device = "sim";
+    std::optional<device::HandTrace> replay; // instead of the simulated hand
+    device::Operator person;                 // whose hand is simulated
     std::string scene_name = "paper";
     scene::Description scene; // one that two peers can share
     double grip_damping_ns_per_m = 4.0;

@@ -102,6 +102,8 @@ json configuration_json(const Options& options, std::string_view device)
             {"algorithm_toml", print_algorithm(options.algorithm)},
             {"seed", options.seed.value()},
             {"device", device},
+            {"operator", options.replay ? json{} : json(options.person.name)},
+            {"operator_toml", options.replay ? json{} : json(print_operator(options.person))},
             {"duration_s", base::to_seconds(options.duration)},
             {"tick_ns", 1'000'000},
             {"boot_id", net::boot_id()},

@@ -48,6 +48,11 @@ check_scripts() {
     find scripts .ci tests -type f \( -name '*.sh' -o -path '.ci/*' \) -print0 | xargs -0 shellcheck
 }
 
+# Whether the scripts of our pages parse, where there is a node to say so.
+check_pages() {
+    ! command -v node >/dev/null || find lab -name '*.js' -print0 | xargs -0 -n 1 node --check
+}
+
 # clang-tidy reads several files of a library as one, and each header so once: a third of the time.
 # Names without linkage have to differ within a library for that.
 check_tidy() {
@@ -65,6 +70,7 @@ run_preset() {
 
 step "format" check_format || true
 step "scripts" check_scripts || true
+step "pages" check_pages || true
 for preset in "${presets[@]}"; do run_preset "$preset" || true; done
 
 # The tests end to end wait most of the time: clang-tidy has the rest of the processors, at the

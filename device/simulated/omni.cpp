@@ -3,7 +3,6 @@
 #include "device/simulated/omni.hpp"
 
 #include "device/simulated/minimum_jerk.hpp"
-#include "proto/base/math.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
@@ -22,11 +21,8 @@ constexpr double approach_s = 0.8;
 SimulatedOmni::SimulatedOmni(const Performer& performer)
     : performer_{performer},
       motion_{performer.person.hand, performer.plant.friction_n},
-      reactions_{performer.person}
-{}
-
-SimulatedOmni::SimulatedOmni(Task task, const HandImpedance& hand, const OmniPlant& plant)
-    : SimulatedOmni{Performer{.task = task, .person = {.hand = hand}, .plant = plant}}
+      reactions_{performer.person},
+      velocity_{performer.plant.velocity_cutoff_hz}
 {}
 
 void SimulatedOmni::on_cue(const Cue& cue)
@@ -39,51 +35,36 @@ void SimulatedOmni::on_cue(const Cue& cue)
     rest_ = position();
 }
 
-SimulatedOmni::Will SimulatedOmni::will(base::TimePoint now) const
+SimulatedOmni::Aim SimulatedOmni::aim(base::TimePoint now) const
 {
     if (!part_ || !cued_at_) return {.intention = {.target = {rest_}}};
-    Will will{.intention = part_->script.at(now)};
-    glm::dvec3& target = will.intention.target.value;
+    Aim aim{.intention = part_->script.at(now)};
+    glm::dvec3& target = aim.intention.target.value;
     if (!part_->is_prescribed) {
         const HandNoise::Value noise = part_->noise.at(base::to_seconds(now - part_->start));
         target.x += noise.away_m;
-        will.force_share = noise.force_share;
+        aim.force_share = noise.force_share;
     }
     // First aside, then to the part: the straight way might push the cube.
     const double u = base::to_seconds(now - *cued_at_) / approach_s;
-    if (u >= 1.0) return will;
+    if (u >= 1.0) return aim;
     const glm::dvec3 aside{part_->script.aside_x(), 0.0, rest_.z};
     const glm::dvec3 on_the_way = rest_ + minimum_jerk(2.0 * u) * (aside - rest_);
     target = on_the_way + minimum_jerk(2.0 * u - 1.0) * (target - on_the_way);
-    return will;
+    return aim;
 }
 
 Sample SimulatedOmni::read(base::TimePoint now)
 {
     if (part_ && !cued_at_) cued_at_ = now;
-    const Will intended = will(now);
+    const Aim intended = aim(now);
     const bool lives = simulated_to_ && now - *simulated_to_ <= gap_max;
     if (lives && now > *simulated_to_) advance(intended, now);
     if (!lives) intended_ = intended.intention.target;
     simulated_to_ = now;
 
-    const glm::dvec3 reported = quantised(position());
-    if (last_read_ && now > *last_read_) filter(reported, now - *last_read_);
-    last_read_ = now;
-    last_reported_ = reported;
-    return {{reported}, {filtered_velocity_}, intended.intention.gripping};
-}
-
-void SimulatedOmni::filter(const glm::dvec3& reported, base::Duration elapsed)
-{
-    if (elapsed != filtered_over_) {
-        filtered_over_ = elapsed;
-        const double seconds = base::to_seconds(elapsed);
-        filter_keeps_ = base::exp(-base::two_pi * performer_.plant.velocity_cutoff_hz * seconds);
-        filter_gain_ = (1.0 - filter_keeps_) / seconds;
-    }
-    filtered_velocity_ =
-        filter_keeps_ * filtered_velocity_ + filter_gain_ * (reported - last_reported_);
+    const base::Position reported{quantised(position())};
+    return {reported, velocity_.at(reported, now), intended.intention.gripping};
 }
 
 void SimulatedOmni::apply(base::Force force)
@@ -91,7 +72,7 @@ void SimulatedOmni::apply(base::Force force)
     force_ = base::limited(force, performer_.plant.force_max_n).value; // the motors saturate
 }
 
-void SimulatedOmni::advance(const Will& intended, base::TimePoint now)
+void SimulatedOmni::advance(const Aim& intended, base::TimePoint now)
 {
     const base::Duration elapsed = now - *simulated_to_;
     base::Position target = intended.intention.target;

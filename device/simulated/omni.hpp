@@ -8,6 +8,7 @@
 #include "device/simulated/operator.hpp"
 #include "device/simulated/reactions.hpp"
 #include "device/simulated/script.hpp"
+#include "device/velocity_filter.hpp"
 
 #include <array>
 #include <optional>
@@ -37,7 +38,6 @@ struct Performer {
 class SimulatedOmni final : public Device {
 public:
     explicit SimulatedOmni(const Performer& performer);
-    SimulatedOmni(Task task, const HandImpedance& hand, const OmniPlant& plant);
 
     [[nodiscard]] Sample read(base::TimePoint now) override;
     void apply(base::Force force) override;
@@ -51,15 +51,14 @@ public:
 
 private:
     /// What the hand means to do, and by how much its force is off.
-    struct Will {
+    struct Aim {
         Intention intention;
         double force_share = 0.0;
     };
-    [[nodiscard]] Will will(base::TimePoint now) const;
-    void advance(const Will& intended, base::TimePoint now);
+    [[nodiscard]] Aim aim(base::TimePoint now) const;
+    void advance(const Aim& intended, base::TimePoint now);
     void go_on(const base::Position& target, const glm::dvec3& force, base::Duration elapsed);
     void stop_at_workspace_end(int axis);
-    void filter(const glm::dvec3& reported, base::Duration elapsed);
     [[nodiscard]] glm::dvec3 position() const;
     [[nodiscard]] glm::dvec3 quantised(const glm::dvec3& position) const;
 
@@ -71,12 +70,7 @@ private:
     glm::dvec3 force_{0.0};
     base::Position intended_{{0.0, 0.0, 0.035}}; // at simulated_to_
     std::optional<base::TimePoint> simulated_to_;
-    std::optional<base::TimePoint> last_read_;
-    glm::dvec3 last_reported_{0.0};
-    glm::dvec3 filtered_velocity_{0.0};
-    base::Duration filtered_over_{}; // what the next two are for
-    double filter_keeps_ = 0.0;
-    double filter_gain_ = 0.0; // 1/s
+    VelocityFilter velocity_;
 
     struct Part {
         Script script;

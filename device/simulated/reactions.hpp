@@ -11,9 +11,9 @@ namespace hapnet::device {
 
 /// What a hand meets in a moment.
 struct Felt {
-    glm::dvec3 deviation{0.0};      // of the hand from its intention, metres
-    double pressing_n = 0.0;        // the force with which it presses
-    std::optional<double> wanted_n; // with which it wants to; nullopt: it does not care
+    glm::dvec3 deviation{0.0};        // of the hand from its intention, metres
+    double pressing_n = 0.0;          // the force with which it presses
+    std::optional<double> wanted_n{}; // with which it wants to; nullopt: it does not care
 };
 
 /// What it does about it.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/demo_page.hpp"
 
+#include "lab/core/report/page.hpp"
+
 #include <array>
 #include <spdlog/fmt/fmt.h>
 
@@ -10,18 +12,8 @@ namespace hapnet::lab {
 namespace {
 
 constexpr std::size_t every = 10; // ticks: 10 ms are finer than a pixel
-constexpr std::string_view colour_a = "#1f5fbf";
-constexpr std::string_view colour_b = "#d0451b";
-
-constexpr std::string_view head = R"(<!DOCTYPE html>
-<html lang="en"><meta charset="utf-8"><title>Hapnet demo</title>
-<style>
-body { font: 15px/1.5 sans-serif; max-width: 950px; margin: 2em auto; padding: 0 1em }
-pre { background: #f5f5f5; padding: 1em; overflow-x: auto; line-height: 1.3 }
-svg { width: 100%; font: 12px sans-serif }
-</style>
-<h1>Two peers, one cube, 160 ms</h1>
-)";
+constexpr std::string_view colour_a = "var(--left)";
+constexpr std::string_view colour_b = "var(--right)";
 
 bool is_in_session(const record::TickRow& row)
 {
@@ -66,16 +58,16 @@ TaskTrace task_trace_of(const Session& session)
 std::string demo_page(const DemoRun& run, const DemoCircumstances& circumstances,
                       const TaskTrace& p1, const TaskTrace& t3)
 {
-    std::string page{head};
-    page += fmt::format("<p>{}</p>\n<pre>{}</pre>\n", plot::escaped(circumstances.start),
-                        plot::escaped(demo_table(run)));
+    std::string page = report::page_head("Two peers, one cube, 160 ms");
+    page += fmt::format("<h1>Two peers, one cube, 160 ms</h1>\n<p>{}</p>\n<pre>{}</pre>\n",
+                        plot::escaped(circumstances.start), plot::escaped(demo_table(run)));
     page += "<p>While the left hand moves the cube, the right copy is where the left one was "
             "160 ms ago. In the last 3 s both hands are off, and the copies agree again.</p>\n";
     page += plots_of("P1, the left hand carries the cube", p1);
     page += plots_of("T3, both hands squeeze and carry it", t3);
-    page += fmt::format("<h2>How to repeat it</h2>\n<pre>{}</pre>\n</html>\n",
+    page += fmt::format("<h2>How to repeat it</h2>\n<pre>{}</pre>\n",
                         plot::escaped(demo_manifest(run, circumstances).dump(2)));
-    return page;
+    return page + report::page_foot();
 }
 
 } // namespace hapnet::lab

@@ -60,8 +60,11 @@ TEST(PeerUsage, RefusesWhatItDoesNotKnowNamingIt)
     expect_refusal(run("hapnet-peer", {}), 2, {"--remote"});
     expect_refusal(run_with({"--tsak", "P1"}), 2, {"--tsak", "--help"});
     expect_refusal(run_with({"stray"}), 2, {"stray"});
-    expect_refusal(run_with({"--task", "P2"}), 2, {"--task", "'P2'", "P1, T1, T3"});
-    expect_refusal(run_with({"--algorithm", "best"}), 2, {"--algorithm", "'best'", "base"});
+    expect_refusal(run_with({"--task", "P2"}), 2, {"--task", "'P2'", "P1, T1, T2, T3"});
+    expect_refusal(run_with({"--operator", "giant"}), 2, {"--operator", "'giant'", "nominal"});
+    expect_refusal(run_with({"--device", "replay:/no/such.csv"}), 2, {"--device", "/no/such.csv"});
+    expect_refusal(run_with({"--algorithm", "best"}), 2,
+                   {"--algorithm", "'best'", "base, dead-reckoning, sep"});
     expect_refusal(run_with({"--device", "omni1394:"}), 2, {"--device", "'omni1394:'", "sim"});
     expect_refusal(run_with({"--scene", "moon"}), 2, {"--scene", "'moon'", "paper"});
 }
@@ -93,6 +96,20 @@ TEST(PeerUsage, RefusesAScenePointingAtTheLineAndAtTheCure)
     std::ofstream{file}
         << "name = \"bad\"\n[[body]]\nsize = \"40mm\"\nmass = \"100g\"\nfricton = 0.3\n";
     expect_refusal(run_with({"--scene", file}), 2, {"--scene", file + ":5:1: ", "'friction'"});
+    std::filesystem::remove(file);
+}
+
+TEST(PeerUsage, PrintsAnAlgorithmThatItTakesFromAFileAgain)
+{
+    const auto printed = run("hapnet-peer", {"--print-algorithm", "dead-reckoning"});
+    EXPECT_EQ(printed.exit, 0);
+    EXPECT_NE(printed.out.find("velocity = \"nominal\""), std::string::npos);
+    const std::string file = testing::TempDir() + "hapnet-algorithm.toml";
+    std::ofstream{file} << printed.out;
+    EXPECT_EQ(run("hapnet-peer", {"--print-algorithm", file}).out, printed.out);
+    std::ofstream{file} << "algorithm = \"sep\"\nfade_aftr = \"1ms\"\n";
+    expect_refusal(run_with({"--algorithm", file}), 2,
+                   {"--algorithm", file + ":2:1: ", "did you mean 'fade_after'?"});
     std::filesystem::remove(file);
 }
 

@@ -18,7 +18,7 @@ constexpr std::size_t function_lines_max = 60;
 
 bool is_code(const SourceFile& file)
 {
-    return file.is_cpp() || file.is_cmake() || file.is_script();
+    return file.is_cpp() || file.is_cmake() || file.is_script() || file.is_web();
 }
 
 std::string at(std::size_t index, const std::string& what)

@@ -149,6 +149,7 @@ TEST(Licence, HasItsTwoLinesOnTopOrBelowTheInterpreter)
     EXPECT_EQ(missing_licence(source_file("peer/x.cpp", "")).size(), 1U);
     EXPECT_EQ(missing_licence(source_file("x.sh", "#!/bin/sh\n" + licence)).size(), 0U);
     EXPECT_EQ(missing_licence(source_file("x.sh", "#!/bin/sh\n")).size(), 1U);
+    EXPECT_EQ(missing_licence(source_file("page/x.js", "let x;\n")).size(), 1U);
 }
 
 TEST(DeadFiles, AreSourcesThatNothingBuildsAndHeadersThatNothingIncludes)

@@ -22,8 +22,8 @@ bool is_left_out(const fs::path& folder)
 
 bool is_text(const fs::path& file)
 {
-    constexpr std::array extensions{".hpp", ".cpp",  ".in", ".txt", ".cmake",
-                                    ".sh",  ".json", ".md", ".toml"};
+    constexpr std::array extensions{".hpp",  ".cpp", ".in",   ".txt", ".cmake", ".sh",
+                                    ".json", ".md",  ".toml", ".css", ".js"};
     const auto extension = file.extension().string();
     return extension.empty() ||
            std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
@@ -41,6 +41,8 @@ bool SourceFile::is_cmake() const
 }
 
 bool SourceFile::is_script() const { return !lines.empty() && lines.front().starts_with("#!"); }
+
+bool SourceFile::is_web() const { return path.ends_with(".css") || path.ends_with(".js"); }
 
 bool SourceFile::is_in(std::string_view folder) const
 {

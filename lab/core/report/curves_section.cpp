@@ -21,15 +21,19 @@ struct Criterion {
     std::optional<double> Judged::*value;
     plot::Scale scale;
     bool is_worse_when_less;
+    double (*threshold)(const Criteria&); // of what is usable
 };
 
 constexpr std::array criteria_drawn{
     Criterion{"vibration", "Vibration of the cube above 20 Hz", "mm", &Judged::vibration_mm,
-              plot::Scale::logarithmic, false},
+              plot::Scale::logarithmic, false,
+              [](const Criteria& c) { return 1e3 * at_order(c.vibration_max_m, c.filter_order); }},
     Criterion{"stiffness", "Stiffness felt at 1 Hz", "of what it is at no delay",
-              &Judged::stiffness_ratio, plot::Scale::linear, true},
+              &Judged::stiffness_ratio, plot::Scale::linear, true,
+              [](const Criteria& c) { return c.stiffness_ratio_min; }},
     Criterion{"force-vibration", "Vibration of the force above 20 Hz", "N",
-              &Judged::force_vibration_n, plot::Scale::logarithmic, false}};
+              &Judged::force_vibration_n, plot::Scale::logarithmic, false,
+              [](const Criteria& c) { return c.force_vibration_max_n; }}};
 
 /// The sessions of one level: the worst of them.
 struct LevelOfCurve {
@@ -56,10 +60,11 @@ std::map<double, LevelOfCurve> levels_of(const std::vector<CurveRow>& rows,
 
 /// Empty when none of the rows has this criterion.
 std::string curve_plot(const std::vector<CurveRow>& rows, const Criterion& criterion,
-                       const std::string& title, plot::Size size)
+                       const std::string& title, const std::optional<Criteria>& criteria)
 {
     std::vector<plot::Curve> curves;
-    plot::PlotOptions options{.scales = {.y = criterion.scale}, .size = size};
+    plot::PlotOptions options{.scales = {.y = criterion.scale}, .size = {360.0, 250.0}};
+    if (criteria) options.levels.push_back({criterion.threshold(*criteria), "usable"});
     const auto algorithms = distinct(rows, [](const auto& row) { return row.algorithm; });
     for (const std::string& algorithm : algorithms) {
         const auto colour = colour_of(algorithm);
@@ -83,7 +88,7 @@ std::string curve_plot(const std::vector<CurveRow>& rows, const Criterion& crite
     return plot::svg_plot({title, across, criterion.unit}, curves, options);
 }
 
-std::string by_task(const std::vector<CurveRow>& rows)
+std::string by_task(const std::vector<CurveRow>& rows, const std::optional<Criteria>& criteria)
 {
     std::string out;
     for (const std::string& task : distinct(rows, [](const auto& row) { return row.task; })) {
@@ -93,7 +98,7 @@ std::string by_task(const std::vector<CurveRow>& rows)
         }
         for (const Criterion& criterion : criteria_drawn) {
             const auto title = fmt::format("{}: {}", task, criterion.name);
-            const auto svg = curve_plot(of_task, criterion, title, {360.0, 240.0});
+            const auto svg = curve_plot(of_task, criterion, title, criteria);
             if (!svg.empty()) out += figure(svg, escaped(title));
         }
     }
@@ -109,6 +114,8 @@ std::optional<Section> curves_section(const Results& results)
                     "<p>Every point is the worst session that the search played at that level. "
                     "A cross marks the first level at which an algorithm fails, by whichever "
                     "criterion.</p>\n"};
+    const auto criteria = results.criteria();
+    if (criteria) section.html += "<p>The dashed line is where usable ends.</p>\n";
     for (const auto& name : distinct(results.curves, [](const auto& r) { return r.impairment; })) {
         std::vector<CurveRow> rows;
         for (const CurveRow& row : results.curves) {
@@ -117,12 +124,12 @@ std::optional<Section> curves_section(const Results& results)
         section.html += fmt::format("<h3>{}</h3>\n<div class='panels small'>\n",
                                     escaped(impairment_text(name)));
         for (const Criterion& criterion : criteria_drawn) {
-            auto svg = curve_plot(rows, criterion, std::string{criterion.title}, {360.0, 250.0});
+            auto svg = curve_plot(rows, criterion, std::string{criterion.title}, criteria);
             if (svg.empty()) continue;
             section.add_figure(fmt::format("curve-{}-{}", name, criterion.name), std::move(svg),
                                "Worst of tasks and seeds.");
         }
-        section.html += "</div>\n" + folded("Each task on its own", by_task(rows));
+        section.html += "</div>\n" + folded("Each task on its own", by_task(rows, criteria));
     }
     return section;
 }

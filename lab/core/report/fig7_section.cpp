@@ -75,9 +75,10 @@ std::string apart_text(const Rows& rows)
 std::optional<Section> fig7_section(const Results& results)
 {
     if (results.trajectories.empty()) return std::nullopt;
-    Section section{"fig7", "Fig. 7: where each side has the cube",
-                    "<div class='zoom-group'>\n<p class='zoom-help'>Drag across a plot to zoom; "
-                    "all follow. <span class='zoom-buttons'></span></p>\n"};
+    Section section{
+        "fig7", "Fig. 7: where each side has the cube",
+        "<div class='zoom-group'>\n<p class='zoom-help' hidden>Drag across a plot to zoom; "
+        "all follow. <span class='zoom-buttons'></span></p>\n"};
     plot::Range range;
     for (const TrajectoryRow& row : results.trajectories) {
         range.include(row.cube_l_mm);

@@ -27,29 +27,33 @@ std::string cell(std::optional<double> value)
     return value ? fmt::format("{:.6g}", *value) : "NaN";
 }
 
-/// What every script begins with.
-std::string preamble(std::string_view name)
+/// What every script begins with; the height is in cm. Colours after Okabe and Ito.
+std::string preamble(std::string_view name, int height_cm)
 {
-    return fmt::format("# gnuplot {0}.gp writes {0}.pdf;\n"
+    return fmt::format("# In this folder: gnuplot {0}.gp writes {0}.pdf;\n"
                        "# gnuplot -e \"format='svg'\" {0}.gp writes {0}.svg.\n"
                        "if (!exists(\"format\")) format = 'pdf'\n"
                        "if (format eq 'svg') {{\n"
-                       "    set terminal svg size 900,400 noenhanced\n"
+                       "    set terminal svg size 900,{1} noenhanced\n"
                        "}} else {{\n"
-                       "    set terminal pdfcairo size 17cm,8cm noenhanced font ',9'\n"
+                       "    set terminal pdfcairo size 18cm,{2}cm noenhanced font ',8'\n"
                        "}}\n"
                        "set output '{0}.'.format\n"
-                       "set key top right\n"
+                       "set linetype 1 linecolor rgb '#0072b2'\n"
+                       "set linetype 2 linecolor rgb '#d98200'\n"
+                       "set key above\n"
                        "set grid ytics\n",
-                       name);
+                       name, 50 * height_cm, height_cm);
 }
 
 std::string histogram_preamble(std::string_view name)
 {
-    return preamble(name) + "set style data histograms\n"
-                            "set style histogram clustered gap 1\n"
-                            "set style fill solid 0.7 border -1\n"
-                            "set yrange [0:*]\n";
+    return preamble(name, 8) + "set style data histograms\n"
+                               "set style histogram clustered gap 1\n"
+                               "set style fill solid 0.7 border -1\n"
+                               "set yrange [0:*]\n"
+                               "set offsets 0, 0, graph 0.12, 0\n"
+                               "set xtics rotate by -20\n";
 }
 
 void add_table1(const Results& results, std::vector<File>& files)
@@ -120,15 +124,19 @@ void add_fig7(const Results& results, std::vector<File>& files)
                                 cell(row.cube_r_mm));
         }
         data += "\n\n";
-        plots += fmt::format("set title '{0}'\n"
-                             "plot 'fig7.dat' index {1} using 1:2 with lines title 'cube at L', "
-                             "'' index {1} using 1:3 with lines dashtype 2 title 'cube at R'\n",
-                             harmless(name), index++);
+        plots +=
+            fmt::format("set title '{0}'\n"
+                        "plot 'fig7.dat' index {1} using 1:3 with lines linetype 2 title 'cube "
+                        "at R', '' index {1} using 1:2 with lines linetype 1 title 'cube at "
+                        "L'\n",
+                        harmless(name), index++);
     }
     files.push_back({"gnuplot/fig7.dat", std::move(data)});
-    files.push_back({"gnuplot/fig7.gp",
-                     preamble("fig7") + fmt::format("set multiplot layout {},1\n", index) +
-                         "set xlabel 's'\nset ylabel 'x, mm'\n" + plots + "unset multiplot\n"});
+    files.push_back(
+        {"gnuplot/fig7.gp", preamble("fig7", 5 * index) +
+                                fmt::format("set multiplot layout {},1\n", index) +
+                                "set xlabel 's'\nset xrange [*:*] noextend\nset ylabel 'x, mm'\n" +
+                                plots + "unset multiplot\n"});
 }
 
 } // namespace

@@ -12,6 +12,7 @@ namespace hapnet::lab::report {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
 using Outcome = base::Result<void>;
 
 std::string_view name_of(std::string_view path) { return path.substr(path.rfind('/') + 1); }
@@ -24,9 +25,20 @@ std::string folder_of(std::string_view path)
 
 Outcome add_run(const File& file, Results& results)
 {
-    auto json = nlohmann::ordered_json::parse(file.text, nullptr, false);
+    // What nests deeper than anything that we write is left out: it could exhaust the stack.
+    constexpr int depth_max = 16;
+    auto json = Json::parse(
+        file.text, [](int depth, Json::parse_event_t, const Json&) { return depth <= depth_max; },
+        false);
     if (!json.is_object()) return base::fail(file.path + ":1: expected one JSON object");
-    results.runs.push_back({folder_of(file.path), std::move(json)});
+    Run run{folder_of(file.path), std::move(json), std::nullopt};
+    const auto criteria = run.manifest.find("criteria");
+    if (criteria != run.manifest.end() && criteria->is_string()) {
+        auto parsed = parse_criteria(criteria->get<std::string>(), file.path + ": criteria");
+        if (!parsed) return tl::unexpected{parsed.error()};
+        run.criteria = *parsed;
+    }
+    results.runs.push_back(std::move(run));
     return {};
 }
 
@@ -141,6 +153,15 @@ bool Run::is_valid() const
 {
     const auto found = manifest.find("valid");
     return found != manifest.end() && found->is_boolean() && found->get<bool>();
+}
+
+std::optional<Criteria> Results::criteria() const
+{
+    if (runs.empty()) return std::nullopt;
+    const auto first = runs.front().criteria;
+    const bool is_one = std::all_of(runs.begin(), runs.end(),
+                                    [&](const Run& run) { return run.criteria == first; });
+    return is_one ? first : std::nullopt;
 }
 
 bool is_result_file(std::string_view path) { return kind_of(path) != nullptr; }

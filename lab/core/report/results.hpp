@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/core/metrics/criteria.hpp"
 #include "lab/core/report/rows.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@ namespace hapnet::lab::report {
 struct Run {
     std::string folder; // where it stands, as the path of the file says
     nlohmann::ordered_json manifest;
+    std::optional<Criteria> criteria; // by which it judged; nullopt: it does not say
 
     [[nodiscard]] bool is_valid() const;
 };
@@ -31,6 +34,9 @@ struct Results {
     std::vector<QosRow> qos;
     std::vector<RealTimeRow> real_time;
     std::vector<Replay> replays;
+
+    /// By which all runs judged; nullopt when they do not say, or differ.
+    [[nodiscard]] std::optional<Criteria> criteria() const;
 };
 
 /// Whether a file of this name is one that read_results() reads; all others it leaves alone.

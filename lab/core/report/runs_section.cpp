@@ -67,24 +67,21 @@ std::string overview(const std::vector<Run>& runs)
     return html_of(table);
 }
 
-/// All that a manifest says.
+/// All that a manifest says; what has lines of its own, such as the configuration, below the rest.
 std::string run_html(const Run& run)
 {
     HtmlTable table{run.folder, {"", "value"}};
-    std::string configuration;
+    std::string texts;
     for (const auto& [key, value] : run.manifest.items()) {
-        if (key == "configuration") {
-            configuration = value.is_string() ? value.get<std::string>() : value.dump(2);
-            continue;
+        const std::string words = words_of(value), title = escaped(title_of_key(key));
+        if (words.find('\n') == std::string::npos) {
+            table.rows.push_back({{title}, {escaped(words), "words"}});
+        } else {
+            texts += fmt::format("<p>{}:</p>\n<pre>{}</pre>\n", title, escaped(words));
         }
-        table.rows.push_back({{escaped(title_of_key(key))}, {escaped(words_of(value)), "words"}});
-    }
-    std::string out = html_of(table);
-    if (!configuration.empty()) {
-        out += "<p>The effective configuration:</p>\n<pre>" + escaped(configuration) + "</pre>\n";
     }
     return folded(fmt::format("{}: <code>{}</code>", escaped(run.folder), words_at(run, "command")),
-                  out);
+                  html_of(table) + texts);
 }
 
 } // namespace

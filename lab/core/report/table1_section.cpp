@@ -38,6 +38,14 @@ HtmlCell band_cell(const std::optional<Band>& band)
     return {fmt::format("{} to {}", shown(band->low, 2), shown(band->high, 2)), "band"};
 }
 
+const Table1Row* base_of(const Results& results)
+{
+    for (const Table1Row& row : results.table1) {
+        if (row.algorithm == "base") return &row;
+    }
+    return nullptr;
+}
+
 std::string table_of(const Results& results)
 {
     HtmlTable table{"|x at L − x at R| of the cube in task P1, mm: this run, the paper, and from "
@@ -47,10 +55,7 @@ std::string table_of(const Results& results)
         table.heads.insert(table.heads.end(), {std::string{quantity.name}, "paper", "band"});
     }
     table.heads.insert(table.heads.end(), {"min", "verdict"});
-    const Table1Row* base = nullptr;
-    for (const Table1Row& row : results.table1) {
-        if (row.algorithm == "base") base = &row;
-    }
+    const Table1Row* base = base_of(results);
     for (const Table1Row& row : results.table1) {
         const Table1Bands bands = table1_bands(row, base);
         std::vector<HtmlCell> cells{{escaped(row.algorithm)}};
@@ -69,6 +74,7 @@ std::string table_of(const Results& results)
 /// Ours beside the paper's, one group for each algorithm.
 std::string bars_of(const Results& results, const Quantity& quantity)
 {
+    const Table1Row* base = base_of(results);
     std::vector<plot::BarGroup> groups;
     for (const Table1Row& row : results.table1) {
         plot::BarGroup group{row.algorithm, {}};
@@ -82,11 +88,12 @@ std::string bars_of(const Results& results, const Quantity& quantity)
                  .tip = fmt::format("{}, paper: {} mm", row.algorithm, shown(*paper, 2))});
         }
         const double ours = row.*quantity.ours;
+        const auto band = table1_bands(row, base).*quantity.band;
         group.bars.push_back(
             {.value = ours,
              .label = shown(ours, 1),
              .colour = colour,
-             .is_missed = row.verdict == Claim::missed,
+             .is_missed = band && !band->holds(ours),
              .tip = fmt::format("{}, this run: {} mm", row.algorithm, shown(ours, 2))});
         groups.push_back(std::move(group));
     }

@@ -28,7 +28,8 @@ TEST(HandNoise, IsThereForTheLongestSessionThatCanBeAskedFor)
     const HandNoise noise{base::Seed{1}, 1, {}};
     for (const double seconds : {13'000.0, 14'000.0, 1e5, 1e6}) {
         double most = 0.0;
-        for (int i = 0; i < 400; ++i) most = std::max(most, std::abs(noise.at(seconds + 0.01 * i).away_m));
+        for (int i = 0; i < 400; ++i)
+            most = std::max(most, std::abs(noise.at(seconds + 0.01 * i).away_m));
         EXPECT_LE(most, amplitude_m) << seconds;
         EXPECT_GE(most, 0.1 * amplitude_m) << seconds;
     }

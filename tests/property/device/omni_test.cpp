@@ -19,7 +19,9 @@ TEST(SimulatedOmni, StaysFiniteAndInItsWorkspaceWhateverForceAndTimeDoToIt)
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         const auto stream = base::Seed{seed}.stream("omni");
         const bool is_left = seed % 2 == 0;
-        SimulatedOmni omni{static_cast<Task>(seed % 3), HandImpedance{}, OmniPlant{}};
+        const auto name = seed % 3 == 0 ? "lifelike" : seed % 3 == 1 ? "firm" : "relaxed";
+        SimulatedOmni omni{{.task = all_tasks.at(seed % all_tasks.size()),
+                            .person = operator_named(name).value()}};
         base::TimePoint now{1h};
         omni.on_cue({now + 500ms, 3s, base::Seed{seed}, 1, is_left});
         const double centre = is_left ? -0.025 : 0.025;

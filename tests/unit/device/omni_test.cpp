@@ -17,7 +17,7 @@ constexpr OmniPlant plant{};
 constexpr HandImpedance hand{};
 constexpr double half_count = plant.resolution_m / 2;
 
-SimulatedOmni omni_for(Task task) { return SimulatedOmni{task, hand, plant}; }
+SimulatedOmni omni_for(Task task) { return SimulatedOmni{Performer{.task = task}}; }
 
 /// Reads each millisecond in (from, from + length]; the last sample.
 Sample read_for(SimulatedOmni& omni, base::TimePoint from, base::Duration length)
@@ -100,8 +100,9 @@ TEST(SimulatedOmni, SaturatesAtItsPeakForce)
 
 TEST(SimulatedOmni, StopsAtTheEndsOfItsWorkspace)
 {
-    const HandImpedance weak{.stiffness_n_per_m = 5.0};
-    SimulatedOmni omni{Task::t3, weak, plant};
+    Operator weak;
+    weak.hand.stiffness_n_per_m = 5.0;
+    SimulatedOmni omni{{.task = Task::t3, .person = weak}};
     omni.apply({{-3.3, 0.0, 0.0}});
     Sample sample = read_for(omni, start, 3s);
     EXPECT_NEAR(sample.hip.x(), -0.080, half_count);
@@ -169,6 +170,35 @@ TEST(SimulatedOmni, PlaysTheSameForTheSameSeedAndPeer)
 TEST(SimulatedOmni, PlaysThePrescribedPathOfP1WithoutChance)
 {
     EXPECT_EQ(played(Task::p1, base::Seed{7}, 1), played(Task::p1, base::Seed{8}, 2));
+}
+
+TEST(SimulatedOmni, PlaysP1AlikeHoweverThePersonWaversAndReacts)
+{
+    const auto xs = [](const Operator& person) {
+        SimulatedOmni omni{{.task = Task::p1, .person = person}};
+        omni.on_cue({start, 10s, base::Seed{7}, 1, true});
+        std::vector<double> result;
+        for (int ms = 0; ms < 2000; ++ms) result.push_back(omni.read(start + ms * 1ms).hip.x());
+        return result;
+    };
+    EXPECT_EQ(xs(operator_named("nominal").value()), xs(operator_named("lifelike").value()));
+}
+
+TEST(SimulatedOmni, PushesOnWhereItsTaskAsksForAForceThatItDoesNotFeel)
+{
+    // Nothing is there: the hand goes on by 10 mm per second and newton, from 150 ms after the
+    // script wants 0.71 N, smoothed over 106 ms.
+    SimulatedOmni omni = omni_for(Task::t5);
+    omni.on_cue({start, 30s, base::Seed{1}, 1, true});
+    const auto noise = [](double seconds) {
+        return HandNoise{base::Seed{1}, 1, {}}.at(seconds).away_m;
+    };
+    std::ignore = read_for(omni, start, 2s);
+    const double aim = -0.025 + 0.71 * (1.0 / 200.0 + 1.0 / 500.0);
+    const Sample sample = read_for(omni, start + 2s, 1s);
+    const double farther = sample.hip.x() - aim - noise(3.0);
+    const double expected = 0.010 * 0.71 * (1.0 - 0.150 - 0.106);
+    EXPECT_NEAR(farther, expected, plant.friction_n / hand.stiffness_n_per_m + 0.0005);
 }
 
 TEST(SimulatedOmni, SaysThatItIsSimulated)

@@ -124,7 +124,7 @@ TEST(MinimumJerk, GoesFromZeroToOneAndIsSymmetric)
 
 TEST(Tasks, HaveNames)
 {
-    for (const auto task : {Task::p1, Task::t1, Task::t3}) {
+    for (const Task task : all_tasks) {
         EXPECT_EQ(task_named(name_of(task)), task);
     }
     const auto unknown = task_named("P2");
@@ -190,10 +190,10 @@ TEST(TaskT3, LetsBothSqueezeAtHalfSpeedWithTheRightOne60MsBehind)
 
 TEST(EveryTask, TakesTheHands20MmOffWithinHalfASecondAtItsEndAndLeavesThemThere)
 {
-    for (const auto task : {Task::p1, Task::t1, Task::t3}) {
+    for (const Task task : all_tasks) {
         for (const bool is_left : {true, false}) {
             const Script script{task, cue(is_left)};
-            const double side = is_left ? -1.0 : 1.0;
+            const double side = -script.pressing_toward();
             const double from = script.at(start + hands_on).target.x();
             const auto moved = [&](base::Duration after) {
                 return side * (script.at(start + hands_on + after).target.x() - from);

@@ -85,7 +85,8 @@
     const scale = canvas.width / (window3d.right - window3d.left);
     context.beginPath();
     context.arc(x, y, data.hip_radius * scale, 0, 2 * Math.PI);
-    Object.assign(context, { fillStyle: colour }).fill();
+    Object.assign(context, { fillStyle: colour, strokeStyle: colours.ink, lineWidth: 3 }).fill();
+    context.stroke();
     const length = force * mmPerNewton * scale;
     if (Math.abs(length) < 3) return;
     const head = Math.sign(length) * Math.min(16, Math.abs(length));
@@ -117,12 +118,14 @@
     const moving = data.bodies.find((body) => body.movable);
     const fixed = data.bodies.filter((body) => !body.movable);
     const cube = place(side, row);
-    const boxes = fixed.map((body) => [body.at, body.half, { fill: colours["static-cube"], stroke: colours.ink }]);
+    const pink = { fill: colours["static-cube"], stroke: colours.ink };
+    const boxes = fixed.map((body) => [body.at, body.half, pink]);
     boxes.push([cube, moving.half, { fill: colours.cube, stroke: colours.ink }]);
     boxes.sort((a, b) => a[0][2] - b[0][2]); // the nearest last
     boxes.forEach((one) => box(canvas, ...one));
     box(canvas, place(other, row), moving.half, { stroke: colours.ink, dash: [9, 7] });
-    hand(canvas, place(side + "h", row), replay.columns[side + "fx"][row], colours[side === "l" ? "left" : "right"]);
+    const colour = colours[side === "l" ? "left" : "right"];
+    hand(canvas, place(side + "h", row), replay.columns[side + "fx"][row], colour);
     if (cube[0] < window3d.left || cube[0] > window3d.right) {
       context.font = "28px sans-serif";
       context.fillStyle = colours.ink;
@@ -133,8 +136,10 @@
   const drawStrip = (row) => {
     const context = strip.getContext("2d");
     const { lx, rx } = replay.columns;
-    const low = Math.max(-400, Math.min(lx.reduce((a, b) => Math.min(a, b)), rx.reduce((a, b) => Math.min(a, b))));
-    const high = Math.min(400, Math.max(lx.reduce((a, b) => Math.max(a, b)), rx.reduce((a, b) => Math.max(a, b))));
+    const least = (column) => column.reduce((a, b) => Math.min(a, b));
+    const most = (column) => column.reduce((a, b) => Math.max(a, b));
+    const low = Math.max(-400, Math.min(least(lx), least(rx))); // mm: a cube that flew off is cut
+    const high = Math.min(400, Math.max(most(lx), most(rx)));
     const down = (x) => 10 + ((strip.height - 20) * (high - x)) / Math.max(high - low, 1e-9);
     const across = (i) => (strip.width * i) / (replay.count - 1);
     context.clearRect(0, 0, strip.width, strip.height);
@@ -160,7 +165,8 @@
     time.setAttribute("aria-valuetext", `${seconds.toFixed(1)} s`);
     find("clock").textContent = `t = ${seconds.toFixed(2)} s`;
     find("apart").textContent = `copies apart: ${Math.abs(lx[row] - rx[row]).toFixed(1)} mm`;
-    find("forces").textContent = `force on L ${lfx[row].toFixed(2)} N, on R ${rfx[row].toFixed(2)} N`;
+    const newtons = (column) => `${column[row].toFixed(2)} N`;
+    find("forces").textContent = `force on L ${newtons(lfx)}, on R ${newtons(rfx)}`;
   };
 
   const frame = (now) => {

@@ -104,6 +104,7 @@
     add("←", "earlier", () => move(-0.25));
     add("→", "later", () => move(0.25));
     add("all", "show all", () => show(...whole));
+    group.querySelector(".zoom-help").hidden = false;
   };
 
   document.querySelectorAll(".zoom-group").forEach(setUp);

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/base/space.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::device {
+
+/// Where a hand was at a time, seconds from the start of a session.
+struct HandMoment {
+    double time_s = 0.0;
+    base::Position hip;
+    bool gripping = false;
+
+    friend bool operator==(const HandMoment&, const HandMoment&) = default;
+};
+
+/// A hand's way, recorded: at least one moment, in the order of time.
+using HandTrace = std::vector<HandMoment>;
+
+inline constexpr std::size_t hand_moments_max = 4'000'000;
+inline constexpr double hand_reach_max_m = 10.0;
+
+/// Reads CSV. The first line names the columns: time_s, and x_m, y_m and z_m, or hip_x_mm,
+/// hip_y_mm and hip_z_mm, as `hapnet-lab export` writes them; gripping (0 or 1) may be there;
+/// others are passed over. Times grow from line to line. The error is FILE:LINE and what was
+/// expected, the file being called `source`.
+[[nodiscard]] base::Result<HandTrace> parse_hand_trace(std::string_view text,
+                                                       const std::string& source);
+
+} // namespace hapnet::device

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/replay/hand_trace.hpp"
+#include "device/velocity_filter.hpp"
+
+#include <optional>
+#include <string>
+
+namespace hapnet::device {
+
+/// A hand that goes a recorded way, whatever force it is given: evenly from one recorded moment to
+/// the next. The trace's time counts from the session's start; before its first moment the hand
+/// waits there, and after its last it stays there and lets go. The velocity is that of a device:
+/// the way's differences, low-passed at 30 Hz.
+class Replay final : public Device {
+public:
+    /// At least one moment, in the order of time. `source` is for the description.
+    Replay(HandTrace trace, std::string source);
+
+    [[nodiscard]] Sample read(base::TimePoint now) override;
+    void apply(base::Force force) override;
+    void on_cue(const Cue& cue) override;
+    [[nodiscard]] std::string description() const override;
+
+    static constexpr double velocity_cutoff_hertz = 30.0;
+
+private:
+    [[nodiscard]] HandMoment at(double seconds) const;
+
+    HandTrace trace_;
+    std::string source_;
+    std::optional<base::TimePoint> start_;
+    VelocityFilter velocity_{velocity_cutoff_hertz};
+};
+
+} // namespace hapnet::device

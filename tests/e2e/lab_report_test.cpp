@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What hapnet-lab report makes of folders, and of what is none.
+#include "tests/e2e/process.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <string>
+
+namespace hapnet::e2e {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* table1 =
+    "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,verdict\n"
+    "base,13.611,0.000,47.251,10.683,13.789,46.010,10.986,calibrated\n";
+
+void write_file(const fs::path& path, const std::string& text)
+{
+    fs::create_directories(path.parent_path());
+    std::ofstream{path} << text;
+}
+
+TEST(LabReport, WritesThePageItsFiguresAndTheGnuplotFilesOfAFolderAndItsSubfolders)
+{
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.file("results");
+    write_file(folder / "table1/table1.csv", table1);
+    write_file(folder / "qos.csv", "algorithm,task,delay_ms,jitter_ms,loss_percent,mean_mm,"
+                                   "vibration_mm,stiffness_ratio,force_vibration_n,tier\n"
+                                   "base,T1,0,0,0,0.1,0.01,,0.01,good\n");
+    write_file(folder / "notes.txt", "not ours");
+    const auto outcome = run("hapnet-lab", {"report", folder.string()});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, (folder / "report.html").string() + "\n");
+    const auto page = text_of((folder / "report.html").string());
+    EXPECT_NE(page.find("<section id='table1'"), std::string::npos);
+    EXPECT_NE(page.find("<section id='qos'"), std::string::npos);
+    EXPECT_NE(page.find("scripts/fig7.sh --out " + folder.string() + "/fig7"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "figures/table1-mean.svg"));
+    EXPECT_TRUE(fs::exists(folder / "gnuplot/table1.gp"));
+    EXPECT_TRUE(fs::exists(folder / "gnuplot/table1.dat"));
+    EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
+    EXPECT_EQ(text_of((folder / "report.html").string()), page) << "made again, it is the same";
+}
+
+TEST(LabReport, RefusesWhatIsNoResultWithFileAndLine)
+{
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.file("results");
+    fs::create_directories(folder);
+    const auto refusal = [&] {
+        const auto outcome = run("hapnet-lab", {"report", folder.string()});
+        EXPECT_EQ(outcome.exit, 2) << outcome.err;
+        EXPECT_FALSE(fs::exists(folder / "report.html"));
+        return outcome.err;
+    };
+    EXPECT_NE(refusal().find("holds no results: expected manifest.json"), std::string::npos);
+    write_file(folder / "table1.csv", std::string{table1} + "sep,1,2\n");
+    const auto broken = refusal();
+    EXPECT_NE(broken.find("table1.csv:3: expected 9 cells as in the header, found 3"),
+              std::string::npos)
+        << broken;
+    const auto none = run("hapnet-lab", {"report", temporary.file("none")});
+    EXPECT_EQ(none.exit, 2);
+    EXPECT_NE(none.err.find("none is not a folder"), std::string::npos) << none.err;
+}
+
+} // namespace
+
+} // namespace hapnet::e2e
