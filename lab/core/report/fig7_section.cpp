@@ -49,9 +49,12 @@ constexpr BothSides forces{": forces",
 
 std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot::Range& range = {})
 {
-    // R first: what shakes must not hide what does not.
-    const std::array curves{plot::Curve{both.right_name, right_colour, points_of(rows, both.right)},
-                            plot::Curve{both.left_name, left_colour, points_of(rows, both.left)}};
+    const std::array curves{plot::Curve{.name = both.left_name,
+                                        .colour = left_colour,
+                                        .points = points_of(rows, both.left)},
+                            plot::Curve{.name = both.right_name,
+                                        .colour = right_colour,
+                                        .points = points_of(rows, both.right)}};
     const std::string title = rows.front().algorithm + std::string{both.title};
     return plot::svg_plot({title, "s", both.unit}, curves,
                           {.size = {900.0, 230.0}, .y = range, .can_zoom = true});
