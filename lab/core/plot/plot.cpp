@@ -149,7 +149,9 @@ std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
     out += canvas.marks();
     for (const Level& level : options.levels) out += canvas.level(level);
     if (options.can_zoom) out += canvas.window();
-    for (auto curve = curves.rbegin(); curve != curves.rend(); ++curve) out += canvas.line(*curve);
+    std::string lines; // the first last: on top
+    for (const Curve& curve : curves) lines.insert(0, canvas.line(curve));
+    out += lines;
     if (options.can_zoom) out += "</svg>\n";
     for (const Cross& cross : options.crosses) out += canvas.cross(cross);
     return out + "</svg>\n";

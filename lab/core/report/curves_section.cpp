@@ -74,6 +74,7 @@ std::string curve_plot(const std::vector<CurveRow>& rows, const Criterion& crite
                           .shows_points = true};
         bool has_failed = false;
         for (const auto& [level, found] : levels_of(rows, algorithm, criterion)) {
+            options.x.include(level);
             if (!found.value) continue;
             curve.points.push_back({level, *found.value});
             if (!found.is_unusable || has_failed) continue;

@@ -36,16 +36,16 @@ struct BothSides {
     double TrajectoryRow::*right;
 };
 
-constexpr BothSides cubes{
+constexpr BothSides drawn_cubes{
     "", "cube at L", "cube at R", "x, mm", &TrajectoryRow::cube_l_mm, &TrajectoryRow::cube_r_mm};
-constexpr BothSides hands{
+constexpr BothSides drawn_hands{
     ": hands", "hand L", "hand R", "x, mm", &TrajectoryRow::hand_l_mm, &TrajectoryRow::hand_r_mm};
-constexpr BothSides forces{": forces",
-                           "on hand L",
-                           "on hand R",
-                           "x, N",
-                           &TrajectoryRow::force_l_n,
-                           &TrajectoryRow::force_r_n};
+constexpr BothSides drawn_forces{": forces",
+                                 "on hand L",
+                                 "on hand R",
+                                 "x, N",
+                                 &TrajectoryRow::force_l_n,
+                                 &TrajectoryRow::force_r_n};
 
 std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot::Range& range = {})
 {
@@ -94,9 +94,10 @@ std::optional<Section> fig7_section(const Results& results)
         for (const TrajectoryRow& row : results.trajectories) {
             if (row.algorithm == name) rows.push_back(row);
         }
-        section.add_figure("fig7-" + name, both_sides_plot(rows, cubes, range), apart_text(rows));
-        more += figure(both_sides_plot(rows, hands), escaped(name)) +
-                figure(both_sides_plot(rows, forces), escaped(name));
+        section.add_figure("fig7-" + name, both_sides_plot(rows, drawn_cubes, range),
+                           apart_text(rows));
+        more += figure(both_sides_plot(rows, drawn_hands), escaped(name)) +
+                figure(both_sides_plot(rows, drawn_forces), escaped(name));
     }
     section.html += folded("Hands and forces", more) + "</div>\n";
     return section;
