@@ -21,6 +21,14 @@ target_compile_options(hapnet_options INTERFACE
     # One result for one seed, whatever the compiler: no fused multiply-add behind our back.
     -ffp-contract=off)
 target_compile_definitions(hapnet_options INTERFACE GLM_FORCE_EXPLICIT_CTOR)
+# GCC clears a struct of 33 bytes or more by `rep stos`, which takes longer to begin than to do: a
+# peer's tick is a tenth slower so (measured 2026, GCC 12, AMD EPYC).
+include(CheckCXXCompilerFlag)
+set(HAPNET_CLEARING -mmemset-strategy=unrolled_loop:512:noalign,libcall:-1:noalign)
+check_cxx_compiler_flag("${HAPNET_CLEARING}" HAPNET_HAS_CLEARING)
+if(HAPNET_HAS_CLEARING)
+    target_compile_options(hapnet_options INTERFACE "${HAPNET_CLEARING}")
+endif()
 if(HAPNET_WARNINGS_AS_ERRORS)
     target_compile_options(hapnet_options INTERFACE -Werror)
 endif()

@@ -20,18 +20,6 @@ namespace hapnet::lab {
 
 namespace {
 
-CLI::App* add_analyse(CLI::App& app, AnalyseCommand& analyse)
-{
-    auto* command = app.add_subcommand(
-        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
-                   "forces were apart, what the network did, whether the run is valid.\n"
-                   "A run that is not valid says so; the exit code stays 0");
-    command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
-    command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
-    command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
-    return command;
-}
-
 CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
 {
     auto* command = app.add_subcommand(
@@ -104,6 +92,11 @@ CLI::App* add_run(CLI::App& app, RunCommand& run)
     command->add_option("--jobs", run.jobs, "how many threads; does not change the results")
         ->option_text("N [all processors]")
         ->check(CLI::Range(1U, jobs_max));
+    command
+        ->add_option("--criteria", run.criteria,
+                     "what a session must keep to be usable: a file (docs/METRICS.md), or what\n"
+                     "was calibrated on the paper")
+        ->option_text("FILE [paper]");
     command->add_flag("--quick", run.quick, "what the experiment says under [quick]: rougher");
     command->add_option("--out", run.out, "the folder for the results")
         ->option_text("DIR")
@@ -142,7 +135,13 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     app.footer("Exit codes: 0 done, 1 failed, 2 usage or bad input, 3 the environment.");
 
     AnalyseCommand analyse;
-    auto* analyse_command = add_analyse(app, analyse);
+    auto* analyse_command = app.add_subcommand(
+        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
+                   "forces were apart, what the network did, whether the run is valid.\n"
+                   "A run that is not valid says so; the exit code stays 0");
+    analyse_command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
+    analyse_command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
+    analyse_command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
 
     ExportCommand exported;
     auto* export_command =
@@ -177,8 +176,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
         const bool names_one = words.size() > 1 && app.get_subcommands().empty();
         if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
         return base::fail(std::string{"'"} + words[1] +
-                          "' is not a command; use analyse, explain, export, report or run; see "
-                          "hapnet-lab --help");
+                          "' is not a command; use analyse, explain, export, report or run, "
+                          "see hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
     }

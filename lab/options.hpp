@@ -55,6 +55,7 @@ struct ReportCommand {
 struct RunCommand {
     std::string experiment; // a file, or the name of a built-in one
     std::vector<std::string> settings;
+    std::string criteria = "paper"; // a file, or the name of built-in ones
     std::optional<std::uint32_t> seeds;
     std::optional<unsigned> jobs; // nullopt: as many as there are processors
     bool quick = false;

@@ -3,6 +3,7 @@
 #include "lab/run_command.hpp"
 
 #include "lab/core/experiment/cells.hpp"
+#include "lab/core/experiment/criteria_text.hpp"
 #include "lab/core/experiment/manifest.hpp"
 #include "lab/core/experiment/results.hpp"
 #include "lab/core/experiment/text.hpp"
@@ -17,7 +18,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 #include <spdlog/fmt/fmt.h>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -62,9 +65,10 @@ base::Result<void> refuse_foreign(const std::filesystem::path& out)
 /// The run of one experiment into one folder.
 class ExperimentRun {
 public:
-    ExperimentRun(const RunCommand& command, Experiment experiment)
+    ExperimentRun(const RunCommand& command, Experiment experiment, const Criteria& criteria)
         : command_{command},
           experiment_{std::move(experiment)},
+          criteria_{criteria},
           out_{command.out},
           start_{net::monotonic_now()},
           start_s_{net::wall_clock_seconds()}
@@ -95,8 +99,7 @@ private:
         const Runner runner{store, play_in_virtual_time, jobs(), [&](const RunProgress& progress) {
                                 line.show(progress, net::monotonic_now());
                             }};
-        const Criteria criteria;
-        const auto findings = carry_out_all(experiment_, criteria, runner, stop);
+        const auto findings = carry_out_all(experiment_, criteria_, runner, stop);
         line.finish();
         if (!findings) throw std::runtime_error{findings.error().message};
         const auto counts = store.counts();
@@ -108,16 +111,25 @@ private:
                                  counts.played + counts.reused, out_.string()));
             return net::exit_failed;
         }
-        for (const ResultText& file : results_of(experiment_, criteria, **findings)) {
-            write_text(out_ / file.name, file.text);
-            if (file.name == "table1.csv" || file.name == "limits.csv") {
-                fmt::print("{}\n", aligned(file.text));
-            }
-        }
+        write_results(**findings);
         write_manifest(counts, {});
         fmt::print("{}: {} sessions played, {} reused; results in {}\n", experiment_.title,
                    counts.played, counts.reused, out_.string());
         return 0;
+    }
+
+    void write_results(std::span<const Finding> findings) const
+    {
+        const auto files = results_of(experiment_, criteria_, findings);
+        if (!files) throw std::runtime_error{files.error().message};
+        for (const ResultText& file : *files) {
+            write_text(out_ / file.name, file.text);
+            if (file.name == "table1.csv" || file.name == "limits.csv") {
+                fmt::print("{}\n", aligned(file.text));
+            } else if (file.name == "criteria.toml") {
+                fmt::print("{}\n", file.text);
+            }
+        }
     }
 
     [[nodiscard]] unsigned jobs() const
@@ -128,6 +140,7 @@ private:
     void write_manifest(const SessionStore::Counts& counts, std::vector<std::string> invalid) const
     {
         const Circumstances circumstances{command_.command,
+                                          print_criteria(criteria_),
                                           base::version_line(program_name),
                                           host(),
                                           start_s_,
@@ -140,6 +153,7 @@ private:
 
     const RunCommand& command_;
     Experiment experiment_;
+    Criteria criteria_;
     std::filesystem::path out_;
     base::TimePoint start_;
     double start_s_;
@@ -151,7 +165,9 @@ base::Result<int> run_experiment(const RunCommand& command)
 {
     auto experiment = load(command);
     if (!experiment) return tl::unexpected{experiment.error()};
-    return ExperimentRun{command, *std::move(experiment)}.run();
+    const auto criteria = load_criteria(command.criteria, net::text_of_file);
+    if (!criteria) return tl::unexpected{criteria.error()};
+    return ExperimentRun{command, *std::move(experiment), *criteria}.run();
 }
 
 } // namespace hapnet::lab

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
+#include <string>
 
 namespace hapnet::device {
 
@@ -33,8 +34,11 @@ base::Result<Task> task_named(std::string_view name)
     for (const Task task : all_tasks) {
         if (name_of(task) == name) return task;
     }
-    return base::fail(
-        fmt::format("'{}' is not a task; known: {}", name, fmt::join(task_names, ", ")));
+    std::string known;
+    for (const std::string_view each : task_names) {
+        known += (known.empty() ? "" : ", ") + std::string{each};
+    }
+    return base::fail(fmt::format("'{}' is not a task; known: {}", name, known));
 }
 
 std::string_view name_of(Task task) { return task_names.at(static_cast<std::size_t>(task)); }

@@ -66,6 +66,11 @@ std::optional<Datagram> DelayLine::pop(base::TimePoint now)
 
 std::optional<base::TimePoint> DelayLine::next_due() const
 {
+    const bool are_in_turn = heap_.empty() && times_.empty(); // as a constant delay leaves them
+    if (are_in_turn) {
+        if (in_turn_.empty()) return std::nullopt;
+        return in_turn_.front().datagram.due;
+    }
     std::optional<base::TimePoint> due;
     if (!in_turn_.empty()) due = in_turn_.front().datagram.due;
     if (!heap_.empty()) due = base::earlier(due, heap_.front().datagram.due);

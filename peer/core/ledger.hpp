@@ -5,7 +5,6 @@
 #include "proto/base/space.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace hapnet::peer {
@@ -31,7 +30,11 @@ public:
 private:
     [[nodiscard]] static std::array<std::int64_t, 3> billionths(const glm::dvec3& v)
     {
-        return {std::llround(v.x * 1e9), std::llround(v.y * 1e9), std::llround(v.z * 1e9)};
+        // By hand: the library's rounding is called six times a tick, and not compiled in.
+        const auto rounded = [](double x) {
+            return static_cast<std::int64_t>(x < 0.0 ? x - 0.5 : x + 0.5);
+        };
+        return {rounded(v.x * 1e9), rounded(v.y * 1e9), rounded(v.z * 1e9)};
     }
 
     base::Displacement displacement_;

@@ -287,10 +287,10 @@ void Peer::move_world(Tick& tick, const Situation& situation, const scene::HipIn
     const Outcome outcome = std::visit(
         [&](auto& algorithm) { return algorithm.tick(world_, situation); }, settings_.algorithm);
     tick.touched = outcome.touched;
-    base::Force on_hand = outcome.on_hand;
     tick.remote_touching = outcome.remote_touching;
     tick.remote_force = outcome.remote_force;
     tick.remote_hip = outcome.remote_hip;
+    base::Force on_hand = outcome.on_hand;
     if (friction_) {
         friction_->on_touch(tick.touched);
         tick.touched.on_body += rubbing;

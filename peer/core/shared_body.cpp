@@ -36,10 +36,7 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
 
 void put(scene::World& world, scene::BodyId body, base::Position position, base::Velocity velocity)
 {
-    scene::BodyState state = world.body(body);
-    state.position = position;
-    state.velocity = velocity;
-    world.place(body, state);
+    world.place(body, position, velocity);
 }
 
 } // namespace hapnet::peer

@@ -35,7 +35,7 @@ template <std::unsigned_integral T>
 /// each field: read straight through, then ask complete() once.
 class ByteReader {
 public:
-    explicit ByteReader(std::span<const std::byte> bytes) : bytes_{bytes} {}
+    explicit ByteReader(std::span<const std::byte> bytes) : left_{bytes} {}
 
     [[nodiscard]] std::uint8_t u8() { return unsigned_of<std::uint8_t>(); }
     [[nodiscard]] std::uint16_t u16() { return unsigned_of<std::uint16_t>(); }
@@ -48,44 +48,46 @@ public:
     /// The next `count` bytes; empty when fewer are left.
     [[nodiscard]] std::span<const std::byte> raw(std::size_t count)
     {
-        if (!take(count)) return {};
-        return bytes_.subspan(position_ - count, count);
+        if (!has(count)) return {};
+        const auto taken = left_.first(count);
+        left_ = left_.subspan(count);
+        return taken;
     }
 
     /// Whether every read was served.
     [[nodiscard]] bool ok() const { return !short_; }
     /// Whether every read was served and nothing is left over.
-    [[nodiscard]] bool complete() const { return !short_ && position_ == bytes_.size(); }
+    [[nodiscard]] bool complete() const { return !short_ && left_.empty(); }
 
 private:
-    [[nodiscard]] bool take(std::size_t count)
+    /// After the first time that it has not, nothing is left.
+    [[nodiscard]] bool has(std::size_t count)
     {
-        if (short_ || bytes_.size() - position_ < count) {
-            short_ = true;
-            return false;
-        }
-        position_ += count;
-        return true;
+        if (left_.size() >= count) [[likely]]
+            return true;
+        short_ = true;
+        left_ = {};
+        return false;
     }
 
     template <std::unsigned_integral T>
     [[nodiscard]] T unsigned_of()
     {
-        if (!take(sizeof(T))) return 0;
-        std::array<std::byte, sizeof(T)> bytes{};
-        std::memcpy(bytes.data(), bytes_.data() + (position_ - sizeof(T)), sizeof(T));
+        if (!has(sizeof(T))) return 0;
+        std::array<std::byte, sizeof(T)> bytes; // NOLINT(*-member-init): filled in the next line
+        std::memcpy(bytes.data(), left_.data(), sizeof(T));
+        left_ = left_.subspan(sizeof(T));
         return in_little_endian(std::bit_cast<T>(bytes));
     }
 
-    std::span<const std::byte> bytes_;
-    std::size_t position_ = 0;
+    std::span<const std::byte> left_;
     bool short_ = false;
 };
 
 /// Writes little-endian fields one after another into a buffer that is large enough.
 class ByteWriter {
 public:
-    explicit ByteWriter(std::span<std::byte> buffer) : buffer_{buffer} {}
+    explicit ByteWriter(std::span<std::byte> buffer) : buffer_{buffer}, left_{buffer} {}
 
     void u8(std::uint8_t value) { put(value); }
     void u16(std::uint16_t value) { put(value); }
@@ -96,23 +98,28 @@ public:
     void f64(double value) { put(std::bit_cast<std::uint64_t>(value)); }
     void raw(std::span<const std::byte> bytes)
     {
-        for (const std::byte b : bytes) put(std::to_integer<std::uint8_t>(b));
+        ensure(left_.size() >= bytes.size());
+        if (!bytes.empty()) std::memcpy(left_.data(), bytes.data(), bytes.size());
+        left_ = left_.subspan(bytes.size());
     }
 
-    [[nodiscard]] std::span<const std::byte> written() const { return buffer_.first(position_); }
+    [[nodiscard]] std::span<const std::byte> written() const
+    {
+        return buffer_.first(buffer_.size() - left_.size());
+    }
 
 private:
     template <std::unsigned_integral T>
     void put(T value)
     {
-        ensure(buffer_.size() - position_ >= sizeof(T));
+        ensure(left_.size() >= sizeof(T));
         const T ordered = in_little_endian(value);
-        std::memcpy(buffer_.data() + position_, &ordered, sizeof(T));
-        position_ += sizeof(T);
+        std::memcpy(left_.data(), &ordered, sizeof(T));
+        left_ = left_.subspan(sizeof(T));
     }
 
     std::span<std::byte> buffer_;
-    std::size_t position_ = 0;
+    std::span<std::byte> left_;
 };
 
 } // namespace hapnet::base

@@ -6,6 +6,9 @@
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace hapnet::wire {
@@ -63,21 +66,29 @@ base::TimePoint take_time(ByteReader& in, bool& canonical)
     return base::TimePoint{base::Duration{nanoseconds}};
 }
 
+using Words = std::array<std::uint32_t, 3>; // of three singles
+
 void put_vector(ByteWriter& out, const glm::dvec3& v)
 {
     constexpr double most = std::numeric_limits<float>::max();
-    for (const double component : {v.x, v.y, v.z}) {
-        base::ensure(component >= -most && component <= most);
-        out.f32(static_cast<float>(component));
-    }
+    base::ensure(std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most);
+    const auto word = [](double component) {
+        return base::in_little_endian(std::bit_cast<std::uint32_t>(static_cast<float>(component)));
+    };
+    const Words words{word(v.x), word(v.y), word(v.z)};
+    out.raw(std::as_bytes(std::span{words}));
 }
 
 glm::dvec3 take_vector(ByteReader& in)
 {
-    const double x = in.f32();
-    const double y = in.f32();
-    const double z = in.f32();
-    return {x, y, z};
+    const auto bytes = in.raw(sizeof(Words));
+    if (bytes.empty()) return glm::dvec3{0.0};
+    Words words{};
+    std::memcpy(words.data(), bytes.data(), sizeof(Words));
+    const auto component = [](std::uint32_t word) {
+        return static_cast<double>(std::bit_cast<float>(base::in_little_endian(word)));
+    };
+    return {component(words[0]), component(words[1]), component(words[2])};
 }
 
 /// Optional fields always take their room; absent ones are all zero.
@@ -130,7 +141,7 @@ void put(ByteWriter& out, const Hello& hello)
     for (auto i = task.size(); i < TaskName::bytes_max; ++i) out.u8(0);
 }
 
-/// What was wrong with a message; nullptr: nothing.
+/// What is wrong with a message; nullptr: nothing.
 using Fault = const char*;
 
 Fault take(ByteReader& in, Hello& hello)

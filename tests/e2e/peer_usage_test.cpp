@@ -60,7 +60,9 @@ TEST(PeerUsage, RefusesWhatItDoesNotKnowNamingIt)
     expect_refusal(run("hapnet-peer", {}), 2, {"--remote"});
     expect_refusal(run_with({"--tsak", "P1"}), 2, {"--tsak", "--help"});
     expect_refusal(run_with({"stray"}), 2, {"stray"});
-    expect_refusal(run_with({"--task", "P2"}), 2, {"--task", "'P2'", "P1, T1, T3"});
+    expect_refusal(run_with({"--task", "P2"}), 2, {"--task", "'P2'", "P1, T1, T2, T3"});
+    expect_refusal(run_with({"--operator", "giant"}), 2, {"--operator", "'giant'", "nominal"});
+    expect_refusal(run_with({"--device", "replay:/no/such.csv"}), 2, {"--device", "/no/such.csv"});
     expect_refusal(run_with({"--algorithm", "best"}), 2,
                    {"--algorithm", "'best'", "base, dead-reckoning, sep"});
     expect_refusal(run_with({"--device", "omni1394:"}), 2, {"--device", "'omni1394:'", "sim"});

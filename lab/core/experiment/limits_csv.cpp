@@ -100,8 +100,9 @@ std::string curves_csv(const Experiment& experiment, const Criteria& criteria,
                 name_of(impairment), name_of(part->task), to_text(point.level), unit_of(impairment),
                 point.seed,
                 milli_cell(one.typical_m ? std::optional{one.typical_m->mean} : std::nullopt),
-                milli_cell(one.vibration_m), number_cell(one.stiffness_ratio),
-                number_cell(one.force_vibration_n), to_text(point.tier));
+                milli_cell(vibration_m(one, criteria)),
+                number_cell(one.worst.stiffness_ratio[judged_press]),
+                number_cell(force_vibration_n(one, criteria)), to_text(point.tier));
         }
     }
     return out;

@@ -57,6 +57,7 @@ Json manifest_of(const Experiment& experiment, const Circumstances& circumstance
             {"kind", name_of(experiment.kind)},
             {"title", experiment.title},
             {"configuration", to_text(experiment)},
+            {"criteria", circumstances.criteria},
             {"seeds", seeds_of(experiment)},
             {"valid", circumstances.invalid_because.empty()},
             {"invalid_because", circumstances.invalid_because},

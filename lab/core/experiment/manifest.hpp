@@ -13,8 +13,9 @@ namespace hapnet::lab {
 
 /// What happened around a run, which its results do not follow from.
 struct Circumstances {
-    std::string command; // what was typed
-    std::string program; // "hapnet-lab 0.1.0 (commit abc, GCC 12.2.0)"
+    std::string command;  // what was typed
+    std::string criteria; // TOML
+    std::string program;  // "hapnet-lab 0.1.0 (commit abc, GCC 12.2.0)"
     nlohmann::ordered_json host;
     double start_s = 0.0; // since 1970
     double wall_time_s = 0.0;

@@ -8,6 +8,7 @@
 #include "lab/core/experiment/plane.hpp"
 #include "lab/core/experiment/rows.hpp"
 #include "lab/core/experiment/summary.hpp"
+#include "lab/core/metrics/calibration.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
@@ -73,18 +74,20 @@ std::string table1_row(const Group& group, const Summary& summary,
                        mm(paper ? std::optional{paper->std_mm} : std::nullopt), verdict);
 }
 
-std::string task_row(const Group& group, const Summary& summary)
+std::string task_row(const Group& group, const Summary& summary, const Criteria& criteria)
 {
     const auto typical = summary.typical_m;
     return fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", group.algorithm, name_of(group.task),
         group.scores.size(), milli_cell(typical ? std::optional{typical->mean} : std::nullopt),
         milli_cell(typical ? std::optional{typical->std} : std::nullopt),
-        milli_cell(summary.discrepancy_max_m), milli_cell(summary.vibration_m),
-        number_cell(summary.stiffness_ratio), number_cell(summary.force_vibration_n),
-        number_cell(summary.force_discrepancy), number_cell(summary.contact_lost),
-        number_cell(summary.force_step_n), number_cell(summary.drag_n),
-        milli_cell(summary.energy_j), to_text(summary.tier), text_cell(summary.limited_by));
+        milli_cell(summary.discrepancy_max_m), milli_cell(vibration_m(summary, criteria)),
+        number_cell(summary.worst.stiffness_ratio[judged_press]),
+        number_cell(force_vibration_n(summary, criteria)),
+        number_cell(summary.worst.force_discrepancy), number_cell(summary.worst.contact_lost),
+        number_cell(summary.force_step_n), number_cell(summary.worst.drag_n),
+        milli_cell(summary.worst.energy_taken_j), to_text(summary.tier),
+        text_cell(summary.limited_by));
 }
 
 struct ResultsOf {
@@ -92,7 +95,7 @@ struct ResultsOf {
     const Criteria& criteria;
     std::span<const Finding> findings;
 
-    std::vector<ResultText> operator()(const Table1&) const
+    base::Result<std::vector<ResultText>> operator()(const Table1&) const
     {
         const auto groups = groups_of(experiment, findings);
         const auto base_mm = base_in_mm(groups, criteria);
@@ -107,7 +110,7 @@ struct ResultsOf {
             if (group.task == device::Task::p1) {
                 table += table1_row(group, summary, base_mm);
             } else {
-                tasks += task_row(group, summary);
+                tasks += task_row(group, summary, criteria);
             }
             files.push_back({fmt::format("replay/{}-{}.csv", group.algorithm, name_of(group.task)),
                              fmt::format("{}\n{}", replay_header, group.rows)});
@@ -117,7 +120,7 @@ struct ResultsOf {
         return files;
     }
 
-    std::vector<ResultText> operator()(const Limits& limits) const
+    base::Result<std::vector<ResultText>> operator()(const Limits& limits) const
     {
         std::vector<ResultText> files;
         files.push_back({"limits.csv", limits_csv(experiment, findings)});
@@ -129,16 +132,16 @@ struct ResultsOf {
         return files;
     }
 
-    std::vector<ResultText> operator()(const Trajectories&) const
+    base::Result<std::vector<ResultText>> operator()(const Trajectories&) const
     {
         std::string out = std::string{trajectory_header} + '\n';
         for (const Group& group : groups_of(experiment, findings)) {
             out += trajectory_rows(group.rows, group.algorithm);
         }
-        return {{"trajectories.csv", std::move(out)}};
+        return std::vector<ResultText>{{"trajectories.csv", std::move(out)}};
     }
 
-    std::vector<ResultText> operator()(const Plane& plane) const
+    base::Result<std::vector<ResultText>> operator()(const Plane& plane) const
     {
         const auto groups = groups_of(experiment, findings);
         const auto cells = cells_of(plane);
@@ -153,19 +156,33 @@ struct ResultsOf {
                 "{},{},{},{},{},{},{},{},{},{}\n", groups[i].algorithm, name_of(groups[i].task),
                 to_text(cell.delay), to_text(cell.jitter), to_text(cell.loss),
                 milli_cell(typical ? std::optional{typical->mean} : std::nullopt),
-                milli_cell(summary.vibration_m), number_cell(summary.stiffness_ratio),
-                number_cell(summary.force_vibration_n), to_text(summary.tier));
+                milli_cell(vibration_m(summary, criteria)),
+                number_cell(summary.worst.stiffness_ratio[judged_press]),
+                number_cell(force_vibration_n(summary, criteria)), to_text(summary.tier));
         }
-        return {{"qos.csv", std::move(out)}};
+        return std::vector<ResultText>{{"qos.csv", std::move(out)}};
     }
 
-    std::vector<ResultText> operator()(const Calibration&) const { return {}; }
+    base::Result<std::vector<ResultText>> operator()(const Calibration&) const
+    {
+        std::vector<Scores> scores;
+        for (const Finding& finding : findings) {
+            const auto& session = std::get<SessionFinding>(finding);
+            scores.push_back(scores_of(session.metrics, session.perfect));
+        }
+        const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
+        const auto rest = std::span{scores}.subspan(half.size());
+        return calibrated({half, rest}, criteria).map([](const Criteria& found) {
+            return std::vector<ResultText>{{"criteria.toml", print_criteria(found)}};
+        });
+    }
 };
 
 } // namespace
 
-std::vector<ResultText> results_of(const Experiment& experiment, const Criteria& criteria,
-                                   std::span<const Finding> findings)
+base::Result<std::vector<ResultText>> results_of(const Experiment& experiment,
+                                                 const Criteria& criteria,
+                                                 std::span<const Finding> findings)
 {
     return std::visit(ResultsOf{experiment, criteria, findings}, experiment.kind);
 }

@@ -17,9 +17,9 @@ struct ResultText {
 };
 
 /// What an experiment found, as files: equal findings, equal bytes. `findings` are those of
-/// parts_of(experiment), in that order.
-[[nodiscard]] std::vector<ResultText> results_of(const Experiment& experiment,
-                                                 const Criteria& criteria,
-                                                 std::span<const Finding> findings);
+/// parts_of(experiment), in that order. The error: sessions that nothing can be calibrated on.
+[[nodiscard]] base::Result<std::vector<ResultText>> results_of(const Experiment& experiment,
+                                                               const Criteria& criteria,
+                                                               std::span<const Finding> findings);
 
 } // namespace hapnet::lab

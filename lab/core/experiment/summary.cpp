@@ -24,17 +24,30 @@ std::optional<double> vibration_at(const std::optional<ByOrder>& values, FilterO
     return values ? std::optional{at_order(*values, order)} : std::nullopt;
 }
 
-void take_worst(Summary& summary, const Scores& scores, FilterOrder order)
+void raise(std::optional<ByOrder>& worst, const std::optional<ByOrder>& values)
 {
-    if (scores.discrepancy_m) raise(summary.discrepancy_max_m, scores.discrepancy_m->max);
-    raise(summary.vibration_m, vibration_at(scores.vibration_m, order));
-    lower(summary.stiffness_ratio, scores.stiffness_ratio[judged_press]);
-    raise(summary.force_vibration_n, vibration_at(scores.force_vibration_n, order));
-    raise(summary.force_discrepancy, scores.force_discrepancy);
-    raise(summary.contact_lost, scores.contact_lost);
-    if (scores.force_steps) raise(summary.force_step_n, scores.force_steps->largest_n);
-    raise(summary.drag_n, scores.drag_n);
-    raise(summary.energy_j, scores.energy_taken_j);
+    if (!values) return;
+    const ByOrder so_far = worst.value_or(*values);
+    worst = ByOrder{std::max(so_far.first, values->first), std::max(so_far.second, values->second),
+                    std::max(so_far.fourth, values->fourth)};
+}
+
+/// A session that is in every respect as bad as the worst of all.
+Scores worst_of(std::span<const Scores> all)
+{
+    Scores worst = all.front();
+    for (const Scores& scores : all.subspan(1)) {
+        worst.scored_share = std::min(worst.scored_share, scores.scored_share);
+        raise(worst.vibration_m, scores.vibration_m);
+        lower(worst.stiffness_ratio[judged_press], scores.stiffness_ratio[judged_press]);
+        raise(worst.force_discrepancy, scores.force_discrepancy);
+        raise(worst.force_vibration_n, scores.force_vibration_n);
+        raise(worst.force_vibration_added_n, scores.force_vibration_added_n);
+        raise(worst.contact_lost, scores.contact_lost);
+        raise(worst.drag_n, scores.drag_n);
+        raise(worst.energy_taken_j, scores.energy_taken_j);
+    }
+    return worst;
 }
 
 std::optional<Spread> mean_spread(std::span<const Scores> all)
@@ -57,20 +70,26 @@ std::optional<Spread> mean_spread(std::span<const Scores> all)
 
 Summary summary_of(std::span<const Scores> scores, const Criteria& criteria)
 {
-    Summary summary;
-    summary.typical_m = mean_spread(scores);
-    bool is_first = true;
+    Summary summary{mean_spread(scores), {}, {}, worst_of(scores)};
     for (const Scores& one : scores) {
-        take_worst(summary, one, criteria.filter_order);
-        const Judgement judgement = judge(one, criteria);
-        if (!is_first && judgement.tier >= summary.tier) continue;
-        is_first = false;
-        summary.tier = judgement.tier;
-        const auto& reasons =
-            judgement.failures.empty() ? judgement.shortcomings : judgement.failures;
-        summary.limited_by = fmt::format("{}", fmt::join(reasons, "; "));
+        if (one.discrepancy_m) raise(summary.discrepancy_max_m, one.discrepancy_m->max);
+        if (one.force_steps) raise(summary.force_step_n, one.force_steps->largest_n);
     }
+    const Judgement judgement = judge(summary.worst, criteria);
+    summary.tier = judgement.tier;
+    const auto& reasons = judgement.failures.empty() ? judgement.shortcomings : judgement.failures;
+    summary.limited_by = fmt::format("{}", fmt::join(reasons, "; "));
     return summary;
+}
+
+std::optional<double> vibration_m(const Summary& summary, const Criteria& criteria)
+{
+    return vibration_at(summary.worst.vibration_m, criteria.filter_order);
+}
+
+std::optional<double> force_vibration_n(const Summary& summary, const Criteria& criteria)
+{
+    return vibration_at(summary.worst.force_vibration_n, criteria.filter_order);
 }
 
 } // namespace hapnet::lab

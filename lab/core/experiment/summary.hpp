@@ -10,24 +10,22 @@
 
 namespace hapnet::lab {
 
-/// What the sessions of all seeds say together: the discrepancy's mean, min and std are means over
-/// the seeds, and so is the max in `typical`; everything else is that of the worst seed.
+/// What the sessions of all seeds say together.
 struct Summary {
-    std::optional<Spread> typical_m{};
-    std::optional<double> discrepancy_max_m{};
-    std::optional<double> vibration_m{};
-    std::optional<double> stiffness_ratio{};
-    std::optional<double> force_vibration_n{};
-    std::optional<double> force_discrepancy{};
-    std::optional<double> contact_lost{};
-    std::optional<double> force_step_n{};
-    std::optional<double> drag_n{};
-    std::optional<double> energy_j{};
-    Tier tier = Tier::good;
-    std::string limited_by{}; // what keeps the worst seed from the next tier
+    std::optional<Spread> typical_m{}; // the means over the seeds of the discrepancy's figures
+    std::optional<double> discrepancy_max_m{}; // the largest of any seed
+    std::optional<double> force_step_n{};      // as well
+    Scores worst{};                            // in every respect as bad as that of the worst seed
+    Tier tier = Tier::good;                    // of the worst
+    std::string limited_by{};                  // what keeps it from the next tier
 };
 
-/// A task's scores by seed, in their order; at least one.
+/// A task's scores by seed; at least one.
 [[nodiscard]] Summary summary_of(std::span<const Scores> scores, const Criteria& criteria);
+
+/// Of the worst, by the filter that the criteria judge by.
+[[nodiscard]] std::optional<double> vibration_m(const Summary& summary, const Criteria& criteria);
+[[nodiscard]] std::optional<double> force_vibration_n(const Summary& summary,
+                                                      const Criteria& criteria);
 
 } // namespace hapnet::lab

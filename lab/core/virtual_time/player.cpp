@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/virtual_time/player.hpp"
 
+#include "device/replay/replay.hpp"
+#include "device/simulated/omni.hpp"
+
 #include <algorithm>
 
 namespace hapnet::lab {
@@ -31,13 +34,18 @@ peer::Settings settings_of(const Setting& setting, const Seat& seat)
     return settings;
 }
 
+std::unique_ptr<device::Device> device_of(const Setting& setting, const Seat& seat)
+{
+    const PlayerSetting& player = setting.players.at(seat.side);
+    if (player.replay) return std::make_unique<device::Replay>(*player.replay, "a trace");
+    return std::make_unique<device::SimulatedOmni>(device::Performer{
+        .task = setting.task, .options = setting.task_options, .person = player.person});
+}
+
 } // namespace
 
 VirtualPlayer::VirtualPlayer(const Setting& setting, const Seat& seat)
-    : device{std::make_unique<device::SimulatedOmni>(
-          device::Performer{.task = setting.task,
-                            .options = setting.task_options,
-                            .person = setting.players.at(seat.side).person})},
+    : device{device_of(setting, seat)},
       peer{std::make_unique<peer::Peer>(settings_of(setting, seat))},
       governor{{.tick = setting.tick}},
       clock_ahead{setting.players.at(seat.side).clock_ahead},

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/device.hpp"
 #include "device/governor.hpp"
-#include "device/simulated/omni.hpp"
 #include "lab/core/trace.hpp"
 #include "lab/core/virtual_time/setting.hpp"
 #include "peer/core/peer.hpp"

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/replay/hand_trace.hpp"
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
+#include "device/simulated/task_options.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "peer/core/scene/description.hpp"
 #include "peer/core/sync/algorithm.hpp"
@@ -12,6 +14,7 @@
 
 #include <array>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -21,8 +24,10 @@ namespace hapnet::lab {
 struct PlayerSetting {
     peer::Algorithm algorithm{};
     device::Operator person{};
-    base::Duration clock_ahead{}; // of the world's time
-    base::Duration phase{};       // of its ticks, 0 to less than a tick
+    std::shared_ptr<const device::HandTrace> replay{}; // plays instead of the person; at least one
+                                                       // moment, in the order of time
+    base::Duration clock_ahead{};                      // of the world's time
+    base::Duration phase{};                            // of its ticks, 0 to less than a tick
     /// What it offers for the hands, as `hapnet-peer --seed` does: L's counts. nullopt: the
     /// setting's.
     std::optional<base::Seed> seed{};

@@ -23,9 +23,9 @@ class VirtualWorld {
 public:
     /// When every world begins, and the timelines of its profiles.
     static constexpr base::TimePoint start{std::chrono::seconds{1000}};
-    /// How many datagrams a link holds unless it is said: 4 s of them, and a sixteenth of the
-    /// emulator's own bound, whose memory costs more than a session.
-    static constexpr emulator::QueueLimits few{4096};
+    /// How many datagrams a link holds unless it is said: 1 s of them, which stay in a processor's
+    /// near memory. The emulator's own bound costs more memory than a session takes time.
+    static constexpr emulator::QueueLimits few{1024};
 
     /// One pair. Ensures that there is no objection() to the setting.
     explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);

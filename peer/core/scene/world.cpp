@@ -159,6 +159,25 @@ std::optional<Refusal> World::place(BodyId body, const BodyState& state)
     return std::nullopt;
 }
 
+std::optional<Refusal> World::place(BodyId body, base::Position position, base::Velocity velocity)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(position.value, reach_max_m)) return refuse(*why);
+    if (const auto why = objection(velocity.value, speed_max_m_per_s)) return refuse(*why);
+    const Slot slot = stage_.bodies.slot_of[body];
+    const glm::dvec3 current = stage_.bodies.position.at(slot);
+    const glm::dvec3& light = stage_.bodies.form[slot].inverse_mass;
+    for (const int axis : {0, 1, 2}) {
+        if (light[axis] != 0.0) continue;
+        position.value[axis] = current[axis];
+        velocity.value[axis] = 0.0;
+    }
+    stage_.bodies.position.put(slot, position.value);
+    stage_.bodies.velocity.put(slot, velocity.value);
+    std::visit([&](auto& tick) { tick.disturbed(stage_, body); }, ticks_);
+    return std::nullopt;
+}
+
 void World::tick()
 {
     std::visit([&](auto& tick) { tick.tick(frozen_, stage_); }, ticks_);

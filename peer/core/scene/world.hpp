@@ -40,6 +40,8 @@ public:
     /// Puts a movable body somewhere, regardless of what it was doing, and wakes it. Coordinates
     /// that are locked stay as they are; an orientation that the body cannot have is refused.
     std::optional<Refusal> place(BodyId body, const BodyState& state);
+    /// The same, with its turn and spin as they are.
+    std::optional<Refusal> place(BodyId body, base::Position position, base::Velocity velocity);
 
     void tick();
 

@@ -27,10 +27,20 @@ public:
     [[nodiscard]] const glm::dvec3& slope() const { return slope_; } // per second
 
 private:
+    /// Of samples so far apart: most are a tick apart, and an exponential costs more than the rest.
+    struct Gains {
+        base::Duration apart{};
+        double alpha = 0.0;
+        double beta_per_s = 0.0;
+    };
+
+    [[nodiscard]] Gains gains_for(base::Duration apart) const;
+
     double time_constant_s_;
     base::TimePoint at_;
     glm::dvec3 value_{0.0};
     glm::dvec3 slope_{0.0};
+    Gains gains_;
 };
 
 } // namespace hapnet::peer

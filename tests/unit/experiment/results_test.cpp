@@ -41,7 +41,8 @@ std::map<std::string, std::string> results(const Experiment& experiment, const P
         findings.push_back(*carry_out(part, experiment, Criteria{}, play));
     }
     std::map<std::string, std::string> files;
-    for (auto& file : results_of(experiment, Criteria{}, findings)) files[file.name] = file.text;
+    auto written = results_of(experiment, Criteria{}, findings);
+    for (auto& file : *written) files[file.name] = file.text;
     return files;
 }
 

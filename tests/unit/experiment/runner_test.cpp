@@ -73,7 +73,7 @@ Runner runner_of(SessionStore& store, unsigned jobs)
 
 std::string limits_of(const Experiment& experiment, const std::vector<Finding>& findings)
 {
-    return results_of(experiment, Criteria{}, findings).front().text;
+    return results_of(experiment, Criteria{}, findings)->front().text;
 }
 
 } // namespace

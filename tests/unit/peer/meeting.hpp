@@ -111,15 +111,27 @@ private:
             letter.arrives = now + path_.delay_min +
                              base::from_seconds(spread * stream_.uniform(number, 2 + copy));
             letters_.push_back(letter);
+            await(letter);
         }
+    }
+
+    void await(const Letter& letter)
+    {
+        auto& next = next_[letter.to];
+        next = next ? std::min(*next, letter.arrives) : letter.arrives;
     }
 
     void deliver(std::size_t to)
     {
+        if (!next_[to] || now < *next_[to]) return; // to look through all letters costs
         const auto is_due = [&](const Letter& l) { return l.to == to && l.arrives <= now; };
         std::vector<Letter> due;
         std::copy_if(letters_.begin(), letters_.end(), std::back_inserter(due), is_due);
         std::erase_if(letters_, is_due);
+        next_[to].reset();
+        for (const Letter& letter : letters_) {
+            if (letter.to == to) await(letter);
+        }
         std::stable_sort(due.begin(), due.end(),
                          [](const Letter& x, const Letter& y) { return x.arrives < y.arrives; });
         for (const Letter& letter : due) {
@@ -141,6 +153,7 @@ private:
     std::uint64_t sent_ = 0;
     std::uint32_t runs_ = 1;
     std::vector<Letter> letters_;
+    std::array<std::optional<base::TimePoint>, 2> next_; // arrival at each side
 };
 
 } // namespace hapnet::peer

@@ -1,0 +1,95 @@
+# shellcheck shell=bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# Sessions of two peers through the emulator, for the scripts that play some. To be sourced by a
+# script that has set program (its name, for messages) and bin (the folder of the programs), and
+# has started no other processes. Whatever ends the script, its sessions end too.
+
+children=()
+
+# Where each socket is. Beside this, within() says where a program runs: on this machine, as it is.
+declare -A listen=([1]=127.0.0.1:0 [2]=127.0.0.1:0 [a]=127.0.0.1:0 [b]=127.0.0.1:0)
+
+# within 1|2|emulator COMMAND...: becomes the command, in the place of that peer or the emulator.
+within() { exec "${@:2}"; }
+
+stop_children() {
+    ((${#children[@]} == 0)) || kill -TERM "${children[@]}" 2>/dev/null || true
+    wait
+    children=()
+}
+
+# fail WHY [LOG...]: says why and what the logs end with, and ends the script.
+fail() {
+    printf '\n%s: %s\n' "${program:?}" "$1" >&2
+    shift
+    (($# == 0)) || tail -n 20 "$@" >&2 || true
+    exit 1
+}
+
+trap stop_children EXIT
+trap 'echo "$program: interrupted" >&2; exit 130' INT TERM
+
+# Installs what is missing and builds the programs that a session needs.
+build_programs() {
+    scripts/setup.sh
+    cmake --preset release -DHAPNET_TESTS=OFF
+    cmake --build --preset release --target hapnet-emulator hapnet-peer hapnet-lab
+}
+
+# start_emulator FOLDER OPTION...: sets emulator, address_a and address_b.
+start_emulator() {
+    local folder=$1 ready=
+    within emulator "${bin:?}/hapnet-emulator" --listen-a "${listen[a]}" --listen-b "${listen[b]}" \
+        "${@:2}" --stats "$folder/emulator.json" >"$folder/emulator.out" 2>"$folder/emulator.log" &
+    emulator=$!
+    children+=("$emulator")
+    for _ in {1..100}; do
+        ready=$(grep -m 1 '^ready ' "$folder/emulator.out" || true)
+        [[ -z $ready ]] || break
+        kill -0 "$emulator" 2>/dev/null || break
+        sleep 0.05
+    done
+    [[ $ready =~ a=([^ ]+)\ b=([^ ]+) ]] ||
+        fail "the emulator did not start:" "$folder/emulator.log"
+    address_a=${BASH_REMATCH[1]}
+    address_b=${BASH_REMATCH[2]}
+}
+
+# peer ID ADDRESS SECONDS FOLDER OPTION...: becomes a peer until its end.
+peer() {
+    within "$1" timeout --kill-after 5 $(($3 + 30)) "$bin/hapnet-peer" --id "$1" \
+        --listen "${listen[$1]}" --remote "$2" --duration "$3s" --seed 1 --record "$4/peer-$1.rec" \
+        --stats "$4/peer-$1.json" "${@:5}" >"$4/peer-$1.out"
+}
+
+# wait_for_one FOLDER EMULATOR PEER...: sets ended to the first of them that ends. That has to be a
+# peer, and all has to be well with it.
+wait_for_one() {
+    if ! wait -n -p ended "${@:2}" || [[ $ended == "$2" ]]; then
+        fail "a program failed; its records and logs are in $1" "$1"/*.log
+    fi
+}
+
+# play_session FOLDER SECONDS PEER-OPTION...: a session through the started emulator, which then
+# ends too. What peer 1 says is shown.
+play_session() {
+    local folder=$1 seconds=$2
+    peer 2 "$address_b" "$seconds" "$folder" "${@:3}" 2>"$folder/peer-2.log" &
+    local peer_2=$!
+    peer 1 "$address_a" "$seconds" "$folder" "${@:3}" &
+    local peer_1=$!
+    children=("$emulator" "$peer_1" "$peer_2")
+    local left=$peer_2
+    wait_for_one "$folder" "$emulator" "$peer_1" "$peer_2"
+    [[ $ended != "$peer_2" ]] || left=$peer_1
+    wait_for_one "$folder" "$emulator" "$left"
+    children=("$emulator")
+    stop_children
+}
+
+# analyse FOLDER: metrics of the records in it.
+analyse() {
+    "$bin/hapnet-lab" analyse "$1/peer-1.rec" "$1/peer-2.rec" --json >"$1/analysis.json"
+}
