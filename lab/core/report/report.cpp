@@ -95,7 +95,9 @@ std::string validity(const Results& results)
         return "<div class='banner'>No manifest.json: how these numbers came about, and whether "
                "they are valid, is not known.</div>\n";
     }
-    return "<div class='banner met'><b>Valid.</b> Every run kept its own timing.</div>\n";
+    return "<div class='banner met'><b>Valid.</b> Every run came to its end and has nothing "
+           "against "
+           "itself.</div>\n";
 }
 
 std::string tile(std::size_t count, std::string_view text, std::string_view style)
