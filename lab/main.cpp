@@ -5,6 +5,7 @@
 #include "lab/core/csv.hpp"
 #include "lab/core/explain.hpp"
 #include "lab/demo_command.hpp"
+#include "lab/freed_memory.hpp"
 #include "lab/options.hpp"
 #include "lab/report_command.hpp"
 #include "lab/run_command.hpp"
@@ -94,7 +95,11 @@ base::Result<int> run(const ReportCommand& command)
     });
 }
 
-base::Result<int> run(const RunCommand& command) { return run_experiment(command); }
+base::Result<int> run(const RunCommand& command)
+{
+    keep_freed_memory();
+    return run_experiment(command);
+}
 
 base::Result<int> execute(const Command& command)
 {
