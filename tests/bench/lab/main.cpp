@@ -52,5 +52,5 @@ int main(int argc, char** argv)
 {
     namespace bench = hapnet::bench;
     const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
-    return hapnet::net::run_program(bench::program, bench::parse_words, bench::measure);
+    return hapnet::net::run_program(bench::program, bench::parse_words(words), bench::measure);
 }

@@ -22,6 +22,7 @@ constexpr base::Duration reference_tick = 50us;
 constexpr std::array<base::Duration, 5> ticks{4ms, 2ms, 1ms, 500us, 250us};
 constexpr std::array steps_in_a_tick{1, 2, 5, 20, 100};
 constexpr std::array seeds_taken{1, 2, 5, 10, 20};
+constexpr std::size_t groups_min = 5; // of seeds: fewer say little
 constexpr std::array<std::string_view, 3> algorithms{"base", "dead-reckoning", "sep"};
 constexpr std::array<std::string_view, 3> figures{"mean", "std", "max"};
 
@@ -90,22 +91,24 @@ double mean_of(const std::vector<double>& values, std::size_t from, std::size_t 
     return sum / static_cast<double>(count);
 }
 
-/// How far the mean of `count` values in a row lies from that of all, over all such groups.
+/// How far the mean of `count` values lies from that of endlessly many: from the groups of so many
+/// in a row. The mean of all has its part in each group's, by which their distance is too small.
 double group_error(const std::vector<double>& values, std::size_t count)
 {
     const double all = mean_of(values, 0, values.size());
+    const double part = static_cast<double>(count) / static_cast<double>(values.size());
     double squares = 0.0;
     const std::size_t groups = values.size() / count;
     for (std::size_t group = 0; group < groups; ++group) {
         const double error = mean_of(values, group * count, count) - all;
         squares += error * error;
     }
-    return std::sqrt(squares / static_cast<double>(groups));
+    return std::sqrt(squares / static_cast<double>(groups) / (1.0 - part));
 }
 
 void add_seeds_of_t3(std::vector<WorkPoint>& points, bool quick)
 {
-    const std::size_t pool = quick ? 40 : 120;
+    const std::size_t pool = quick ? 60 : 200;
     std::array<std::vector<double>, figures.size()> values;
     double wall_s = 0.0;
     for (std::size_t seed = 1; seed <= pool; ++seed) {
@@ -120,6 +123,7 @@ void add_seeds_of_t3(std::vector<WorkPoint>& points, bool quick)
     }
     for (std::size_t i = 0; i < figures.size(); ++i) {
         for (const int seeds : seeds_taken) {
+            if (pool / static_cast<std::size_t>(seeds) < groups_min) continue;
             points.push_back(
                 {.varied = "seeds",
                  .task = "T3",

@@ -28,7 +28,7 @@ struct WorkPoint {
 
 /// - P1, ticks of 4 to 0.25 ms, and hands that go through a tick of 1 ms in 1 to 100 steps: against
 ///   a tick of 50 us with exact hands. There is no chance in P1: one seed says all.
-/// - T3, 1 to 20 seeds: against the mean of 120 (40 when quick).
+/// - T3, 1 to 20 seeds: against the mean of 200 (1 to 10 and 60 when quick).
 [[nodiscard]] std::vector<WorkPoint> measure_run_time_error(bool quick);
 
 [[nodiscard]] std::string work_csv(const std::vector<WorkPoint>& points);

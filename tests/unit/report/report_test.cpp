@@ -129,6 +129,8 @@ TEST(Report, SaysWhetherItIsValidAndWhyNot)
     EXPECT_TRUE(holds(page, "<b>Not valid.</b>"));
     EXPECT_TRUE(holds(page, "<li>r/fig7: stopped</li>"));
     EXPECT_TRUE(holds(page_of({{"r/manifest.json", "{}"}}), "r: does not say why"));
+    EXPECT_TRUE(holds(page_of({{"r/manifest.json", R"({"kind": "real-time", "valid": false})"}}),
+                      "r: not every session over real UDP kept its timing"));
 }
 
 TEST(Report, ExcludesARealTimeRunThatIsNotValid)
