@@ -4,6 +4,7 @@
 
 #include "device/simulated/task.hpp"
 
+#include <optional>
 #include <span>
 
 namespace hapnet::lab {
@@ -20,13 +21,13 @@ struct Exercise {
     /// One side at a time only receives: its body's vibration counts then. Otherwise both push,
     /// and count all the time.
     bool by_turns = false;
-    bool along_path = false;            // device::path_x()
-    double path_pace = 1.0;             // of it
-    bool presses = false;               // as device::press_schedule says
-    bool taps = false;                  // L taps while all rests
-    bool at_wall = false;               // the path, or the task, ends at the static cube
-    std::span<const Stretch> contact{}; // while both hands are to push
-    std::span<const Stretch> lifted{};  // while the body is to be up
+    bool along_path = false;              // device::path_x()
+    double path_pace = 1.0;               // of it
+    bool presses = false;                 // as device::press_schedule says
+    bool taps = false;                    // L taps while all rests
+    std::optional<double> stopped_at_m{}; // x of the body at which the static cube stops it
+    std::span<const Stretch> contact{};   // while both hands are to push
+    std::span<const Stretch> lifted{};    // while the body is to be up
 };
 
 [[nodiscard]] Exercise exercise_of(device::Task task);

@@ -25,8 +25,7 @@ constexpr double felt_below_hz = 300.0;
 // nothing else.
 constexpr double catching_up_s = 0.5;
 constexpr double path_every_s = 0.010;
-constexpr double wall_x_m = 0.0747; // of the body's centre when it is at the static cube
-constexpr double fallen_m = 0.025;  // half the height to which the body is lifted
+constexpr double fallen_m = 0.025; // half the height to which the body is lifted
 
 /// A trace as columns, and where its samples stand in time.
 struct Taken {
@@ -108,10 +107,10 @@ void measure_side(const Taken& taken, std::size_t index, Metrics& metrics)
         band_vibration_of(force, above, {felt_below_hz, taken.tick_s});
     metrics.contact_lost[index] = contact_lost(taken, side);
     metrics.force_steps[index] = force_steps_of(force, taken.tick_s);
-    if (taken.exercise.at_wall) {
-        double farthest = wall_x_m;
+    if (const auto stop = taken.exercise.stopped_at_m) {
+        double farthest = *stop;
         for (const double x : body_x) farthest = std::max(farthest, x);
-        metrics.overshoot_m[index] = farthest - wall_x_m;
+        metrics.overshoot_m[index] = farthest - *stop;
     }
     if (!taken.exercise.along_path) return;
     metrics.drag_n[index] = drag_of(side, taken.tick_s);

@@ -53,7 +53,7 @@ struct Metrics {
     BySide<double> drag_n{};
     /// J: root mean square of the distance, in x, of a side's body from the path it is to follow.
     BySide<double> path_rms_m{};
-    /// J: in how many of the two lifts a side's body is down, by half, while it is to be held up.
+    /// J: in how many lifts a side's body is down, by half, while it is to be held up.
     std::optional<double> drops{};
     /// J: how far a side's body was beyond where the static cube stops it, metres.
     BySide<double> overshoot_m{};
