@@ -5,6 +5,7 @@
 #include "lab/core/csv.hpp"
 #include "lab/core/explain.hpp"
 #include "lab/demo_command.hpp"
+#include "lab/freed_memory.hpp"
 #include "lab/options.hpp"
 #include "lab/real_time_command.hpp"
 #include "lab/report_command.hpp"
@@ -103,7 +104,11 @@ base::Result<int> run(const ReportCommand& command)
     });
 }
 
-base::Result<int> run(const RunCommand& command) { return run_experiment(command); }
+base::Result<int> run(const RunCommand& command)
+{
+    keep_freed_memory();
+    return run_experiment(command);
+}
 
 base::Result<int> execute(const Command& command)
 {

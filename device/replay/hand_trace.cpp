@@ -41,11 +41,11 @@ std::optional<double> number_in(std::string_view cell)
 /// Which cell of a line is which; in the unit that the columns' names say.
 struct Columns {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
-    std::size_t time = none;
-    std::array<std::size_t, 3> axes{none, none, none};
-    std::size_t gripping = none;
-    double m_per_unit = 1.0;
     std::size_t count = 0;
+    std::size_t time = none;
+    std::size_t gripping = none;
+    std::array<std::size_t, 3> axes{none, none, none};
+    double m_per_unit = 1.0;
 };
 
 std::size_t place_of(const std::vector<std::string_view>& names, std::string_view name)
@@ -57,8 +57,8 @@ std::size_t place_of(const std::vector<std::string_view>& names, std::string_vie
 std::optional<Columns> columns_of(std::string_view header)
 {
     struct Naming {
-        std::array<std::string_view, 3> axes;
-        double m_per_unit;
+        std::array<std::string_view, 3> axes{};
+        double m_per_unit = 1.0;
     };
     constexpr std::array namings{Naming{{"x_m", "y_m", "z_m"}, 1.0},
                                  Naming{{"hip_x_mm", "hip_y_mm", "hip_z_mm"}, 1e-3}};

@@ -12,28 +12,33 @@ namespace hapnet::device {
 
 namespace {
 
-/// cos(sqrt(z)) and sin(sqrt(z)) / sqrt(z); for z < 0 their hyperbolic continuations.
+/// exp(-decay) times cos(sqrt(z)) and sin(sqrt(z)) / sqrt(z), z = spring - decay^2; for z < 0 their
+/// hyperbolic continuations, without overflow and without a difference of large numbers.
 struct Swing {
     double even = 1.0;
     double odd = 1.0;
 };
 
-Swing swing_of(double z)
+Swing swing_of(double spring, double decay)
 {
+    const double z = spring - decay * decay;
     constexpr double small = 1e-2; // the next terms of the series are below 1e-16
-    if (std::abs(z) < small) {
-        return {
-            1.0 - z / 2.0 * (1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0 * (1 - z / 90)))),
-            1.0 - z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0 * (1 - z / 110))))};
+    if (z < -small) {
+        const double rate = std::sqrt(-z);
+        const double slow = base::exp(-spring / (rate + decay)); // rate - decay
+        const double fast = base::exp(-rate - decay);
+        return {0.5 * (slow + fast), 0.5 * (slow - fast) / rate};
     }
-    if (z > 0.0) {
+    const double fade = base::exp(-decay);
+    if (z > small) {
         const double angle = std::sqrt(z);
-        return {base::cos(angle), base::sin(angle) / angle};
+        return {fade * base::cos(angle), fade * base::sin(angle) / angle};
     }
-    const double rate = std::sqrt(-z);
-    const double up = base::exp(rate);
-    const double down = base::exp(-rate);
-    return {0.5 * (up + down), 0.5 * (up - down) / rate};
+    const double even =
+        1.0 - z / 2.0 * (1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0 * (1.0 - z / 90.0))));
+    const double odd =
+        1.0 - z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0 * (1.0 - z / 110.0))));
+    return {fade * even, fade * odd};
 }
 
 } // namespace
@@ -75,11 +80,11 @@ HandResponse HandMotion::response_after(double seconds) const
 {
     // x'' + 2 h x' + w x = 0 from rest at speed 1: exp(-h t) sin(f t) / f with f^2 = w - h^2. Its
     // integrals follow from the equation.
-    const double fade = base::exp(-half_damping_ * seconds);
-    const Swing swing = swing_of((stiffness_ - half_damping_ * half_damping_) * seconds * seconds);
+    const double decay = half_damping_ * seconds;
+    const Swing swing = swing_of(stiffness_ * seconds * seconds, decay);
     HandResponse response;
-    response.position_by_velocity = fade * seconds * swing.odd;
-    response.velocity_by_velocity = fade * (swing.even - half_damping_ * seconds * swing.odd);
+    response.position_by_velocity = seconds * swing.odd;
+    response.velocity_by_velocity = swing.even - decay * swing.odd;
     response.position_by_acceleration = (1.0 - response.velocity_by_velocity -
                                          2.0 * half_damping_ * response.position_by_velocity) /
                                         stiffness_;
@@ -97,7 +102,8 @@ void HandMotion::advance(HandAxis& axis, const HandDrive& drive) const
                         std::copysign(friction_, axis.velocity_m_per_s),
                     stiffness_ * drive.target_velocity_m_per_s};
     const double velocity = velocity_after(response_, axis.velocity_m_per_s, pull);
-    if (velocity * axis.velocity_m_per_s > 0.0) return move(axis, response_, pull);
+    const bool passes_rest = velocity * axis.velocity_m_per_s <= 0.0 && friction_ > 0.0;
+    if (!passes_rest) return move(axis, response_, pull);
     const double rest = rest_between(axis.velocity_m_per_s, velocity, pull);
     move(axis, response_after(rest), pull);
     axis.velocity_m_per_s = 0.0;
@@ -106,22 +112,25 @@ void HandMotion::advance(HandAxis& axis, const HandDrive& drive) const
 
 double HandMotion::rest_between(double velocity, double velocity_at_end, const Pull& pull) const
 {
-    // The velocity is almost straight over a step: three false positions leave 1e-6 of the step.
+    // The velocity is almost straight over a step: false positions, and where it is not, the end
+    // that stays counts half (Dowell, Jarratt 1971).
+    constexpr int rounds_max = 8;
+    const double enough = 1e-9 * std::abs(velocity);
     double low = 0.0;
     double high = step_s_;
     double above = velocity;
     double below = velocity_at_end;
     double time = high;
-    for (int round = 0; round < 3; ++round) {
+    bool was_above = false;
+    for (int round = 0; round < rounds_max; ++round) {
         time = low + (high - low) * above / (above - below);
         const double at_time = velocity_after(response_after(time), velocity, pull);
-        if (at_time * velocity > 0.0) {
-            low = time;
-            above = at_time;
-        } else {
-            high = time;
-            below = at_time;
-        }
+        if (std::abs(at_time) <= enough) break;
+        const bool is_above = at_time * velocity > 0.0;
+        (is_above ? low : high) = time;
+        (is_above ? above : below) = at_time;
+        if (round > 0 && is_above == was_above) (is_above ? below : above) *= 0.5;
+        was_above = is_above;
     }
     return time;
 }

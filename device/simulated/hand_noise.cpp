@@ -37,7 +37,7 @@ HandNoise::HandNoise(base::Seed seed, std::uint16_t peer_id, const Operator& per
 
 HandNoise::Value HandNoise::at(double seconds) const
 {
-    std::array<double, swings> sines;
+    std::array<double, swings> sines{};
     for (std::size_t i = 0; i < swings; ++i) sines[i] = hertz_[i] * seconds + turn_[i];
     const bool is_even = force_share_ == 0.0;
     base::sines_of_turns(std::span{sines}.first(is_even ? 2 * swings_each : swings));

@@ -10,10 +10,10 @@ namespace hapnet::device {
 
 namespace {
 
-// Far beyond what hands are; within them nothing overflows and every motion has a closed form.
-constexpr Range hand_mass{base::mass_kind, 1e-3, 100.0};
-constexpr Range hand_damping{base::damping_kind, 0.0, 1e4};
-constexpr Range hand_stiffness{base::stiffness_kind, 1.0, 1e6};
+// Beyond what hands are; within them a step of 2 ms is not long against what a hand does.
+constexpr Range hand_mass{base::mass_kind, 0.02, 10.0};
+constexpr Range hand_damping{base::damping_kind, 0.0, 100.0};
+constexpr Range hand_stiffness{base::stiffness_kind, 1.0, 5000.0};
 constexpr Range unrest_amplitude{base::length_kind, 0.0, 0.1};
 constexpr Range unrest_frequency{base::frequency_kind, 0.0, 100.0};
 constexpr Range will_gain{base::mobility_kind, 0.0, 1.0};

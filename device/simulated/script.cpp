@@ -54,8 +54,8 @@ constexpr double wall_returns_s = 1.0;
 // T6: the tapping hand swings about a point off the face, so that it meets it on its way in.
 constexpr double taps_begin_s = 2.0;
 constexpr double tap_hertz = 3.0;
-constexpr double tap_amplitude_m = 0.014;
-constexpr double tap_off_m = 0.008;
+constexpr double tap_amplitude_m = 0.013;
+constexpr double tap_off_m = 0.004;
 
 constexpr double let_go_m = 0.020;
 constexpr double lift_off_m = 0.045; // above the cube, whose upper face is at 20 mm

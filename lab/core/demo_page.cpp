@@ -25,10 +25,12 @@ std::string plots_of(std::string_view what, const TaskTrace& trace)
 {
     const std::string cube_title = fmt::format("{}: where each peer has the cube", what);
     const std::string force_title = fmt::format("{}: the force on each hand", what);
-    const std::array cubes{plot::Curve{"peer 1", colour_a, trace.cube_a_mm},
-                           plot::Curve{"peer 2", colour_b, trace.cube_b_mm}};
-    const std::array forces{plot::Curve{"peer 1", colour_a, trace.force_a_n},
-                            plot::Curve{"peer 2", colour_b, trace.force_b_n}};
+    const std::array cubes{
+        plot::Curve{.name = "peer 1", .colour = colour_a, .points = trace.cube_a_mm},
+        plot::Curve{.name = "peer 2", .colour = colour_b, .points = trace.cube_b_mm}};
+    const std::array forces{
+        plot::Curve{.name = "peer 1", .colour = colour_a, .points = trace.force_a_n},
+        plot::Curve{.name = "peer 2", .colour = colour_b, .points = trace.force_b_n}};
     return plot::svg_plot({cube_title, "s from the start", "x, mm"}, cubes) +
            plot::svg_plot({force_title, "s from the start", "N"}, forces);
 }

@@ -18,7 +18,7 @@ inline constexpr double two_pi = 6.283185307179586476925;
 /// Cosine of `radians`, |radians| <= 1e6; outside: NaN.
 [[nodiscard]] double cos(double radians);
 
-/// Replaces each number of turns, |turns| < 1e15, by its sine: sin(2 pi turns), to 3e-16. Several
+/// Replaces each number of turns, |turns| < 1e15, by its sine: sin(2 pi turns), to 5e-16. Several
 /// at once cost a fifth of sin() each.
 void sines_of_turns(std::span<double> turns);
 

@@ -90,6 +90,16 @@ std::string task_row(const Group& group, const Summary& summary, const Criteria&
         text_cell(summary.limited_by));
 }
 
+/// Which command wrote the criteria.
+std::string origin_of(const Experiment& experiment)
+{
+    std::vector<std::string_view> tasks;
+    for (const device::Task task : experiment.tasks) tasks.push_back(name_of(task));
+    return fmt::format("# Written by `hapnet-lab run calibration`: {}, {} seeds of {}, {}.\n",
+                       experiment.algorithms.front().name, experiment.seeds, fmt::join(tasks, ", "),
+                       name_of(experiment.hands));
+}
+
 struct ResultsOf {
     const Experiment& experiment;
     const Criteria& criteria;
@@ -172,8 +182,9 @@ struct ResultsOf {
         }
         const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
         const auto rest = std::span{scores}.subspan(half.size());
-        return calibrated({half, rest}, criteria).map([](const Criteria& found) {
-            return std::vector<ResultText>{{"criteria.toml", print_criteria(found)}};
+        return calibrated({half, rest}, criteria).map([this](const Criteria& found) {
+            return std::vector<ResultText>{
+                {"criteria.toml", origin_of(experiment) + print_criteria(found)}};
         });
     }
 };

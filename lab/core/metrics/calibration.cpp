@@ -13,8 +13,8 @@ namespace hapnet::lab {
 
 namespace {
 
-constexpr double vibration_grain_m = 1e-5;
-constexpr double stiffness_grain = 1e-3;
+constexpr double vibration_steps_per_m = 1e5;
+constexpr double stiffness_steps = 1e3;
 
 std::optional<ByOrder> largest_vibration(std::span<const Scores> sessions)
 {
@@ -40,7 +40,10 @@ std::optional<double> least_stiffness(std::span<const Scores> sessions)
     return least;
 }
 
-double rounded_up(double value, double grain) { return std::ceil(value / grain) * grain; }
+double vibration_limit(double worst)
+{
+    return std::ceil(worst * vibration_steps_per_m) / vibration_steps_per_m;
+}
 
 /// What is not usable by these criteria, all the same.
 std::optional<std::string> objection_to(std::span<const Scores> sessions, const Criteria& criteria)
@@ -62,14 +65,14 @@ base::Result<Criteria> calibrated(const CalibrationSessions& sessions, const Cri
     const auto stiffness = least_stiffness(sessions.at_delay);
     if (!vibration) return base::fail("no session under random loss tells of vibration");
     if (!stiffness) return base::fail("no session under delay tells of stiffness: play T2");
-    if (*stiffness < stiffness_grain) {
+    if (*stiffness * stiffness_steps < 1.0) {
         return base::fail(fmt::format("at the delay no stiffness is left: {:.3f}", *stiffness));
     }
     Criteria criteria = rest;
-    criteria.vibration_max_m = {.first = rounded_up(vibration->first, vibration_grain_m),
-                                .second = rounded_up(vibration->second, vibration_grain_m),
-                                .fourth = rounded_up(vibration->fourth, vibration_grain_m)};
-    criteria.stiffness_ratio_min = std::floor(*stiffness / stiffness_grain) * stiffness_grain;
+    criteria.vibration_max_m = {.first = vibration_limit(vibration->first),
+                                .second = vibration_limit(vibration->second),
+                                .fourth = vibration_limit(vibration->fourth)};
+    criteria.stiffness_ratio_min = std::floor(*stiffness * stiffness_steps) / stiffness_steps;
     for (const auto& played : {sessions.at_delay, sessions.at_random_loss}) {
         const auto objection = objection_to(played, criteria);
         if (objection) {

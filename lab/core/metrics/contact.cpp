@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/metrics/contact.hpp"
 
+#include "lab/core/metrics/ticks.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -41,7 +43,7 @@ std::optional<double> contact_lost_of(std::span<const double> push)
 
 std::optional<double> drag_of(const Columns& side, double tick_s)
 {
-    const auto span = static_cast<std::size_t>(speed_over_s / tick_s + 0.5);
+    const auto span = ticks_in(speed_over_s, tick_s);
     const double duration = static_cast<double>(span) * tick_s;
     double sum = 0.0;
     double count = 0.0;

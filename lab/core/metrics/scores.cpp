@@ -75,12 +75,19 @@ const auto ratio_of = [](double value, double reference) -> std::optional<double
     return value / reference;
 };
 
-/// Of the stiffness that both hands feel when it is their turn to press: the mean of them, as both
-/// press on the same coupling, and each on its own is off by how the hands waver meanwhile.
+/// Of the stiffness that the hands feel when it is their turn to press: the mean of both, as both
+/// press on the same coupling, and each on its own is off by how the hands waver meanwhile. Of one
+/// alone, where the session ended before the other's turn.
 std::optional<double> stiffness_ratio(const BySide<double>& impaired, const BySide<double>& perfect)
 {
-    if (!impaired[0] || !impaired[1] || !perfect[0] || !perfect[1]) return std::nullopt;
-    return ratio_of(*impaired[0] + *impaired[1], *perfect[0] + *perfect[1]);
+    double felt = 0.0;
+    double reference = 0.0;
+    for (std::size_t side = 0; side < impaired.size(); ++side) {
+        if (!impaired[side] || !perfect[side]) continue;
+        felt += *impaired[side];
+        reference += *perfect[side];
+    }
+    return ratio_of(felt, reference);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/metrics/similarity.hpp"
 
+#include "lab/core/metrics/ticks.hpp"
 #include "proto/base/math.hpp"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ std::optional<Similarity> similarity_of(std::span<const double> sent,
                                         std::span<const double> received, double tick_s)
 {
     const auto in_samples = [&](double seconds) {
-        return std::max<std::size_t>(1, static_cast<std::size_t>(seconds / tick_s + 0.5));
+        return std::max<std::size_t>(1, ticks_in(seconds, tick_s));
     };
     const std::size_t count = std::min(sent.size(), received.size());
     if (count < in_samples(length_min_s)) return std::nullopt;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/metrics/stiffness.hpp"
 
+#include "lab/core/metrics/ticks.hpp"
 #include "proto/base/math.hpp"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ std::optional<double> stiffness_of(std::span<const double> force_on_hand,
     const std::size_t given = std::min(force_on_hand.size(), hip.size());
     const double periods = std::floor(static_cast<double>(given) * tick_s * hertz + 1e-9);
     if (periods < 1.0) return std::nullopt;
-    const auto count = std::min(given, static_cast<std::size_t>(periods / (tick_s * hertz) + 0.5));
+    const auto count = std::min(given, ticks_in(periods / hertz, tick_s));
     const auto force = force_on_hand.subspan(force_on_hand.size() - count);
     const auto place = hip.subspan(hip.size() - count);
 

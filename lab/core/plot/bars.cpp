@@ -38,12 +38,20 @@ std::string shape(const Bar& bar, const Place& place)
                        bar.is_outlined ? " stroke-dasharray='4 2'" : "");
 }
 
+/// So small that a label is about as wide as its bar, but not illegible.
+double font_size(const Bar& bar, const Place& place)
+{
+    constexpr double usual = 12.0, least = 8.0, width_per_size = 0.62; // of a character
+    const auto characters = static_cast<double>(std::max<std::size_t>(bar.label.size(), 1));
+    return std::clamp(1.1 * place.width / (width_per_size * characters), least, usual);
+}
+
 std::string drawn_bar(const Bar& bar, const Place& place)
 {
-    return fmt::format("<g><title>{}</title>{}<text x='{:.1f}' y='{:.1f}' text-anchor='middle'"
-                       "{}>{}</text></g>\n",
+    return fmt::format("<g><title>{}</title>{}<text x='{:.1f}' y='{:.1f}' text-anchor='middle' "
+                       "font-size='{:.1f}'{}>{}</text></g>\n",
                        escaped(bar.tip.empty() ? bar.label : bar.tip), shape(bar, place),
-                       place.left + place.width / 2.0, place.top - 4.0,
+                       place.left + place.width / 2.0, place.top - 4.0, font_size(bar, place),
                        bar.is_missed ? " fill='var(--missed)' font-weight='bold'" : "",
                        escaped(bar.label));
 }

@@ -87,9 +87,9 @@ public:
             dots += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='2.5' fill='{}'/>\n", across,
                                 down, curve.colour);
         }
-        return fmt::format("<polyline fill='none' stroke='{}' stroke-width='1.2'{}{} "
+        return fmt::format("<polyline fill='none' stroke='{}' stroke-width='{}'{}{} "
                            "points='{}'/>\n",
-                           curve.colour, dashes(curve.stroke),
+                           curve.colour, curve.width, dashes(curve.stroke),
                            options_.can_zoom ? " vector-effect='non-scaling-stroke'" : "", points) +
                dots;
     }
@@ -149,7 +149,9 @@ std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
     out += canvas.marks();
     for (const Level& level : options.levels) out += canvas.level(level);
     if (options.can_zoom) out += canvas.window();
-    for (const Curve& curve : curves) out += canvas.line(curve);
+    std::string lines; // the first last: on top
+    for (const Curve& curve : curves) lines.insert(0, canvas.line(curve));
+    out += lines;
     if (options.can_zoom) out += "</svg>\n";
     for (const Cross& cross : options.crosses) out += canvas.cross(cross);
     return out + "</svg>\n";

@@ -24,8 +24,9 @@ enum class Stroke : std::uint8_t { solid, dashed, dotted };
 struct Curve {
     std::string_view name;   // in the legend; empty: not there
     std::string_view colour; // as CSS writes it
-    std::vector<Point> points;
+    std::vector<Point> points{};
     Stroke stroke = Stroke::solid;
+    double width = 1.2;        // pixels
     bool shows_points = false; // a dot at each
 };
 
@@ -61,7 +62,8 @@ struct PlotOptions {
 /// each stretch, so that no peak is lost.
 [[nodiscard]] std::vector<Point> thinned(std::span<const Point> points, std::size_t count_max);
 
-/// A plot as one SVG element with axes, round tick marks and a legend.
+/// A plot as one SVG element with axes, round tick marks and a legend. The first curve lies on
+/// top.
 [[nodiscard]] std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
                                    const PlotOptions& options = {});
 

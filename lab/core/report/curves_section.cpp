@@ -68,16 +68,18 @@ std::string curve_plot(const std::vector<CurveRow>& rows, const Criterion& crite
     const auto algorithms = distinct(rows, [](const auto& row) { return row.algorithm; });
     for (const std::string& algorithm : algorithms) {
         const auto colour = colour_of(algorithm);
-        // Sep often lies on base: both are to be seen.
-        const auto stroke = algorithm == "sep" ? plot::Stroke::dashed : plot::Stroke::solid;
-        plot::Curve curve{algorithm, colour, {}, stroke, true};
+        plot::Curve curve{.name = algorithm,
+                          .colour = colour,
+                          .width = curve_width(algorithm),
+                          .shows_points = true};
         bool has_failed = false;
         for (const auto& [level, found] : levels_of(rows, algorithm, criterion)) {
+            options.x.include(level);
             if (!found.value) continue;
             curve.points.push_back({level, *found.value});
-            if (!has_failed && found.is_unusable)
-                options.crosses.push_back({curve.points.back(), colour});
-            has_failed |= found.is_unusable;
+            if (!found.is_unusable || has_failed) continue;
+            options.crosses.push_back({curve.points.back(), colour});
+            has_failed = true;
         }
         if (!curve.points.empty()) curves.push_back(std::move(curve));
     }
@@ -86,6 +88,24 @@ std::string curve_plot(const std::vector<CurveRow>& rows, const Criterion& crite
     const std::string across =
         fmt::format("{}, {}", impairment_text(first.impairment), unit_text(first.unit));
     return plot::svg_plot({title, across, criterion.unit}, curves, options);
+}
+
+/// Without what an algorithm did beyond the first level at which a task failed: there the others
+/// are no longer the worst of all tasks.
+std::vector<CurveRow> up_to_failure(const std::vector<CurveRow>& rows)
+{
+    std::map<std::string, double> ends;
+    for (const CurveRow& row : rows) {
+        if (row.judged.tier != Rating::unusable) continue;
+        const auto [found, is_new] = ends.emplace(row.algorithm, row.level);
+        if (!is_new) found->second = std::min(found->second, row.level);
+    }
+    std::vector<CurveRow> kept;
+    for (const CurveRow& row : rows) {
+        const auto end = ends.find(row.algorithm);
+        if (end == ends.end() || row.level <= end->second) kept.push_back(row);
+    }
+    return kept;
 }
 
 std::string by_task(const std::vector<CurveRow>& rows, const std::optional<Criteria>& criteria)
@@ -113,7 +133,8 @@ std::optional<Section> curves_section(const Results& results)
     Section section{"curves", "The curves behind the limits",
                     "<p>Every point is the worst session that the search played at that level. "
                     "A cross marks the first level at which an algorithm fails, by whichever "
-                    "criterion.</p>\n"};
+                    "criterion: beyond it only the other tasks were played, each on its own "
+                    "below.</p>\n"};
     const auto criteria = results.criteria();
     if (criteria) section.html += "<p>The dashed line is where usable ends.</p>\n";
     for (const auto& name : distinct(results.curves, [](const auto& r) { return r.impairment; })) {
@@ -124,7 +145,8 @@ std::optional<Section> curves_section(const Results& results)
         section.html += fmt::format("<h3>{}</h3>\n<div class='panels small'>\n",
                                     escaped(impairment_text(name)));
         for (const Criterion& criterion : criteria_drawn) {
-            auto svg = curve_plot(rows, criterion, std::string{criterion.title}, criteria);
+            auto svg =
+                curve_plot(up_to_failure(rows), criterion, std::string{criterion.title}, criteria);
             if (svg.empty()) continue;
             section.add_figure(fmt::format("curve-{}-{}", name, criterion.name), std::move(svg),
                                "Worst of tasks and seeds.");

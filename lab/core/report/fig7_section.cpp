@@ -36,22 +36,25 @@ struct BothSides {
     double TrajectoryRow::*right;
 };
 
-constexpr BothSides cubes{
+constexpr BothSides drawn_cubes{
     "", "cube at L", "cube at R", "x, mm", &TrajectoryRow::cube_l_mm, &TrajectoryRow::cube_r_mm};
-constexpr BothSides hands{
+constexpr BothSides drawn_hands{
     ": hands", "hand L", "hand R", "x, mm", &TrajectoryRow::hand_l_mm, &TrajectoryRow::hand_r_mm};
-constexpr BothSides forces{": forces",
-                           "on hand L",
-                           "on hand R",
-                           "x, N",
-                           &TrajectoryRow::force_l_n,
-                           &TrajectoryRow::force_r_n};
+constexpr BothSides drawn_forces{": forces",
+                                 "on hand L",
+                                 "on hand R",
+                                 "x, N",
+                                 &TrajectoryRow::force_l_n,
+                                 &TrajectoryRow::force_r_n};
 
 std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot::Range& range = {})
 {
-    // R first: what shakes must not hide what does not.
-    const std::array curves{plot::Curve{both.right_name, right_colour, points_of(rows, both.right)},
-                            plot::Curve{both.left_name, left_colour, points_of(rows, both.left)}};
+    const std::array curves{plot::Curve{.name = both.left_name,
+                                        .colour = left_colour,
+                                        .points = points_of(rows, both.left)},
+                            plot::Curve{.name = both.right_name,
+                                        .colour = right_colour,
+                                        .points = points_of(rows, both.right)}};
     const std::string title = rows.front().algorithm + std::string{both.title};
     return plot::svg_plot({title, "s", both.unit}, curves,
                           {.size = {900.0, 230.0}, .y = range, .can_zoom = true});
@@ -91,9 +94,10 @@ std::optional<Section> fig7_section(const Results& results)
         for (const TrajectoryRow& row : results.trajectories) {
             if (row.algorithm == name) rows.push_back(row);
         }
-        section.add_figure("fig7-" + name, both_sides_plot(rows, cubes, range), apart_text(rows));
-        more += figure(both_sides_plot(rows, hands), escaped(name)) +
-                figure(both_sides_plot(rows, forces), escaped(name));
+        section.add_figure("fig7-" + name, both_sides_plot(rows, drawn_cubes, range),
+                           apart_text(rows));
+        more += figure(both_sides_plot(rows, drawn_hands), escaped(name)) +
+                figure(both_sides_plot(rows, drawn_forces), escaped(name));
     }
     section.html += folded("Hands and forces", more) + "</div>\n";
     return section;

@@ -9,9 +9,9 @@
 namespace hapnet::lab::report {
 
 using plot::escaped;
-using Json = nlohmann::ordered_json;
-
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// What a person reads of a value: texts without quotes, lists with commas.
 std::string words_of(const Json& value)

@@ -118,6 +118,8 @@ std::string_view colour_of(std::string_view algorithm)
     return found_in(known, algorithm, "var(--other)");
 }
 
+double curve_width(std::string_view algorithm) { return algorithm == "sep" ? 4.0 : 1.2; }
+
 std::string html_of(const HtmlTable& table)
 {
     std::string out = fmt::format("<div class='scroll' role='region' tabindex='0' "

@@ -37,6 +37,9 @@ namespace hapnet::lab::report {
 /// the same.
 [[nodiscard]] std::string_view colour_of(std::string_view algorithm);
 
+/// How thick its curve is, in pixels: sep often lies under base, and is to be seen there.
+[[nodiscard]] double curve_width(std::string_view algorithm);
+
 /// What differs in these rows, in the order in which it comes.
 template <typename Value, typename Name>
 [[nodiscard]] auto distinct(const std::vector<Value>& rows, const Name& name)

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/virtual_time/play.hpp"
 
-#include "lab/core/virtual_time/world.hpp"
-
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -15,13 +14,22 @@ namespace {
 
 /// Two sides that have not begun by then never will: at a loss of 99 % both ways it takes 10 s.
 constexpr base::Duration begins_within{std::chrono::seconds{60}};
-constexpr int steps_between_looks = 1024; // at `stop`
+constexpr std::int64_t steps_between_looks = 1024; // at `stop`
 
 /// What one side did while it was in session with the other: one sample a tick, none left out.
 struct Track {
     base::TimePoint first;
     std::vector<Sample> samples;
 };
+
+/// Whether a link was full, so that a datagram was lost which the emulator would have kept.
+bool has_overflowed(const VirtualWorld& world)
+{
+    const auto overflowed = [&](std::size_t side) {
+        return world.link(side).statistics().dropped_by(emulator::DropCause::queue_full) > 0;
+    };
+    return overflowed(0) || overflowed(1);
+}
 
 bool is_playing(const VirtualPlayer& player)
 {
@@ -31,14 +39,12 @@ bool is_playing(const VirtualPlayer& player)
 /// A session on its way.
 class Play {
 public:
-    Play(const Setting& setting, emulator::QueueLimits limits)
-        : setting_{setting}, world_{setting, limits}
-    {}
+    explicit Play(VirtualWorld& world) : world_{world}, tick_{world.setting().tick} {}
 
     /// Until it is over; false when `stop` became true before.
     [[nodiscard]] bool run(const std::atomic<bool>* stop)
     {
-        for (int step = 0; !over_; ++step) {
+        for (std::int64_t step = 0; !over_; ++step) {
             const bool looks = stop != nullptr && step % steps_between_looks == 0;
             if (looks && stop->load(std::memory_order_relaxed)) return false;
             world_.step();
@@ -47,22 +53,13 @@ public:
         return true;
     }
 
-    /// Whether a link was full, so that a datagram was lost which the emulator would have kept.
-    [[nodiscard]] bool has_overflowed() const
-    {
-        const auto overflowed = [this](std::size_t side) {
-            return world_.link(side).statistics().dropped_by(emulator::DropCause::queue_full) > 0;
-        };
-        return overflowed(0) || overflowed(1);
-    }
-
     [[nodiscard]] Trace trace() &&;
 
 private:
     void note(std::size_t side);
 
-    const Setting& setting_;
-    VirtualWorld world_;
+    VirtualWorld& world_;
+    base::Duration tick_;
     std::array<Track, 2> tracks_;
     bool over_ = false;
 };
@@ -80,7 +77,7 @@ void Play::note(std::size_t side)
     }
     if (track.samples.empty()) {
         track.first = world_.now();
-        const auto ticks = player.peer->hands_on() / setting_.tick;
+        const auto ticks = player.peer->hands_on() / tick_;
         track.samples.reserve(static_cast<std::size_t>(ticks) + 1);
     }
     track.samples.push_back(player.sample());
@@ -88,7 +85,7 @@ void Play::note(std::size_t side)
 
 Trace Play::trace() &&
 {
-    Trace trace{.task = setting_.task, .tick = setting_.tick};
+    Trace trace{.task = world_.setting().task, .tick = tick_};
     trace.simulated = world_.now() - VirtualWorld::start;
     auto& [l, r] = tracks_;
     if (l.samples.empty() || r.samples.empty()) return trace;
@@ -96,16 +93,15 @@ Trace Play::trace() &&
     const base::TimePoint start = first.peer->session()->start - first.clock_ahead;
 
     // L's samples before R began are left out; R's are taken at L's times.
-    const base::Duration tick = setting_.tick;
     const base::Duration wait = std::max(base::Duration{0}, r.first - l.first);
-    const auto skipped = (wait + tick - base::Duration{1}) / tick;
-    const base::Duration into_r = l.first + skipped * tick - r.first;
+    const auto skipped = (wait + tick_ - base::Duration{1}) / tick_;
+    const base::Duration into_r = l.first + skipped * tick_ - r.first;
     const auto size = [](const Track& track) {
         return static_cast<base::Duration::rep>(track.samples.size());
     };
-    const auto from = into_r / tick;
+    const auto from = into_r / tick_;
     const double share =
-        static_cast<double>((into_r % tick).count()) / static_cast<double>(tick.count());
+        static_cast<double>((into_r % tick_).count()) / static_cast<double>(tick_.count());
     const auto beyond = share > 0.0 ? 1 : 0;
     const auto common = std::min(size(l) - skipped, size(r) - from - beyond);
     if (common <= 0) return trace;
@@ -118,25 +114,34 @@ Trace Play::trace() &&
             between(r.samples[at], r.samples[at + static_cast<std::size_t>(beyond)], share);
     }
     r.samples.resize(static_cast<std::size_t>(common));
-    trace.begin = l.first + skipped * tick - start;
+    trace.begin = l.first + skipped * tick_ - start;
     trace.overlap =
-        std::min(1.0, base::to_seconds(common * tick) / base::to_seconds(first.peer->hands_on()));
+        std::min(1.0, base::to_seconds(common * tick_) / base::to_seconds(first.peer->hands_on()));
     trace.sides = {std::move(l.samples), std::move(r.samples)};
     return trace;
 }
 
 } // namespace
 
+std::optional<Trace> play_out(VirtualWorld& world, const std::atomic<bool>* stop)
+{
+    Play session{world};
+    if (!session.run(stop)) return std::nullopt;
+    return std::move(session).trace();
+}
+
 base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop)
 {
     if (auto why = objection(setting)) return base::fail(*std::move(why));
-    Play session{setting, VirtualWorld::few};
-    if (!session.run(stop)) return base::fail("stopped before its end");
-    if (!session.has_overflowed()) return std::move(session).trace();
-    // Datagrams were in flight by the thousand: again, with the memory that the emulator has.
-    Play again{setting, {}};
-    if (!again.run(stop)) return base::fail("stopped before its end");
-    return std::move(again).trace();
+    VirtualWorld world{setting};
+    std::optional<Trace> trace = play_out(world, stop);
+    if (trace && has_overflowed(world)) {
+        // Datagrams were in flight by the thousand: again, with the memory that the emulator has.
+        VirtualWorld roomy{setting, {}};
+        trace = play_out(roomy, stop);
+    }
+    if (!trace) return base::fail("stopped before its end");
+    return *std::move(trace);
 }
 
 } // namespace hapnet::lab

@@ -4,9 +4,11 @@
 
 #include "lab/core/trace.hpp"
 #include "lab/core/virtual_time/setting.hpp"
+#include "lab/core/virtual_time/world.hpp"
 #include "proto/base/result.hpp"
 
 #include <atomic>
+#include <optional>
 
 namespace hapnet::lab {
 
@@ -15,5 +17,10 @@ namespace hapnet::lab {
 /// became true meanwhile. A session that never begins gives an empty trace.
 [[nodiscard]] base::Result<Trace> play(const Setting& setting,
                                        const std::atomic<bool>* stop = nullptr);
+
+/// Plays the first pair of a world that has just begun to its end: for players who hold other
+/// devices. nullopt when `stop` became true meanwhile.
+[[nodiscard]] std::optional<Trace> play_out(VirtualWorld& world,
+                                            const std::atomic<bool>* stop = nullptr);
 
 } // namespace hapnet::lab

@@ -21,6 +21,10 @@ std::optional<std::string> objection(const Setting& setting)
         return player.phase >= base::Duration{0} && player.phase < setting.tick;
     });
     if (!are_phases) return "the phase of a player's ticks is 0 s to less than a tick";
+    const bool are_traces = std::ranges::none_of(setting.players, [](const PlayerSetting& player) {
+        return player.replay && player.replay->empty();
+    });
+    if (!are_traces) return "a hand's trace has at least one moment";
     if (const auto fault = emulator::Timeline::fault_of(setting.profile)) {
         return fmt::format("change {} of the timeline: {}", fault->change + 1, fault->what);
     }

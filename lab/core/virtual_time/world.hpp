@@ -50,6 +50,10 @@ public:
     {
         return *seats_[index].player;
     }
+    [[nodiscard]] const Setting& setting(std::size_t pair = 0) const
+    {
+        return pairs_[pair].setting;
+    }
     [[nodiscard]] base::TimePoint now() const { return now_; }
     [[nodiscard]] std::size_t sides() const { return seats_.size(); }
     [[nodiscard]] const emulator::Link& link(std::size_t from) const { return seats_[from].out; }

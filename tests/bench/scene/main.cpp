@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/scene/crowd.hpp"
 #include "tests/bench/scene/instructions.hpp"
-#include "tests/bench/scene/options.hpp"
+#include "tests/bench/common/options.hpp"
 #include "tests/bench/scene/precision.hpp"
 #include "tests/bench/scene/stress.hpp"
 

@@ -3,7 +3,7 @@
 #include "tests/bench/scene/precision.hpp"
 
 #include "tests/bench/common/host.hpp"
-#include "tests/bench/scene/options.hpp"
+#include "tests/bench/common/options.hpp"
 
 namespace hapnet::bench {
 

@@ -3,6 +3,7 @@
 #include "proto/base/math.hpp"
 #include "proto/base/normal.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -88,6 +89,31 @@ TEST(Math, LogarithmAndNormalDistributionHaveTheSameBitsWithEveryCompilerToo)
         add(normal_quantile(0x1p-60 * i));
     }
     EXPECT_EQ(hash, 15053827966772600584U);
+}
+
+TEST(Math, SinesOfTurnsAreSinesWithTheSameBitsWithEveryCompiler)
+{
+    std::uint64_t hash = 0xcbf29ce484222325;
+    constexpr int count = 7; // some of them in lanes and some not
+    std::array<double, count> turns{};
+    for (int i = -20'000; i <= 20'000; ++i) {
+        for (int j = 0; j < count; ++j)
+            turns[static_cast<std::size_t>(j)] = i * 0.000731 + j * 49.9;
+        const auto given = turns;
+        sines_of_turns(turns);
+        for (int j = 0; j < count; ++j) {
+            const auto place = static_cast<std::size_t>(j);
+            // Whole turns are taken off exactly; the rest is good to 5e-16, std::sin to 1e-16.
+            const double part = given[place] - std::round(given[place]);
+            ASSERT_NEAR(turns[place], std::sin(two_pi * part), 6e-16) << given[place];
+            hash = (hash ^ std::bit_cast<std::uint64_t>(turns[place])) * 0x100000001b3;
+        }
+    }
+    EXPECT_EQ(hash, 3536116556227167765U);
+    std::array<double, 6> quarters{0.0, 0.25, -0.25, 0.75, 1e6 + 0.25, -7.0};
+    sines_of_turns(quarters);
+    const std::array<double, 6> expected{0.0, 1.0, -1.0, -1.0, 1.0, 0.0};
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(quarters[i], expected[i], 5e-16) << i;
 }
 
 TEST(Math, TheNormalDistributionEndsWhereItsProbabilitiesDo)

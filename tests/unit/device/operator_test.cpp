@@ -60,7 +60,7 @@ TEST(Operator, IsRefusedWithFileAndLine)
     EXPECT_EQ(complaint("mass = \"200g\"\nstifness = \"2N/m\"\n"),
               "hand.toml:2:1: \"stifness\" is not known here: did you mean 'stiffness'?");
     EXPECT_EQ(complaint("mass = \"0g\""),
-              "hand.toml:1:8: \"0g\" is out of range: 1g to 100kg is possible here");
+              "hand.toml:1:8: \"0g\" is out of range: 20g to 10kg is possible here");
     EXPECT_EQ(complaint("will.delay = \"2s\""),
               "hand.toml:1:14: \"2s\" is out of range: 0s to 1s is possible here");
     EXPECT_EQ(complaint("preset = \"fierce\"").substr(0, 15), "hand.toml:1:10:");

@@ -56,6 +56,21 @@ std::vector<std::uint64_t> numbers_that_leave(const Conditions& conditions, int 
 
 } // namespace
 
+TEST(Link, DoesTheSameWithoutALens)
+{
+    const Conditions conditions{.loss = {RandomLoss{20_percent}}, .delay = constant(5ms)};
+    Link::Setup setup{base::Seed{7}, Direction::up, start, {.datagrams_max = 1024}};
+    Link seen{conditions, setup};
+    setup.has_lens = false;
+    Link unseen{conditions, setup};
+    for (Link* link : {&seen, &unseen}) {
+        for (int ms = 0; ms < 100; ++ms) std::ignore = link->on_packet(payload, start + ms * 1ms);
+    }
+    EXPECT_EQ(numbers_of(all_of(seen)), numbers_of(all_of(unseen)));
+    EXPECT_TRUE(seen.lens().report().delay);
+    EXPECT_FALSE(unseen.lens().report().delay);
+}
+
 TEST(Link, HoldsADatagramUntilItsDelayHasPassedAndNotANanosecondLonger)
 {
     Link link = link_of({.delay = constant(160ms)});

@@ -3,11 +3,20 @@
 #pragma once
 
 #include "lab/core/experiment/spec.hpp"
+#include "lab/core/metrics/criteria.hpp"
 
 #include <atomic>
 #include <chrono>
 
 namespace hapnet::lab {
+
+/// Vibration up to 0.95 mm is usable, by whatever filter.
+inline Criteria known_criteria()
+{
+    Criteria criteria;
+    criteria.vibration_max_m = {.first = 0.95e-3, .second = 0.95e-3, .fourth = 0.95e-3};
+    return criteria;
+}
 
 /// The mean delay of a session's way up, ms.
 inline double delay_ms(const SessionSpec& spec)

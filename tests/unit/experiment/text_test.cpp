@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // What an experiment's text says, and what is said of texts that are none.
+#include "lab/core/experiment/criteria_text.hpp"
 #include "lab/core/experiment/text.hpp"
 
 #include <gtest/gtest.h>
@@ -140,6 +141,19 @@ TEST(ExperimentText, ComplaintsSayWhereAndWhatWouldBeRight)
     expect_words(complaint(limits("to = 100\nstep = \"10ms\"\nresolution = \"5ms\"\n")),
                  {"mine.toml:4:6: ", "160ms"});
     expect_words(complaint("kind = \"limits\"\ntasks = \"T1\"\nlimit = {}\n"), {"[limit.delay]"});
+}
+
+TEST(CriteriaText, ThePapersAreTheDefault)
+{
+    const auto no_file = [](const std::string&) -> base::Result<std::string> {
+        return base::fail("no such file");
+    };
+    const auto paper = load_criteria("paper", no_file);
+    ASSERT_TRUE(paper) << paper.error().message;
+    EXPECT_EQ(*paper, Criteria{});
+    const auto misspelt = load_criteria("papr", no_file);
+    ASSERT_FALSE(misspelt);
+    expect_words(misspelt.error().message, {"'papr'", "did you mean 'paper'?"});
 }
 
 TEST(ExperimentText, ANameThatIsNeitherAFileNorAnExperimentIsNamed)

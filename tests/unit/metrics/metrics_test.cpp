@@ -206,6 +206,8 @@ TEST(Scores, TakeOffWhatThePerfectNetworkShows)
     EXPECT_EQ(scores.vibration_m->fourth, 0.0);
     EXPECT_EQ(scores.stiffness_ratio[judged_press], 0.2);
     EXPECT_FALSE(scores.stiffness_ratio[0]);
+    impaired.stiffness_n_per_m[judged_press][1].reset(); // it ended before R's turn
+    EXPECT_EQ(*scores_of(impaired, perfect).stiffness_ratio[judged_press], 10.0 / 120.0);
     EXPECT_DOUBLE_EQ(*scores.contact_lost, 0.04);
     EXPECT_DOUBLE_EQ(*scores.response_added_s, 0.16);
     EXPECT_FALSE(scores.drag_n);

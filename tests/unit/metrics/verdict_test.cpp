@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "lab/core/experiment/criteria_text.hpp"
 #include "lab/core/metrics/calibration.hpp"
 #include "lab/core/metrics/criteria.hpp"
 #include "lab/core/metrics/verdict.hpp"
@@ -115,6 +116,14 @@ TEST(Criteria, ReadBackAsTheyWerePrinted)
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_EQ(*read, printed);
     }
+}
+
+TEST(Criteria, OfThePaperAreWhatIsBuiltIn)
+{
+    const auto read = load_criteria("paper", {});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, Criteria{});
+    EXPECT_EQ(print_criteria(*read), built_in_criteria().front().text);
 }
 
 TEST(Criteria, HaveTheirDefaultsWhereATextSaysNothing)

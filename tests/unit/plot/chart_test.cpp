@@ -59,7 +59,8 @@ TEST(HeatMap, DrawsEachFieldWithColourSymbolAndWords)
 
 TEST(Plot, ShowsTheLevelThatACurveIsHeldAgainstAndWhereItFails)
 {
-    const std::array curves{Curve{"a", "#123456", {{0.0, 0.0}, {10.0, 1.0}}}};
+    const std::array curves{
+        Curve{.name = "a", .colour = "#123456", .points = {{0.0, 0.0}, {10.0, 1.0}}}};
     const std::string svg = svg_plot(
         {"t", "x", "y"}, curves, {.levels = {{2.0, "usable"}}, .crosses = {{{5.0, 1.0}, "#9"}}});
     EXPECT_TRUE(holds(svg, ">usable</text>"));
@@ -69,7 +70,7 @@ TEST(Plot, ShowsTheLevelThatACurveIsHeldAgainstAndWhereItFails)
 
 TEST(Plot, EscapesTitlesAndNames)
 {
-    const std::array curves{Curve{"<b>", "#123456", {}}};
+    const std::array curves{Curve{.name = "<b>", .colour = "#123456"}};
     const std::string svg = svg_plot({"a & b", "'", "\""}, curves);
     EXPECT_TRUE(holds(svg, ">&lt;b&gt;</text>"));
     EXPECT_TRUE(holds(svg, "aria-label='a &amp; b'"));

@@ -11,7 +11,7 @@ namespace {
 
 std::string plot_of(const std::vector<Point>& points)
 {
-    const std::array curves{Curve{"peer 1", "#123456", points}};
+    const std::array curves{Curve{.name = "peer 1", .colour = "#123456", .points = points}};
     return svg_plot({"a title", "s", "mm"}, curves);
 }
 
@@ -52,7 +52,7 @@ TEST(Plot, OfNothingOrOfOneValueIsStillAPlot)
 TEST(Plot, DividesALogarithmicAxisIntoWholeDecadesAndLeavesOutWhatHasNoLogarithm)
 {
     const std::vector<Point> points{{10.0, 1e-15}, {100.0, 0.0}, {1000.0, 1e-3}, {-1.0, 1.0}};
-    const std::array curves{Curve{"peer 1", "#123456", points}};
+    const std::array curves{Curve{.name = "peer 1", .colour = "#123456", .points = points}};
     const std::string svg =
         svg_plot({"t", "x", "y"}, curves, {.scales = {Scale::logarithmic, Scale::logarithmic}});
     EXPECT_NE(svg.find("points='60.0,236.0 885.0,34.0 '"), std::string::npos) << svg;

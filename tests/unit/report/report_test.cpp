@@ -55,6 +55,20 @@ TEST(Report, ShowsNumbersBesideThePapersWithTheirBandsAndMissesInRed)
     EXPECT_FALSE(holds(page, "fill='var(--missed)' font-weight='bold'>3.4</text>"));
 }
 
+TEST(Report, EndsACurveWhereTheFirstTaskFailsAndKeepsTheOthersForThemselves)
+{
+    File curves = sample_curves();
+    curves.text += "base,delay,T2,120,ms,1,6.8,0.30,0.5,0.0200,usable\n";
+    const std::string page = page_of({curves});
+    const auto details = page.find("<summary>Each task on its own");
+    ASSERT_NE(details, std::string::npos);
+    const std::string worst = page.substr(0, details), each = page.substr(details);
+    EXPECT_TRUE(holds(worst, ">80</text>"));
+    EXPECT_FALSE(holds(worst, "Stiffness felt at 1 Hz")); // T2 was played only beyond T1's failure
+    EXPECT_TRUE(holds(each, "T2: vibration"));
+    EXPECT_TRUE(holds(worst, "m-6-6l12 12m0-12l-12 12' stroke='var(--base)'"));
+}
+
 TEST(Report, DrawsABoundOpenAndWritesIt)
 {
     const std::string page = page_of({sample_limits()});
@@ -115,6 +129,8 @@ TEST(Report, SaysWhetherItIsValidAndWhyNot)
     EXPECT_TRUE(holds(page, "<b>Not valid.</b>"));
     EXPECT_TRUE(holds(page, "<li>r/fig7: stopped</li>"));
     EXPECT_TRUE(holds(page_of({{"r/manifest.json", "{}"}}), "r: does not say why"));
+    EXPECT_TRUE(holds(page_of({{"r/manifest.json", R"({"kind": "real-time", "valid": false})"}}),
+                      "r: not every session over real UDP kept its timing"));
 }
 
 TEST(Report, ExcludesARealTimeRunThatIsNotValid)

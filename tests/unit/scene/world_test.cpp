@@ -118,6 +118,28 @@ TEST(World, ALockedCoordinateStaysWhereItIsWhereverTheBodyIsPut)
     EXPECT_EQ(world.body(0).velocity, (base::Velocity{{0.1, 0.2, 0.0}}));
 }
 
+TEST(World, ABodyPutSomewhereKeepsItsTurnAndSpin)
+{
+    Description scene = row_of_cubes();
+    scene.bodies[0].locked_z = true;
+    scene.bodies[0].angular_velocity = glm::dvec3{0.0, 3.0, 0.0};
+    World world = World::freeze(scene).value();
+    for (int i = 0; i < 10; ++i) world.tick();
+    World other = world;
+    BodyState state = other.body(0);
+    state.position = {{-0.03, 0.02, 0.5}};
+    state.velocity = {{0.1, 0.2, 0.3}};
+    ASSERT_FALSE(other.place(0, state));
+    ASSERT_FALSE(world.place(0, state.position, state.velocity));
+    EXPECT_EQ(world.position(0), other.body(0).position);
+    EXPECT_EQ(world.velocity(0), other.body(0).velocity);
+    EXPECT_EQ(world.body(0).orientation, other.body(0).orientation);
+    expect_refused(world, Refusal::not_finite, world.place(0, {{nan, 0.0, 0.0}}, {}));
+    expect_refused(world, Refusal::out_of_range, world.place(0, {}, {{1e30, 0.0, 0.0}}));
+    expect_refused(world, Refusal::no_such_body, world.place(10, {}, {}));
+    EXPECT_EQ(world.position(0), other.body(0).position);
+}
+
 TEST(World, FreezeSaysWhatIsWrong)
 {
     Description scene = paper_scene();

@@ -214,6 +214,7 @@
   fill(algorithm, [...new Set(data.replays.map((one) => one.algorithm))]);
   readColours();
   choose();
+  goTo(0.2 * replay.count); // at its beginning nothing happens yet
   algorithm.addEventListener("change", choose);
   task.addEventListener("change", choose);
   play.addEventListener("click", toggle);

@@ -14,7 +14,7 @@
 
 namespace hapnet::bench {
 
-/// What a bench of the scene was told: --quick, and which files to write, by their options' names.
+/// What a bench was told: --quick, and which files to write, by their options' names.
 struct Options {
     bool quick = false;
     std::map<std::string, std::string> files;

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <malloc.h>
+
+namespace hapnet::lab {
+
+/// Lets the program keep the memory that it has freed. The trace of a session is 8 MB: to give it
+/// back to the system and get it anew, page by page, takes an eighth of the time in which the
+/// session is played (measured 2026, AMD EPYC, Linux 6.18).
+inline void keep_freed_memory()
+{
+    constexpr int from_the_system_itself = 32 << 20; // what is larger; the most that glibc takes
+    constexpr int unused_max = 1 << 30;
+    mallopt(M_MMAP_THRESHOLD, from_the_system_itself);
+    mallopt(M_TRIM_THRESHOLD, unused_max);
+}
+
+} // namespace hapnet::lab

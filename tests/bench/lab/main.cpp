@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/freed_memory.hpp"
+#include "tests/bench/common/host.hpp"
+#include "tests/bench/common/options.hpp"
+#include "tests/bench/lab/run_time_error.hpp"
+#include "tests/bench/lab/speed.hpp"
+
+namespace hapnet::bench {
+
+namespace {
+
+constexpr std::string_view program = "bench_lab";
+constexpr std::string_view usage =
+    "usage: bench_lab [--quick] [--json FILE] [--plot FILE.svg] [--csv FILE]\n"
+    "Plays sessions in virtual time on one processor: how many times faster than life, by task "
+    "and\n"
+    "algorithm; and what the figures of Table 1 are off by, against run time, for ticks of 4 to\n"
+    "0.25 ms, for hands in 1 to 100 steps, and for 1 to 20 seeds. --json: the rows; --csv and\n"
+    "--plot: error against run time. --quick ends within a minute.\n";
+
+net::CommandLine<Options> parse_words(std::span<char*> words)
+{
+    return parse(words, {"--json", "--csv", "--plot"}, std::string{usage});
+}
+
+base::Result<int> measure(const Options& options)
+{
+    Files files{options};
+    const Host machine = host();
+    pin(1);
+    if (!set_fifo(1))
+        net::say(program, "SCHED_FIFO is not allowed here: whatever else runs counts");
+    lab::keep_freed_memory(); // as hapnet-lab does
+
+    std::vector<Row> rows = measure_speed(options.quick ? 5 : 21);
+    const auto points = measure_run_time_error(options.quick);
+    const auto errors = work_rows(points);
+    rows.insert(rows.end(), errors.begin(), errors.end());
+    fmt::print("{}", rows_table(rows));
+    files.write("--json", rows_json(machine, rows));
+    files.write("--csv", work_csv(points));
+    files.write("--plot", work_svg(points));
+    return 0;
+}
+
+} // namespace
+
+} // namespace hapnet::bench
+
+int main(int argc, char** argv)
+{
+    namespace bench = hapnet::bench;
+    const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
+    return hapnet::net::run_program(bench::program, bench::parse_words(words), bench::measure);
+}

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/simulated/hand_motion.hpp"
+#include "device/simulated/hand_noise.hpp"
+#include "device/simulated/omni.hpp"
+#include "device/simulated/script.hpp"
+#include "device/velocity_filter.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace hapnet::bench {
+
+/// What SimulatedOmni is measured against: the same hand and device, every axis by Euler's
+/// symplectic method in equal steps from read to read, as is usual. Twenty of them in a
+/// millisecond is what SimulatedOmni did before it went there in one exact step. Without reflex
+/// and will.
+class SteppedHand final : public device::Device {
+public:
+    SteppedHand(const device::Performer& performer, int steps_a_read);
+
+    [[nodiscard]] device::Sample read(base::TimePoint now) override;
+    void apply(base::Force force) override;
+    void on_cue(const device::Cue& cue) override;
+    [[nodiscard]] std::string description() const override { return "a hand in steps"; }
+
+private:
+    struct Part {
+        device::Script script;
+        device::HandNoise noise;
+        base::TimePoint start;
+    };
+
+    [[nodiscard]] device::Intention intention(base::TimePoint now) const;
+    void advance(const base::Position& target, double seconds);
+
+    device::Performer performer_;
+    int steps_a_read_;
+    glm::dvec3 centre_{0.0}; // of the workspace
+    glm::dvec3 position_{0.0, 0.0, 0.035};
+    glm::dvec3 motion_{0.0};
+    glm::dvec3 force_{0.0};
+    glm::dvec3 rest_{0.0, 0.0, 0.035};
+    device::VelocityFilter velocity_;
+    std::optional<base::TimePoint> last_read_;
+    std::optional<Part> part_;
+    std::optional<base::TimePoint> cued_at_;
+};
+
+} // namespace hapnet::bench
