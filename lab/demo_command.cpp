@@ -5,6 +5,7 @@
 #include "lab/core/demo_page.hpp"
 #include "lab/core/demo_report.hpp"
 #include "lab/host.hpp"
+#include "lab/json_file.hpp"
 #include "proto/record/reader.hpp"
 
 #include <cerrno>
@@ -19,15 +20,6 @@ namespace hapnet::lab {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-base::Result<Json> read_json(const std::string& path)
-{
-    std::ifstream file{path};
-    if (!file) return base::fail("cannot open " + path);
-    Json json = Json::parse(file, nullptr, false);
-    if (!json.is_object()) return base::fail(path + " does not hold one JSON object");
-    return json;
-}
 
 base::Result<DemoTask> read_task(const std::string& folder)
 {

@@ -7,6 +7,7 @@
 #include "lab/demo_command.hpp"
 #include "lab/freed_memory.hpp"
 #include "lab/options.hpp"
+#include "lab/real_time_command.hpp"
 #include "lab/report_command.hpp"
 #include "lab/run_command.hpp"
 #include "peer/core/scene/text/text.hpp"
@@ -85,6 +86,14 @@ base::Result<int> run(const ExplainCommand& command)
     const auto explanation = explain(*scene, command.tick, command.sleeping);
     print(command.json ? to_json(explanation).dump(2) + '\n' : to_table(explanation));
     return 0;
+}
+
+base::Result<int> run(const RealTimeCommand& command)
+{
+    return conclude_real_time(command).map([](const std::string& table) {
+        print(table);
+        return 0;
+    });
 }
 
 base::Result<int> run(const ReportCommand& command)

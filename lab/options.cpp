@@ -20,15 +20,46 @@ namespace hapnet::lab {
 
 namespace {
 
+CLI::App* add_analyse(CLI::App& app, AnalyseCommand& analyse)
+{
+    auto* command = app.add_subcommand(
+        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
+                   "forces were apart, what the network did, whether the run is valid.\n"
+                   "A run that is not valid says so; the exit code stays 0");
+    command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
+    command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
+    command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
+    return command;
+}
+
+/// The word for its rows is read afterwards.
+void add_export(CLI::App& app, ExportCommand& exported, std::string& rows)
+{
+    auto* command =
+        app.add_subcommand("export", "Print the rows of a record, time counted from its T0");
+    command->add_option("RECORD", exported.record, "record of one peer")->required();
+    command->add_flag_callback(
+        "--csv", [] {}, "as CSV: the only format, and the default");
+    command->add_option("--rows", rows, "ticks of the haptic loop, or messages received")
+        ->option_text("ticks|messages [ticks]")
+        ->check(CLI::IsMember{{"ticks", "messages"}});
+}
+
+/// What a script knows of a run and hapnet-lab does not.
+void add_circumstances(CLI::App& command, auto& run)
+{
+    command.add_option("--command", run.command, "what was typed, for the manifest");
+    command.add_option("--start", run.start, "when it began, for the manifest");
+    command.add_option("--wall-time", run.wall_time_s, "seconds since, for the manifest");
+}
+
 CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
 {
     auto* command = app.add_subcommand(
         "demo-report", "The end of scripts/demo.sh: read what it recorded in a folder, print it\n"
                        "beside the paper's Table 1, write manifest.json. Exit code 1: it misses");
     command->add_option("FOLDER", demo.folder, "what scripts/demo.sh wrote")->required();
-    command->add_option("--command", demo.command, "what was typed, for the manifest");
-    command->add_option("--start", demo.start, "when it began, for the manifest");
-    command->add_option("--wall-time", demo.wall_time_s, "seconds since, for the manifest");
+    add_circumstances(*command, demo);
     return command;
 }
 
@@ -41,6 +72,17 @@ CLI::App* add_report(CLI::App& app, ReportCommand& report)
         ->add_option("DIR", report.folder,
                      "a folder with the files of an experiment, or with such folders")
         ->required();
+    return command;
+}
+
+CLI::App* add_real_time(CLI::App& app, RealTimeCommand& real_time)
+{
+    auto* command = app.add_subcommand(
+        "real-time", "The end of scripts/real-time.sh: read the sessions that were played in real\n"
+                     "time, play the same in virtual time, write real_time.csv");
+    command->add_option("DIR", real_time.folder, "the folder of results that holds real-time/")
+        ->required();
+    add_circumstances(*command, real_time);
     return command;
 }
 
@@ -135,27 +177,14 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     app.footer("Exit codes: 0 done, 1 failed, 2 usage or bad input, 3 the environment.");
 
     AnalyseCommand analyse;
-    auto* analyse_command = app.add_subcommand(
-        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
-                   "forces were apart, what the network did, whether the run is valid.\n"
-                   "A run that is not valid says so; the exit code stays 0");
-    analyse_command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
-    analyse_command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
-    analyse_command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
-
+    auto* analyse_command = add_analyse(app, analyse);
     ExportCommand exported;
-    auto* export_command =
-        app.add_subcommand("export", "Print the rows of a record, time counted from its T0");
-    export_command->add_option("RECORD", exported.record, "record of one peer")->required();
-    bool csv = true;
-    export_command->add_flag("--csv", csv, "as CSV: the only format, and the default");
     std::string rows = "ticks";
-    export_command->add_option("--rows", rows, "ticks of the haptic loop, or messages received")
-        ->option_text("ticks|messages [ticks]")
-        ->check(CLI::IsMember{{"ticks", "messages"}});
-
+    add_export(app, exported, rows);
     DemoReportCommand demo;
     auto* demo_command = add_demo_report(app, demo);
+    RealTimeCommand real_time;
+    auto* real_time_command = add_real_time(app, real_time);
     ReportCommand report;
     auto* report_command = add_report(app, report);
     ExplainCommand explain;
@@ -183,6 +212,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     }
     if (analyse_command->parsed()) return Command{analyse};
     if (demo_command->parsed()) return Command{demo};
+    if (real_time_command->parsed()) return Command{real_time};
     if (report_command->parsed()) return Command{report};
     if (explain_command->parsed()) return command_of(explain, tick);
     if (run_command->parsed()) return command_of(std::move(run), words);

@@ -46,6 +46,14 @@ struct ExplainCommand {
     bool json = false;
 };
 
+/// `hapnet-lab real-time DIR`: the end of scripts/real-time.sh.
+struct RealTimeCommand {
+    std::string folder;
+    std::string command; // what was typed
+    std::string start;   // ISO 8601, UTC
+    double wall_time_s = 0.0;
+};
+
 /// `hapnet-lab report DIR`
 struct ReportCommand {
     std::string folder;
@@ -64,7 +72,7 @@ struct RunCommand {
 };
 
 using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,
-                             ReportCommand, RunCommand>;
+                             RealTimeCommand, ReportCommand, RunCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

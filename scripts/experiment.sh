@@ -7,23 +7,25 @@
 set -euo pipefail
 
 usage="usage: scripts/experiment.sh NAME[,NAME...] [--out DIR] [--quick] [--seeds N] [--jobs N]
-                             [--set KEY=VALUE]
+                             [--set KEY=VALUE] [--real-time]
 Installs what is missing, builds hapnet-lab, carries out the experiments of these names
 (scripts/experiments/NAME.toml, docs/EXPERIMENTS.md) and writes CSV, manifest.json and report.html
 to DIR (results/NAME-<time> when not given; several: one folder each in it). Run again with the same
 --out after an interruption: nothing is computed twice. --quick is rougher, with fewer seeds; --jobs
-is the number of threads (all processors) and does not change the results. Exits 0 when done, 1 when
-stopped, 2 for an unknown name or argument, 3 when something that it needs cannot be installed."
+is the number of threads (all processors) and does not change the results; --real-time lets table1
+play its cells in real time, too (scripts/real-time.sh: 30 s each). Exits 0 when done, 1 when stopped,
+2 for an unknown name or argument, 3 when something that it needs cannot be installed."
 
 refuse() {
     echo "experiment: $1"$'\n'"$usage" >&2
     exit 2
 }
 
-names=() out='' options=()
+names=() out='' options=() real_time='' quick=()
 while (($# > 0)); do
     case $1 in
-    --quick) options+=(--quick) && shift ;;
+    --quick) options+=(--quick) quick=(--quick) && shift ;;
+    --real-time) real_time=yes && shift ;;
     --out)
         (($# > 1)) || refuse "--out: which directory?"
         out=$(realpath -m "$2") && shift 2
@@ -38,6 +40,7 @@ while (($# > 0)); do
     esac
 done
 ((${#names[@]} > 0)) || refuse "which experiment?"
+[[ -z $real_time || " ${names[*]} " == *' table1 '* ]] || refuse "--real-time: only for table1"
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 time=$(date -u +%Y%m%dT%H%M%SZ)
@@ -59,5 +62,6 @@ for name in "${names[@]}"; do
     folder=$out
     ((${#names[@]} == 1)) || folder=$out/$name
     "$lab" run "$name" "${options[@]}" --out "$folder"
+    [[ -z $real_time || $name != table1 ]] || scripts/real-time.sh --out "$folder" "${quick[@]}"
 done
 "$lab" report "$out"

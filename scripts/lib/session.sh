@@ -8,11 +8,28 @@
 
 children=()
 
-# Where each socket is. Beside this, within() says where a program runs: on this machine, as it is.
-declare -A listen=([1]=127.0.0.1:0 [2]=127.0.0.1:0 [a]=127.0.0.1:0 [b]=127.0.0.1:0)
+# Where the programs run: in the network namespaces $namespace-1, -emulator and -2, which
+# scripts/lib/namespaces.sh makes; empty: on loopback.
+namespace=
 
-# within 1|2|emulator COMMAND...: becomes the command, in the place of that peer or the emulator.
-within() { exec "${@:2}"; }
+# within 1|2|emulator COMMAND...: becomes the command, where that peer or the emulator runs.
+within() {
+    local namespace_words=()
+    [[ -z $namespace ]] || namespace_words=(ip netns exec "$namespace-$1")
+    exec "${namespace_words[@]}" "${@:2}"
+}
+
+# socket_of 1|2|a|b: where that peer, or the emulator on that side, listens.
+socket_of() {
+    [[ -n $namespace ]] || set -- loopback
+    case $1 in
+    1) echo 10.77.1.1:7000 ;;
+    a) echo 10.77.1.2:7001 ;;
+    b) echo 10.77.2.2:7002 ;;
+    2) echo 10.77.2.1:7000 ;;
+    *) echo 127.0.0.1:0 ;; # any free port
+    esac
+}
 
 stop_children() {
     ((${#children[@]} == 0)) || kill -TERM "${children[@]}" 2>/dev/null || true
@@ -41,12 +58,12 @@ build_programs() {
 # start_emulator FOLDER OPTION...: sets emulator, address_a and address_b.
 start_emulator() {
     local folder=$1 ready=
-    within emulator "${bin:?}/hapnet-emulator" --listen-a "${listen[a]}" --listen-b "${listen[b]}" \
-        "${@:2}" --stats "$folder/emulator.json" >"$folder/emulator.out" 2>"$folder/emulator.log" &
+    within emulator "${bin:?}/hapnet-emulator" --listen-a "$(socket_of a)" \
+        --listen-b "$(socket_of b)" "${@:2}" --stats "$folder/emulator.json" >"$folder/emulator.out" 2>"$folder/emulator.log" &
     emulator=$!
     children+=("$emulator")
     for _ in {1..100}; do
-        ready=$(grep -m 1 '^ready ' "$folder/emulator.out" || true)
+        ready=$(grep -s -m 1 '^ready ' "$folder/emulator.out" || true)
         [[ -z $ready ]] || break
         kill -0 "$emulator" 2>/dev/null || break
         sleep 0.05
@@ -60,7 +77,7 @@ start_emulator() {
 # peer ID ADDRESS SECONDS FOLDER OPTION...: becomes a peer until its end.
 peer() {
     within "$1" timeout --kill-after 5 $(($3 + 30)) "$bin/hapnet-peer" --id "$1" \
-        --listen "${listen[$1]}" --remote "$2" --duration "$3s" --seed 1 --record "$4/peer-$1.rec" \
+        --listen "$(socket_of "$1")" --remote "$2" --duration "$3s" --seed 1 --record "$4/peer-$1.rec" \
         --stats "$4/peer-$1.json" "${@:5}" >"$4/peer-$1.out"
 }
 

@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Hapnet authors
+# SPDX-License-Identifier: MIT
+#
+# The cells of Table 1 in real time: the daemons and the emulator over loopback UDP and, as root,
+# in three network namespaces, beside the same sessions in virtual time.
+set -euo pipefail
+
+usage="usage: scripts/real-time.sh --out DIR [--quick] [--duration SECONDS] [--programs DIR]
+Installs what is missing, builds, plays task P1 with a delay of 160 ms each way with the algorithms
+base, sep and dead-reckoning in real time, over loopback and, as root, in network namespaces; one
+after the other, 30 s each, so that they do not disturb each other. Writes DIR/real_time.csv, what
+DIR/manifest.json says of it, and DIR/real-time/WHERE/ALGORITHM/ with the records of each session.
+A session whose own timing was off is named and excluded: leave the machine alone meanwhile.
+--quick plays base and dead-reckoning for 10 s over loopback alone. --programs DIR takes the programs
+in DIR and builds nothing. Exits 0 when done, 1 when a program failed, 3 when something that it needs
+cannot be installed."
+
+command_line="scripts/real-time.sh${*:+ $*}"
+refuse() {
+    echo "real-time: $1"$'\n'"$usage" >&2
+    exit 2
+}
+out='' quick='' seconds='' programs=''
+while (($# > 0)); do
+    case $1 in
+    --quick) quick=yes && shift ;;
+    --out | --duration | --programs)
+        (($# > 1)) || refuse "$1: which value?"
+        case $1 in
+        --out) out=$(realpath -m "$2") ;;
+        --programs) programs=$(realpath "$2") ;;
+        *) seconds=${2%s} ;;
+        esac
+        shift 2
+        ;;
+    -h | --help) echo "$usage" && exit 0 ;;
+    *) refuse "unknown argument '$1'" ;;
+    esac
+done
+[[ -n $out ]] || refuse "--out is required"
+algorithms=(base sep dead-reckoning)
+[[ -z $quick ]] || algorithms=(base dead-reckoning)
+[[ -n $seconds ]] || seconds=$([[ -z $quick ]] && echo 30 || echo 10)
+[[ $seconds =~ ^[1-9][0-9]*$ ]] || refuse "--duration: a whole number of seconds, not '$seconds'"
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+program=real-time bin=${programs:-build/release/bin}
+# shellcheck source=scripts/lib/session.sh
+. scripts/lib/session.sh
+# shellcheck source=scripts/lib/namespaces.sh
+. scripts/lib/namespaces.sh
+
+# play_all WHERE OPTION...: a session with each algorithm; the options are the emulator's.
+play_all() {
+    local algorithm folder played=0
+    for algorithm in "${algorithms[@]}"; do
+        folder=$out/real-time/$1/$algorithm
+        mkdir -p "$folder"
+        printf '\nreal-time: %d of %d over %s: %s for %s s; what peer 1 says:\n' \
+            $((played += 1)) ${#algorithms[@]} "$1" "$algorithm" "$seconds"
+        start_emulator "$folder" --delay 160ms --seed 42 "${@:2}"
+        play_session "$folder" "$seconds" --task P1 --algorithm "$algorithm" --insecure
+        analyse "$folder"
+    done
+}
+
+[[ -n $programs ]] || build_programs
+start=$(date -u +%FT%TZ)
+started=$SECONDS
+rm -rf "$out/real-time"
+play_all loopback
+if [[ -z $quick ]]; then
+    if use_namespaces; then
+        play_all namespaces --a "$(socket_of 1)" --b "$(socket_of 2)"
+    else
+        echo "real-time: so there is no session in network namespaces" >&2
+    fi
+fi
+echo
+"$bin/hapnet-lab" real-time "$out" --command "$command_line" --start "$start" \
+    --wall-time $((SECONDS - started))
