@@ -12,9 +12,9 @@ base, sep and dead-reckoning in real time, over loopback and, as root, in networ
 after the other, 30 s each, so that they do not disturb each other. Writes DIR/real_time.csv, what
 DIR/manifest.json says of it, and DIR/real-time/WHERE/ALGORITHM/ with the records of each session.
 A session whose own timing was off is named and excluded: leave the machine alone meanwhile.
---quick plays base and dead-reckoning for 10 s over loopback alone. --programs DIR takes the programs
-in DIR and builds nothing. Exits 0 when done, 1 when a program failed, 3 when something that it needs
-cannot be installed."
+--quick plays base and dead-reckoning for 10 s over loopback alone. --programs DIR takes the
+programs in DIR and builds nothing. Exits 0 when done, 1 when a program failed, 3 when something
+that it needs cannot be installed."
 
 command_line="scripts/real-time.sh${*:+ $*}"
 refuse() {

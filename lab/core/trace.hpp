@@ -30,7 +30,7 @@ struct Sample {
 struct Trace {
     device::Task task = device::Task::p1;
     base::Duration tick{std::chrono::milliseconds{1}};
-    base::Duration begin{};                   // of sample 0, from the session's start
+    base::Duration begin{};                     // of sample 0, from the session's start
     std::array<std::vector<Sample>, 2> sides{}; // 0: L, 1: R; equally long
     /// The share of the session, 0 to 1, in which both were running; hands off not counted.
     double overlap = 0.0;

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# scripts/real-time.sh plays real sessions, short ones here, and writes what it says; interrupted, it
-# leaves no program behind. Usage: real_time_test.sh SCRIPT FOLDER-WITH-THE-PROGRAMS
+# scripts/real-time.sh plays real sessions, short ones here, and writes what it says; interrupted,
+# it leaves no program behind. Usage: real_time_test.sh SCRIPT FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
 
 script=$(realpath "$1")
@@ -31,8 +31,8 @@ while IFS=, read -r algorithm _ mean _ _ virtual_mean _ _ difference valid _; do
         fail "$algorithm is valid: $valid, and differs by '$difference'"
 done < <(tail -n +2 "$out/real_time.csv")
 grep -q 'real time against virtual time' "$out/said" || fail "no table was printed"
-jq -e '.kind == "real-time" and (.real_time.sessions | length) == 2' "$out/manifest.json" >/dev/null ||
-    fail "manifest.json"
+jq -e '.kind == "real-time" and (.real_time.sessions | length) == 2' "$out/manifest.json" \
+    >/dev/null || fail "manifest.json"
 
 # As Ctrl-C does it: to all processes of a group.
 set -m

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "tests/bench/common/options.hpp"
 #include "tests/bench/scene/crowd.hpp"
 #include "tests/bench/scene/instructions.hpp"
-#include "tests/bench/common/options.hpp"
 #include "tests/bench/scene/precision.hpp"
 #include "tests/bench/scene/stress.hpp"
 
