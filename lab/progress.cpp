@@ -5,6 +5,7 @@
 #include "proto/net/program.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
@@ -19,7 +20,7 @@ constexpr base::Duration line_interval = 10s;
 
 std::string time_text(double seconds)
 {
-    const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+    const auto whole = std::llround(seconds);
     return whole < 60 ? fmt::format("{} s", whole)
                       : fmt::format("{} min {} s", whole / 60, whole % 60);
 }

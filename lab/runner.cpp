@@ -106,7 +106,7 @@ private:
     const Experiment& experiment_;
     const Criteria& criteria_;
     const Runner& runner_;
-    const std::vector<Part> parts_;
+    std::vector<Part> parts_;
     std::vector<std::optional<Finding>> findings_; // each written by the thread of its part
     std::atomic<bool> stop_ = false;
     std::atomic<std::size_t> next_ = 0;

@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     base::ensure(trace || !trace.error().message.empty());
     if (trace) {
         device::Replay hand{*trace, "hand.csv"};
-        hand.on_cue(device::Cue{});
+        hand.on_cue({.start = {}, .hands_on = {}, .seed = base::Seed{0}});
         for (int i = 0; i < 100; ++i) {
             const auto sample = hand.read(base::TimePoint{std::chrono::milliseconds{10 * i}});
             base::ensure(base::norm(sample.hip - base::Position{}) <= 20.0);

@@ -52,7 +52,7 @@ void read_share_level(const base::Node& node, Level& target, base::Reading& read
     base::Probability value;
     base::read_value(node, value, reading);
     const double thousandths = value.fraction() * 100.0 * thousand;
-    const Level level{static_cast<std::int64_t>(thousandths + 0.5)};
+    const Level level{std::llround(thousandths)};
     constexpr double rounding = 1e-12; // of the text to a number
     if (std::abs(share_of(level).fraction() - value.fraction()) > rounding) {
         return reading.complain(node.place, "a level has at most three decimals, such as 92.5%");

@@ -33,7 +33,7 @@ std::string operator_text(const device::Operator& person)
 
 std::string hands_text(const Hands& hands)
 {
-    const auto left = operator_text(hands.left);
+    auto left = operator_text(hands.left);
     if (hands.left == hands.right) return left;
     const auto right = operator_text(hands.right);
     return fmt::format("[{}, {}]", left, right);
