@@ -9,6 +9,7 @@
 #include "lab/core/metrics/energy.hpp"
 #include "lab/core/metrics/exercise.hpp"
 #include "lab/core/metrics/stiffness.hpp"
+#include "proto/base/ensure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -156,6 +157,7 @@ std::optional<double> drops(const Taken& taken)
 
 Metrics metrics_of(const Trace& trace)
 {
+    base::ensure(trace.sides[0].size() == trace.sides[1].size());
     const Taken taken{.exercise = exercise_of(trace.task),
                       .sides = {columns_of(trace.sides[0]), columns_of(trace.sides[1])},
                       .tick_s = base::to_seconds(trace.tick),

@@ -4,17 +4,19 @@
 
 #include "proto/base/ensure.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace hapnet::lab {
 
 namespace {
 
+// A number that is none stays one, so that it fails where it is judged.
+
 /// What is in `value` beyond `reference`, of two root mean squares that do not correlate.
 double excess(double value, double reference)
 {
-    return std::sqrt(std::max(0.0, value * value - reference * reference));
+    const double squares = value * value - reference * reference;
+    return squares < 0.0 ? 0.0 : std::sqrt(squares);
 }
 
 ByOrder excess(const ByOrder& value, const ByOrder& reference)
@@ -24,19 +26,19 @@ ByOrder excess(const ByOrder& value, const ByOrder& reference)
             .fourth = excess(value.fourth, reference.fourth)};
 }
 
-double larger(double a, double b) { return std::max(a, b); }
+double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
 
 ByOrder larger(const ByOrder& a, const ByOrder& b)
 {
-    return {.first = std::max(a.first, b.first),
-            .second = std::max(a.second, b.second),
-            .fourth = std::max(a.fourth, b.fourth)};
+    return {.first = larger(a.first, b.first),
+            .second = larger(a.second, b.second),
+            .fourth = larger(a.fourth, b.fourth)};
 }
 
 ForceSteps larger(const ForceSteps& a, const ForceSteps& b)
 {
-    return {.largest_n = std::max(a.largest_n, b.largest_n),
-            .reversals = std::max(a.reversals, b.reversals)};
+    return {.largest_n = larger(a.largest_n, b.largest_n),
+            .reversals = larger(a.reversals, b.reversals)};
 }
 
 template <typename Value>

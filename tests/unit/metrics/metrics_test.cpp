@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -230,6 +231,18 @@ TEST(Scores, TakeOffWhatThePerfectNetworkShows)
     EXPECT_DOUBLE_EQ(*scores.contact_lost, 0.04);
     EXPECT_DOUBLE_EQ(*scores.response_added_s, 0.16);
     EXPECT_FALSE(scores.drag_n);
+}
+
+TEST(Scores, KeepANumberThatIsNone)
+{
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    Metrics perfect{.scored_s = 27.0};
+    perfect.body_vibration_m = {ByOrder{}, ByOrder{}};
+    for (const std::size_t side : {0U, 1U}) {
+        Metrics broken = perfect;
+        broken.body_vibration_m[side]->first = none;
+        EXPECT_TRUE(std::isnan(scores_of(broken, perfect).vibration_m->first));
+    }
 }
 
 TEST(Scores, OfASessionThatNeverBeganHaveNoTimeTogether)
