@@ -147,8 +147,8 @@ std::string print_criteria(const Criteria& criteria)
     std::string text;
     text += "# When a session is usable, and when it is good. A convention that makes sessions\n"
             "# comparable, not a finding about people. docs/METRICS.md defines each metric.\n\n";
-    text += "# Of the 20 Hz high-pass that vibration is judged by: 1, 2 or 4. The figures of the\n"
-            "# specification used 1.\n";
+    text += "# Of the 20 Hz high-pass that vibration is judged by: 1, 2 or 4. The first\n"
+            "# estimates used 1.\n";
     text += fmt::format("filter_order = {}\n\n[usable]\n", text_of(criteria.filter_order));
     text += "# A. Calibrated: base is to be usable up to 93 % random loss and no further.\n";
     text +=
