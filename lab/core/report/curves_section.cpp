@@ -4,6 +4,7 @@
 #include "lab/core/report/section.hpp"
 #include "lab/core/report/words.hpp"
 
+#include <algorithm>
 #include <map>
 #include <spdlog/fmt/fmt.h>
 
@@ -125,6 +126,40 @@ std::string by_task(const std::vector<CurveRow>& rows, const std::optional<Crite
     return "<div class='panels small'>\n" + out + "</div>\n";
 }
 
+bool is_measured(const std::vector<CurveRow>& rows, const Criterion& criterion)
+{
+    return std::any_of(rows.begin(), rows.end(), [&](const CurveRow& row) {
+        return (row.judged.*criterion.value).has_value();
+    });
+}
+
+/// All curves of one impairment.
+void add_curves(Section& section, const std::vector<CurveRow>& rows,
+                const std::optional<Criteria>& criteria)
+{
+    const std::string& name = rows.front().impairment;
+    section.html +=
+        fmt::format("<h3>{}</h3>\n<div class='panels small'>\n", escaped(impairment_text(name)));
+    std::string unmeasured;
+    for (const Criterion& criterion : criteria_drawn) {
+        if (!is_measured(rows, criterion)) {
+            unmeasured += fmt::format("{}{}", unmeasured.empty() ? "" : ", ", criterion.name);
+        }
+        auto svg =
+            curve_plot(up_to_failure(rows), criterion, std::string{criterion.title}, criteria);
+        if (svg.empty()) continue;
+        section.add_figure(fmt::format("curve-{}-{}", name, criterion.name), std::move(svg),
+                           "Worst of tasks and seeds.");
+    }
+    section.html += "</div>\n";
+    if (!unmeasured.empty()) {
+        section.html += fmt::format("<p class='banner'>Not measured in any of these sessions, so "
+                                    "none can have failed by it: {}.</p>\n",
+                                    unmeasured);
+    }
+    section.html += folded("Each task on its own", by_task(rows, criteria));
+}
+
 } // namespace
 
 std::optional<Section> curves_section(const Results& results)
@@ -142,16 +177,7 @@ std::optional<Section> curves_section(const Results& results)
         for (const CurveRow& row : results.curves) {
             if (row.impairment == name) rows.push_back(row);
         }
-        section.html += fmt::format("<h3>{}</h3>\n<div class='panels small'>\n",
-                                    escaped(impairment_text(name)));
-        for (const Criterion& criterion : criteria_drawn) {
-            auto svg =
-                curve_plot(up_to_failure(rows), criterion, std::string{criterion.title}, criteria);
-            if (svg.empty()) continue;
-            section.add_figure(fmt::format("curve-{}-{}", name, criterion.name), std::move(svg),
-                               "Worst of tasks and seeds.");
-        }
-        section.html += "</div>\n" + folded("Each task on its own", by_task(rows, criteria));
+        add_curves(section, rows, criteria);
     }
     return section;
 }

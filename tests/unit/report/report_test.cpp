@@ -66,6 +66,9 @@ TEST(Report, EndsACurveWhereTheFirstTaskFailsAndKeepsTheOthersForThemselves)
     EXPECT_TRUE(holds(worst, ">80</text>"));
     EXPECT_FALSE(holds(worst, "Stiffness felt at 1 Hz")); // T2 was played only beyond T1's failure
     EXPECT_TRUE(holds(each, "T2: vibration"));
+    const std::string_view unmeasured = "none can have failed by it: stiffness.</p>";
+    EXPECT_FALSE(holds(worst, unmeasured));
+    EXPECT_TRUE(holds(page_of({sample_curves()}), unmeasured));
     EXPECT_TRUE(holds(worst, "m-6-6l12 12m0-12l-12 12' stroke='var(--base)'"));
 }
 
