@@ -2,22 +2,50 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/capabilities.hpp"
+#include "device/fault.hpp"
+#include "device/governed_force.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 
 namespace hapnet::device {
 
-/// What a device says of its stylus. Positions are in the scene's frame: placing the workspace
-/// in the scene is the device's affair.
+/// A device that was seen.
+struct Found {
+    Identity identity;
+    std::optional<Trouble> unusable{}; // why, and the cure
+};
+
+/// What a device says of its stylus, in the device's own frame: right-handed, x right, y up,
+/// z toward the user, metres.
 struct Sample {
     base::Position hip;
     base::Velocity velocity; // already smoothed as the device's resolution demands
     bool gripping = false;   // the primary button is held down
+    bool docked = false;     // the stylus rests in its holder: nobody holds it
+    bool calibrated = true;  // positions mean something
+    Fault fault = Fault::none;
+    std::uint8_t buttons = 0;   // one bit each, debounced; bit 0 is the primary one
+    std::uint16_t presses = 0;  // of the primary button, counted: for who looks rarely
+    std::uint64_t sequence = 0; // grows with every word from the device: else this one is old
 };
+
+/// What a calibration needs next.
+enum class CalibrationStep : std::uint8_t {
+    done,
+    busy,         // the device is at it: ask again
+    dock_stylus,  // the person is to put the stylus into its holder
+    sweep_joints, // the person is to move the grip through its whole reach, to every stop
+    failed,       // the sample's fault says why
+};
+/// What the person is to do, or what goes on: for a status line. "" for done.
+[[nodiscard]] std::string_view words_for(CalibrationStep step);
 
 /// What the session tells whoever holds the device. A person reads it off the screen; a
 /// simulated hand acts its task by it.
@@ -29,23 +57,45 @@ struct Cue {
     bool is_left = true;
 };
 
-/// A haptic device: three degrees of freedom in and out. The one interface to all of them.
-/// Forces that reach apply() have passed the governor.
+/// A haptic device: up to three degrees of freedom in and out. The one interface to all of them.
+///
+/// One thread calls all but halt(). No call of a tick (calibrate, read, apply) waits longer than
+/// 2 ms for the device: where it has nothing new to say, read() gives the last sample again, with
+/// its sequence; where it has gone, with its fault. None throws and none allocates.
 class Device {
 public:
     Device() = default;
+    /// Leaves the motors off.
     virtual ~Device() = default;
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
+    [[nodiscard]] virtual const Identity& identity() const = 0;
+    [[nodiscard]] virtual const Capabilities& capabilities() const = 0;
+
+    /// Goes on with the calibration; harmless when it is done.
+    [[nodiscard]] virtual CalibrationStep calibrate(base::TimePoint /*now*/)
+    {
+        return CalibrationStep::done;
+    }
     /// The stylus at `now`; `now` never runs backwards.
     [[nodiscard]] virtual Sample read(base::TimePoint now) = 0;
-    /// Holds this force until the next call.
-    virtual void apply(base::Force force) = 0;
+    /// Holds this force until the next call; only a Governor can make one.
+    virtual void apply(const GovernedForce& force) = 0;
+    /// Zero force and motors off, at once, from any thread, whatever else is under way: for
+    /// watchdogs and ways out. The next apply() ends it.
+    virtual void halt() noexcept = 0;
+
     /// The session's start became known, or changed.
-    virtual void on_cue(const Cue& cue) = 0;
-    /// For logs and records, such as "simulated Omni, simulated hand".
-    [[nodiscard]] virtual std::string description() const = 0;
+    virtual void on_cue(const Cue& /*cue*/) {}
+
+    /// Only where capabilities().pacing is Pacing::device: calls `beat` once for each cycle of the
+    /// device, from one thread at a time; read() and apply() belong inside. Returns when `beat`
+    /// says false, or when no cycle came for 100 ms; then the host may go on at its own pace.
+    virtual void pace(const std::function<bool()>& /*beat*/) {}
 };
+
+/// For logs and records, such as "falcon 12345: Novint Falcon".
+[[nodiscard]] std::string description(const Device& device);
 
 } // namespace hapnet::device

@@ -6,6 +6,13 @@
 
 namespace hapnet::device {
 
+GovernedForce Governor::govern(const Wish& wish, const Sample& sample, base::TimePoint now)
+{
+    const bool usable = sample.fault == Fault::none && sample.calibrated && !sample.docked;
+    const base::Force force = limit(wish.force, wish.permitted && usable, now);
+    return strength_ > 0.0 ? GovernedForce{force} : GovernedForce{};
+}
+
 base::Force Governor::limit(base::Force wanted, bool permitted, base::TimePoint now)
 {
     base::Duration gap = last_time_ ? now - *last_time_ : base::Duration{0};

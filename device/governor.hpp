@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/device.hpp"
+#include "device/governed_force.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
@@ -30,6 +32,12 @@ struct GovernorCounters {
     std::uint64_t stalled = 0; // gaps between ticks that were too long
 };
 
+/// What the scene wants of a hand.
+struct Wish {
+    base::Force force;      // in the device's frame
+    bool permitted = false; // there is a session, and its other side is heard
+};
+
 /// Stands between what the scene wants and what a motor gets; the only way to a motor.
 /// Non-finite becomes zero at once; without permission (no session, stale remote, unusable
 /// sample) the force fades to zero, and with it back ramps in again; the norm is clamped with the
@@ -39,12 +47,15 @@ class Governor {
 public:
     explicit Governor(const GovernorLimits& limits) : limits_{limits} {}
 
-    /// The force to apply now. Call once per tick; `now` never runs backwards.
-    [[nodiscard]] base::Force limit(base::Force wanted, bool permitted, base::TimePoint now);
+    /// The force to apply now. Call once per tick, with what the device just said; `now` never runs
+    /// backwards.
+    [[nodiscard]] GovernedForce govern(const Wish& wish, const Sample& sample, base::TimePoint now);
 
     [[nodiscard]] const GovernorCounters& counters() const { return counters_; }
 
 private:
+    [[nodiscard]] base::Force limit(base::Force wanted, bool permitted, base::TimePoint now);
+
     GovernorLimits limits_;
     GovernorCounters counters_;
     base::Force last_;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "device/replay/replay.hpp"
+#include "device/rig.hpp"
 #include "device/simulated/omni.hpp"
 #include "peer/core/sync/text.hpp"
 #include "peer/options.hpp"
@@ -166,14 +167,14 @@ base::Result<int> play(const Options& options)
     if (!places) return tl::unexpected{places.error()};
     net::StopSignal stop;
     net::UdpSocket socket{places->listen};
-    const auto hand = device_of(options);
-    const std::string device = hand->description();
+    device::Rig rig{device_of(options), device::GovernorLimits{}};
+    const std::string device = device::description(rig.device());
     Journal journal;
     Watcher watcher{journal, writer_for(options, device), options.id};
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Peer peer{settings_of(options)};
-    Servo servo{{peer, *hand, socket, places->remote, journal, options.id}};
+    Servo servo{{peer, rig, socket, places->remote, journal, options.id}};
 
     watch(servo, watcher, stop, ready_line(options, socket, places->remote));
 

@@ -44,12 +44,12 @@ private:
 
 } // namespace
 
-Servo::Servo(const Parts& parts) : parts_{parts}, governor_{device::GovernorLimits{}} {}
+Servo::Servo(const Parts& parts) : parts_{parts} {}
 
 void Servo::run()
 {
     {
-        const ZeroForceAtTheEnd zero{parts_.device};
+        const ZeroForceAtTheEnd zero{parts_.rig.device()};
         real_time_ = net::request_real_time(servo_priority);
         loop();
     }
@@ -89,10 +89,9 @@ void Servo::turn(record::TickRow& row, base::TimePoint now)
 {
     Peer& peer = parts_.peer;
     receive(row.tick);
-    const device::Sample sample = parts_.device.read(now);
+    const device::Sample& sample = parts_.rig.read(now);
     const Tick tick = peer.tick(now, {sample.hip, sample.velocity, sample.gripping});
-    const base::Force force = governor_.limit(tick.force, tick.permitted, now);
-    parts_.device.apply(force);
+    const base::Force force = parts_.rig.apply(tick.force, tick.permitted, now);
     send();
     while (const auto event = peer.event()) parts_.journal.put(Happening{*event, now});
     note_session(now);
@@ -148,8 +147,8 @@ void Servo::note_session(base::TimePoint now)
     if (!session) return;
     if (cued_ != session->start) {
         cued_ = session->start;
-        parts_.device.on_cue({session->start, parts_.peer.hands_on(), base::Seed{session->seed},
-                              parts_.id, session->is_left});
+        parts_.rig.device().on_cue({session->start, parts_.peer.hands_on(),
+                                    base::Seed{session->seed}, parts_.id, session->is_left});
     }
     // A side that was restarted has a clock unknown to us until it has answered.
     const auto clock = parts_.peer.clock();

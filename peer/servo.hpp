@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/device.hpp"
-#include "device/governor.hpp"
+#include "device/rig.hpp"
 #include "peer/core/peer.hpp"
 #include "peer/journal.hpp"
 #include "proto/base/histogram.hpp"
@@ -32,7 +31,7 @@ public:
     /// All that a servo works with; outlives it.
     struct Parts {
         Peer& peer;
-        device::Device& device;
+        device::Rig& rig;
         net::UdpSocket& socket;
         net::Endpoint remote;
         Journal& journal;
@@ -54,7 +53,10 @@ public:
 
     /// After run().
     [[nodiscard]] const LoopCounters& counters() const { return counters_; }
-    [[nodiscard]] const device::GovernorCounters& governor() const { return governor_.counters(); }
+    [[nodiscard]] const device::GovernorCounters& governor() const
+    {
+        return parts_.rig.governor().counters();
+    }
     [[nodiscard]] net::RealTime real_time() const { return real_time_; }
 
 private:
@@ -65,7 +67,6 @@ private:
     void note_session(base::TimePoint now);
 
     Parts parts_;
-    device::Governor governor_;
     LoopCounters counters_;
     net::RealTime real_time_;
     std::optional<record::SessionRow> noted_;

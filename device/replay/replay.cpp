@@ -10,10 +10,24 @@
 
 namespace hapnet::device {
 
-Replay::Replay(HandTrace trace, std::string source)
-    : trace_{std::move(trace)}, source_{std::move(source)}
+namespace {
+
+constexpr double peak_n = 3.3; // the Omni's
+
+} // namespace
+
+Replay::Replay(HandTrace trace, std::string source) : trace_{std::move(trace)}
 {
     base::ensure(!trace_.empty());
+    identity_ = {.backend = "replay",
+                 .serial = std::move(source),
+                 .model = fmt::format("a recorded hand, {} moments", trace_.size())};
+    const glm::dvec3 reach{hand_reach_max_m};
+    capabilities_.workspace_min = {-reach};
+    capabilities_.workspace_max = {reach};
+    // It takes any force, and gives way to none: so that its session has forces to record.
+    capabilities_.force_max_n = peak_n;
+    capabilities_.force_continuous_n = peak_n;
 }
 
 Sample Replay::read(base::TimePoint now)
@@ -21,10 +35,16 @@ Sample Replay::read(base::TimePoint now)
     HandMoment moment = trace_.front();
     moment.gripping = false;
     if (start_) moment = at(base::to_seconds(now - *start_));
-    return {moment.hip, velocity_.at(moment.hip, now), moment.gripping};
+    Sample sample;
+    sample.hip = moment.hip;
+    sample.velocity = velocity_.at(moment.hip, now);
+    sample.gripping = moment.gripping;
+    sample.buttons = moment.gripping ? 1 : 0;
+    sample.sequence = ++reads_;
+    return sample;
 }
 
-void Replay::apply(base::Force /*force*/) {} // what has been cannot give way
+void Replay::apply(const GovernedForce& /*force*/) {} // what has been cannot give way
 
 void Replay::on_cue(const Cue& cue) { start_ = cue.start; }
 
@@ -38,11 +58,6 @@ HandMoment Replay::at(double seconds) const
     if (next == trace_.end()) return {seconds, from.hip, false};
     const double share = (seconds - from.time_s) / (next->time_s - from.time_s);
     return {seconds, {from.hip.value + share * (next->hip - from.hip).value}, from.gripping};
-}
-
-std::string Replay::description() const
-{
-    return fmt::format("replay of {}: {} moments", source_, trace_.size());
 }
 
 } // namespace hapnet::device

@@ -20,10 +20,12 @@ public:
     /// At least one moment, in the order of time. `source` is for the description.
     Replay(HandTrace trace, std::string source);
 
+    [[nodiscard]] const Identity& identity() const override { return identity_; }
+    [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
     [[nodiscard]] Sample read(base::TimePoint now) override;
-    void apply(base::Force force) override;
+    void apply(const GovernedForce& force) override;
+    void halt() noexcept override {} // it has no motors
     void on_cue(const Cue& cue) override;
-    [[nodiscard]] std::string description() const override;
 
     static constexpr double velocity_cutoff_hertz = 30.0;
 
@@ -31,7 +33,9 @@ private:
     [[nodiscard]] HandMoment at(double seconds) const;
 
     HandTrace trace_;
-    std::string source_;
+    Identity identity_;
+    Capabilities capabilities_;
+    std::uint64_t reads_ = 0;
     std::optional<base::TimePoint> start_;
     VelocityFilter velocity_{velocity_cutoff_hertz};
 };

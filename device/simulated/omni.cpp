@@ -23,7 +23,26 @@ SimulatedOmni::SimulatedOmni(const Performer& performer)
       motion_{performer.person.hand, performer.plant.friction_n},
       reactions_{performer.person},
       velocity_{performer.plant.velocity_cutoff_hz}
-{}
+{
+    const HandImpedance& hand = performer.person.hand;
+    identity_ = {.backend = "sim",
+                 .serial = "",
+                 .model = "simulated Omni",
+                 .note = fmt::format("held by a simulated hand, {}: {} kg, {} N s/m, {} N/m",
+                                     performer.person.name, hand.mass_kg, hand.damping_ns_per_m,
+                                     hand.stiffness_n_per_m)};
+    const OmniPlant& plant = performer.plant;
+    // Wherever its cue may place it, and the last count.
+    const glm::dvec3 reach =
+        plant.half_workspace_m + plant.resolution_m + glm::dvec3{workspace_offset_m, 0.0, 0.0};
+    capabilities_ = {.workspace_min = {-reach},
+                     .workspace_max = {reach},
+                     .force_max_n = plant.force_max_n,
+                     .force_continuous_n = plant.force_continuous_n,
+                     .stiffness_max_n_per_m = 700.0,
+                     .damping_max_ns_per_m = 5.0,
+                     .resolution_m = plant.resolution_m};
+}
 
 void SimulatedOmni::on_cue(const Cue& cue)
 {
@@ -56,6 +75,7 @@ SimulatedOmni::Aim SimulatedOmni::aim(base::TimePoint now) const
 
 Sample SimulatedOmni::read(base::TimePoint now)
 {
+    if (halted_.load(std::memory_order_relaxed)) force_ = glm::dvec3{0.0};
     if (part_ && !cued_at_) cued_at_ = now;
     const Aim intended = aim(now);
     const bool lives = simulated_to_ && now - *simulated_to_ <= gap_max;
@@ -64,12 +84,20 @@ Sample SimulatedOmni::read(base::TimePoint now)
     simulated_to_ = now;
 
     const base::Position reported{quantised(position())};
-    return {reported, velocity_.at(reported, now), intended.intention.gripping};
+    Sample sample;
+    sample.hip = reported;
+    sample.velocity = velocity_.at(reported, now);
+    sample.gripping = intended.intention.gripping;
+    sample.buttons = sample.gripping ? 1 : 0;
+    sample.sequence = ++reads_;
+    return sample;
 }
 
-void SimulatedOmni::apply(base::Force force)
+void SimulatedOmni::apply(const GovernedForce& force)
 {
-    force_ = base::limited(force, performer_.plant.force_max_n).value; // the motors saturate
+    halted_.store(false, std::memory_order_relaxed);
+    // The motors saturate.
+    force_ = base::limited(force.force(), performer_.plant.force_max_n).value;
 }
 
 void SimulatedOmni::advance(const Aim& intended, base::TimePoint now)
@@ -133,14 +161,6 @@ glm::dvec3 SimulatedOmni::quantised(const glm::dvec3& position) const
                performer_.plant.resolution_m;
     };
     return {count(position.x), count(position.y), count(position.z)};
-}
-
-std::string SimulatedOmni::description() const
-{
-    const HandImpedance& hand = performer_.person.hand;
-    return fmt::format("simulated Omni held by a simulated hand ({}: {} kg, {} N s/m, {} N/m)",
-                       performer_.person.name, hand.mass_kg, hand.damping_ns_per_m,
-                       hand.stiffness_n_per_m);
 }
 
 } // namespace hapnet::device

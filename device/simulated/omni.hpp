@@ -11,6 +11,7 @@
 #include "device/velocity_filter.hpp"
 
 #include <array>
+#include <atomic>
 #include <optional>
 
 namespace hapnet::device {
@@ -18,6 +19,7 @@ namespace hapnet::device {
 /// A PHANToM Omni in the air, per Cartesian axis: figures of its data sheet.
 struct OmniPlant {
     double force_max_n = 3.3;
+    double force_continuous_n = 0.88;
     double friction_n = 0.26;       // back-drive, Coulomb
     double resolution_m = 0.000055; // nominal position resolution
     glm::dvec3 half_workspace_m{0.080, 0.060, 0.035};
@@ -39,10 +41,12 @@ class SimulatedOmni final : public Device {
 public:
     explicit SimulatedOmni(const Performer& performer);
 
+    [[nodiscard]] const Identity& identity() const override { return identity_; }
+    [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
     [[nodiscard]] Sample read(base::TimePoint now) override;
-    void apply(base::Force force) override;
+    void apply(const GovernedForce& force) override;
+    void halt() noexcept override { halted_.store(true, std::memory_order_relaxed); }
     void on_cue(const Cue& cue) override;
-    [[nodiscard]] std::string description() const override;
 
     /// read() goes on in one exact step, unless it comes later than this after the last.
     static constexpr base::Duration step_max{std::chrono::milliseconds{2}};
@@ -63,6 +67,10 @@ private:
     [[nodiscard]] glm::dvec3 quantised(const glm::dvec3& position) const;
 
     Performer performer_;
+    Identity identity_;
+    Capabilities capabilities_;
+    std::atomic<bool> halted_{false};
+    std::uint64_t reads_ = 0;
     glm::dvec3 centre_{0.0}; // of the workspace, in the scene
     HandMotion motion_;
     Reactions reactions_;

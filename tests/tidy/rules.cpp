@@ -113,7 +113,8 @@ void add_sources_named_in(const SourceFile& cmake, std::set<std::string>& paths)
 bool is_globbed_test(const SourceFile& file)
 {
     return file.is_in("tests/unit") || file.is_in("tests/property") || file.is_in("tests/sim") ||
-           file.is_in("tests/e2e") || file.is_in("tests/fuzz") || file.is_in("tests/compile_fail");
+           file.is_in("tests/conformance") || file.is_in("tests/e2e") || file.is_in("tests/fuzz") ||
+           file.is_in("tests/compile_fail");
 }
 
 } // namespace

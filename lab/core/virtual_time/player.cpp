@@ -45,9 +45,8 @@ std::unique_ptr<device::Device> device_of(const Setting& setting, const Seat& se
 } // namespace
 
 VirtualPlayer::VirtualPlayer(const Setting& setting, const Seat& seat)
-    : device{device_of(setting, seat)},
+    : rig{device_of(setting, seat), {.tick = setting.tick}},
       peer{std::make_unique<peer::Peer>(settings_of(setting, seat))},
-      governor{{.tick = setting.tick}},
       clock_ahead{setting.players.at(seat.side).clock_ahead},
       id{static_cast<std::uint16_t>(seat.side + 1)}
 {}
@@ -56,15 +55,14 @@ void VirtualPlayer::turn(base::TimePoint now)
 {
     turned = now;
     const base::TimePoint here = now + clock_ahead;
-    hand = device->read(here);
+    hand = rig.read(here);
     last = peer->tick(here, {hand.hip, hand.velocity, hand.gripping});
-    applied = governor.limit(last.force, last.permitted, here);
-    device->apply(applied);
+    applied = rig.apply(last.force, last.permitted, here);
     while (const auto event = peer->event()) events.push_back(*event);
     const auto& session = peer->session();
     if (session && cued != session->start) {
         cued = session->start;
-        device->on_cue(
+        rig.device().on_cue(
             {session->start, peer->hands_on(), base::Seed{session->seed}, id, session->is_left});
     }
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/device.hpp"
-#include "device/governor.hpp"
+#include "device/rig.hpp"
 #include "lab/core/trace.hpp"
 #include "lab/core/virtual_time/setting.hpp"
 #include "peer/core/peer.hpp"
@@ -41,9 +40,8 @@ public:
     [[nodiscard]] Sample sample() const;
 
     // Open to whoever plays fate.
-    std::unique_ptr<device::Device> device;
+    device::Rig rig;
     std::unique_ptr<peer::Peer> peer;
-    device::Governor governor;
     base::Duration clock_ahead{}; // of the world's time
 
     // Of its last turn.

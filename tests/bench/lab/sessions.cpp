@@ -31,11 +31,12 @@ lab::Trace trace_of(const Session& session)
     lab::VirtualWorld world{session.setting};
     for (const std::size_t side : {0U, 1U}) {
         const lab::PlayerSetting& player = session.setting.players.at(side);
-        world.side(side).device =
+        world.side(side).rig = device::Rig{
             std::make_unique<SteppedHand>(device::Performer{.task = session.setting.task,
                                                             .options = session.setting.task_options,
                                                             .person = player.person},
-                                          session.steps_a_read);
+                                          session.steps_a_read),
+            {.tick = session.setting.tick}};
     }
     return lab::play_out(world).value();
 }

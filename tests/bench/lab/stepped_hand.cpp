@@ -60,12 +60,16 @@ device::Sample SteppedHand::read(base::TimePoint now)
     const auto counted = [&](double x) { return std::nearbyint(x / resolution) * resolution; };
     const base::Position reported{
         {counted(position_.x), counted(position_.y), counted(position_.z)}};
-    return {reported, velocity_.at(reported, now), intended.gripping};
+    device::Sample sample;
+    sample.hip = reported;
+    sample.velocity = velocity_.at(reported, now);
+    sample.gripping = intended.gripping;
+    return sample;
 }
 
-void SteppedHand::apply(base::Force force)
+void SteppedHand::apply(const device::GovernedForce& force)
 {
-    force_ = base::limited(force, performer_.plant.force_max_n).value;
+    force_ = base::limited(force.force(), performer_.plant.force_max_n).value;
 }
 
 void SteppedHand::advance(const base::Position& target, double seconds)

@@ -24,9 +24,14 @@ public:
     SteppedHand(const device::Performer& performer, int steps_a_read);
 
     [[nodiscard]] device::Sample read(base::TimePoint now) override;
-    void apply(base::Force force) override;
+    void apply(const device::GovernedForce& force) override;
+    void halt() noexcept override {}
     void on_cue(const device::Cue& cue) override;
-    [[nodiscard]] std::string description() const override { return "a hand in steps"; }
+    [[nodiscard]] const device::Identity& identity() const override { return identity_; }
+    [[nodiscard]] const device::Capabilities& capabilities() const override
+    {
+        return capabilities_;
+    }
 
 private:
     struct Part {
@@ -39,6 +44,8 @@ private:
     void advance(const base::Position& target, double seconds);
 
     device::Performer performer_;
+    device::Identity identity_{.backend = "steps", .model = "a hand in steps"};
+    device::Capabilities capabilities_{};
     int steps_a_read_;
     glm::dvec3 centre_{0.0}; // of the workspace
     glm::dvec3 position_{0.0, 0.0, 0.035};

@@ -44,7 +44,8 @@ TEST(Governor, NeverGivesAHandMoreThanItsLimitsWhateverItIsAskedFor)
         const base::Duration elapsed{stream.below(stalls ? 100'000'000 : 2'000'000, round, 11)};
         const bool permitted = stream.below(50, round / 200, 12) != 0;
         now += elapsed;
-        const base::Force force = governor.limit(wish(stream, round), permitted, now);
+        const base::Force force =
+            governor.govern({wish(stream, round), permitted}, {}, now).force();
         ASSERT_TRUE(base::is_finite(force)) << round;
         ASSERT_LE(base::norm(force), limits.force_max_n * (1.0 + 1e-12)) << round;
         const double step_max =

@@ -3,6 +3,7 @@
 #include "device/simulated/omni.hpp"
 
 #include "proto/base/random.hpp"
+#include "tests/support/device/ungoverned.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -33,9 +34,9 @@ TEST(SimulatedOmni, StaysFiniteAndInItsWorkspaceWhateverForceAndTimeDoToIt)
             ASSERT_LE(std::abs(sample.hip.x() - centre), 0.080 + half_count) << seed;
             ASSERT_LE(std::abs(sample.hip.y()), 0.060 + half_count) << seed;
             ASSERT_LE(std::abs(sample.hip.z()), 0.035 + half_count) << seed;
-            omni.apply({{20.0 * stream.uniform(tick / 50, 2) - 10.0,
-                         20.0 * stream.uniform(tick / 50, 3) - 10.0,
-                         20.0 * stream.uniform(tick / 50, 4) - 10.0}});
+            omni.apply(ungoverned({{20.0 * stream.uniform(tick / 50, 2) - 10.0,
+                                    20.0 * stream.uniform(tick / 50, 3) - 10.0,
+                                    20.0 * stream.uniform(tick / 50, 4) - 10.0}}));
         }
     }
 }

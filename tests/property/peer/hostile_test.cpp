@@ -54,7 +54,8 @@ TEST(HostileRemote, NeverMakesAForceThatIsNotFiniteOrExceedsThePeak)
             pair.hands[0].gripping = stream.below(4, round / 100, 2001) == 0;
             pair.step();
             const base::Force force =
-                governor.limit(pair.ticks[0].force, pair.ticks[0].permitted, pair.now);
+                governor.govern({pair.ticks[0].force, pair.ticks[0].permitted}, {}, pair.now)
+                    .force();
             ASSERT_TRUE(base::is_finite(pair.ticks[0].force)) << seed << " " << round;
             ASSERT_LE(base::norm(force), 3.3 + 1e-12) << seed << " " << round;
             ASSERT_TRUE(base::is_finite(pair.peers[0]->body().position));

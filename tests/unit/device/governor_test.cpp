@@ -24,7 +24,7 @@ public:
     base::Force operator()(base::Force wanted, bool permitted = true)
     {
         now_ += 1ms;
-        return governor.limit(wanted, permitted, now_);
+        return governor.govern({wanted, permitted}, Sample{}, now_).force();
     }
 
     /// At full strength, at rest.
@@ -116,9 +116,12 @@ TEST(Governor, GrantsALateTickNoLargerStepThanAPunctualOne)
 {
     Governor governor{{}};
     auto now = start;
-    for (int i = 0; i <= 1001; ++i) std::ignore = governor.limit({}, true, now += 1ms);
-    EXPECT_NEAR(governor.limit(along_x(3.0), true, now += 20ms).x(), 1.0, rounding);
-    EXPECT_NEAR(governor.limit(along_x(3.0), true, now += 5ms).x(), 2.0, rounding);
+    for (int i = 0; i <= 1001; ++i)
+        std::ignore = governor.govern({{}, true}, Sample{}, now += 1ms).force();
+    EXPECT_NEAR(governor.govern({along_x(3.0), true}, Sample{}, now += 20ms).force().x(), 1.0,
+                rounding);
+    EXPECT_NEAR(governor.govern({along_x(3.0), true}, Sample{}, now += 5ms).force().x(), 2.0,
+                rounding);
     EXPECT_EQ(governor.counters().stalled, 0U);
 }
 
@@ -126,11 +129,16 @@ TEST(Governor, StartsFromZeroAndRampsInAgainAfterAStallOfTheLoop)
 {
     Governor governor{{}};
     auto now = start;
-    for (int i = 0; i <= 1010; ++i) std::ignore = governor.limit(along_x(3.0), true, now += 1ms);
-    EXPECT_NEAR(governor.limit(along_x(3.0), true, now += 1ms).x(), 3.0, rounding);
-    EXPECT_EQ(governor.limit(along_x(3.0), true, now += 20ms + 1ns), base::Force{});
-    for (int i = 0; i < 500; ++i) std::ignore = governor.limit(along_x(3.0), true, now += 1ms);
-    EXPECT_NEAR(governor.limit(along_x(3.0), true, now += 1ms).x(), 3.0 * 0.501, rounding);
+    for (int i = 0; i <= 1010; ++i)
+        std::ignore = governor.govern({along_x(3.0), true}, Sample{}, now += 1ms).force();
+    EXPECT_NEAR(governor.govern({along_x(3.0), true}, Sample{}, now += 1ms).force().x(), 3.0,
+                rounding);
+    EXPECT_EQ(governor.govern({along_x(3.0), true}, Sample{}, now += 20ms + 1ns).force(),
+              base::Force{});
+    for (int i = 0; i < 500; ++i)
+        std::ignore = governor.govern({along_x(3.0), true}, Sample{}, now += 1ms).force();
+    EXPECT_NEAR(governor.govern({along_x(3.0), true}, Sample{}, now += 1ms).force().x(),
+                3.0 * 0.501, rounding);
     EXPECT_EQ(governor.counters().stalled, 1U);
 }
 

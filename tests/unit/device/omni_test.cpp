@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "device/simulated/omni.hpp"
+#include "tests/support/device/ungoverned.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -56,7 +57,7 @@ TEST(SimulatedOmni, GivesWayToAForceLikeASpringUpToItsFriction)
 {
     for (const double newtons : {1.0, -2.0, 3.0}) {
         SimulatedOmni omni = omni_for(Task::t3);
-        omni.apply({{newtons, 0.0, 0.0}});
+        omni.apply(ungoverned({{newtons, 0.0, 0.0}}));
         const Sample sample = read_for(omni, start, 2s);
         EXPECT_NEAR(sample.hip.x(), newtons / hand.stiffness_n_per_m,
                     plant.friction_n / hand.stiffness_n_per_m + half_count)
@@ -69,7 +70,7 @@ TEST(SimulatedOmni, GivesWayToAForceLikeASpringUpToItsFriction)
 TEST(SimulatedOmni, DoesNotBudgeForLessThanItsFriction)
 {
     SimulatedOmni omni = omni_for(Task::t3);
-    omni.apply({{0.25, -0.25, 0.25}});
+    omni.apply(ungoverned({{0.25, -0.25, 0.25}}));
     const Sample sample = read_for(omni, start, 2s);
     EXPECT_EQ(sample.hip.x(), 0.0);
     EXPECT_EQ(sample.hip.y(), 0.0);
@@ -93,8 +94,8 @@ TEST(SimulatedOmni, SaturatesAtItsPeakForce)
 {
     SimulatedOmni asked_too_much = omni_for(Task::t3);
     SimulatedOmni at_its_peak = omni_for(Task::t3);
-    asked_too_much.apply({{300.0, 0.0, 0.0}});
-    at_its_peak.apply({{plant.force_max_n, 0.0, 0.0}});
+    asked_too_much.apply(ungoverned({{300.0, 0.0, 0.0}}));
+    at_its_peak.apply(ungoverned({{plant.force_max_n, 0.0, 0.0}}));
     EXPECT_EQ(read_for(asked_too_much, start, 1s).hip, read_for(at_its_peak, start, 1s).hip);
 }
 
@@ -103,14 +104,14 @@ TEST(SimulatedOmni, StopsAtTheEndsOfItsWorkspace)
     Operator weak;
     weak.hand.stiffness_n_per_m = 5.0;
     SimulatedOmni omni{{.task = Task::t3, .person = weak}};
-    omni.apply({{-3.3, 0.0, 0.0}});
+    omni.apply(ungoverned({{-3.3, 0.0, 0.0}}));
     Sample sample = read_for(omni, start, 3s);
     EXPECT_NEAR(sample.hip.x(), -0.080, half_count);
     EXPECT_NEAR(sample.velocity.x(), 0.0, 1e-6);
-    omni.apply({{0.0, 3.3, 0.0}});
+    omni.apply(ungoverned({{0.0, 3.3, 0.0}}));
     sample = read_for(omni, start + 3s, 3s);
     EXPECT_NEAR(sample.hip.y(), 0.060, half_count);
-    omni.apply({{0.0, 0.0, -3.3}});
+    omni.apply(ungoverned({{0.0, 0.0, -3.3}}));
     sample = read_for(omni, start + 6s, 3s);
     EXPECT_NEAR(sample.hip.z(), -0.035, half_count);
 }
@@ -119,7 +120,7 @@ TEST(SimulatedOmni, DoesNotLiveThroughAGapOfMoreThan100Ms)
 {
     SimulatedOmni omni = omni_for(Task::t3);
     std::ignore = omni.read(start);
-    omni.apply({{3.0, 0.0, 0.0}});
+    omni.apply(ungoverned({{3.0, 0.0, 0.0}}));
     EXPECT_EQ(omni.read(start + 101ms).hip.x(), 0.0);
     EXPECT_GT(omni.read(start + 201ms).hip.x(), 0.001);
 }
@@ -128,7 +129,7 @@ TEST(SimulatedOmni, MovesOnlyWithTheTimeThatPasses)
 {
     SimulatedOmni omni = omni_for(Task::t3);
     std::ignore = omni.read(start);
-    omni.apply({{3.0, 0.0, 0.0}});
+    omni.apply(ungoverned({{3.0, 0.0, 0.0}}));
     for (int i = 0; i < 100; ++i) EXPECT_EQ(omni.read(start).hip.x(), 0.0);
     EXPECT_EQ(omni.read(start + 1us).hip.x(), 0.0);
 }
@@ -203,8 +204,8 @@ TEST(SimulatedOmni, PushesOnWhereItsTaskAsksForAForceThatItDoesNotFeel)
 
 TEST(SimulatedOmni, SaysThatItIsSimulated)
 {
-    EXPECT_EQ(omni_for(Task::p1).description(),
-              "simulated Omni held by a simulated hand (nominal: 0.2 kg, 5 N s/m, 200 N/m)");
+    EXPECT_EQ(description(omni_for(Task::p1)),
+              "sim: simulated Omni (held by a simulated hand, nominal: 0.2 kg, 5 N s/m, 200 N/m)");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "device/replay/replay.hpp"
+#include "tests/support/device/ungoverned.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>
@@ -80,7 +81,7 @@ TEST(Replay, GoesItsWayFromTheSessionsStartAndStaysAtItsEnd)
     const Sample between = hand.read(start + 2050ms);
     EXPECT_NEAR(between.hip.x(), 0.005, 1e-15);
     EXPECT_TRUE(between.gripping);
-    hand.apply({{3.0, 0.0, 0.0}}); // it does not give way
+    hand.apply(ungoverned({{3.0, 0.0, 0.0}})); // it does not give way
     EXPECT_NEAR(hand.read(start + 2600ms).hip.y(), 0.005, 1e-15);
     EXPECT_EQ(hand.read(start + 10s).hip, (base::Position{{0.010, 0.009, 0.0}}));
     EXPECT_FALSE(hand.read(start + 10s).gripping);
@@ -98,7 +99,7 @@ TEST(Replay, HasTheVelocityOfItsWay)
 
 TEST(Replay, SaysWhatItPlays)
 {
-    EXPECT_EQ(three_moments().description(), "replay of hand.csv: 3 moments");
+    EXPECT_EQ(description(three_moments()), "replay hand.csv: a recorded hand, 3 moments");
 }
 
 } // namespace

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/space.hpp"
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hapnet::device {
+
+/// The sentence that goes with every device that this software knows from descriptions only.
+inline constexpr std::string_view never_run = "never run on the physical device";
+
+/// Which device it is.
+struct Identity {
+    std::string backend{}; // as in --device BACKEND:SERIAL
+    std::string serial{};  // "": it has none
+    std::string model{};   // such as "PHANToM Omni (FireWire)"
+    std::string note{};    // what a user has to know, such as never_run
+};
+
+/// Who sets the rhythm of the loop.
+enum class Pacing : std::uint8_t {
+    host,   // it answers when asked
+    device, // it, or its library, owns the loop: see Device::pace()
+};
+
+/// What the joints of an arm can bear.
+struct JointLimits {
+    /// d position / d joint, m/rad, at a position in the device's frame.
+    glm::dmat3 (*jacobian)(const base::Position& position) = nullptr;
+    glm::dvec3 torque_max_nm{0.0};
+};
+
+/// What a device can do. Places are in the device's own frame.
+struct Capabilities {
+    base::Position workspace_min{{-0.08, -0.06, -0.035}};
+    base::Position workspace_max{{0.08, 0.06, 0.035}};
+    double force_max_n = 0.0;        // peak, in any direction
+    double force_continuous_n = 0.0; // that its motors bear for ever
+    double stiffness_max_n_per_m = 0.0;
+    double damping_max_ns_per_m = 0.0;
+    double resolution_m = 0.0; // of positions
+    /// Faster than this no hand that holds it moves: 1 m/s is far above any task.
+    double speed_max_m_per_s = std::numeric_limits<double>::infinity();
+    int axes_in = 3;
+    int axes_out = 3; // the first so many; 0: it has no motors
+    int buttons = 1;
+    bool has_orientation = false;
+    bool force_is_calibrated = true; // a newton is a newton
+    Pacing pacing = Pacing::host;
+    double rate_hz = 1000.0;             // nominal
+    std::optional<JointLimits> joints{}; // where they are known
+};
+
+} // namespace hapnet::device

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/device.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::device {
+
+std::string_view words_for(CalibrationStep step)
+{
+    switch (step) {
+    case CalibrationStep::done: return "";
+    case CalibrationStep::busy: return "the device calibrates itself";
+    case CalibrationStep::dock_stylus: return "put the stylus into its holder to calibrate";
+    case CalibrationStep::sweep_joints:
+        return "move the grip slowly through its whole reach, to every stop, to calibrate";
+    case CalibrationStep::failed: return "the calibration failed";
+    }
+    return "the calibration failed";
+}
+
+std::string description(const Device& device)
+{
+    const Identity& identity = device.identity();
+    const std::string address =
+        identity.serial.empty() ? identity.backend : identity.backend + " " + identity.serial;
+    if (identity.note.empty()) return fmt::format("{}: {}", address, identity.model);
+    return fmt::format("{}: {} ({})", address, identity.model, identity.note);
+}
+
+} // namespace hapnet::device

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/fault.hpp"
+
+namespace hapnet::device {
+
+std::string_view name_of(Fault fault)
+{
+    switch (fault) {
+    case Fault::none: return "none";
+    case Fault::not_found: return "not-found";
+    case Fault::permission: return "permission";
+    case Fault::in_use: return "in-use";
+    case Fault::firmware_missing: return "firmware-missing";
+    case Fault::library_missing: return "library-missing";
+    case Fault::communication: return "communication";
+    case Fault::timeout: return "timeout";
+    case Fault::overheat: return "overheat";
+    case Fault::over_force: return "over-force";
+    case Fault::over_velocity: return "over-velocity";
+    case Fault::not_calibrated: return "not-calibrated";
+    case Fault::disconnected: return "disconnected";
+    case Fault::internal: return "internal";
+    }
+    return "internal";
+}
+
+std::string_view words_for(Fault fault)
+{
+    switch (fault) {
+    case Fault::none: return "";
+    case Fault::not_found:
+        return "no such device: check its cable and power, and see hapnet-peer list-devices";
+    case Fault::permission:
+        return "no permission to use the device: install the udev rules (hapnet-peer doctor says "
+               "how), then unplug it and plug it in again";
+    case Fault::in_use: return "another program uses the device: end that one first";
+    case Fault::firmware_missing:
+        return "the device needs firmware from its vendor: give it as a file";
+    case Fault::library_missing:
+        return "the device needs its vendor's library: install it, or say where it is";
+    case Fault::communication:
+        return "the device was not understood: check its cable, and use no hub";
+    case Fault::timeout: return "the device answers no more: check its cable and power";
+    case Fault::overheat: return "a motor of the device is hot: let it cool down";
+    case Fault::over_force: return "the device was asked for more force than it has";
+    case Fault::over_velocity: return "the stylus was moved too fast, or was let go under force";
+    case Fault::not_calibrated: return "the device has lost its calibration: calibrate it again";
+    case Fault::disconnected: return "the device has gone: plug it in and start again";
+    case Fault::internal: return "the device's driver failed";
+    }
+    return "the device's driver failed";
+}
+
+} // namespace hapnet::device

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/space.hpp"
+
+namespace hapnet::device {
+
+/// A force that may reach a hand. Zero with the motors off, unless a Governor made it: so that no
+/// way leads to a motor but through one.
+class GovernedForce {
+public:
+    constexpr GovernedForce() = default;
+
+    /// Newtons, in the device's own frame; zero when the motors are off.
+    [[nodiscard]] constexpr const base::Force& force() const { return force_; }
+    /// Whether the motors are to be under power at all.
+    [[nodiscard]] constexpr bool motors_on() const { return motors_on_; }
+
+private:
+    friend class Governor;
+    friend struct UngovernedForTests;
+
+    explicit constexpr GovernedForce(const base::Force& force) : force_{force}, motors_on_{true} {}
+
+    base::Force force_;
+    bool motors_on_ = false;
+};
+
+} // namespace hapnet::device

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/space.hpp"
+
+namespace hapnet::device {
+
+/// Where a device stands in the scene: scene = offset + scale * device. One scale for all axes, or
+/// pushing along one would do work along another. Forces go back through the same scale, so that
+/// the power at the hand is the power in the scene.
+struct Mount {
+    base::Displacement offset{};
+    double scale = 1.0; // metres of the scene per metre of the device; above 0
+
+    [[nodiscard]] base::Position to_scene(const base::Position& p) const
+    {
+        return {offset.value + scale * p.value};
+    }
+    [[nodiscard]] base::Velocity to_scene(const base::Velocity& v) const
+    {
+        return {scale * v.value};
+    }
+    [[nodiscard]] base::Position to_device(const base::Position& p) const
+    {
+        return {(1.0 / scale) * (p.value - offset.value)};
+    }
+    [[nodiscard]] base::Force to_device(const base::Force& f) const { return {scale * f.value}; }
+
+    friend bool operator==(const Mount&, const Mount&) = default;
+};
+
+} // namespace hapnet::device

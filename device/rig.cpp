@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/rig.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <utility>
+
+namespace hapnet::device {
+
+Rig::Rig(std::unique_ptr<Device> device, const GovernorLimits& limits, const Mount& mount)
+    : device_{std::move(device)}, governor_{limits}, mount_{mount}
+{
+    base::ensure(mount.scale > 0.0);
+}
+
+const Sample& Rig::read(base::TimePoint now)
+{
+    if (!own_.calibrated) calibration_ = device_->calibrate(now);
+    own_ = device_->read(now);
+    if (own_.calibrated) calibration_ = CalibrationStep::done;
+    scene_ = own_;
+    scene_.hip = mount_.to_scene(own_.hip);
+    scene_.velocity = mount_.to_scene(own_.velocity);
+    return scene_;
+}
+
+base::Force Rig::apply(const base::Force& wanted, bool permitted, base::TimePoint now)
+{
+    const GovernedForce force = governor_.govern({mount_.to_device(wanted), permitted}, own_, now);
+    device_->apply(force);
+    return force.force();
+}
+
+} // namespace hapnet::device

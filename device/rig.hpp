@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/governor.hpp"
+#include "device/mount.hpp"
+
+#include <memory>
+
+namespace hapnet::device {
+
+/// A device mounted in the scene, with the governor in front of its motors: all that a loop sees of
+/// it. What goes in and comes out is in the scene's frame.
+class Rig {
+public:
+    Rig(std::unique_ptr<Device> device, const GovernorLimits& limits, const Mount& mount = {});
+
+    /// Calibrates as far as that is needed, and reads.
+    [[nodiscard]] const Sample& read(base::TimePoint now);
+    /// Governs the wish and applies what is left of it; gives that, at the hand. Once per read().
+    base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now);
+
+    [[nodiscard]] const Governor& governor() const { return governor_; }
+    [[nodiscard]] Governor& governor() { return governor_; }
+    [[nodiscard]] Device& device() { return *device_; }
+    [[nodiscard]] const Device& device() const { return *device_; }
+    [[nodiscard]] const Mount& mount() const { return mount_; }
+    [[nodiscard]] CalibrationStep calibration() const { return calibration_; } // of the last read()
+
+private:
+    std::unique_ptr<Device> device_;
+    Governor governor_;
+    Mount mount_;
+    CalibrationStep calibration_ = CalibrationStep::done;
+    Sample own_;   // the last one, as the device gave it
+    Sample scene_; // ... and in the scene
+};
+
+} // namespace hapnet::device

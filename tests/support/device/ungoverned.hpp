@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/governed_force.hpp"
+
+namespace hapnet::device {
+
+/// The one way around the governor, for tests of what stands behind it.
+struct UngovernedForTests {
+    [[nodiscard]] static GovernedForce force(const base::Force& force)
+    {
+        return GovernedForce{force};
+    }
+};
+
+[[nodiscard]] inline GovernedForce ungoverned(const base::Force& force)
+{
+    return UngovernedForTests::force(force);
+}
+
+} // namespace hapnet::device
