@@ -4,6 +4,7 @@
 #include "lab/core/analysis_report.hpp"
 #include "lab/core/csv.hpp"
 #include "lab/core/explain.hpp"
+#include "lab/core/replay.hpp"
 #include "lab/demo_command.hpp"
 #include "lab/freed_memory.hpp"
 #include "lab/options.hpp"
@@ -11,6 +12,7 @@
 #include "lab/report_command.hpp"
 #include "lab/run_command.hpp"
 #include "peer/core/scene/text/text.hpp"
+#include "peer/core/sync/text.hpp"
 #include "proto/net/text_file.hpp"
 #include "proto/record/reader.hpp"
 
@@ -94,6 +96,29 @@ base::Result<int> run(const RealTimeCommand& command)
         print(table);
         return 0;
     });
+}
+
+base::Result<int> run(const ReplayCommand& command)
+{
+    const auto record = read_record(command.record);
+    if (!record) return tl::unexpected{record.error()};
+    std::optional<peer::Algorithm> instead;
+    if (command.algorithm) {
+        auto algorithm = peer::load_algorithm(*command.algorithm, net::text_of_file);
+        if (!algorithm) return base::fail("--algorithm: " + algorithm.error().message);
+        instead = *std::move(algorithm);
+    }
+    const auto replayed = replay(*record, instead);
+    if (!replayed) return base::fail(command.record + ": " + replayed.error().message);
+    if (command.csv) {
+        print(replay_csv_header() + '\n');
+        const auto zero = csv_zero(*record);
+        for (const ReplayedTick& tick : replayed->ticks) print(csv_line(tick, zero) + '\n');
+    } else {
+        print(command.json ? to_json(*replayed).dump(2) + '\n' : to_table(*replayed));
+    }
+    const bool failed = replayed->differs_from && replayed->is_the_recorded_one;
+    return failed ? net::exit_failed : 0;
 }
 
 base::Result<int> run(const ReportCommand& command)

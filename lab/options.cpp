@@ -75,6 +75,24 @@ CLI::App* add_report(CLI::App& app, ReportCommand& report)
     return command;
 }
 
+CLI::App* add_replay(CLI::App& app, ReplayCommand& replay)
+{
+    auto* command = app.add_subcommand(
+        "replay",
+        "Play one recorded peer again in virtual time, with the messages it received and\n"
+        "the hand it had, and compare the forces. Exit code 1: they are not the recorded\n"
+        "ones");
+    command->add_option("RECORD", replay.record, "record of one peer")->required();
+    command
+        ->add_option("--algorithm", replay.algorithm,
+                     "another one than was recorded: what it would have made of the same messages")
+        ->option_text("NAME|FILE");
+    auto* json = command->add_flag("--json", replay.json, "print one JSON object instead of lines");
+    command->add_flag("--csv", replay.csv, "print every tick's recorded and replayed forces")
+        ->excludes(json);
+    return command;
+}
+
 CLI::App* add_real_time(CLI::App& app, RealTimeCommand& real_time)
 {
     auto* command = app.add_subcommand(
@@ -185,6 +203,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     auto* demo_command = add_demo_report(app, demo);
     RealTimeCommand real_time;
     auto* real_time_command = add_real_time(app, real_time);
+    ReplayCommand replay;
+    auto* replay_command = add_replay(app, replay);
     ReportCommand report;
     auto* report_command = add_report(app, report);
     ExplainCommand explain;
@@ -205,7 +225,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
         const bool names_one = words.size() > 1 && app.get_subcommands().empty();
         if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
         return base::fail(std::string{"'"} + words[1] +
-                          "' is not a command; use analyse, explain, export, report or run, "
+                          "' is not a command; use analyse, explain, export, replay, report or "
+                          "run, "
                           "see hapnet-lab --help");
     } catch (const CLI::ParseError& error) {
         return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
@@ -213,6 +234,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     if (analyse_command->parsed()) return Command{analyse};
     if (demo_command->parsed()) return Command{demo};
     if (real_time_command->parsed()) return Command{real_time};
+    if (replay_command->parsed()) return Command{replay};
     if (report_command->parsed()) return Command{report};
     if (explain_command->parsed()) return command_of(explain, tick);
     if (run_command->parsed()) return command_of(std::move(run), words);

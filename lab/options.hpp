@@ -54,6 +54,14 @@ struct RealTimeCommand {
     double wall_time_s = 0.0;
 };
 
+/// `hapnet-lab replay RECORD [--algorithm NAME|FILE] [--json | --csv]`
+struct ReplayCommand {
+    std::string record;
+    std::optional<std::string> algorithm; // instead of the recorded one
+    bool json = false;
+    bool csv = false;
+};
+
 /// `hapnet-lab report DIR`
 struct ReportCommand {
     std::string folder;
@@ -72,7 +80,7 @@ struct RunCommand {
 };
 
 using Command = std::variant<AnalyseCommand, ExportCommand, DemoReportCommand, ExplainCommand,
-                             RealTimeCommand, ReportCommand, RunCommand>;
+                             RealTimeCommand, ReplayCommand, ReportCommand, RunCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

@@ -86,10 +86,13 @@ std::unique_ptr<device::Device> device_of(const Options& options)
         device::Performer{.task = options.task, .person = options.person});
 }
 
-std::optional<record::Writer> writer_for(const Options& options, std::string_view device)
+std::optional<record::Writer> writer_for(const Options& options, std::string_view device,
+                                         std::uint32_t nonce)
 {
     if (!options.record) return std::nullopt;
-    return record::Writer{*options.record, configuration_json(options, device)};
+    nlohmann::json configuration = configuration_json(options, device);
+    configuration["nonce"] = nonce; // the session's number follows from it
+    return record::Writer{*options.record, configuration};
 }
 
 std::string ready_line(const Options& options, const net::UdpSocket& socket,
@@ -169,11 +172,12 @@ base::Result<int> play(const Options& options)
     net::UdpSocket socket{places->listen};
     device::Rig rig{device_of(options), device::GovernorLimits{}};
     const std::string device = device::description(rig.device());
+    const Settings settings = settings_of(options);
     Journal journal;
-    Watcher watcher{journal, writer_for(options, device), options.id};
+    Watcher watcher{journal, writer_for(options, device, settings.introduction.nonce), options.id};
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
-    Peer peer{settings_of(options)};
+    Peer peer{settings};
     Servo servo{{peer, rig, socket, places->remote, journal, options.id}};
 
     watch(servo, watcher, stop, ready_line(options, socket, places->remote));

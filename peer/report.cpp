@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/report.hpp"
 
+#include "peer/core/scene/text/text.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/base/text.hpp"
 #include "proto/base/version.hpp"
@@ -96,6 +97,7 @@ json configuration_json(const Options& options, std::string_view device)
             {"peer_id", options.id},
             {"task", device::name_of(options.task)},
             {"scene", options.scene_name},
+            {"scene_toml", scene::to_text(options.scene)},
             {"scene_hash", fmt::format("{:016x}", scene::hash(options.scene))},
             {"grip_damping_ns_per_m", options.grip_damping_ns_per_m},
             {"algorithm", name_of(options.algorithm)},

@@ -109,6 +109,12 @@ void Servo::turn(record::TickRow& row, base::TimePoint now)
     row.contact = tick.force;
     row.device = force;
     row.remote = tick.remote_force;
+    row.gripping = sample.gripping;
+    row.docked = sample.docked;
+    row.calibrated = sample.calibrated;
+    row.buttons = sample.buttons;
+    row.fault = static_cast<std::uint8_t>(sample.fault);
+    row.sample_sequence = static_cast<std::uint32_t>(sample.sequence);
 }
 
 void Servo::receive(std::uint64_t tick)

@@ -86,6 +86,10 @@ struct Cells {
         line += fmt::format(",{}", name_of(phase));
     }
     void operator()(std::string_view, bool value) const { line += value ? ",1" : ",0"; }
+    void operator()(std::string_view, std::uint8_t value) const
+    {
+        line += fmt::format(",{}", value);
+    }
     void operator()(std::string_view, std::uint32_t value) const
     {
         line += fmt::format(",{}", value);

@@ -13,6 +13,18 @@ template <typename T>
 struct FieldType;
 
 template <>
+struct FieldType<std::uint8_t> {
+    static constexpr std::string_view type = "u8", unit = "";
+    static constexpr std::size_t bytes = 1;
+    static void put(base::ByteWriter& out, std::uint8_t value) { out.u8(value); }
+    static bool take(base::ByteReader& in, std::uint8_t& value)
+    {
+        value = in.u8();
+        return true;
+    }
+};
+
+template <>
 struct FieldType<std::uint16_t> {
     static constexpr std::string_view type = "u16", unit = "";
     static constexpr std::size_t bytes = 2;

@@ -34,6 +34,13 @@ constexpr void for_each_field(R& row, auto&& visit)
     visit("contact", row.contact);
     visit("device", row.device);
     visit("remote", row.remote);
+    visit("gripping", row.gripping);
+    visit("docked", row.docked);
+    visit("calibrated", row.calibrated);
+    visit("buttons", row.buttons);
+    visit("fault", row.fault);
+    visit("sample_sequence", row.sample_sequence);
+    visit("governor", row.governor);
 }
 
 template <RowOf<MessageRow> R>

@@ -12,7 +12,7 @@ namespace hapnet::record {
 
 namespace {
 
-constexpr int version = 1;
+constexpr int version = 2;
 
 template <typename R>
 nlohmann::json schema_of()
@@ -68,7 +68,7 @@ base::Result<nlohmann::json> parse_header(std::string_view line)
         }
     }
     if (!header.contains("schema") || header["schema"] != ours["schema"]) {
-        return base::fail("its schema is not that of version 1");
+        return base::fail("its schema is not that of version 2");
     }
     if (!header.contains("config") || !header["config"].is_object()) {
         return base::fail("expected an object \"config\" in its header");

@@ -59,6 +59,16 @@ struct TickRow {
     base::Force device;
     /// The remote contact force as this tick used it.
     base::Force remote;
+    /// What else the device said: the session's forces follow from these and the messages.
+    bool gripping = false;
+    bool docked = false;
+    bool calibrated = true;
+    std::uint8_t buttons = 0;
+    std::uint8_t fault = 0; // device::Fault
+    /// Grows with every word from the device; its low half.
+    std::uint32_t sample_sequence = 0;
+    /// device::GovernorState after this tick.
+    std::uint8_t governor = 0;
 
     /// When the device was read: the row's positions and forces hold then.
     [[nodiscard]] base::TimePoint at() const { return due + late; }

@@ -25,6 +25,10 @@ public:
     {
         value = static_cast<Phase>(bits() % phase_names.size());
     }
+    void operator()(std::string_view, std::uint8_t& value)
+    {
+        value = static_cast<std::uint8_t>(bits());
+    }
     void operator()(std::string_view name, std::uint16_t& value)
     {
         value = static_cast<std::uint16_t>(bits());

@@ -15,7 +15,7 @@ std::uint8_t at(const RowBytes& bytes, std::size_t index)
     return std::to_integer<std::uint8_t>(bytes.at(index));
 }
 
-TEST(RecordCodec, PutsFieldsLittleEndianAtTheOffsetsOfVersion1)
+TEST(RecordCodec, PutsFieldsLittleEndianAtTheOffsetsOfVersion2)
 {
     TickRow row;
     row.tick = 0x0102030405060708;
@@ -25,6 +25,7 @@ TEST(RecordCodec, PutsFieldsLittleEndianAtTheOffsetsOfVersion1)
     row.phase = Phase::running;
     row.remote_fresh = true;
     row.hip = {{1.0, 0.0, 0.0}};
+    row.sample_sequence = 0xfe;
     const RowBytes bytes = encode(row);
     EXPECT_EQ(at(bytes, 0), 1); // a tick row
     EXPECT_EQ(at(bytes, 1), 8); // tick
@@ -36,7 +37,9 @@ TEST(RecordCodec, PutsFieldsLittleEndianAtTheOffsetsOfVersion1)
     EXPECT_EQ(at(bytes, 36), 1);    // remote_fresh
     EXPECT_EQ(at(bytes, 43), 0xf0); // hip: 1.0 is 0x3ff0000000000000
     EXPECT_EQ(at(bytes, 44), 0x3f);
-    EXPECT_EQ(at(bytes, 205), 0); // after the last field
+    EXPECT_EQ(at(bytes, 207), 1);    // calibrated
+    EXPECT_EQ(at(bytes, 210), 0xfe); // sample_sequence
+    EXPECT_EQ(at(bytes, 215), 0);    // after the last field
 }
 
 TEST(RecordCodec, RefusesAnUnknownKindOfRow)

@@ -178,7 +178,7 @@ TEST(RecordHeader, DescribesEveryFieldWithItsTypeOffsetAndUnit)
     EXPECT_EQ(header["format"], "hapnet-record");
     EXPECT_EQ(header["row_bytes"], row_bytes);
     const auto& fields = header["schema"]["tick"]["fields"];
-    ASSERT_EQ(fields.size(), 16);
+    ASSERT_EQ(fields.size(), 23);
     EXPECT_EQ(fields[1],
               nlohmann::json::parse(
                   R"({"name":"due","type":"i64","offset":9,"unit":"ns of CLOCK_MONOTONIC"})"));
@@ -192,16 +192,16 @@ TEST(RecordHeader, RefusesAnotherVersionRowSizeOrSchema)
 {
     const auto ours = nlohmann::json::parse(header_line(config));
     auto other = ours;
-    other["version"] = 2;
+    other["version"] = 1;
     EXPECT_EQ(parse_header(other.dump()).error().message,
-              "expected a JSON line with \"version\":1");
+              "expected a JSON line with \"version\":2");
     other = ours;
     other["row_bytes"] = 200;
     EXPECT_EQ(parse_header(other.dump()).error().message,
               "expected a JSON line with \"row_bytes\":216");
     other = ours;
     other["schema"]["tick"]["fields"][0]["offset"] = 2;
-    EXPECT_EQ(parse_header(other.dump()).error().message, "its schema is not that of version 1");
+    EXPECT_EQ(parse_header(other.dump()).error().message, "its schema is not that of version 2");
     other = ours;
     other["config"] = 1;
     EXPECT_FALSE(parse_header(other.dump()));
@@ -212,7 +212,7 @@ TEST(RecordHeader, IsOneLineOfUtf8WhateverTheConfigurationSays)
 {
     const auto line = header_line({{"scene", "a\nb\xff"}});
     EXPECT_EQ(line.find('\n'), std::string::npos);
-    EXPECT_TRUE(line.starts_with(R"({"format":"hapnet-record","version":1,)"));
+    EXPECT_TRUE(line.starts_with(R"({"format":"hapnet-record","version":2,)"));
     EXPECT_TRUE(parse_header(line));
 }
 
