@@ -25,7 +25,7 @@ std::string in_words(std::string_view title, const Conditions& conditions, const
 }
 
 /// The profile, and what it means as comments: the whole reads as a profile again.
-base::Result<int> run(const DryRun& dry_run)
+base::Result<int> check_profile(const DryRun& dry_run)
 {
     const auto profile = load_profile(dry_run.profile);
     if (!profile) return base::fail(profile.error().message);
@@ -52,7 +52,7 @@ base::Result<int> run(const DryRun& dry_run)
 
 int check_command(std::span<char*> words)
 {
-    return net::run_program("hapnet-emulator check", parse_check(words), run);
+    return net::run_program("hapnet-emulator check", parse_check(words), check_profile);
 }
 
 } // namespace hapnet::emulator

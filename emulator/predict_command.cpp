@@ -115,7 +115,7 @@ std::string in_words(std::string_view title, const DirectionPrediction& of,
     return text;
 }
 
-base::Result<int> run(const DryRun& dry_run)
+base::Result<int> show_prediction(const DryRun& dry_run)
 {
     const auto profile = load_profile(dry_run.profile);
     if (!profile) return base::fail(profile.error().message);
@@ -147,7 +147,7 @@ base::Result<int> run(const DryRun& dry_run)
 
 int predict_command(std::span<char*> words)
 {
-    return net::run_program("hapnet-emulator predict", parse_predict(words), run);
+    return net::run_program("hapnet-emulator predict", parse_predict(words), show_prediction);
 }
 
 } // namespace hapnet::emulator

@@ -25,13 +25,14 @@ namespace hapnet::emulator {
 
 namespace {
 
-constexpr const char* description = "Tests whether the fates of a run are those that its profile "
-                                    "promises: shares, runs and bursts\n"
-                                    "of losses, the steps of their chains, delays, the directions "
-                                    "against each other, and with the\n"
-                                    "seed every fate.";
+constexpr const char* verify_description =
+    "Tests whether the fates of a run are those that its profile "
+    "promises: shares, runs and bursts\n"
+    "of losses, the steps of their chains, delays, the directions "
+    "against each other, and with the\n"
+    "seed every fate.";
 
-constexpr const char* footer =
+constexpr const char* verify_footer =
     R"(RUN is the file that --stats has written of a run with --fates; or the file that --fates has
 written, with --profile; or a folder with fates.csv and profile.toml.
 A test fails when a run that follows its profile would look like this one time in a million.
@@ -98,8 +99,8 @@ base::Result<Request> request_from(const VerifyTexts& texts)
 
 net::CommandLine<Request> parse(std::span<char*> words)
 {
-    CLI::App app{description, "hapnet-emulator verify"};
-    app.footer(footer);
+    CLI::App app{verify_description, "hapnet-emulator verify"};
+    app.footer(verify_footer);
     VerifyTexts texts;
     add_options(app, texts);
     try {

@@ -9,12 +9,10 @@ namespace hapnet::emulator {
 
 namespace {
 
-base::Duration rounded(double nanoseconds)
+base::Duration nearest_duration(double nanoseconds)
 {
     return base::Duration{static_cast<base::Duration::rep>(std::floor(nanoseconds + 0.5))};
 }
-
-double to_double(base::Duration duration) { return static_cast<double>(duration.count()); }
 
 std::optional<Quantiles> quantiles_of(const base::DurationHistogram& histogram)
 {
@@ -34,16 +32,17 @@ std::optional<double> ratio(std::uint64_t part, std::uint64_t whole)
 void Lens::Running::add(base::Duration value)
 {
     ++count;
-    const double deviation = to_double(value) - mean;
+    const double deviation = base::to_nanoseconds(value) - mean;
     mean += deviation / static_cast<double>(count);
-    squares += deviation * (to_double(value) - mean);
+    squares += deviation * (base::to_nanoseconds(value) - mean);
 }
 
 std::optional<Moments> Lens::Running::moments() const
 {
     if (count == 0) return std::nullopt;
-    Moments moments{rounded(mean), {}};
-    if (count > 1) moments.sd = rounded(std::sqrt(squares / static_cast<double>(count - 1)));
+    Moments moments{nearest_duration(mean), {}};
+    if (count > 1)
+        moments.sd = nearest_duration(std::sqrt(squares / static_cast<double>(count - 1)));
     return moments;
 }
 
@@ -89,7 +88,8 @@ void Lens::in_order(const Passage& passage)
         // Between two updates the age grows by the second every second: a trapezium.
         const auto from = freshest_->sent - freshest_->arrival;
         const auto peak = passage.sent - freshest_->arrival;
-        age_area_ += to_double(passage.sent - freshest_->sent) * to_double(from + peak) / 2.0;
+        age_area_ += base::to_nanoseconds(passage.sent - freshest_->sent) *
+                     base::to_nanoseconds(from + peak) / 2.0;
         peaks_.add(peak);
         peak_max_ = std::max(peak_max_, peak);
     }
@@ -147,7 +147,8 @@ LensReport Lens::report() const
         report.peak_age_mean = peaks_.moments()->mean;
         report.peak_age_max = peak_max_;
         const auto time = freshest_->sent - first_fresh_->sent;
-        if (time > base::Duration{0}) report.age_mean = rounded(age_area_ / to_double(time));
+        if (time > base::Duration{0})
+            report.age_mean = nearest_duration(age_area_ / base::to_nanoseconds(time));
     }
     return report;
 }

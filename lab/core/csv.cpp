@@ -34,7 +34,7 @@ struct Shown<base::Force> {
 
 // Columns and cells both start with a comma: the time stands before them.
 
-struct Columns {
+struct ColumnNames {
     std::string& line;
 
     void operator()(std::string_view, const base::TimePoint&) const {} // it is the time
@@ -112,7 +112,7 @@ std::string tick_csv_header()
 {
     std::string line = "time_s";
     const record::TickRow row;
-    for_each_field(row, Columns{line});
+    for_each_field(row, ColumnNames{line});
     return line;
 }
 

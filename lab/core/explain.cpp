@@ -73,7 +73,7 @@ std::string bodies_text(const Explanation& of)
                        of.planes);
 }
 
-std::string hands_text(const scene::HipDescription& hips)
+std::string hips_text(const scene::HipDescription& hips)
 {
     if (hips.count == 0) return "none";
     const auto text = [](double value, const base::QuantityKind& kind) {
@@ -153,7 +153,7 @@ std::string to_table(const Explanation& explanation)
                                    explanation.name.empty() ? "without a name" : explanation.name,
                                    explanation.hash);
     text += fmt::format("bodies  {}\n", bodies_text(explanation));
-    text += fmt::format("hands   {}\n", hands_text(explanation.hips));
+    text += fmt::format("hands   {}\n", hips_text(explanation.hips));
     text += fmt::format("tick    {}", base::to_text(explanation.tick));
     if (explanation.hand_factor) {
         text += fmt::format("; k dt^2/m of a hand on the lightest body: {:.3g}",

@@ -41,6 +41,12 @@ using TimePoint = Timeline::time_point;
     return std::chrono::duration<double>{duration}.count();
 }
 
+/// A duration as a floating-point number of nanoseconds, exact below 104 days.
+[[nodiscard]] constexpr double to_nanoseconds(Duration duration)
+{
+    return static_cast<double>(duration.count());
+}
+
 /// The duration nearest to `seconds`; `seconds` must be finite and below 292 years.
 [[nodiscard]] constexpr Duration from_seconds(double seconds)
 {

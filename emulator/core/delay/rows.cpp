@@ -35,7 +35,7 @@ std::vector<std::string_view> cells_of(std::string_view line)
 }
 
 /// A column of durations that are written without their unit.
-struct Column {
+struct DurationColumn {
     std::string name;
     std::size_t place = 0;
     double nanoseconds = 0.0; // of 1
@@ -43,26 +43,26 @@ struct Column {
 
 struct Header {
     std::size_t cells = 0;
-    Column delay;
-    std::optional<Column> time;
+    DurationColumn delay;
+    std::optional<DurationColumn> time;
 };
 
 /// The column "<what>_<unit>", if there is one.
-base::Result<std::optional<Column>> find_column(const std::vector<std::string_view>& cells,
-                                                std::string_view what)
+base::Result<std::optional<DurationColumn>> find_column(const std::vector<std::string_view>& cells,
+                                                        std::string_view what)
 {
     struct Unit {
         std::string_view name;
         double nanoseconds;
     };
     constexpr std::array<Unit, 4> units{{{"ns", 1.0}, {"us", 1e3}, {"ms", 1e6}, {"s", 1e9}}};
-    std::optional<Column> found;
+    std::optional<DurationColumn> found;
     for (std::size_t place = 0; place < cells.size(); ++place) {
         for (const Unit& unit : units) {
             const auto name = fmt::format("{}_{}", what, unit.name);
             if (cells[place] != name) continue;
             if (found) return base::fail(fmt::format("two columns of {}", what));
-            found = Column{name, place, unit.nanoseconds};
+            found = DurationColumn{name, place, unit.nanoseconds};
         }
     }
     return found;
@@ -83,7 +83,7 @@ base::Result<std::optional<Header>> parse_header(std::string_view line)
     return Header{cells.size(), **delay, *time};
 }
 
-base::Result<base::Duration> parse_cell(std::string_view cell, const Column& column)
+base::Result<base::Duration> parse_cell(std::string_view cell, const DurationColumn& column)
 {
     double count = 0.0;
     const auto [end, error] = std::from_chars(cell.begin(), cell.end(), count);

@@ -13,8 +13,6 @@ namespace hapnet::emulator {
 
 namespace {
 
-double count_of(base::Duration duration) { return static_cast<double>(duration.count()); }
-
 base::Duration rounded(double nanoseconds)
 {
     constexpr auto most = static_cast<double>(longest_delay.count());
@@ -25,39 +23,44 @@ Sampler prepared(const ConstantLaw& law) { return ConstantSampler{law.value}; }
 
 Sampler prepared(const UniformLaw& law)
 {
-    return UniformSampler{law.mean, count_of(law.half_width)};
+    return UniformSampler{law.mean, base::to_nanoseconds(law.half_width)};
 }
 
 Sampler prepared(const NormalLaw& law)
 {
-    return NormalSampler{count_of(law.mean), count_of(law.sd)};
+    return NormalSampler{base::to_nanoseconds(law.mean), base::to_nanoseconds(law.sd)};
 }
 
 Sampler prepared(const LogNormalLaw& law)
 {
-    const double mean = std::max(count_of(law.mean), 1.0);
-    const double spread = count_of(law.sd) / mean;
+    const double mean = std::max(base::to_nanoseconds(law.mean), 1.0);
+    const double spread = base::to_nanoseconds(law.sd) / mean;
     const double log_variance = base::log1p(spread * spread);
     return LogNormalSampler{base::log(mean) - 0.5 * log_variance, std::sqrt(log_variance)};
 }
 
-Sampler prepared(const ExponentialLaw& law) { return ExponentialSampler{count_of(law.mean)}; }
+Sampler prepared(const ExponentialLaw& law)
+{
+    return ExponentialSampler{base::to_nanoseconds(law.mean)};
+}
 
 Sampler prepared(const ParetoLaw& law)
 {
-    return ParetoSampler{count_of(law.mean) * (law.shape - 1.0) / law.shape, 1.0 / law.shape};
+    return ParetoSampler{base::to_nanoseconds(law.mean) * (law.shape - 1.0) / law.shape,
+                         1.0 / law.shape};
 }
 
 double shape_of(const GammaLaw& law)
 {
-    const double ratio = count_of(law.mean) / std::max(count_of(law.sd), 1.0);
+    const double ratio =
+        base::to_nanoseconds(law.mean) / std::max(base::to_nanoseconds(law.sd), 1.0);
     return std::max(ratio * ratio, GammaQuantile::shape_min);
 }
 
 Sampler prepared(const GammaLaw& law)
 {
     const double shape = shape_of(law);
-    return GammaSampler{count_of(law.mean), shape, GammaQuantile{shape}};
+    return GammaSampler{base::to_nanoseconds(law.mean), shape, GammaQuantile{shape}};
 }
 
 Sampler prepared(const TableLaw& law)
@@ -68,8 +71,8 @@ Sampler prepared(const TableLaw& law)
     if (law.sd == zero && law.mean == zero && table.holds_delays()) {
         return TableSampler{0.0, 1.0, law.table};
     }
-    const double scale = table.sd() > 0.0 ? count_of(law.sd) / table.sd() : 0.0;
-    return TableSampler{count_of(law.mean) - scale * table.mean(), scale, law.table};
+    const double scale = table.sd() > 0.0 ? base::to_nanoseconds(law.sd) / table.sd() : 0.0;
+    return TableSampler{base::to_nanoseconds(law.mean) - scale * table.mean(), scale, law.table};
 }
 
 Sampler prepared(const TraceLaw&)
@@ -128,7 +131,7 @@ void adapt(Sampler& sampler, const DelayLaw& law)
     auto* gamma = std::get_if<GammaSampler>(&sampler);
     const auto* gamma_law = std::get_if<GammaLaw>(&law);
     if (gamma && gamma_law && gamma->shape == shape_of(*gamma_law)) {
-        gamma->mean = count_of(gamma_law->mean);
+        gamma->mean = base::to_nanoseconds(gamma_law->mean);
         return;
     }
     sampler = make_sampler(law);

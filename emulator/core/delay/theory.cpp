@@ -18,15 +18,13 @@ struct LawMoments {
     std::optional<base::Duration> sd;
 };
 
-double count_of(base::Duration duration) { return static_cast<double>(duration.count()); }
-
 base::Duration nanoseconds(double count) { return base::Duration{std::llround(count)}; }
 
 LawMoments moments(const ConstantLaw& law) { return {law.value, base::Duration{0}}; }
 
 LawMoments moments(const UniformLaw& law)
 {
-    return {law.mean, nanoseconds(count_of(law.half_width) / std::sqrt(3.0))};
+    return {law.mean, nanoseconds(base::to_nanoseconds(law.half_width) / std::sqrt(3.0))};
 }
 
 LawMoments moments(const NormalLaw& law) { return {law.mean, law.sd}; }
@@ -39,8 +37,8 @@ LawMoments moments(const ParetoLaw& law)
 {
     if (law.shape <= 2.0) return {law.mean, std::nullopt};
     const double variance_of_unit_mean = 1.0 / (law.shape * (law.shape - 2.0));
-    const double sd = count_of(law.mean) * std::sqrt(variance_of_unit_mean);
-    if (sd > count_of(longest_delay)) return {law.mean, std::nullopt};
+    const double sd = base::to_nanoseconds(law.mean) * std::sqrt(variance_of_unit_mean);
+    if (sd > base::to_nanoseconds(longest_delay)) return {law.mean, std::nullopt};
     return {law.mean, nanoseconds(sd)};
 }
 
@@ -59,11 +57,11 @@ LawMoments moments(const TraceLaw& law)
     const auto& delays = law.trace->delays();
     double mean = 0.0;
     for (std::size_t i = 0; i < delays.size(); ++i) {
-        mean += law.trace->share(i) * count_of(delays[i]);
+        mean += law.trace->share(i) * base::to_nanoseconds(delays[i]);
     }
     double variance = 0.0;
     for (std::size_t i = 0; i < delays.size(); ++i) {
-        const double distance = count_of(delays[i]) - mean;
+        const double distance = base::to_nanoseconds(delays[i]) - mean;
         variance += law.trace->share(i) * distance * distance;
     }
     return {nanoseconds(mean), nanoseconds(std::sqrt(variance))};

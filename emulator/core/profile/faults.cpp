@@ -14,7 +14,7 @@ using Fault = std::optional<std::string>;
 
 constexpr base::Duration no_time{0};
 
-Fault unless(bool is_possible, std::string_view what)
+Fault fault_unless(bool is_possible, std::string_view what)
 {
     return is_possible ? Fault{} : Fault{what};
 }
@@ -38,26 +38,26 @@ std::optional<std::string> fault_of(const LossLaw& law)
 
 std::optional<std::string> fault_of(const Corruption& corruption)
 {
-    return unless(corruption.bits >= 1 && corruption.bits <= Flips::most,
-                  fmt::format("bits has to be from 1 to {}", Flips::most));
+    return fault_unless(corruption.bits >= 1 && corruption.bits <= Flips::most,
+                        fmt::format("bits has to be from 1 to {}", Flips::most));
 }
 
 std::optional<std::string> fault_of(const Duplication& duplication)
 {
-    return unless(duplication.spread >= no_time, "spread is not negative");
+    return fault_unless(duplication.spread >= no_time, "spread is not negative");
 }
 
 std::optional<std::string> fault_of(const Reordering& reordering)
 {
     const Displacement& displacement = reordering.displacement;
     if (displacement.time < no_time) return "displacement is not negative";
-    return unless(reordering.share == base::Probability{} || displacement != Displacement{},
-                  "displacement has to be more than 0");
+    return fault_unless(reordering.share == base::Probability{} || displacement != Displacement{},
+                        "displacement has to be more than 0");
 }
 
 std::optional<std::string> fault_of(const Mtu& mtu)
 {
-    return unless(
+    return fault_unless(
         mtu.bytes_max == 0 || mtu.bytes_max >= Mtu::header_bytes,
         fmt::format("the headers alone have {} B: nothing would pass", Mtu::header_bytes));
 }
@@ -65,7 +65,7 @@ std::optional<std::string> fault_of(const Mtu& mtu)
 std::optional<std::string> fault_of(const Rate& rate)
 {
     constexpr std::size_t overhead_max = 1000;
-    return unless(rate.overhead_bytes <= overhead_max, "overhead is at most 1000B");
+    return fault_unless(rate.overhead_bytes <= overhead_max, "overhead is at most 1000B");
 }
 
 } // namespace hapnet::emulator

@@ -22,11 +22,9 @@ using base::Probability;
 constexpr base::Duration packet_spacing = std::chrono::milliseconds{1};
 
 std::string in_ms(double nanoseconds) { return fmt::format("{:.3g} ms", nanoseconds / 1e6); }
-double to_double(base::Duration duration) { return static_cast<double>(duration.count()); }
-
 base::Duration scaled(base::Duration duration, double by)
 {
-    return base::Duration{std::llround(to_double(duration) * by)};
+    return base::Duration{std::llround(base::to_nanoseconds(duration) * by)};
 }
 
 /// What the sentence says, before it is put together.
@@ -233,7 +231,7 @@ void put_delay(NetemWords& words, Said& said, Conditions& conditions)
         if (!said.distribution.empty()) words.complain("a distribution needs a jitter");
         return;
     }
-    const double sd = to_double(said.jitter);
+    const double sd = base::to_nanoseconds(said.jitter);
     if (said.distribution.empty() || said.distribution == "uniform") {
         conditions.jitter = uniform(said.jitter);
         if (!said.distribution.empty()) {
@@ -249,7 +247,7 @@ void put_delay(NetemWords& words, Said& said, Conditions& conditions)
         if (mean > said.delay) {
             return words.complain(fmt::format("a pareto jitter of sd {} needs a delay of at least "
                                               "{}, or much of it would lie before zero",
-                                              in_ms(sd), in_ms(to_double(mean))));
+                                              in_ms(sd), in_ms(base::to_nanoseconds(mean))));
         }
         conditions.delay = constant(said.delay - mean);
         conditions.jitter.law = ParetoLaw{mean, 3.0};
@@ -280,7 +278,7 @@ void put_correlation(NetemWords& words, Said& said, Conditions& conditions)
         "netem's correlation of delays has no effect (it takes the low bits, which are "
         "independent); here it is done: correlation_time = {}, which is {} from one packet to the "
         "next at 1000 packets/s",
-        in_ms(to_double(conditions.jitter.correlation_time)),
+        in_ms(base::to_nanoseconds(conditions.jitter.correlation_time)),
         base::to_text(said.delay_correlation)));
 }
 
@@ -315,7 +313,7 @@ void put_reorder(NetemWords& words, Said& said, Conditions& conditions)
     conditions.reorder = {Probability::from_fraction(1.0 - at_once).value(), {0, said.delay}};
     said.warnings.push_back(
         fmt::format("reorder lets {:.3g} % leave at once, the others {} behind their turn{}",
-                    100.0 * at_once, in_ms(to_double(said.delay)),
+                    100.0 * at_once, in_ms(base::to_nanoseconds(said.delay)),
                     said.gap > 1 ? "; netem counts the gap, here each is drawn on its own" : ""));
 }
 

@@ -20,8 +20,6 @@ TestResult too_few(std::string name)
     return unable(std::move(name), fmt::format("fewer than {} delays", delays_min));
 }
 
-double nanoseconds(base::Duration duration) { return static_cast<double>(duration.count()); }
-
 } // namespace
 
 TestResult test_distribution(std::vector<base::Duration> delays, const Distribution& law,
@@ -35,7 +33,7 @@ TestResult test_distribution(std::vector<base::Duration> delays, const Distribut
     for (std::size_t i = 0; i < delays.size();) {
         std::size_t next = i;
         while (next < delays.size() && delays[next] == delays[i]) ++next;
-        const double value = nanoseconds(delays[i]);
+        const double value = base::to_nanoseconds(delays[i]);
         distance = std::max({distance, std::abs(static_cast<double>(i) / n - law(value - half)),
                              std::abs(static_cast<double>(next) / n - law(value + half))});
         i = next;
@@ -56,8 +54,9 @@ TestResult test_tails(std::vector<base::Duration> delays, const Distribution& la
     constexpr double least = 1e-300; // a value that the law cannot have is one beyond any chance
     double sum = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-        const double below = std::max(law(nanoseconds(delays[i])), least);
-        const double above = std::max(1.0 - law(nanoseconds(delays[count - 1 - i])), least);
+        const double below = std::max(law(base::to_nanoseconds(delays[i])), least);
+        const double above =
+            std::max(1.0 - law(base::to_nanoseconds(delays[count - 1 - i])), least);
         sum += (2.0 * static_cast<double>(i) + 1.0) * (std::log(below) + std::log(above));
     }
     const double a_square = -n - sum / n;
@@ -97,7 +96,8 @@ std::vector<double> normal_scores(std::span<const base::Duration> delays, const 
     std::vector<double> scores;
     scores.reserve(delays.size());
     for (const base::Duration delay : delays) {
-        scores.push_back(normal_score(std::clamp(law(nanoseconds(delay)), edge, 1.0 - edge)));
+        scores.push_back(
+            normal_score(std::clamp(law(base::to_nanoseconds(delay)), edge, 1.0 - edge)));
     }
     return scores;
 }

@@ -42,8 +42,8 @@ std::string text_of(FilterOrder order)
     return "?";
 }
 
-void read_positive(const Node* node, double& target, const base::QuantityKind& kind,
-                   Reading& reading)
+void read_not_negative(const Node* node, double& target, const base::QuantityKind& kind,
+                       Reading& reading)
 {
     if (node == nullptr) return;
     double value = target;
@@ -78,9 +78,9 @@ void read_table(const Node* node, Reading& reading, const auto& read_entries)
 void read_vibration(const Node* node, ByOrder& target, Reading& reading)
 {
     read_table(node, reading, [&](TableReader& table) {
-        read_positive(table.find("first"), target.first, base::length_kind, reading);
-        read_positive(table.find("second"), target.second, base::length_kind, reading);
-        read_positive(table.find("fourth"), target.fourth, base::length_kind, reading);
+        read_not_negative(table.find("first"), target.first, base::length_kind, reading);
+        read_not_negative(table.find("second"), target.second, base::length_kind, reading);
+        read_not_negative(table.find("fourth"), target.fourth, base::length_kind, reading);
     });
 }
 
@@ -90,8 +90,8 @@ void read_all(TableReader& table, Criteria& criteria, Reading& reading)
     read_table(table.find("usable"), reading, [&](TableReader& usable) {
         read_vibration(usable.find("vibration_max"), criteria.vibration_max_m, reading);
         read_share(usable.find("stiffness_ratio_min"), criteria.stiffness_ratio_min, reading);
-        read_positive(usable.find("force_vibration_max"), criteria.force_vibration_max_n,
-                      base::force_kind, reading);
+        read_not_negative(usable.find("force_vibration_max"), criteria.force_vibration_max_n,
+                          base::force_kind, reading);
         read_share(usable.find("scored_share_min"), criteria.scored_share_min, reading);
     });
     read_table(table.find("good"), reading, [&](TableReader& good) {
@@ -99,7 +99,8 @@ void read_all(TableReader& table, Criteria& criteria, Reading& reading)
         read_share(good.find("force_discrepancy_max"), criteria.good_force_discrepancy_max,
                    reading);
         read_share(good.find("contact_lost_max"), criteria.good_contact_lost_max, reading);
-        read_positive(good.find("drag_max"), criteria.good_drag_max_n, base::force_kind, reading);
+        read_not_negative(good.find("drag_max"), criteria.good_drag_max_n, base::force_kind,
+                          reading);
     });
 }
 

@@ -30,7 +30,7 @@ struct Pointer {
 };
 
 /// A signal's part at the pointer's frequency.
-struct Part {
+struct SignalPart {
     double c = 0.0;
     double s = 0.0;
 
@@ -56,7 +56,7 @@ std::optional<double> stiffness_of(std::span<const double> force_on_hand,
     const double angle = base::two_pi * hertz * tick_s;
     const Pointer by{base::cos(angle), base::sin(angle)};
     Pointer at;
-    Part force_part, place_part;
+    SignalPart force_part, place_part;
     for (std::size_t i = 0; i < count; ++i) {
         // From the first value on: what does not swing is far larger than what does.
         force_part.add(force[i] - force[0], at);

@@ -25,7 +25,6 @@ constexpr double shorter = 0.75;
 constexpr double stretch_ticks_min = 2.0;
 // What a body may turn within one tick without being taken for one that spins.
 constexpr double turn_share = 0.25;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
@@ -99,7 +98,7 @@ Box FatBoxes::renew(const Bodies& bodies, Slot slot)
     leash.room = 0.5 * region.size();
     leash.orientation = bodies.orientation.at(slot);
     leash.likeness_min = -1.0;
-    leash.angular_momentum2 = infinity;
+    leash.angular_momentum2 = std::numeric_limits<double>::infinity();
     glm::dvec3 margin = glm::dvec3{size.nearby} + glm::abs(gravity_) * (tick_ * tick_);
     if (form.mass == 0.0 || size.ease == 0.0) {
         margin += extent(leash.orientation, form.half);

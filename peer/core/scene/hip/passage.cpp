@@ -15,7 +15,7 @@ namespace {
 constexpr int phases_max = 64;          // of a tick
 constexpr double part_min = 1.0 / 32.0; // of a tick, that is cut off only because something turns
 // How far a normal may turn in half of what is held: then its mean is right to 1e-5.
-constexpr double turn_max = 0.01;
+constexpr double normal_turn_max = 0.01;
 
 glm::dmat3 turned_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& angle)
 {
@@ -92,7 +92,7 @@ typename Passage<count>::Setting Passage<count>::halfway(double time) const
         if (!answer_.turns_evenly)
             setting.inverse_inertia = turned_inertia(inverse_inertia_, angle);
     }
-    const bool turns_little = glm::dot(angle, angle) <= turn_max * turn_max;
+    const bool turns_little = glm::dot(angle, angle) <= normal_turn_max * normal_turn_max;
     for (std::size_t i = 0; i < count; ++i) {
         if (!turns_ && surfaces_[i].is_face()) continue;
         Hold& hold = setting.holds[i];
@@ -145,11 +145,11 @@ bool Passage<count>::pass()
             const Setting setting = halfway(predicted);
             const Coupling coupling = couple(setting);
             double shorter = time;
-            if (setting.turned > turn_max * turn_max)
-                shorter = predicted * turn_max / std::sqrt(setting.turned);
+            if (setting.turned > normal_turn_max * normal_turn_max)
+                shorter = predicted * normal_turn_max / std::sqrt(setting.turned);
             for (std::size_t i = 0; i < count && turns_; ++i) {
                 const double square = coupling.own[i] * presses_[i].stiffness;
-                if (presses_[i].phase == Phase::pressing && square * time * time > 1.0)
+                if (presses_[i].phase == PressPhase::pressing && square * time * time > 1.0)
                     shorter = std::min(shorter, 1.0 / std::sqrt(square));
             }
             shorter = std::max(shorter, part_min * tick_);
@@ -168,7 +168,7 @@ bool Passage<count>::pass()
             }
             std::array<bool, count> was_apart{};
             for (std::size_t i = 0; i < count; ++i)
-                was_apart[i] = presses_[i].phase == Phase::apart;
+                was_apart[i] = presses_[i].phase == PressPhase::apart;
             presses_ = presses;
             apply(setting, pressed);
             for (std::size_t i = 0; i < count; ++i) {
@@ -229,9 +229,9 @@ void Passage<count>::meet(std::size_t i)
     // reached, and when it begins a little late, that is settled in the end.
     Press& press = presses_[i];
     press.depth = holds_[i].depth;
-    if (press.phase != Phase::pressing) return;
+    if (press.phase != PressPhase::pressing) return;
     constexpr double near = 1e-9;
-    if (press.depth < -near * press.closing * tick_) press.phase = Phase::apart;
+    if (press.depth < -near * press.closing * tick_) press.phase = PressPhase::apart;
     press.depth = std::min(press.depth, 0.0);
 }
 
@@ -256,7 +256,7 @@ void Passage<count>::settle()
     constexpr double unturned = 1e-10;
     if (turned_ < unturned * unturned) return;
     for (std::size_t i = 0; i < count; ++i) {
-        if (presses_[i].phase == Phase::apart) continue;
+        if (presses_[i].phase == PressPhase::apart) continue;
         scene::settle({body_, answer_, inverse_inertia_, tick_}, *springs_[i],
                       {presses_[i].depth, holds_[i].depth}, *works_[i]);
     }

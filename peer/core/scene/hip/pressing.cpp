@@ -47,17 +47,17 @@ Passed pass_along(const Course& course, double time)
 double Press::force() const
 {
     switch (phase) {
-    case Phase::apart: return 0.0;
-    case Phase::pressing: return drive();
-    case Phase::capped: return force_max;
+    case PressPhase::apart: return 0.0;
+    case PressPhase::pressing: return drive();
+    case PressPhase::capped: return force_max;
     }
     return 0.0;
 }
 
-Phase Press::due() const
+PressPhase Press::due() const
 {
-    if (depth < 0.0 || drive() <= 0.0) return Phase::apart;
-    return drive() < force_max ? Phase::pressing : Phase::capped;
+    if (depth < 0.0 || drive() <= 0.0) return PressPhase::apart;
+    return drive() < force_max ? PressPhase::pressing : PressPhase::capped;
 }
 
 // The courses are set for the phases that there are.
@@ -73,15 +73,15 @@ Presses<count>::Presses(std::array<Press, count>& presses, const Coupling& coupl
         const double drive = press.drive();
         const double size =
             press.stiffness * std::abs(press.depth) + press.damping * std::abs(press.closing);
-        if (press.phase == Phase::capped && drive < (1.0 - rounding) * press.force_max)
-            press.phase = Phase::pressing;
-        if (press.phase != Phase::pressing) continue;
-        if (drive > (1.0 + rounding) * press.force_max) press.phase = Phase::capped;
-        if (drive < -rounding * size) press.phase = Phase::apart;
+        if (press.phase == PressPhase::capped && drive < (1.0 - rounding) * press.force_max)
+            press.phase = PressPhase::pressing;
+        if (press.phase != PressPhase::pressing) continue;
+        if (drive > (1.0 + rounding) * press.force_max) press.phase = PressPhase::capped;
+        if (drive < -rounding * size) press.phase = PressPhase::apart;
     }
-    const bool first = presses_[0].phase == Phase::pressing;
+    const bool first = presses_[0].phase == PressPhase::pressing;
     if constexpr (count == 2) {
-        const bool second = presses_[1].phase == Phase::pressing;
+        const bool second = presses_[1].phase == PressPhase::pressing;
         if (first && second) {
             solve_both();
             return;
@@ -202,12 +202,12 @@ template <std::size_t count>
 bool Presses<count>::is_settled(std::size_t i) const
 {
     const Press& press = presses_[i];
-    if (press.phase == Phase::apart) {
+    if (press.phase == PressPhase::apart) {
         if (modes_ > 0) return false;
         const Course& course = courses_[i];
         return press.depth + time_ * (std::abs(course.speed) + time_ * std::abs(course.push)) < 0.0;
     }
-    if (press.phase == Phase::capped) return false;
+    if (press.phase == PressPhase::capped) return false;
     double change = 0.0;
     for (std::size_t mode = 0; mode < modes_; ++mode) {
         const Course& course = courses_[mode];
@@ -229,7 +229,7 @@ void Presses<count>::look(End& end, std::size_t i)
 {
     if (is_settled(i)) return;
     const Press& press = presses_[i];
-    const auto look_for = [&](Phase then, double level, double sign) {
+    const auto look_for = [&](PressPhase then, double level, double sign) {
         const auto found =
             first_root(watch(i, level, {sign * press.stiffness, sign * press.damping}), courses_,
                        0.0, end.time);
@@ -237,20 +237,20 @@ void Presses<count>::look(End& end, std::size_t i)
     };
     const double pull = press.stiffness * press.depth;
     switch (press.phase) {
-    case Phase::pressing:
-        look_for(Phase::apart, pull, 1.0);
+    case PressPhase::pressing:
+        look_for(PressPhase::apart, pull, 1.0);
         if (press.force_max < std::numeric_limits<double>::infinity())
-            look_for(Phase::capped, press.force_max - pull, -1.0);
+            look_for(PressPhase::capped, press.force_max - pull, -1.0);
         return;
-    case Phase::capped: look_for(Phase::pressing, pull - press.force_max, 1.0); return;
-    case Phase::apart: break;
+    case PressPhase::capped: look_for(PressPhase::pressing, pull - press.force_max, 1.0); return;
+    case PressPhase::apart: break;
     }
     if (press.depth >= 0.0 && press.drive() < 0.0) {
-        look_for(Phase::pressing, -pull, -1.0);
+        look_for(PressPhase::pressing, -pull, -1.0);
         return;
     }
     const auto found = first_root(watch(i, -press.depth, {-1.0, 0.0}), courses_, 0.0, end.time);
-    if (found && *found < end.time) end = {*found, i, Phase::pressing};
+    if (found && *found < end.time) end = {*found, i, PressPhase::pressing};
 }
 
 template <std::size_t count>
@@ -280,7 +280,7 @@ Pressed<count> Presses<count>::pass()
     for (std::size_t j = 0; j < count; ++j) passed[j] = courses_[j].after(end.time);
     for (std::size_t i = 0; i < count; ++i) {
         Press& press = presses_[i];
-        if (press.phase == Phase::capped) {
+        if (press.phase == PressPhase::capped) {
             pressed.impulse[i] = press.force_max * end.time;
             pressed.moment[i] = 0.5 * press.force_max * end.time * end.time;
         }

@@ -10,7 +10,7 @@
 namespace hapnet::scene {
 
 /// What a unilateral spring with a damper is doing.
-enum class Phase : std::uint8_t {
+enum class PressPhase : std::uint8_t {
     apart,    // no force: no overlap, or it opens faster than the damper lets the spring follow
     pressing, // stiffness * depth + damping * closing
     capped,   // its greatest force
@@ -24,12 +24,12 @@ struct Press {
     double depth = 0.0;        // > 0: overlap
     double closing = 0.0;      // by how much the depth grows per second
     double acceleration = 0.0; // of the depth, by everything but the springs
-    Phase phase = Phase::apart;
+    PressPhase phase = PressPhase::apart;
 
     [[nodiscard]] double drive() const { return stiffness * depth + damping * closing; }
     [[nodiscard]] double force() const;
     /// The phase that depth and closing speed call for.
-    [[nodiscard]] Phase due() const;
+    [[nodiscard]] PressPhase due() const;
 };
 
 /// By how much the depths of up to two springs answer to their forces: 1/kg.
@@ -70,7 +70,7 @@ private:
     struct End {
         double time = 0.0;
         std::size_t press = count; // none
-        Phase then = Phase::apart;
+        PressPhase then = PressPhase::apart;
     };
 
     void solve_parabolas();

@@ -49,7 +49,7 @@ auto& part(Vector& v, std::size_t axis)
 }
 
 /// The spring and damper alone, at one moment.
-double force_at(const HipDescription& hips, double depth, double closing)
+double spring_force(const HipDescription& hips, double depth, double closing)
 {
     if (depth <= 0.0) return 0.0;
     return std::clamp(hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing, 0.0,
@@ -196,7 +196,7 @@ FaceTouch SlidingHands::meet_box(const Frozen& frozen, Stage& stage, Slide& slid
     slide.slanted[slide.slanted_count++] = {index, normal, meeting->depth, closing, 0.0};
     touch.depth_m = std::max(touch.depth_m, meeting->depth);
     touch.on_hip_at_start.value +=
-        force_at(hips, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
+        spring_force(hips, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
     return {index, {}, 0.0};
 }
 
@@ -232,7 +232,7 @@ void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t
             steady_impulse(hips, meeting->depth, closing, frozen.tick) / frozen.tick;
         touch.depth_m = std::max(touch.depth_m, meeting->depth);
         touch.on_hip.value += mean * vector(normal);
-        touch.on_hip_at_start.value += force_at(hips, meeting->depth, closing) * vector(normal);
+        touch.on_hip_at_start.value += spring_force(hips, meeting->depth, closing) * vector(normal);
     }
 }
 
