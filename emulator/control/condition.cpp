@@ -24,7 +24,7 @@ constexpr std::size_t path_bytes_max = 200;
 constexpr std::array comparisons{Comparison::at_most, Comparison::at_least, Comparison::equal,
                                  Comparison::unequal, Comparison::less,     Comparison::more};
 
-std::string_view trimmed(std::string_view text)
+std::string_view without_blanks(std::string_view text)
 {
     const auto first = text.find_first_not_of(' ');
     if (first == std::string_view::npos) return {};
@@ -109,11 +109,11 @@ base::Result<Condition> parse_condition(std::string_view text)
 {
     const auto at = text.find_first_of("<>=!");
     if (at != std::string_view::npos) {
-        const auto path = trimmed(text.substr(0, at));
+        const auto path = without_blanks(text.substr(0, at));
         for (const Comparison comparison : comparisons) {
             const auto sign = to_text(comparison);
             if (!text.substr(at).starts_with(sign)) continue;
-            const auto number = number_in(trimmed(text.substr(at + sign.size())));
+            const auto number = number_in(without_blanks(text.substr(at + sign.size())));
             if (!number || path.empty() || path.size() > path_bytes_max) break;
             return Condition{std::string{path}, comparison, *number};
         }

@@ -87,8 +87,8 @@ std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwi
     };
     (read(std::in_place_type<Laws>), ...);
     if (!is_found) {
-        reading.complain(node->place,
-                         fmt::format("{} is not a law: {}", quoted(name), suggestion(name, names)));
+        reading.complain(node->place, fmt::format("{} is not a law: {}", base::quoted(name),
+                                                  suggestion(name, names)));
     }
     return otherwise;
 }
@@ -147,7 +147,7 @@ std::vector<std::string> law_texts(const Law& law)
         [](const auto& one) {
             using One = std::decay_t<decltype(one)>;
             auto texts = field_texts(one);
-            texts.insert(texts.begin(), fmt::format("law = {}", quoted(Form<One>::name)));
+            texts.insert(texts.begin(), fmt::format("law = {}", base::quoted(Form<One>::name)));
             return texts;
         },
         law);
@@ -158,7 +158,7 @@ std::string loss_text(const LossLaw& law)
     if (const auto* random = std::get_if<RandomLoss>(&law)) return value_text(random->share);
     const auto* burst = std::get_if<Burst>(&law);
     if (burst != nullptr && !burst->phase) {
-        return quoted(fmt::format("{}/{}", burst->lost, burst->of));
+        return base::quoted(fmt::format("{}/{}", burst->lost, burst->of));
     }
     return table_text(law_texts(law));
 }
@@ -192,7 +192,7 @@ std::string variation_text(const Variation& variation, Role role)
     const auto* uniform = std::get_if<UniformLaw>(&variation.law);
     if (variation.correlation_time == base::Duration{0}) {
         if (role == Role::delay && constant != nullptr) return value_text(constant->value);
-        if (role == Role::jitter && variation == Variation{}) return quoted("none");
+        if (role == Role::jitter && variation == Variation{}) return base::quoted("none");
         if (role == Role::jitter && uniform != nullptr && uniform->mean == base::Duration{0}) {
             return value_text(uniform->half_width);
         }
@@ -223,7 +223,7 @@ std::vector<LossLaw> read_losses(const Node& node, Reading& reading)
 
 std::string losses_text(const std::vector<LossLaw>& laws)
 {
-    if (laws.empty()) return quoted("none");
+    if (laws.empty()) return base::quoted("none");
     if (laws.size() == 1) return loss_text(laws.front());
     std::string text;
     for (const LossLaw& law : laws) text += (text.empty() ? "" : ", ") + loss_text(law);
@@ -244,7 +244,7 @@ Burst read_burst(const Node& node, Reading& reading)
     }
     reading.complain(node.place, fmt::format("{} is not a burst: write \"40/100\" to lose 40 in a "
                                              "row of every 100",
-                                             text == nullptr ? "this" : quoted(*text)));
+                                             text == nullptr ? "this" : base::quoted(*text)));
     return {1, 1, {}};
 }
 
@@ -255,8 +255,8 @@ Order read_order(const Node& node, Reading& reading)
     for (const Order order : {Order::keep, Order::free, Order::sorted}) {
         if (text == to_text(order)) return order;
     }
-    reading.complain(node.place,
-                     fmt::format("{} is not an order: write keep, free or sorted", quoted(text)));
+    reading.complain(node.place, fmt::format("{} is not an order: write keep, free or sorted",
+                                             base::quoted(text)));
     return Order::keep;
 }
 

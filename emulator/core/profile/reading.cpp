@@ -98,7 +98,7 @@ std::string value_text(const std::vector<std::uint64_t>& value)
     return fmt::format("[{}]", fmt::join(value, ", "));
 }
 
-std::string value_text(const std::vector<bool>& value) { return quoted(to_text(value)); }
+std::string value_text(const std::vector<bool>& value) { return base::quoted(to_text(value)); }
 
 std::string value_text(const std::vector<Window>& value)
 {
@@ -111,7 +111,8 @@ std::string value_text(const std::vector<Window>& value)
 
 std::string whole_value_text(std::uint64_t value, Counts counts)
 {
-    return quoted(counts == Counts::bytes ? base::size_text(value) : base::bit_rate_text(value));
+    return base::quoted(counts == Counts::bytes ? base::size_text(value)
+                                                : base::bit_rate_text(value));
 }
 
 } // namespace hapnet::emulator

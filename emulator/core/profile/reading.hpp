@@ -21,7 +21,6 @@ using base::Node;
 using base::OpenFile;
 using base::parse_document;
 using base::Place;
-using base::quoted;
 using base::read_value;
 using base::Reading;
 using base::suggestion;

@@ -146,10 +146,10 @@ std::array<std::optional<std::string>, setting_keys.size()> setting_texts(const 
         text_if(patch.delay, [](const auto& value) { return variation_text(value, Role::delay); }),
         text_if(patch.jitter,
                 [](const auto& value) { return variation_text(value, Role::jitter); }),
-        text_if(patch.order, [](Order order) { return quoted(to_text(order)); }),
+        text_if(patch.order, [](Order order) { return base::quoted(to_text(order)); }),
         text_if(patch.reorder,
                 [](const Reordering& value) {
-                    return value == Reordering{} ? quoted("none") : stage_text(value);
+                    return value == Reordering{} ? base::quoted("none") : stage_text(value);
                 }),
     };
 }

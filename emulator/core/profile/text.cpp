@@ -198,11 +198,11 @@ std::string to_text(const Profile& profile)
 {
     constexpr std::uint64_t largest_integer = std::numeric_limits<std::int64_t>::max();
     std::string out;
-    if (!profile.name.empty()) out += fmt::format("name = {}\n", quoted(profile.name));
+    if (!profile.name.empty()) out += fmt::format("name = {}\n", base::quoted(profile.name));
     if (profile.seed) {
         const auto seed = fmt::format("{}", profile.seed->value());
         out += fmt::format("seed = {}\n",
-                           profile.seed->value() > largest_integer ? quoted(seed) : seed);
+                           profile.seed->value() > largest_integer ? base::quoted(seed) : seed);
     }
     const Texts up = setting_texts(patch_of(profile.path.up));
     const Texts down = setting_texts(patch_of(profile.path.down));
