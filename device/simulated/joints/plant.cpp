@@ -42,7 +42,13 @@ void stop(double& angle, double& turning, const omni::JointRange& range)
 
 } // namespace
 
-JointPlant::JointPlant(const JointPlantFigures& figures) : figures_{figures} { see_where_it_is(); }
+JointPlant::JointPlant(const JointPlantFigures& figures)
+    : figures_{figures},
+      joints_{figures.begins_docked ? omni::inkwell_pose : omni::joints_of({})},
+      is_docked_{figures.begins_docked}
+{
+    see_where_it_is();
+}
 
 void JointPlant::set_torque(const glm::dvec3& newton_metres)
 {

@@ -24,6 +24,7 @@ struct JointPlantFigures {
     glm::dvec3 torque_max_nm = omni::torque_max_nm;
     double dock_hold_n = 1.0;   // what it takes to pull the stylus out of its inkwell: estimate
     double dock_reach_m = 4e-3; // from so near the inkwell takes it
+    bool begins_docked = true;  // else with the stylus at the origin
     /// Where the encoders were when the power came on, as angles.
     omni::Joints zero{{0.30, -0.20, 0.10}};
 };
@@ -37,8 +38,8 @@ struct Grip {
 
 /// An Omni as a mechanism: motor torques and a hand in, angles out. The apparent mass sits at the
 /// tip, the rotors at the joints; gravity is left to the hand. Hard stops end every joint; the
-/// inkwell holds the stylus until it is pulled out. Begins there. Deterministic: the same calls
-/// give the same bits.
+/// inkwell holds the stylus until it is pulled out. Deterministic: the same calls give
+/// the same bits.
 class JointPlant {
 public:
     explicit JointPlant(const JointPlantFigures& figures = {});
@@ -72,11 +73,11 @@ private:
     void try_the_inkwell();
 
     JointPlantFigures figures_;
-    omni::Joints joints_ = omni::inkwell_pose;
+    omni::Joints joints_;
     glm::dvec3 turning_{0.0};
     glm::dvec3 torque_{0.0};
     std::optional<Grip> grip_;
-    bool is_docked_ = true;
+    bool is_docked_;
     // What follows from the angles.
     glm::dmat3 jacobian_{0.0};
     base::Position tip_;
