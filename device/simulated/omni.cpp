@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/simulated/omni.hpp"
 
-#include "device/simulated/minimum_jerk.hpp"
-
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
@@ -13,15 +11,13 @@ namespace {
 
 // Each hand's workspace is centred where its side of the path is, so that all of it is in reach.
 constexpr double workspace_offset_m = 0.025;
-// The hand takes this long from its rest to its part.
-constexpr double approach_s = 0.8;
 
 } // namespace
 
 SimulatedOmni::SimulatedOmni(const Performer& performer)
     : performer_{performer},
       motion_{performer.person.hand, performer.plant.friction_n},
-      reactions_{performer.person},
+      person_{{performer.task, performer.options, performer.person}},
       velocity_{performer.plant.velocity_cutoff_hz}
 {
     const HandImpedance& hand = performer.person.hand;
@@ -47,47 +43,23 @@ SimulatedOmni::SimulatedOmni(const Performer& performer)
 void SimulatedOmni::on_cue(const Cue& cue)
 {
     centre_.x = cue.is_left ? -workspace_offset_m : workspace_offset_m;
-    part_ = Part{Script{performer_.task, cue, performer_.options, performer_.person.hand},
-                 HandNoise{cue.seed, cue.peer_id, performer_.person}, cue.start,
-                 performer_.task == Task::p1};
-    cued_at_.reset();
-    rest_ = position();
-}
-
-SimulatedOmni::Aim SimulatedOmni::aim(base::TimePoint now) const
-{
-    if (!part_ || !cued_at_) return {.intention = {.target = {rest_}}};
-    Aim aim{.intention = part_->script.at(now)};
-    glm::dvec3& target = aim.intention.target.value;
-    if (!part_->is_prescribed) {
-        const HandNoise::Value noise = part_->noise.at(base::to_seconds(now - part_->start));
-        target.x += noise.away_m;
-        aim.force_share = noise.force_share;
-    }
-    // First aside, then to the part: the straight way might push the cube.
-    const double u = base::to_seconds(now - *cued_at_) / approach_s;
-    if (u >= 1.0) return aim;
-    const glm::dvec3 aside{part_->script.aside_x(), 0.0, rest_.z};
-    const glm::dvec3 on_the_way = rest_ + minimum_jerk(2.0 * u) * (aside - rest_);
-    target = on_the_way + minimum_jerk(2.0 * u - 1.0) * (target - on_the_way);
-    return aim;
+    person_.on_cue(cue, position());
 }
 
 Sample SimulatedOmni::read(base::TimePoint now)
 {
     if (halted_.load(std::memory_order_relaxed)) force_ = glm::dvec3{0.0};
-    if (part_ && !cued_at_) cued_at_ = now;
-    const Aim intended = aim(now);
+    const Person::Aim aim = person_.aim(now);
     const bool lives = simulated_to_ && now - *simulated_to_ <= gap_max;
-    if (lives && now > *simulated_to_) advance(intended, now);
-    if (!lives) intended_ = intended.intention.target;
+    if (lives && now > *simulated_to_) advance(aim, now);
+    if (!lives) intended_ = aim.intention.target;
     simulated_to_ = now;
 
     const base::Position reported{quantised(position())};
     Sample sample;
     sample.hip = reported;
     sample.velocity = velocity_.at(reported, now);
-    sample.gripping = intended.intention.gripping;
+    sample.gripping = aim.intention.gripping;
     sample.buttons = sample.gripping ? 1 : 0;
     sample.sequence = ++reads_;
     return sample;
@@ -100,22 +72,13 @@ void SimulatedOmni::apply(const GovernedForce& force)
     force_ = base::limited(force.force(), performer_.plant.force_max_n).value;
 }
 
-void SimulatedOmni::advance(const Aim& intended, base::TimePoint now)
+void SimulatedOmni::advance(const Person::Aim& aim, base::TimePoint now)
 {
     const base::Duration elapsed = now - *simulated_to_;
-    base::Position target = intended.intention.target;
-    glm::dvec3 force = force_;
-    if (part_ && !part_->is_prescribed) {
-        const double toward = part_->script.pressing_toward();
-        const glm::dvec3 deviation = position() - intended_.value;
-        const Reaction reaction = reactions_.to(
-            {deviation, -toward * force_.x, intended.intention.pressing_n}, now, elapsed);
-        target.value.x += toward * reaction.farther_m;
-        force += reaction.force -
-                 (intended.force_share * performer_.person.hand.stiffness_n_per_m) * deviation;
-    }
-    go_on(target, force, elapsed);
-    intended_ = target;
+    const Person::Effort effort =
+        person_.effort(aim, {position() - intended_.value, force_}, now, elapsed);
+    go_on(effort.target, force_ + effort.force, elapsed);
+    intended_ = effort.target;
 }
 
 void SimulatedOmni::go_on(const base::Position& target, const glm::dvec3& force,

@@ -4,10 +4,7 @@
 
 #include "device/device.hpp"
 #include "device/simulated/hand_motion.hpp"
-#include "device/simulated/hand_noise.hpp"
-#include "device/simulated/operator.hpp"
-#include "device/simulated/reactions.hpp"
-#include "device/simulated/script.hpp"
+#include "device/simulated/person.hpp"
 #include "device/velocity_filter.hpp"
 
 #include <array>
@@ -35,8 +32,7 @@ struct Performer {
 };
 
 /// A simulated Omni held by a simulated hand that plays its part of a task. Not a human being:
-/// a linear hand with scripted intentions. P1 is a prescribed path: there the hand neither wavers
-/// nor reacts.
+/// a linear hand with scripted intentions.
 class SimulatedOmni final : public Device {
 public:
     explicit SimulatedOmni(const Performer& performer);
@@ -54,13 +50,7 @@ public:
     static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};
 
 private:
-    /// What the hand means to do, and by how much its force is off.
-    struct Aim {
-        Intention intention;
-        double force_share = 0.0;
-    };
-    [[nodiscard]] Aim aim(base::TimePoint now) const;
-    void advance(const Aim& intended, base::TimePoint now);
+    void advance(const Person::Aim& aim, base::TimePoint now);
     void go_on(const base::Position& target, const glm::dvec3& force, base::Duration elapsed);
     void stop_at_workspace_end(int axis);
     [[nodiscard]] glm::dvec3 position() const;
@@ -73,22 +63,12 @@ private:
     std::uint64_t reads_ = 0;
     glm::dvec3 centre_{0.0}; // of the workspace, in the scene
     HandMotion motion_;
-    Reactions reactions_;
+    Person person_;
     std::array<HandAxis, 3> axes_{HandAxis{}, HandAxis{}, HandAxis{.position_m = 0.035}};
     glm::dvec3 force_{0.0};
     base::Position intended_{{0.0, 0.0, 0.035}}; // at simulated_to_
     std::optional<base::TimePoint> simulated_to_;
     VelocityFilter velocity_;
-
-    struct Part {
-        Script script;
-        HandNoise noise;
-        base::TimePoint start;
-        bool is_prescribed;
-    };
-    std::optional<Part> part_;
-    std::optional<base::TimePoint> cued_at_;
-    glm::dvec3 rest_{0.0, 0.0, 0.035}; // where the hand was before its cue
 };
 
 } // namespace hapnet::device

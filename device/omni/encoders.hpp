@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/omni/geometry.hpp"
+#include "proto/base/math.hpp"
+
+#include <glm/vec3.hpp>
+
+namespace hapnet::device::omni {
+
+/// What the encoders of the three joints say. They count from where they were when the power came
+/// on: only the inkwell tells where that was.
+using Counts = glm::ivec3;
+
+inline constexpr double radians_per_count = base::two_pi / 15000.0;
+/// The shoulder's counts the other way round.
+inline constexpr glm::dvec3 encoder_signs{1.0, -1.0, 1.0};
+
+/// The angles, once `zero` is known: what the encoders' angle is where the joint's is nought.
+[[nodiscard]] inline Joints joints_at(const Counts& counts, const Joints& zero)
+{
+    return {radians_per_count * encoder_signs * glm::dvec3{counts} - zero.angles};
+}
+
+/// That zero, from the counts with the stylus in the inkwell.
+[[nodiscard]] inline Joints zero_from(const Counts& in_inkwell, const Joints& pose = inkwell_pose)
+{
+    return {radians_per_count * encoder_signs * glm::dvec3{in_inkwell} - pose.angles};
+}
+
+/// The counts at these angles: the nearest ones.
+[[nodiscard]] inline Counts counts_at(const Joints& joints, const Joints& zero)
+{
+    const glm::dvec3 exact = encoder_signs * (joints.angles + zero.angles) / radians_per_count;
+    Counts counts{0};
+    for (const int axis : {0, 1, 2}) {
+        counts[axis] = static_cast<int>(exact[axis] + (exact[axis] < 0.0 ? -0.5 : 0.5));
+    }
+    return counts;
+}
+
+} // namespace hapnet::device::omni

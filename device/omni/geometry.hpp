@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/space.hpp"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace hapnet::device::omni {
+
+// The PHANToM Omni's arm: a waist that turns about the vertical, an upper arm from the shoulder,
+// and a forearm that a parallelogram drives, so that both motors sit on the base and the forearm's
+// angle is absolute. Frame: x right, y up, z toward the user, metres; the origin is that of the
+// vendor's library, in the middle of the workspace. Lengths as usually published (Silva et al.
+// 2009; Sansanayuth et al. 2012), not measured.
+
+inline constexpr double link_m = 0.13335;   // of both links: 5.25 inches
+inline constexpr double height_m = 0.02335; // of the origin below the shoulder's axis
+inline constexpr double depth_m = 0.16835;  // of the origin before it
+
+/// Angles in radians: x the waist (positive turns the stylus to the left), y the shoulder from the
+/// horizontal, z the forearm from the vertical, which is absolute.
+struct Joints {
+    glm::dvec3 angles{0.0};
+};
+
+/// Where the mechanism ends: of waist, shoulder and elbow, which is forearm less shoulder. From a
+/// published model of the arm.
+struct JointRange {
+    double least;
+    double most;
+};
+inline constexpr JointRange waist_range{-0.98, 0.98};
+inline constexpr JointRange shoulder_range{0.0, 1.75};
+inline constexpr JointRange elbow_range{-0.81, 1.25};
+
+/// The angles with the stylus in its inkwell, as an open driver has them. The angles that the
+/// vendor's library gives there, from memory, agree to 0.04 rad.
+inline constexpr Joints inkwell_pose{{0.0, 0.23, -0.37}};
+
+/// The peak torque of each motor at its joint, N m: what makes 3.3 N in every direction at the
+/// origin, where the data sheet promises it. An estimate: no source says it.
+inline constexpr glm::dvec3 torque_max_nm{3.3 * depth_m, 3.3 * link_m, 3.3 * link_m};
+
+/// Figures of the data sheet.
+inline constexpr glm::dvec3 half_workspace_m{0.080, 0.060, 0.035};
+inline constexpr double force_max_n = 3.3;         // peak, at the origin
+inline constexpr double force_continuous_n = 0.88; // for 24 hours
+inline constexpr double friction_n = 0.26;         // back-drive, at the stylus
+inline constexpr double tip_mass_kg = 0.045;       // apparent
+/// What stays stable in the hand, below the 1.02 N/mm of the mechanism (CHAI3D's table).
+inline constexpr double stiffness_max_n_per_m = 700.0;
+inline constexpr double damping_max_ns_per_m = 5.0;
+
+/// Where the stylus is.
+[[nodiscard]] base::Position position_of(const Joints& joints);
+
+/// The angles that put the stylus there, with the elbow up; where that is out of reach, those of
+/// the stretched arm in its direction.
+[[nodiscard]] Joints joints_of(const base::Position& position);
+
+/// d position / d angle, m/rad, a column for each joint: torques are its transpose times the force
+/// at the stylus.
+[[nodiscard]] glm::dmat3 jacobian(const Joints& joints);
+
+/// The same from where the stylus is, by square roots alone; finite for every finite position.
+[[nodiscard]] glm::dmat3 jacobian_at(const base::Position& position);
+
+/// Whether the mechanism gets there, give or take `slack` radians.
+[[nodiscard]] bool is_reachable(const Joints& joints, double slack = 0.0);
+
+} // namespace hapnet::device::omni

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/omni/tracker.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace hapnet::device::omni {
+
+namespace {
+
+// A stylus that rests jitters by less.
+constexpr int resting_counts = 3;
+// After so many lost words a hand may be anywhere.
+constexpr std::uint32_t skipped_max = 100;
+// The ranges of the joints and the inkwell's pose are known to no more.
+constexpr double slack_radians = 0.15;
+
+int farthest(const Counts& a, const Counts& b)
+{
+    return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+}
+
+} // namespace
+
+void Tracker::on_word(const Word& word, base::TimePoint now)
+{
+    heard_at_ = now;
+    heard_nonsense_ = false;
+    if (is_jump(word)) {
+        lost_ = true;
+        zero_.reset();
+        resting_since_.reset();
+    }
+    counts_ = word.counts;
+    follow_dock(word, now);
+    buttons_.update(word.buttons, now);
+    buttons_.tell(sample_);
+    sample_.docked = word.docked;
+    ++sample_.sequence;
+    if (!zero_) return;
+    const Joints joints = joints_at(word.counts, *zero_);
+    if (!is_reachable(joints, slack_radians)) {
+        lost_ = true;
+        return zero_.reset();
+    }
+    sample_.hip = position_of(joints);
+    sample_.velocity = velocity_.at(sample_.hip, now);
+}
+
+bool Tracker::is_jump(const Word& word) const
+{
+    if (!counts_ || word.skipped > skipped_max) return false;
+    return farthest(word.counts, *counts_) > jump_max_counts * (1 + static_cast<int>(word.skipped));
+}
+
+void Tracker::follow_dock(const Word& word, base::TimePoint now)
+{
+    if (!word.docked) return resting_since_.reset();
+    if (!resting_since_ || farthest(word.counts, resting_at_) > resting_counts) {
+        resting_since_ = now;
+        resting_at_ = word.counts;
+    }
+    if (now - *resting_since_ < rest) return;
+    lost_ = false;
+    broken_ = false;
+    if (zero_ && farthest(word.counts, counts_at(in_inkwell_, *zero_)) <= resting_counts) return;
+    zero_ = zero_from(word.counts, in_inkwell_);
+    velocity_ = VelocityFilter{30.0}; // that it is somewhere else now is no motion
+}
+
+const Sample& Tracker::at(base::TimePoint now)
+{
+    if (!heard_at_) heard_at_ = now;
+    sample_.calibrated = zero_.has_value();
+    sample_.fault = fault_at(now);
+    if (!zero_ || sample_.fault != Fault::none) sample_.velocity = {};
+    return sample_;
+}
+
+Fault Tracker::fault_at(base::TimePoint now) const
+{
+    if (gone_) return Fault::disconnected;
+    if (now - *heard_at_ >= silence_max) {
+        return heard_nonsense_ ? Fault::communication : Fault::timeout;
+    }
+    if (broken_) return Fault::communication;
+    return lost_ ? Fault::not_calibrated : Fault::none;
+}
+
+CalibrationStep Tracker::calibration() const
+{
+    if (gone_) return CalibrationStep::failed;
+    if (zero_ && !broken_) return CalibrationStep::done;
+    return resting_since_ ? CalibrationStep::busy : CalibrationStep::dock_stylus;
+}
+
+bool Tracker::may_push() const { return zero_ && !sample_.docked && sample_.fault == Fault::none; }
+
+} // namespace hapnet::device::omni

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/buttons.hpp"
+#include "device/device.hpp"
+#include "device/omni/encoders.hpp"
+#include "device/velocity_filter.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::device::omni {
+
+/// One word from an Omni.
+struct Word {
+    Counts counts{0};
+    bool docked = false;
+    std::uint8_t buttons = 0;  // one bit each, 1: down
+    std::uint32_t skipped = 0; // so many words before it were lost
+};
+
+/// What the words of an Omni come to: where the stylus is, and what is wrong. Its encoders mean
+/// nothing until the stylus has rested in its inkwell for 50 ms; and nothing again after they have
+/// jumped farther than a hand moves, or to where the mechanism cannot be, until it rests there
+/// again.
+class Tracker {
+public:
+    explicit Tracker(const Joints& in_inkwell = inkwell_pose) : in_inkwell_{in_inkwell} {}
+
+    // News, with a `now` that never runs backwards.
+    void on_word(const Word& word, base::TimePoint now);
+    /// It spoke and was not understood.
+    void on_nonsense() { heard_nonsense_ = true; }
+    /// Something happened after which the person is to dock the stylus before anything else.
+    void on_break() { broken_ = true; }
+    /// It has gone, for good.
+    void on_gone() { gone_ = true; }
+
+    /// The state at `now`; the last position where no newer one is known.
+    [[nodiscard]] const Sample& at(base::TimePoint now);
+    [[nodiscard]] CalibrationStep calibration() const;
+    /// Whether forces mean something where it is: calibrated, out of its inkwell, nothing wrong.
+    [[nodiscard]] bool may_push() const;
+
+    /// Farther than this in one word no hand moves: 5 m/s at 1000 words per second.
+    static constexpr int jump_max_counts = 120;
+    /// So long the stylus rests in the inkwell before that counts.
+    static constexpr base::Duration rest{std::chrono::milliseconds{50}};
+    /// So long it may be silent.
+    static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
+
+private:
+    void follow_dock(const Word& word, base::TimePoint now);
+    [[nodiscard]] bool is_jump(const Word& word) const;
+    [[nodiscard]] Fault fault_at(base::TimePoint now) const;
+
+    Joints in_inkwell_;
+    std::optional<Joints> zero_; // nullopt: not calibrated
+    std::optional<Counts> counts_;
+    std::optional<base::TimePoint> heard_at_;
+    std::optional<base::TimePoint> resting_since_;
+    Counts resting_at_{0};
+    bool lost_ = false; // its calibration
+    bool broken_ = false;
+    bool gone_ = false;
+    bool heard_nonsense_ = false; // since the last word
+    Buttons buttons_;
+    VelocityFilter velocity_{30.0}; // Hz: a count a millisecond is 55 mm/s
+    Sample sample_{.hip = {}, .velocity = {}, .calibrated = false};
+};
+
+} // namespace hapnet::device::omni

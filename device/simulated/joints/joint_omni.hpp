@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/omni/tracker.hpp"
+#include "device/simulated/joints/mishap.hpp"
+#include "device/simulated/joints/plant.hpp"
+#include "device/simulated/person.hpp"
+
+#include <atomic>
+#include <optional>
+
+namespace hapnet::device {
+
+/// A simulated Omni, joint by joint, and who holds it.
+struct JointOmniSettings {
+    Role role{};
+    JointPlantFigures plant{};
+    Mishaps mishaps{};
+};
+
+/// A simulated Omni with its encoders, motors, friction, stops and inkwell, held by a simulated
+/// person: for the conformance of devices, and where the Cartesian one is too well-behaved. It
+/// starts docked and is calibrated by that; on its cue the person takes the stylus out, and acts
+/// the task. Not a human being: a linear hand with scripted intentions.
+class JointOmni final : public Device {
+public:
+    explicit JointOmni(const JointOmniSettings& settings);
+
+    [[nodiscard]] const Identity& identity() const override { return identity_; }
+    [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
+    [[nodiscard]] CalibrationStep calibrate(base::TimePoint now) override;
+    [[nodiscard]] Sample read(base::TimePoint now) override;
+    void apply(const GovernedForce& force) override;
+    void halt() noexcept override { halted_.store(true, std::memory_order_relaxed); }
+    void on_cue(const Cue& cue) override;
+
+    /// By a script instead of the person: the hand goes there, evenly in a second, and stays.
+    void lead_to(const base::Position& place);
+    /// ... and presses the buttons: one bit each.
+    void press(std::uint8_t buttons) { pressed_ = buttons; }
+    void set_mishaps(Mishaps mishaps) { mishaps_ = std::move(mishaps); }
+
+    [[nodiscard]] const JointPlant& plant() const { return plant_; }
+
+    /// A longer gap between reads is not lived through.
+    static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};
+
+private:
+    /// A way of the hand, outside of any task.
+    struct Walk {
+        base::Position from;
+        base::Position to;
+        std::optional<base::TimePoint> start; // nullopt: with the next read
+    };
+    [[nodiscard]] Grip grip_at(base::TimePoint now, base::Duration elapsed);
+    [[nodiscard]] base::Position walked(base::TimePoint now);
+    void advance(base::TimePoint now);
+    void speak(base::TimePoint now);
+
+    Identity identity_;
+    Capabilities capabilities_;
+    JointPlant plant_;
+    Person person_;
+    Mishaps mishaps_;
+    omni::Tracker tracker_;
+    std::atomic<bool> halted_{false};
+    std::optional<Walk> walk_;
+    bool is_cued_ = false;
+    bool is_gripping_ = false; // the person's will
+    std::uint8_t pressed_ = 0; // a script's
+    base::Position intended_;  // at lived_to_
+    std::uint64_t words_ = 0;
+    std::optional<base::TimePoint> start_;
+    std::optional<base::TimePoint> lived_to_;
+};
+
+} // namespace hapnet::device

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/simulated/person.hpp"
+
+#include "device/simulated/minimum_jerk.hpp"
+
+namespace hapnet::device {
+
+namespace {
+
+// The hand takes this long from its rest to its part.
+constexpr double approach_s = 0.8;
+
+} // namespace
+
+Person::Person(const Role& role) : role_{role}, reactions_{role.person} {}
+
+void Person::on_cue(const Cue& cue, const glm::dvec3& rest)
+{
+    part_ = Part{Script{role_.task, cue, role_.options, role_.person.hand},
+                 HandNoise{cue.seed, cue.peer_id, role_.person}, cue.start, role_.task == Task::p1};
+    cued_at_.reset();
+    rest_ = rest;
+}
+
+Person::Aim Person::aim(base::TimePoint now)
+{
+    if (!part_) return {.intention = {.target = {rest_}}};
+    if (!cued_at_) cued_at_ = now;
+    Aim aim{.intention = part_->script.at(now)};
+    glm::dvec3& target = aim.intention.target.value;
+    if (!part_->is_prescribed) {
+        const HandNoise::Value noise = part_->noise.at(base::to_seconds(now - part_->start));
+        target.x += noise.away_m;
+        aim.force_share = noise.force_share;
+    }
+    // First aside, then to the part: the straight way might push the cube.
+    const double u = base::to_seconds(now - *cued_at_) / approach_s;
+    if (u >= 1.0) return aim;
+    const glm::dvec3 aside{part_->script.aside_x(), 0.0, rest_.z};
+    const glm::dvec3 on_the_way = rest_ + minimum_jerk(2.0 * u) * (aside - rest_);
+    target = on_the_way + minimum_jerk(2.0 * u - 1.0) * (target - on_the_way);
+    return aim;
+}
+
+Person::Effort Person::effort(const Aim& aim, const Feeling& feeling, base::TimePoint now,
+                              base::Duration elapsed)
+{
+    Effort effort{.target = aim.intention.target};
+    if (!part_ || part_->is_prescribed) return effort;
+    const double toward = part_->script.pressing_toward();
+    const Reaction reaction = reactions_.to(
+        {feeling.deviation, -toward * feeling.force.x, aim.intention.pressing_n}, now, elapsed);
+    effort.target.value.x += toward * reaction.farther_m;
+    effort.force =
+        reaction.force - (aim.force_share * hand().stiffness_n_per_m) * feeling.deviation;
+    return effort;
+}
+
+} // namespace hapnet::device

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/simulated/hand_noise.hpp"
+#include "device/simulated/operator.hpp"
+#include "device/simulated/reactions.hpp"
+#include "device/simulated/script.hpp"
+
+#include <optional>
+
+namespace hapnet::device {
+
+/// Whose part in which task.
+struct Role {
+    Task task = Task::p1;
+    TaskOptions options{};
+    Operator person{};
+};
+
+/// A simulated person who plays a part of a task: what the hand means to do at a time, and how it
+/// answers what it feels. Not a human being: a script, a wavering will and reflexes. P1 is a
+/// prescribed path: there the hand neither wavers nor reacts.
+class Person {
+public:
+    explicit Person(const Role& role);
+
+    /// From `rest`, where the hand is.
+    void on_cue(const Cue& cue, const glm::dvec3& rest);
+
+    /// What the hand means to do, and by how much its force is off.
+    struct Aim {
+        Intention intention;
+        double force_share = 0.0;
+    };
+    /// The way to its part begins with the first of these after the cue.
+    [[nodiscard]] Aim aim(base::TimePoint now);
+
+    /// What it feels: where it is off its intention, and the device's force.
+    struct Feeling {
+        glm::dvec3 deviation{0.0};
+        glm::dvec3 force{0.0};
+    };
+    /// Where it pulls then, and with which force besides its own impedance's.
+    struct Effort {
+        base::Position target;
+        glm::dvec3 force{0.0};
+    };
+    /// Once per aim().
+    [[nodiscard]] Effort effort(const Aim& aim, const Feeling& feeling, base::TimePoint now,
+                                base::Duration elapsed);
+
+    [[nodiscard]] const HandImpedance& hand() const { return role_.person.hand; }
+
+private:
+    struct Part {
+        Script script;
+        HandNoise noise;
+        base::TimePoint start;
+        bool is_prescribed;
+    };
+
+    Role role_;
+    Reactions reactions_;
+    std::optional<Part> part_;
+    std::optional<base::TimePoint> cued_at_;
+    glm::dvec3 rest_{0.0, 0.0, 0.035}; // where the hand was before its cue
+};
+
+} // namespace hapnet::device
