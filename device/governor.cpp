@@ -2,54 +2,188 @@
 // SPDX-License-Identifier: MIT
 #include "device/governor.hpp"
 
+#include "device/governor/joint_torque.hpp"
+#include "device/governor/workspace.hpp"
+
 #include <algorithm>
 
 namespace hapnet::device {
 
-GovernedForce Governor::govern(const Wish& wish, const Sample& sample, base::TimePoint now)
+namespace {
+
+/// A force that only grows smaller, without turning round.
+bool is_release(const base::Force& from, const base::Force& to)
 {
-    const bool usable = sample.fault == Fault::none && sample.calibrated && !sample.docked;
-    const base::Force force = limit(wish.force, wish.permitted && usable, now);
-    return strength_ > 0.0 ? GovernedForce{force} : GovernedForce{};
+    const glm::dvec3& a = from.value;
+    const glm::dvec3& b = to.value;
+    const double along = a.x * b.x + a.y * b.y + a.z * b.z;
+    return along >= b.x * b.x + b.y * b.y + b.z * b.z;
 }
 
-base::Force Governor::limit(base::Force wanted, bool permitted, base::TimePoint now)
-{
-    base::Duration gap = last_time_ ? now - *last_time_ : base::Duration{0};
-    last_time_ = now;
-    if (gap > limits_.stall_max) {
-        ++counters_.stalled;
-        strength_ = 0.0;
-        last_ = {};
-        gap = base::Duration{0}; // as if this were the first tick
-    }
-    const base::Duration step_time = std::min(gap, limits_.tick);
+} // namespace
 
+std::string_view name_of(GovernorState state)
+{
+    switch (state) {
+    case GovernorState::off: return "off";
+    case GovernorState::calibrating: return "calibrating";
+    case GovernorState::ready: return "ready";
+    case GovernorState::ramping: return "ramping";
+    case GovernorState::active: return "active";
+    case GovernorState::fault: return "fault";
+    }
+    return "off";
+}
+
+GovernorState Governor::state() const
+{
+    if (latch_.is_closed()) return GovernorState::fault;
+    if (finding_ == Finding::unheard) return GovernorState::off;
+    if (finding_ == Finding::uncalibrated) return GovernorState::calibrating;
+    if (strength_ == 0.0) return GovernorState::ready;
+    return strength_ < 1.0 ? GovernorState::ramping : GovernorState::active;
+}
+
+GovernedForce Governor::govern(const Wish& wish, const Sample& sample, base::TimePoint now)
+{
+    const base::Duration gap = pass(now);
+    if (!may_push(sample, gap)) to_zero();
+    const bool usable = finding_ == Finding::usable && !latch_.is_closed();
+    fade(wish.permitted && usable && limits_.axes_out > 0, gap);
+    last_ = shape(wish.force, sample, std::min(gap, limits_.tick));
+    return strength_ > 0.0 ? GovernedForce{last_} : GovernedForce{};
+}
+
+void Governor::latch(const Latched& cause)
+{
+    if (!latch_.close(cause)) return;
+    to_zero();
+    switch (cause.trip) {
+    case Trip::none:
+    case Trip::device: ++counters_.device_faults; break;
+    case Trip::silence: ++counters_.silence_faults; break;
+    case Trip::loop: ++counters_.loop_faults; break;
+    case Trip::speed: ++counters_.speed_trips; break;
+    case Trip::jump: ++counters_.jump_trips; break;
+    case Trip::nonsense: ++counters_.nonsense_trips; break;
+    }
+}
+
+void Governor::reset()
+{
+    if (!latch_.is_closed()) return;
+    latch_.open();
+    ++counters_.resets;
+}
+
+void Governor::to_zero()
+{
+    strength_ = 0.0;
+    last_ = {};
+    from_zero_ = true;
+}
+
+/// The time since the last tick; after a stall as if this were the first one.
+base::Duration Governor::pass(base::TimePoint now)
+{
+    const base::Duration gap = last_time_ ? now - *last_time_ : base::Duration{0};
+    last_time_ = now;
+    heat_.pass(last_, gap);
+    if (gap <= limits_.stall_max) return gap;
+    ++counters_.stalled;
+    to_zero();
+    if (gap > limits_.fault_after) latch({Fault::timeout, Trip::loop});
+    return base::Duration{0};
+}
+
+bool Governor::may_push(const Sample& sample, base::Duration gap)
+{
+    const SampleCheck::Result result = check_.look(limits_, sample, gap, strength_ > 0.0);
+    finding_ = result.finding;
+    count(finding_);
+    if (finding_ == Finding::tripped) latch(result.fault);
+    if (!latch_.is_closed()) return finding_ == Finding::usable;
+    const bool is_well = finding_ == Finding::usable || finding_ == Finding::docked;
+    if (!is_well) {
+        latch_.on_bad_sample();
+    } else if (latch_.on_sample(sample, gap)) {
+        ++counters_.resets;
+    }
+    return false; // from the next tick on
+}
+
+void Governor::count(Finding finding)
+{
+    switch (finding) {
+    case Finding::silent: ++counters_.silent; break;
+    case Finding::docked: ++counters_.docked; break;
+    case Finding::uncalibrated: ++counters_.uncalibrated; break;
+    case Finding::too_fast: ++counters_.too_fast; break;
+    case Finding::usable:
+    case Finding::unheard:
+    case Finding::tripped: break;
+    }
+}
+
+void Governor::fade(bool permitted, base::Duration gap)
+{
     // A late tick fades by all the time that has passed, but ramps in by one tick only.
+    const base::Duration step_time = std::min(gap, limits_.tick);
     const double change = permitted
                               ? base::to_seconds(step_time) / base::to_seconds(limits_.ramp_in)
                               : -base::to_seconds(gap) / base::to_seconds(limits_.fade_out);
     strength_ = std::clamp(strength_ + change, 0.0, 1.0);
     if (strength_ < 1.0) ++counters_.faded;
+    if (strength_ == 0.0) from_zero_ = true;
+    if (strength_ == 1.0) from_zero_ = false;
+}
 
+base::Force Governor::shape(base::Force wanted, const Sample& sample, base::Duration step_time)
+{
     if (!base::is_finite(wanted)) {
         ++counters_.not_finite;
-        last_ = {};
-        return last_;
+        return {};
+    }
+    if (limits_.axes_out < 3) {
+        const base::Force all = wanted;
+        for (int axis = std::max(0, limits_.axes_out); axis < 3; ++axis) wanted.value[axis] = 0.0;
+        if (!(wanted == all)) ++counters_.flattened;
+    }
+    const bool inside = is_inside(limits_, sample.hip);
+    if (!inside) {
+        const base::Force all = wanted;
+        wanted = with_outward_part_faded(limits_, sample.hip, wanted);
+        if (!(wanted == all)) ++counters_.outside;
     }
     base::Force force = base::limited(wanted, limits_.force_max_n);
     if (!(force == wanted)) ++counters_.clamped;
-    force = strength_ * force;
-
-    const double step_max = limits_.slew_max_n_per_s * base::to_seconds(step_time);
-    const base::Force step = force - last_;
-    if (base::norm(step) > step_max) {
-        ++counters_.slewed;
-        force = last_ + base::limited(step, step_max);
+    const double bearable_n = heat_.force_max_n(limits_.force_max_n);
+    if (bearable_n < limits_.force_max_n && base::norm(force) > bearable_n) {
+        ++counters_.heat_limited;
+        force = base::limited(force, bearable_n);
     }
-    if (strength_ == 0.0) force = {}; // zero when in doubt, whatever the slew
-    last_ = force;
+    force = slew(strength_ * force, step_time);
+    if (strength_ == 0.0) return {}; // zero when in doubt, whatever the slew
+    if (!inside) force = with_outward_part_cut(limits_, sample.hip, force);
+    if (limits_.joints) {
+        const double share = share_that_joints_bear(*limits_.joints, sample.hip, force);
+        if (share < 1.0) ++counters_.joint_limited;
+        force = share * force;
+    }
     return force;
+}
+
+base::Force Governor::slew(const base::Force& wanted, base::Duration step_time)
+{
+    double rate = limits_.slew_max_n_per_s;
+    if (from_zero_ && !is_release(last_, wanted)) {
+        rate = std::min(rate, limits_.slew_ramping_n_per_s);
+    }
+    const double step_max = rate * base::to_seconds(step_time);
+    const base::Force step = wanted - last_;
+    if (base::norm(step) <= step_max) return wanted;
+    ++counters_.slewed;
+    return last_ + base::limited(step, step_max);
 }
 
 } // namespace hapnet::device

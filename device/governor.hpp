@@ -4,6 +4,11 @@
 
 #include "device/device.hpp"
 #include "device/governed_force.hpp"
+#include "device/governor/fault_latch.hpp"
+#include "device/governor/limits.hpp"
+#include "device/governor/motor_heat.hpp"
+#include "device/governor/sample_check.hpp"
+#include "device/governor/trip.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
@@ -12,24 +17,29 @@
 
 namespace hapnet::device {
 
-/// What a hand may be given. Defaults: the Omni's peak force, and a slew that lets a contact
-/// rise in a few ticks but not kick.
-struct GovernorLimits {
-    double force_max_n = 3.3;
-    double slew_max_n_per_s = 1000.0;
-    base::Duration fade_out{std::chrono::milliseconds{50}};
-    base::Duration ramp_in{std::chrono::seconds{1}};
-    base::Duration tick{std::chrono::milliseconds{1}};       // a late tick grants no larger step
-    base::Duration stall_max{std::chrono::milliseconds{20}}; // a longer gap starts from zero
-};
-
-/// How often each rule had to act.
+/// How often each rule had to act: in ticks, where nothing else is said.
 struct GovernorCounters {
-    std::uint64_t not_finite = 0;
-    std::uint64_t clamped = 0;
+    std::uint64_t not_finite = 0;    // wishes that were no numbers
+    std::uint64_t clamped = 0;       // to the peak
+    std::uint64_t heat_limited = 0;  // to what warm motors bear
+    std::uint64_t joint_limited = 0; // to what the joints' motors have
+    std::uint64_t flattened = 0;     // to the axes that have motors
+    std::uint64_t outside = 0;       // of the workspace, where an outward part was taken away
     std::uint64_t slewed = 0;
     std::uint64_t faded = 0;   // ticks at less than full strength
     std::uint64_t stalled = 0; // gaps between ticks that were too long
+    std::uint64_t silent = 0;  // the device said nothing new for too long
+    std::uint64_t docked = 0;
+    std::uint64_t uncalibrated = 0;
+    std::uint64_t too_fast = 0; // without force: it waits until the stylus is slower
+    // Faults that were latched, by what latched them.
+    std::uint64_t device_faults = 0;
+    std::uint64_t silence_faults = 0;
+    std::uint64_t loop_faults = 0;
+    std::uint64_t speed_trips = 0;
+    std::uint64_t jump_trips = 0;
+    std::uint64_t nonsense_trips = 0;
+    std::uint64_t resets = 0; // faults that an operator ended
 };
 
 /// What the scene wants of a hand.
@@ -38,28 +48,67 @@ struct Wish {
     bool permitted = false; // there is a session, and its other side is heard
 };
 
-/// Stands between what the scene wants and what a motor gets; the only way to a motor.
-/// Non-finite becomes zero at once; without permission (no session, stale remote, unusable
-/// sample) the force fades to zero, and with it back ramps in again; the norm is clamped with the
-/// direction kept; the change per tick is limited; after a stall of the loop the force starts
-/// again from zero and ramps in.
+/// Where a governor stands.
+enum class GovernorState : std::uint8_t {
+    off,         // the device has not said a word yet
+    calibrating, // positions mean nothing yet
+    ready,       // zero force: docked, or nothing is permitted
+    ramping,     // at part of its strength: on its way in or out
+    active,
+    fault, // latched: zero force until an operator has acted
+};
+
+/// Such as "ramping": in statistics.
+[[nodiscard]] std::string_view name_of(GovernorState state);
+
+/// Stands between what the scene wants and what a motor gets; the only way to a motor. Its rules,
+/// their numbers and the reasons for them: docs/GOVERNOR.md. In short: zero at once for what is no
+/// number, for a stylus that is docked, uncalibrated, silent, too fast or at fault, and after a
+/// stall of the loop; without permission the force fades; after any zero it ramps in again; the
+/// norm is clamped with the direction kept, to the peak, to what warm motors bear and to what the
+/// joints' motors have; the change per tick is limited. What is wrong with the device is latched.
 class Governor {
 public:
-    explicit Governor(const GovernorLimits& limits) : limits_{limits} {}
+    explicit Governor(const GovernorLimits& limits)
+        : limits_{limits}, heat_{limits.force_continuous_n, limits.heat_time}
+    {}
 
     /// The force to apply now. Call once per tick, with what the device just said; `now` never runs
     /// backwards.
     [[nodiscard]] GovernedForce govern(const Wish& wish, const Sample& sample, base::TimePoint now);
 
+    /// Somebody else found a reason to stop, such as a watchdog: zero from the next tick on.
+    void latch(const Latched& cause);
+    /// An operator's word that the fault is over; it comes back if it is not.
+    void reset();
+
+    [[nodiscard]] GovernorState state() const;
+    /// The latched fault; Fault::none in any state but fault.
+    [[nodiscard]] const Latched& fault() const { return latch_.cause(); }
     [[nodiscard]] const GovernorCounters& counters() const { return counters_; }
+    [[nodiscard]] const GovernorLimits& limits() const { return limits_; }
+    /// Of the motors, by the forces so far: above 1 the limit goes down.
+    [[nodiscard]] double heat() const { return heat_.heat(); }
 
 private:
-    [[nodiscard]] base::Force limit(base::Force wanted, bool permitted, base::TimePoint now);
+    [[nodiscard]] base::Duration pass(base::TimePoint now);
+    [[nodiscard]] bool may_push(const Sample& sample, base::Duration gap);
+    void count(Finding finding);
+    void fade(bool permitted, base::Duration gap);
+    [[nodiscard]] base::Force shape(base::Force wanted, const Sample& sample,
+                                    base::Duration step_time);
+    [[nodiscard]] base::Force slew(const base::Force& wanted, base::Duration step_time);
+    void to_zero();
 
     GovernorLimits limits_;
     GovernorCounters counters_;
+    MotorHeat heat_;
+    SampleCheck check_;
+    FaultLatch latch_;
+    Finding finding_ = Finding::unheard; // of the last sample
     base::Force last_;
     double strength_ = 0.0; // 0: nothing passes, 1: all does
+    bool from_zero_ = true; // it has not been at full strength since it was at zero
     std::optional<base::TimePoint> last_time_;
 };
 

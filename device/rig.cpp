@@ -4,12 +4,15 @@
 
 #include "proto/base/ensure.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace hapnet::device {
 
 Rig::Rig(std::unique_ptr<Device> device, const GovernorLimits& limits, const Mount& mount)
-    : device_{std::move(device)}, governor_{limits}, mount_{mount}
+    : device_{std::move(device)},
+      governor_{limits_for(device_->capabilities(), limits)},
+      mount_{mount}
 {
     base::ensure(mount.scale > 0.0);
 }
@@ -17,12 +20,25 @@ Rig::Rig(std::unique_ptr<Device> device, const GovernorLimits& limits, const Mou
 const Sample& Rig::read(base::TimePoint now)
 {
     if (!own_.calibrated) calibration_ = device_->calibrate(now);
+    const std::uint64_t before = own_.sequence;
     own_ = device_->read(now);
+    count(before);
     if (own_.calibrated) calibration_ = CalibrationStep::done;
     scene_ = own_;
     scene_.hip = mount_.to_scene(own_.hip);
     scene_.velocity = mount_.to_scene(own_.velocity);
     return scene_;
+}
+
+void Rig::count(std::uint64_t sequence_before)
+{
+    ++counters_.reads;
+    if (own_.sequence != sequence_before) {
+        repeated_ = 0;
+        return;
+    }
+    ++counters_.repeated;
+    counters_.repeated_most = std::max(counters_.repeated_most, ++repeated_);
 }
 
 base::Force Rig::apply(const base::Force& wanted, bool permitted, base::TimePoint now)

@@ -10,10 +10,18 @@
 
 namespace hapnet::device {
 
+/// How a device kept up.
+struct RigCounters {
+    std::uint64_t reads = 0;
+    std::uint64_t repeated = 0;      // of them without a new word from the device
+    std::uint64_t repeated_most = 0; // in a row
+};
+
 /// A device mounted in the scene, with the governor in front of its motors: all that a loop sees of
 /// it. What goes in and comes out is in the scene's frame.
 class Rig {
 public:
+    /// The limits of the device itself hold, too: see limits_for().
     Rig(std::unique_ptr<Device> device, const GovernorLimits& limits, const Mount& mount = {});
 
     /// Calibrates as far as that is needed, and reads.
@@ -23,18 +31,23 @@ public:
 
     [[nodiscard]] const Governor& governor() const { return governor_; }
     [[nodiscard]] Governor& governor() { return governor_; }
+    [[nodiscard]] const RigCounters& counters() const { return counters_; }
     [[nodiscard]] Device& device() { return *device_; }
     [[nodiscard]] const Device& device() const { return *device_; }
     [[nodiscard]] const Mount& mount() const { return mount_; }
     [[nodiscard]] CalibrationStep calibration() const { return calibration_; } // of the last read()
 
 private:
+    void count(std::uint64_t sequence_before);
+
     std::unique_ptr<Device> device_;
     Governor governor_;
     Mount mount_;
     CalibrationStep calibration_ = CalibrationStep::done;
-    Sample own_;   // the last one, as the device gave it
-    Sample scene_; // ... and in the scene
+    RigCounters counters_;
+    std::uint64_t repeated_ = 0; // in a row
+    Sample own_;                 // the last one, as the device gave it
+    Sample scene_;               // ... and in the scene
 };
 
 } // namespace hapnet::device

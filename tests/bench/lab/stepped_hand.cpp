@@ -21,7 +21,12 @@ SteppedHand::SteppedHand(const device::Performer& performer, int steps_a_read)
     : performer_{performer},
       steps_a_read_{steps_a_read},
       velocity_{performer.plant.velocity_cutoff_hz}
-{}
+{
+    capabilities_.force_max_n = performer.plant.force_max_n;
+    capabilities_.force_continuous_n = performer.plant.force_continuous_n;
+    capabilities_.workspace_min.value.x -= workspace_offset_m;
+    capabilities_.workspace_max.value.x += workspace_offset_m;
+}
 
 void SteppedHand::on_cue(const device::Cue& cue)
 {
@@ -64,6 +69,7 @@ device::Sample SteppedHand::read(base::TimePoint now)
     sample.hip = reported;
     sample.velocity = velocity_.at(reported, now);
     sample.gripping = intended.gripping;
+    sample.sequence = ++reads_;
     return sample;
 }
 

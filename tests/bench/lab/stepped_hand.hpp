@@ -47,6 +47,7 @@ private:
     device::Identity identity_{.backend = "steps", .model = "a hand in steps"};
     device::Capabilities capabilities_{};
     int steps_a_read_;
+    std::uint64_t reads_ = 0;
     glm::dvec3 centre_{0.0}; // of the workspace
     glm::dvec3 position_{0.0, 0.0, 0.035};
     glm::dvec3 motion_{0.0};

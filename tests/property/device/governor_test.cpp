@@ -38,14 +38,16 @@ TEST(Governor, NeverGivesAHandMoreThanItsLimitsWhateverItIsAskedFor)
     Governor governor{limits};
     base::TimePoint now{1h};
     base::Force before;
+    Sample sample;
     std::uint64_t felt = 0;
     for (std::uint64_t round = 0; round < rounds; ++round) {
         const bool stalls = stream.below(2000, round, 13) == 0;
         const base::Duration elapsed{stream.below(stalls ? 100'000'000 : 2'000'000, round, 11)};
         const bool permitted = stream.below(50, round / 200, 12) != 0;
         now += elapsed;
+        ++sample.sequence;
         const base::Force force =
-            governor.govern({wish(stream, round), permitted}, {}, now).force();
+            governor.govern({wish(stream, round), permitted}, sample, now).force();
         ASSERT_TRUE(base::is_finite(force)) << round;
         ASSERT_LE(base::norm(force), limits.force_max_n * (1.0 + 1e-12)) << round;
         const double step_max =

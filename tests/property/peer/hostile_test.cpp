@@ -45,6 +45,7 @@ TEST(HostileRemote, NeverMakesAForceThatIsNotFiniteOrExceedsThePeak)
         Pair pair;
         pair.run_until_started();
         device::Governor governor{{}};
+        device::Sample sample;
         const wire::State genuine = pair.state_sent_by(1).value();
         double felt = 0.0;
         for (std::uint64_t round = 0; round < 2000; ++round) {
@@ -53,8 +54,9 @@ TEST(HostileRemote, NeverMakesAForceThatIsNotFiniteOrExceedsThePeak)
             pair.hands[0] = pushing(0.003 * stream.uniform(round / 100, 2000));
             pair.hands[0].gripping = stream.below(4, round / 100, 2001) == 0;
             pair.step();
+            ++sample.sequence;
             const base::Force force =
-                governor.govern({pair.ticks[0].force, pair.ticks[0].permitted}, {}, pair.now)
+                governor.govern({pair.ticks[0].force, pair.ticks[0].permitted}, sample, pair.now)
                     .force();
             ASSERT_TRUE(base::is_finite(pair.ticks[0].force)) << seed << " " << round;
             ASSERT_LE(base::norm(force), 3.3 + 1e-12) << seed << " " << round;

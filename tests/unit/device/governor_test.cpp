@@ -1,47 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "device/governor.hpp"
+#include "tests/support/device/governed.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>
 #include <limits>
-#include <tuple>
 
 namespace hapnet::device {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr base::TimePoint start{1h};
 // A thousand additions of 0.001 and a product: far below a nanonewton.
 constexpr double rounding = 1e-12;
 
-/// A governor that is asked once per millisecond.
-class Ticks {
-public:
-    explicit Ticks(const GovernorLimits& limits = {}) : governor{limits} {}
-
-    base::Force operator()(base::Force wanted, bool permitted = true)
-    {
-        now_ += 1ms;
-        return governor.govern({wanted, permitted}, Sample{}, now_).force();
-    }
-
-    /// At full strength, at rest.
-    static Ticks ramped_in(const GovernorLimits& limits = {})
-    {
-        Ticks ticks{limits};
-        for (int i = 0; i <= 1001; ++i) ticks({});
-        return ticks;
-    }
-
-    Governor governor;
-
-private:
-    base::TimePoint now_ = start;
-};
-
-base::Force along_x(double newtons) { return {{newtons, 0.0, 0.0}}; }
+using test::along_x;
+using Ticks = test::Governed;
 
 TEST(Governor, RampsInOverASecondFromThePermissionOn)
 {
@@ -114,32 +88,21 @@ TEST(Governor, LetsAForceRiseByANewtonPerMillisecond)
 
 TEST(Governor, GrantsALateTickNoLargerStepThanAPunctualOne)
 {
-    Governor governor{{}};
-    auto now = start;
-    for (int i = 0; i <= 1001; ++i)
-        std::ignore = governor.govern({{}, true}, Sample{}, now += 1ms).force();
-    EXPECT_NEAR(governor.govern({along_x(3.0), true}, Sample{}, now += 20ms).force().x(), 1.0,
-                rounding);
-    EXPECT_NEAR(governor.govern({along_x(3.0), true}, Sample{}, now += 5ms).force().x(), 2.0,
-                rounding);
-    EXPECT_EQ(governor.counters().stalled, 0U);
+    Ticks ticks = Ticks::ramped_in();
+    EXPECT_NEAR(ticks.after(20ms - 1ns, along_x(3.0)).x(), 1.0, rounding);
+    EXPECT_NEAR(ticks.after(5ms, along_x(3.0)).x(), 2.0, rounding);
+    EXPECT_EQ(ticks.governor.counters().stalled, 0U);
 }
 
 TEST(Governor, StartsFromZeroAndRampsInAgainAfterAStallOfTheLoop)
 {
-    Governor governor{{}};
-    auto now = start;
-    for (int i = 0; i <= 1010; ++i)
-        std::ignore = governor.govern({along_x(3.0), true}, Sample{}, now += 1ms).force();
-    EXPECT_NEAR(governor.govern({along_x(3.0), true}, Sample{}, now += 1ms).force().x(), 3.0,
-                rounding);
-    EXPECT_EQ(governor.govern({along_x(3.0), true}, Sample{}, now += 20ms + 1ns).force(),
-              base::Force{});
-    for (int i = 0; i < 500; ++i)
-        std::ignore = governor.govern({along_x(3.0), true}, Sample{}, now += 1ms).force();
-    EXPECT_NEAR(governor.govern({along_x(3.0), true}, Sample{}, now += 1ms).force().x(),
-                3.0 * 0.501, rounding);
-    EXPECT_EQ(governor.counters().stalled, 1U);
+    Ticks ticks = Ticks::ramped_in();
+    EXPECT_NEAR(ticks.play(10, along_x(3.0)).x(), 3.0, rounding);
+    EXPECT_EQ(ticks.after(20ms + 1ns, along_x(3.0)), base::Force{});
+    EXPECT_FALSE(ticks.given.motors_on());
+    ticks.play(500, along_x(3.0));
+    EXPECT_NEAR(ticks(along_x(3.0)).x(), 3.0 * 0.501, rounding);
+    EXPECT_EQ(ticks.governor.counters().stalled, 1U);
 }
 
 TEST(Governor, LimitsTheChangeAlongItsOwnDirection)

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/governor/fault_latch.hpp"
+
+namespace hapnet::device {
+
+bool FaultLatch::close(const Latched& cause)
+{
+    if (is_closed() || cause.fault == Fault::none) return false;
+    latched_ = cause;
+    seen_.reset();
+    return true;
+}
+
+bool FaultLatch::on_sample(const Sample& sample, base::Duration passed)
+{
+    const std::optional<Seen> before = seen_;
+    const bool rests = base::norm(sample.velocity) <= rest_speed_max_m_per_s;
+    seen_ = Seen{
+        .docked = sample.docked, .pressed = (sample.buttons & 1U) != 0, .presses = sample.presses};
+    if (!before) return false;
+    if (rests) seen_->rest = before->rest + passed;
+    const bool docks = sample.docked && !before->docked;
+    const bool presses = (seen_->pressed && !before->pressed) || sample.presses != before->presses;
+    if (!docks && !(presses && before->rest >= rest_needed)) return false;
+    open();
+    return true;
+}
+
+} // namespace hapnet::device

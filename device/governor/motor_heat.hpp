@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/space.hpp"
+#include "proto/base/time.hpp"
+
+#include <algorithm>
+
+namespace hapnet::device {
+
+/// How warm the motors are, by the square of the force over time (I2t), as no device measures it
+/// well: heat' = (|f|^2 / continuous^2 - heat) / time. At 1 they are as warm as the force makes
+/// them that they bear for ever. Above, the limit goes down from the peak to that force, evenly
+/// with the heat: no trip, and in the end at most 5 % more than they bear.
+class MotorHeat {
+public:
+    /// `continuous_n`: the force that the motors bear for ever; infinity: any.
+    MotorHeat(double continuous_n, base::Duration time)
+        : continuous_n_{continuous_n},
+          heating_{continuous_n > 0.0 ? 1.0 / (continuous_n * continuous_n) : 0.0},
+          per_s_{1.0 / base::to_seconds(time)}
+    {}
+
+    /// This force was held for so long.
+    void pass(const base::Force& force, base::Duration duration)
+    {
+        const glm::dvec3& f = force.value;
+        const double goal = heating_ * (f.x * f.x + f.y * f.y + f.z * f.z);
+        heat_ += std::min(1.0, per_s_ * base::to_seconds(duration)) * (goal - heat_);
+    }
+
+    /// The most that may be asked of them now, where `peak_n` is the most at all.
+    [[nodiscard]] double force_max_n(double peak_n) const
+    {
+        if (heat_ <= 1.0 || continuous_n_ >= peak_n) return peak_n;
+        const double share = std::min(1.0, (heat_ - 1.0) / band);
+        return peak_n + share * (continuous_n_ - peak_n);
+    }
+
+    [[nodiscard]] double heat() const { return heat_; }
+
+    static constexpr double band = 0.1; // of heat above 1, over which the limit goes down
+
+private:
+    double continuous_n_;
+    double heating_;
+    double per_s_;
+    double heat_ = 0.0;
+};
+
+} // namespace hapnet::device

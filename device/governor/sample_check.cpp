@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/governor/sample_check.hpp"
+
+namespace hapnet::device {
+
+namespace {
+
+// A sample may be this much older, or newer, than the moment in which it was read: a step within so
+// much time at the highest speed is no jump.
+constexpr base::Duration jump_grace{std::chrono::milliseconds{4}};
+
+double squared(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
+
+} // namespace
+
+SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample& sample,
+                                      base::Duration passed, bool pushing)
+{
+    if (sample.fault != Fault::none) {
+        placed_ = false;
+        return {Finding::tripped, {sample.fault, Trip::device}};
+    }
+    if (!heard_ && sample.sequence == 0) return {Finding::unheard};
+    const bool is_new = !heard_ || sample.sequence != sequence_;
+    heard_ = true;
+    sequence_ = sample.sequence;
+    silence_ += passed;
+    const base::Duration since_last = silence_;
+    if (is_new) silence_ = base::Duration{0};
+
+    if (silence_ >= limits.fault_after) {
+        return {Finding::tripped, {Fault::timeout, Trip::silence}};
+    }
+    if (silence_ >= limits.stall_max) return {Finding::silent};
+    if (!sample.calibrated) {
+        placed_ = false;
+        return {Finding::uncalibrated};
+    }
+    if (!base::is_finite(sample.hip) || !base::is_finite(sample.velocity)) {
+        placed_ = false;
+        return {Finding::tripped, {Fault::communication, Trip::nonsense}};
+    }
+    const Trip trip = is_new ? too_fast(limits, sample, since_last) : Trip::none;
+    place_ = sample.hip;
+    placed_ = true;
+    if (trip != Trip::none) {
+        if (pushing) return {Finding::tripped, {Fault::over_velocity, trip}};
+        return {Finding::too_fast};
+    }
+    return {sample.docked ? Finding::docked : Finding::usable};
+}
+
+Trip SampleCheck::too_fast(const GovernorLimits& limits, const Sample& sample,
+                           base::Duration since_last) const
+{
+    const double most = limits.speed_max_m_per_s;
+    if (squared(sample.velocity.value) > most * most) return Trip::speed;
+    if (!placed_) return Trip::none;
+    const double step_max = most * base::to_seconds(since_last + jump_grace);
+    const bool jumped = squared((sample.hip - place_).value) > step_max * step_max;
+    return jumped ? Trip::jump : Trip::none;
+}
+
+} // namespace hapnet::device

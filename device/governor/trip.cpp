@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/governor/trip.hpp"
+
+namespace hapnet::device {
+
+std::string_view name_of(Trip trip)
+{
+    switch (trip) {
+    case Trip::none: return "none";
+    case Trip::device: return "device";
+    case Trip::silence: return "silence";
+    case Trip::loop: return "loop";
+    case Trip::speed: return "speed";
+    case Trip::jump: return "jump";
+    case Trip::nonsense: return "nonsense";
+    }
+    return "device";
+}
+
+std::string_view what_happened(const Latched& latched)
+{
+    switch (latched.trip) {
+    case Trip::loop:
+        return "this program stood still for more than 100 ms: end what keeps the machine busy, or "
+               "give it real-time priority";
+    case Trip::jump:
+        return "the stylus was suddenly elsewhere: check the cable, and calibrate again if the "
+               "positions are off";
+    case Trip::nonsense:
+        return "the device reports positions that are no numbers: check its cable, and start again";
+    case Trip::none:
+    case Trip::device:
+    case Trip::silence:
+    case Trip::speed: return words_for(latched.fault);
+    }
+    return words_for(latched.fault);
+}
+
+} // namespace hapnet::device

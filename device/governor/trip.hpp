@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/fault.hpp"
+
+#include <cstdint>
+#include <string_view>
+
+namespace hapnet::device {
+
+/// Which rule latched a fault.
+enum class Trip : std::uint8_t {
+    none,
+    device,   // it reported the fault itself
+    silence,  // it said nothing new for too long
+    loop,     // this program's loop stood still for too long
+    speed,    // faster than a hand that holds it
+    jump,     // suddenly elsewhere
+    nonsense, // a place or a velocity that is no number
+};
+
+/// Such as "speed": in statistics.
+[[nodiscard]] std::string_view name_of(Trip trip);
+
+/// A fault that stays until an operator has acted.
+struct Latched {
+    Fault fault = Fault::none;
+    Trip trip = Trip::none;
+
+    friend bool operator==(const Latched&, const Latched&) = default;
+};
+
+/// What happened and how to go on, for a person. "" for no fault.
+[[nodiscard]] std::string_view what_happened(const Latched& latched);
+
+} // namespace hapnet::device
