@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "device/replay/replay.hpp"
 #include "device/rig.hpp"
-#include "device/simulated/omni.hpp"
+#include "peer/chosen_device.hpp"
 #include "peer/core/sync/text.hpp"
 #include "peer/options.hpp"
 #include "peer/report.hpp"
@@ -77,13 +76,6 @@ Settings settings_of(const Options& options)
     settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m;
     settings.length = options.duration;
     return settings;
-}
-
-std::unique_ptr<device::Device> device_of(const Options& options)
-{
-    if (options.replay) return std::make_unique<device::Replay>(*options.replay, options.device);
-    return std::make_unique<device::SimulatedOmni>(
-        device::Performer{.task = options.task, .person = options.person});
 }
 
 std::optional<record::Writer> writer_for(const Options& options, std::string_view device)
@@ -167,8 +159,15 @@ base::Result<int> play(const Options& options)
     if (!places) return tl::unexpected{places.error()};
     net::StopSignal stop;
     net::UdpSocket socket{places->listen};
-    device::Rig rig{device_of(options), device::GovernorLimits{}};
+    auto opened = open_chosen(options.device, options.task);
+    if (!opened) {
+        say(fmt::format("--device {}: {}", options.device.name, opened.error().message));
+        return net::exit_environment;
+    }
+    const device::Mount mount = mount_of(options.device, (*opened)->capabilities());
+    device::Rig rig{*std::move(opened), device::GovernorLimits{}, mount};
     const std::string device = device::description(rig.device());
+    if (options.device.is_real()) say(introduction(rig.device(), mount, options.task));
     Journal journal;
     Watcher watcher{journal, writer_for(options, device), options.id};
     std::optional<net::ResultFile> file;

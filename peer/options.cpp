@@ -55,9 +55,8 @@ struct Texts {
     std::string id = "1";
     std::string listen = "127.0.0.1:0";
     std::string remote;
-    std::string device = "sim";
+    DeviceTexts device;
     std::optional<std::string> scene;
-    std::string person = "nominal";
     std::string grip_damping = "4Ns/m";
     std::string task = "P1";
     std::string algorithm = "base";
@@ -80,13 +79,7 @@ void add_options(CLI::App& app, Texts& texts)
         "HOST:PORT");
     add("--remote", texts.remote, "The other peer, or the emulator's side for this one (required)",
         "HOST:PORT");
-    add("--device", texts.device,
-        "sim: a simulated Omni in a simulated hand (default); replay:FILE: a hand that goes the\n"
-        "way in FILE, CSV with time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it",
-        "sim|replay:FILE");
-    add("--operator", texts.person,
-        "Whose hand is simulated: relaxed, nominal (default), firm, lifelike, or a TOML file",
-        "NAME|FILE");
+    add_device_options(app, texts.device);
     add("--scene", texts.scene,
         "A scene in TOML, or one of hapnet's by name (default: the task's; lift for T4, wall\n"
         "for T5, paper for the others); it has one movable body, which does not turn",
@@ -134,51 +127,6 @@ base::Result<scene::Description> scene_for_a_session(const std::string& file_or_
     return scene;
 }
 
-base::Result<device::HandTrace> hand_trace_in(const std::string& file)
-{
-    const auto text = net::text_of_file(file);
-    if (!text) return tl::unexpected{text.error()};
-    return device::parse_hand_trace(*text, file);
-}
-
-/// Takes parsed texts; the first error stays and names its option.
-class Taker {
-public:
-    template <typename Target, typename T>
-    void take(Target& target, const char* option, base::Result<T> value)
-    {
-        if (value) {
-            target = Target(*std::move(value));
-        } else if (!error_) {
-            error_ = fmt::format("{}: {}", option, value.error().message);
-        }
-    }
-    void require(bool condition, std::string message)
-    {
-        if (!condition && !error_) error_ = std::move(message);
-    }
-    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
-
-private:
-    std::optional<std::string> error_;
-};
-
-void take_device(Options& options, Taker& taker, const Texts& texts)
-{
-    taker.take(options.person, "--operator",
-               device::load_operator(texts.person, net::text_of_file));
-    constexpr std::string_view replay = "replay:";
-    if (texts.device.starts_with(replay)) {
-        const std::string file = texts.device.substr(replay.size());
-        taker.take(options.replay, "--device", hand_trace_in(file));
-        return;
-    }
-    taker.require(texts.device == "sim",
-                  fmt::format("--device: '{}' is not available; this version has sim, the "
-                              "simulated Omni, and replay:FILE",
-                              texts.device));
-}
-
 net::CommandLine<Options> algorithm_answer(const std::string& name_or_file)
 {
     const auto algorithm = load_algorithm(name_or_file, net::text_of_file);
@@ -205,7 +153,7 @@ net::CommandLine<Options> options_from(const Texts& texts)
                base::parse_count(texts.seed, std::numeric_limits<std::uint64_t>::max()));
     taker.take(options.duration, "--duration", base::parse_duration(texts.duration));
     taker.require(options.duration >= std::chrono::seconds{1}, "--duration: at least 1s");
-    take_device(options, taker, texts);
+    take_device(options.device, taker, texts.device);
     options.scene_name = texts.scene.value_or(std::string{device::scene_of(options.task)});
     taker.take(options.scene, "--scene", scene_for_a_session(options.scene_name));
     taker.take(options.grip_damping_ns_per_m, "--grip-damping",
@@ -214,7 +162,6 @@ net::CommandLine<Options> options_from(const Texts& texts)
                               "on a network you trust");
     taker.require(texts.record != "-", "--record: '-' is not a file: a record needs one");
     if (taker.error()) return base::fail(*taker.error());
-    options.device = texts.device;
     options.insecure = texts.insecure;
     options.record = texts.record;
     options.stats = texts.stats;

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/replay/hand_trace.hpp"
-#include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
 #include "peer/core/scene/description.hpp"
 #include "peer/core/sync/algorithm.hpp"
+#include "peer/device_options.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
@@ -24,9 +23,7 @@ struct Options {
     std::uint16_t id = 1;
     net::HostPort listen{"127.0.0.1", 0};
     net::HostPort remote;
-    std::string device = "sim";
-    std::optional<device::HandTrace> replay; // instead of the simulated hand
-    device::Operator person;                 // whose hand is simulated
+    DeviceChoice device;
     std::string scene_name = "paper";
     scene::Description scene; // one that two peers can share
     double grip_damping_ns_per_m = 4.0;

@@ -89,6 +89,7 @@ bool is_valid(const LoopCounters& loop)
 
 json configuration_json(const Options& options, std::string_view device)
 {
+    const bool simulated = options.device.is_simulated();
     return {{"program", "hapnet-peer"},
             {"version", base::version()},
             {"commit", base::commit()},
@@ -102,8 +103,8 @@ json configuration_json(const Options& options, std::string_view device)
             {"algorithm_toml", print_algorithm(options.algorithm)},
             {"seed", options.seed.value()},
             {"device", device},
-            {"operator", options.replay ? json{} : json(options.person.name)},
-            {"operator_toml", options.replay ? json{} : json(print_operator(options.person))},
+            {"operator", simulated ? json(options.device.person.name) : json{}},
+            {"operator_toml", simulated ? json(print_operator(options.device.person)) : json{}},
             {"duration_s", base::to_seconds(options.duration)},
             {"tick_ns", 1'000'000},
             {"boot_id", net::boot_id()},

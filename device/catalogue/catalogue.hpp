@@ -3,10 +3,12 @@
 #pragma once
 
 #include "device/device.hpp"
+#include "proto/base/result.hpp"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hapnet::device {
@@ -20,11 +22,32 @@ struct DeviceOptions {
     std::optional<double> hid_force_n{}; // hid: what full scale is at the grip; without: no force
 };
 
+/// A kind of real device, and the way to its devices.
+struct Backend {
+    std::string_view name; // as in --device NAME:SERIAL
+    /// All that can be seen of it without taking hold of one.
+    std::vector<Found> (*find)(const DeviceOptions& options);
+    /// The one with this serial; "": the first that is usable.
+    Opened<std::unique_ptr<Device>> (*open)(const std::string& serial,
+                                            const DeviceOptions& options);
+};
+
+/// The backends of real devices that this build has.
+[[nodiscard]] const std::vector<Backend>& backends();
+
+/// Such as {"falcon", "12345"}: what --device says of a real device.
+struct DeviceName {
+    std::string backend;
+    std::string serial; // "": any
+};
+
+/// Reads BACKEND or BACKEND:SERIAL, of the backends that there are.
+[[nodiscard]] base::Result<DeviceName> parse_device_name(std::string_view text);
+
 /// Every device of every backend that can be seen without taking hold of it.
 [[nodiscard]] std::vector<Found> find_devices(const DeviceOptions& options);
 
-/// Opens BACKEND or BACKEND:SERIAL, of those that are real: omni1394, hdapi, falcon, hid. Without a
-/// serial the first that is usable.
+/// Opens BACKEND or BACKEND:SERIAL. Without a serial the first that is usable.
 [[nodiscard]] Opened<std::unique_ptr<Device>> open_device(const std::string& name,
                                                           const DeviceOptions& options);
 

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+namespace hapnet::device {
+
+/// The switches of a device, debounced: a switch counts as pressed or released once it has said so
+/// for 5 ms without a break. At first all are up, so that one that is held from the start on is a
+/// press. Switches that bounce so long are worn out; what is shorter, no finger does.
+class Buttons {
+public:
+    static constexpr base::Duration settling{std::chrono::milliseconds{5}};
+
+    /// What the switches say now, one bit each, 1 where it is down; `now` never runs backwards.
+    /// Once for each word from the device.
+    void update(std::uint8_t down, base::TimePoint now)
+    {
+        for (std::size_t i = 0; i < since_.size(); ++i) {
+            const auto bit = static_cast<std::uint8_t>(1U << i);
+            if ((down & bit) == (held_ & bit)) {
+                changing_ = static_cast<std::uint8_t>(changing_ & ~bit);
+            } else if ((changing_ & bit) == 0) {
+                changing_ = static_cast<std::uint8_t>(changing_ | bit);
+                since_[i] = now;
+            } else if (now - since_[i] >= settling) {
+                changing_ = static_cast<std::uint8_t>(changing_ & ~bit);
+                held_ = static_cast<std::uint8_t>(held_ ^ bit);
+                if (bit == 1 && (held_ & bit) != 0) ++presses_;
+            }
+        }
+    }
+
+    /// One bit each; bit 0 is the primary one.
+    [[nodiscard]] std::uint8_t held() const { return held_; }
+    /// How often the primary one has been pressed; begins again after 65535.
+    [[nodiscard]] std::uint16_t presses() const { return presses_; }
+
+    /// Says all that in a sample.
+    void tell(Sample& sample) const
+    {
+        sample.buttons = held_;
+        sample.gripping = (held_ & 1U) != 0;
+        sample.presses = presses_;
+    }
+
+private:
+    std::uint8_t held_ = 0;
+    std::uint8_t changing_ = 0; // those that say otherwise, since
+    std::array<base::TimePoint, 8> since_{};
+    std::uint16_t presses_ = 0;
+};
+
+} // namespace hapnet::device

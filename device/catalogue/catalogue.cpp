@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/catalogue/catalogue.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::device {
+
+const std::vector<Backend>& backends()
+{
+    static const std::vector<Backend> all{
+        // One line each.
+    };
+    return all;
+}
+
+namespace {
+
+const Backend* backend_named(std::string_view name)
+{
+    const auto found = std::find_if(backends().begin(), backends().end(),
+                                    [&](const Backend& one) { return one.name == name; });
+    return found == backends().end() ? nullptr : &*found;
+}
+
+} // namespace
+
+base::Result<DeviceName> parse_device_name(std::string_view text)
+{
+    const auto colon = text.find(':');
+    DeviceName name{std::string{text.substr(0, colon)}, ""};
+    if (colon != std::string_view::npos) name.serial = text.substr(colon + 1);
+    const bool is_cut_off = colon != std::string_view::npos && name.serial.empty();
+    if (backend_named(name.backend) != nullptr && !is_cut_off) return name;
+    std::string known;
+    for (const Backend& backend : backends()) {
+        known += fmt::format(", {0} or {0}:SERIAL", backend.name);
+    }
+    return base::fail(
+        fmt::format("'{}' is no device of this version: it has sim, replay:FILE{}; hapnet-peer "
+                    "list-devices shows what is there",
+                    text, known));
+}
+
+std::vector<Found> find_devices(const DeviceOptions& options)
+{
+    std::vector<Found> all;
+    for (const Backend& backend : backends()) {
+        auto some = backend.find(options);
+        all.insert(all.end(), std::make_move_iterator(some.begin()),
+                   std::make_move_iterator(some.end()));
+    }
+    return all;
+}
+
+Opened<std::unique_ptr<Device>> open_device(const std::string& name, const DeviceOptions& options)
+{
+    const auto parsed = parse_device_name(name);
+    if (!parsed) return trouble(Fault::not_found, parsed.error().message);
+    return backend_named(parsed->backend)->open(parsed->serial, options);
+}
+
+} // namespace hapnet::device

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/chosen_device.hpp"
+
+#include "device/replay/replay.hpp"
+#include "device/simulated/omni.hpp"
+
+#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+namespace {
+
+constexpr glm::dvec3 omni_span_m{0.160, 0.120, 0.070};
+
+double default_scale(const device::Capabilities& capabilities)
+{
+    const base::Displacement span = capabilities.workspace_max - capabilities.workspace_min;
+    double scale = 1.0;
+    for (int axis = 0; axis < capabilities.axes_in; ++axis) {
+        scale = std::max(scale, omni_span_m[axis] / span.value[axis]);
+    }
+    return scale;
+}
+
+base::Displacement default_offset(const device::Capabilities& capabilities, double scale)
+{
+    const glm::dvec3 centre =
+        0.5 * (capabilities.workspace_min.value + capabilities.workspace_max.value);
+    return {-scale * centre};
+}
+
+} // namespace
+
+device::Opened<std::unique_ptr<device::Device>> open_chosen(const DeviceChoice& choice,
+                                                            device::Task task)
+{
+    if (choice.replay) return std::make_unique<device::Replay>(*choice.replay, choice.name);
+    if (choice.is_simulated()) {
+        return std::make_unique<device::SimulatedOmni>(
+            device::Performer{.task = task, .person = choice.person});
+    }
+    return device::open_device(choice.name, choice.options);
+}
+
+device::Mount mount_of(const DeviceChoice& choice, const device::Capabilities& capabilities)
+{
+    device::Mount mount;
+    mount.scale = choice.mount_scale.value_or(choice.is_real() ? default_scale(capabilities) : 1.0);
+    if (choice.is_real()) mount.offset = default_offset(capabilities, mount.scale);
+    if (choice.mount_offset) mount.offset = *choice.mount_offset;
+    return mount;
+}
+
+std::string_view parts_in(device::Task task)
+{
+    switch (task) {
+    case device::Task::p1:
+        return "L holds the cube by the primary button and carries it to and fro, R watches";
+    case device::Task::t1: return "by turns L pushes the cube to the right and R pushes it back";
+    case device::Task::t2: return "one holds the cube in place, the other presses against it";
+    case device::Task::t3: return "both press the cube between them and carry it slowly to and fro";
+    case device::Task::t4: return "both press the cube between them, lift it, hold it, lower it";
+    case device::Task::t5:
+        return "both press the cube to the right against the static one; by turns one lets go";
+    case device::Task::t6: return "L taps the cube, R rests a hand on its far side";
+    }
+    return "";
+}
+
+std::string introduction(const device::Device& device, const device::Mount& mount,
+                         device::Task task)
+{
+    const glm::dvec3 offset_mm = 1e3 * mount.offset.value;
+    return fmt::format(
+        "{}; mounted at {:.0f},{:.0f},{:.0f} mm, magnified {:.2f} times (--mount-offset, "
+        "--mount-scale). Task {} is yours to play, the lower --id is L: {}",
+        device::description(device), offset_mm.x, offset_mm.y, offset_mm.z, mount.scale,
+        device::name_of(task), parts_in(task));
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/device_options.hpp"
+
+#include "proto/base/quantity.hpp"
+#include "proto/net/text_file.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+namespace {
+
+constexpr double mount_scale_max = 20.0;
+constexpr double hid_force_max_n = 100.0;
+
+std::string device_help()
+{
+    std::string help =
+        "sim: a simulated Omni in a simulated hand (default); replay:FILE: a hand that goes the\n"
+        "way in FILE, CSV with time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it";
+    std::string names;
+    for (const device::Backend& backend : device::backends()) {
+        names += names.empty() ? "" : ", ";
+        names += backend.name;
+    }
+    if (names.empty()) return help;
+    return help + fmt::format("; of the\nreal ones {}, by serial or the first that is usable "
+                              "(hapnet-peer list-devices,\ndocs/HARDWARE.md): {}",
+                              names, device::never_run);
+}
+
+base::Result<device::HandTrace> hand_trace_in(const std::string& file)
+{
+    const auto text = net::text_of_file(file);
+    if (!text) return tl::unexpected{text.error()};
+    return device::parse_hand_trace(*text, file);
+}
+
+/// "0mm,20mm,-5mm"
+base::Result<base::Displacement> parse_offset(const std::string& text)
+{
+    const auto refuse = [&] {
+        return base::fail(fmt::format("'{}' is no offset: three lengths such as 0mm,20mm,-5mm, "
+                                      "each of at most 1m",
+                                      text));
+    };
+    base::Displacement offset;
+    std::string_view rest = text;
+    for (const int axis : {0, 1, 2}) {
+        const auto comma = rest.find(',');
+        if ((comma == std::string_view::npos) != (axis == 2)) return refuse();
+        const auto length = base::parse_quantity(rest.substr(0, comma), base::length_kind);
+        if (!length || std::abs(*length) > 1.0) return refuse();
+        offset.value[axis] = *length;
+        rest.remove_prefix(axis == 2 ? rest.size() : comma + 1);
+    }
+    return offset;
+}
+
+base::Result<double> parse_scale(const std::string& text)
+{
+    double scale = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [rest, trouble] = std::from_chars(text.data(), end, scale);
+    const bool is_number = trouble == std::errc{} && rest == end;
+    if (is_number && scale > 0.0 && scale <= mount_scale_max) return scale;
+    return base::fail(fmt::format("'{}' is no scale: a number above 0, at most {:.0f}, such as 1.5",
+                                  text, mount_scale_max));
+}
+
+base::Result<double> parse_hid_force(const std::string& text)
+{
+    auto force = base::parse_quantity(text, base::force_kind);
+    if (force && !(*force > 0.0 && *force <= hid_force_max_n)) {
+        return base::fail(fmt::format("'{}' is out of range: more than 0 and at most {:.0f}N", text,
+                                      hid_force_max_n));
+    }
+    return force;
+}
+
+} // namespace
+
+void add_device_options(CLI::App& app, DeviceTexts& texts)
+{
+    const auto add = [&app](const char* name, auto& text, const std::string& help,
+                            const char* type) {
+        app.add_option(name, text, help)->type_name(type)->group("Device");
+    };
+    add("--device", texts.device, device_help(), "sim|replay:FILE|BACKEND[:SERIAL]");
+    add("--operator", texts.person,
+        "Whose hand is simulated: relaxed, nominal (default), firm, lifelike, or a TOML file",
+        "NAME|FILE");
+    add("--mount-offset", texts.mount_offset,
+        "Where in the scene the zero of a device is (default for a real one: the centre of its\n"
+        "workspace is where the paper's cube starts)",
+        "X,Y,Z");
+    add("--mount-scale", texts.mount_scale,
+        "Metres in the scene per metre of the device (default for a real one: as much as it\n"
+        "needs to cover what an Omni does, 160 x 120 x 70 mm, at least 1). Forces grow with it",
+        "NUMBER");
+    add("--hd-library", texts.options.hd_library,
+        "hdapi: the vendor's library (default: libHD.so where the system finds it)", "FILE");
+    add("--falcon-firmware", texts.options.falcon_firmware,
+        "falcon: its firmware, which hapnet may not bring (default: it runs already)", "FILE");
+    app.add_flag("--enable-uncalibrated-force", texts.options.uncalibrated_force,
+                 "omni1394: force without a torque table, at most a quarter of full scale")
+        ->group("Device");
+    add("--omni-torque", texts.options.omni_torque,
+        "omni1394: what its motors were measured to give per count (docs/HARDWARE.md)", "FILE");
+    add("--hid-force", texts.hid_force,
+        "hid: the force at the grip at full scale, measured (default: no force)", "FORCE");
+}
+
+void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts)
+{
+    choice.name = texts.device;
+    choice.options = texts.options;
+    taker.take(choice.person, "--operator", device::load_operator(texts.person, net::text_of_file));
+    if (texts.mount_offset) {
+        taker.take(choice.mount_offset, "--mount-offset", parse_offset(*texts.mount_offset));
+    }
+    if (texts.mount_scale) {
+        taker.take(choice.mount_scale, "--mount-scale", parse_scale(*texts.mount_scale));
+    }
+    if (texts.hid_force) {
+        taker.take(choice.options.hid_force_n, "--hid-force", parse_hid_force(*texts.hid_force));
+    }
+    constexpr std::string_view replay = "replay:";
+    if (texts.device.starts_with(replay)) {
+        taker.take(choice.replay, "--device", hand_trace_in(texts.device.substr(replay.size())));
+    } else if (!choice.is_simulated()) {
+        const auto name = device::parse_device_name(texts.device);
+        taker.require(name.has_value(),
+                      name ? "" : fmt::format("--device: {}", name.error().message));
+    }
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// The main() of test programs over emulated devices. umockdev stands between a program and the
+// kernel only where its library was loaded first: so the program starts itself again that way.
+#include <cstdio>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <string>
+#include <unistd.h>
+
+namespace {
+
+constexpr const char* preloaded = "libumockdev-preload.so.0";
+
+/// Puts `first` in front of the words of an environment variable.
+void prepend(const char* variable, const std::string& first, char separator)
+{
+    const char* const before = std::getenv(variable);
+    const bool is_empty = before == nullptr || *before == '\0';
+    setenv(variable, (is_empty ? first : first + separator + before).c_str(), 1);
+}
+
+bool is_preloaded()
+{
+    const char* const libraries = std::getenv("LD_PRELOAD");
+    return libraries != nullptr && std::string{libraries}.find(preloaded) != std::string::npos;
+}
+
+} // namespace
+
+int main(int count, char** words)
+{
+    if (!is_preloaded()) {
+        prepend("LD_PRELOAD", preloaded, ':');
+        // AddressSanitizer wants to be the first library, which now another one is.
+        prepend("ASAN_OPTIONS", "verify_asan_link_order=0", ':');
+        execv("/proc/self/exe", words);
+        std::perror("cannot start again under umockdev");
+        return 1;
+    }
+    ::testing::InitGoogleTest(&count, words);
+    return RUN_ALL_TESTS();
+}
