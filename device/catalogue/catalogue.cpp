@@ -2,16 +2,31 @@
 // SPDX-License-Identifier: MIT
 #include "device/catalogue/catalogue.hpp"
 
+#include "device/hid/transport/hids.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device {
 
+namespace {
+
+hid::Options hid_options(const DeviceOptions& options)
+{
+    return {.force_full_n = options.hid_force_n};
+}
+
+} // namespace
+
 const std::vector<Backend>& backends()
 {
     static const std::vector<Backend> all{
         // One line each.
+        {"hid", [](const DeviceOptions& options) { return hid::find_hids(hid_options(options)); },
+         [](const std::string& serial, const DeviceOptions& options) {
+             return hid::open_hid(serial, hid_options(options));
+         }},
     };
     return all;
 }

@@ -26,9 +26,9 @@ struct Order {
 {
     const auto at = [](std::uint64_t value, unsigned shift) { return value << shift; };
     return at(static_cast<std::uint16_t>(order.levels[0]), 0) |
-           at(static_cast<std::uint16_t>(order.levels[1]), 16) |
-           at(order.motors_on ? 1U : 0U, 32) | at(order.is_last ? 1U : 0U, 33) |
-           at(order.stops, 40) | at(order.probes, 48) | at(order.number, 56);
+           at(static_cast<std::uint16_t>(order.levels[1]), 16) | at(order.motors_on ? 1U : 0U, 32) |
+           at(order.is_last ? 1U : 0U, 33) | at(order.stops, 40) | at(order.probes, 48) |
+           at(order.number, 56);
 }
 
 [[nodiscard]] constexpr Order unpacked_order(std::uint64_t word)

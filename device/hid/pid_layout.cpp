@@ -142,10 +142,9 @@ void find_playing(Search& search, ForceLayout& layout)
     layout.operation.place = search.place();
 
     search.anywhere(ReportKind::output, "Device Control report");
-    layout.control.control =
-        search.selector({usage::enable_actuators, usage::disable_actuators, usage::stop_all_effects,
-                         usage::device_reset},
-                        "enable, disable, stop and reset");
+    layout.control.control = search.selector({usage::enable_actuators, usage::disable_actuators,
+                                              usage::stop_all_effects, usage::device_reset},
+                                             "enable, disable, stop and reset");
     layout.control.place = search.place();
 
     search.anywhere(ReportKind::output, "Device Gain report");

@@ -7,6 +7,7 @@
 namespace hapnet::device::hid::usage {
 
 // USB HID Usage Tables: Generic Desktop, Button.
+inline constexpr Usage multi_axis_controller = 0x0001'0008;
 inline constexpr Usage x = 0x0001'0030;
 inline constexpr Usage y = 0x0001'0031;
 inline constexpr Usage button_1 = 0x0009'0001;
