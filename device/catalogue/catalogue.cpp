@@ -3,12 +3,22 @@
 #include "device/catalogue/catalogue.hpp"
 
 #include "device/hdapi/transport/hdapis.hpp"
+#include "device/hid/transport/hids.hpp"
 
 #include <algorithm>
 #include <iterator>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device {
+
+namespace {
+
+hid::Options hid_options(const DeviceOptions& options)
+{
+    return {.force_full_n = options.hid_force_n};
+}
+
+} // namespace
 
 const std::vector<Backend>& backends()
 {
@@ -17,6 +27,10 @@ const std::vector<Backend>& backends()
          [](const DeviceOptions& options) { return hdapi::find_hdapis(options.hd_library); },
          [](const std::string& name, const DeviceOptions& options) {
              return hdapi::open_hdapi(name, options.hd_library);
+         }},
+        {"hid", [](const DeviceOptions& options) { return hid::find_hids(hid_options(options)); },
+         [](const std::string& serial, const DeviceOptions& options) {
+             return hid::open_hid(serial, hid_options(options));
          }},
     };
     return all;

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::device::hid {
+
+/// What something is for: page << 16 | id, of the HID usage tables.
+using Usage = std::uint32_t;
+
+/// Which of a device's three sets of reports.
+enum class ReportKind : std::uint8_t { input, output, feature };
+
+/// Consecutive usages, both ends included.
+struct UsageRange {
+    Usage first = 0;
+    Usage last = 0;
+
+    friend bool operator==(const UsageRange&, const UsageRange&) = default;
+};
+
+/// One value in a report, at most 32 bits long, and what it means.
+struct Field {
+    ReportKind kind = ReportKind::input;
+    std::uint8_t report_id = 0;   // 0: the device does not number its reports
+    std::uint32_t bit_offset = 0; // in the report's data, which begin behind its ID
+    std::uint32_t bit_size = 0;
+    std::int64_t logical_min = 0;
+    std::int64_t logical_max = 0;
+    std::int64_t physical_min = 0; // both 0: as the logical ones
+    std::int64_t physical_max = 0;
+    std::uint32_t unit = 0;
+    int unit_exponent = 0; // powers of ten
+    bool is_array = false; // its value says which of the usages holds: see value_of()
+    /// A variable's own one, or an array's in the order of their values; may be empty.
+    std::vector<UsageRange> usages{};
+    std::vector<Usage> collections{}; // those it lies in, the outermost first
+
+    friend bool operator==(const Field&, const Field&) = default;
+};
+
+/// Whether the field is a variable of this usage.
+[[nodiscard]] bool is_variable_of(const Field& field, Usage usage);
+/// Whether one of the collections around the field is of this usage.
+[[nodiscard]] bool lies_in(const Field& field, Usage collection);
+/// The value by which an array field says `usage`; nullopt where it cannot.
+[[nodiscard]] std::optional<std::int64_t> value_of(const Field& array, Usage usage);
+
+/// How long a report is.
+struct ReportSize {
+    ReportKind kind = ReportKind::input;
+    std::uint8_t report_id = 0;
+    std::uint32_t bits = 0; // without its ID
+
+    friend bool operator==(const ReportSize&, const ReportSize&) = default;
+};
+
+/// What a device says of the reports that it sends and takes.
+struct Descriptor {
+    std::vector<Field> fields{}; // in their order; without padding
+    std::vector<ReportSize> reports{};
+    std::vector<Usage> collections{}; // each kind once, as met
+    bool is_numbered = false;         // its reports begin with their ID
+
+    /// The data of a report without its ID, in bytes; 0: there is no such report.
+    [[nodiscard]] std::size_t bytes_of(ReportKind kind, std::uint8_t report_id) const;
+
+    friend bool operator==(const Descriptor&, const Descriptor&) = default;
+};
+
+/// Longer ones are refused, as the kernel refuses them (HID_MAX_DESCRIPTOR_SIZE).
+inline constexpr std::size_t descriptor_bytes_max = 4096;
+
+/// Reads a report descriptor: USB Device Class Definition for HID 1.11, section 6.2.2. Refuses
+/// what is cut off, unbalanced or out of bounds, and delimiters. Fields of more than 32 bits keep
+/// their place but are not listed.
+[[nodiscard]] base::Result<Descriptor> parse_descriptor(std::span<const std::byte> bytes);
+
+} // namespace hapnet::device::hid

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace hapnet::device::hid {
+
+/// What an item's value is depends on what it is for.
+struct ItemValue {
+    std::int64_t as_signed = 0;
+    std::int64_t as_unsigned = 0;
+};
+
+enum class ItemType : std::uint8_t { main, global, local, reserved, long_item };
+
+/// One item of a report descriptor.
+struct Item {
+    std::size_t at = 0; // its first byte
+    ItemType type = ItemType::main;
+    std::uint8_t tag = 0;
+    std::uint8_t size = 0; // bytes of its value; 0 for a long item, whose data are skipped
+    ItemValue value{};
+};
+
+/// Cuts a report descriptor into its items: USB Device Class Definition for HID 1.11, 6.2.2.2 and
+/// 6.2.2.3.
+class ItemReader {
+public:
+    explicit ItemReader(std::span<const std::byte> bytes) : bytes_{bytes} {}
+
+    /// nullopt at the end, or where an item is cut off.
+    [[nodiscard]] std::optional<Item> next();
+    /// Whether the last next() came to the end, and not upon an item that is cut off.
+    [[nodiscard]] bool is_complete() const { return position_ == bytes_.size(); }
+
+private:
+    [[nodiscard]] std::uint32_t byte(std::size_t at) const
+    {
+        return std::to_integer<std::uint32_t>(bytes_[at]);
+    }
+
+    std::span<const std::byte> bytes_;
+    std::size_t position_ = 0;
+};
+
+} // namespace hapnet::device::hid

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+namespace hapnet::device::hid {
+
+/// What a descriptor does not say, and a person has to.
+struct Options {
+    /// Newtons at the grip when the device pushes with all it has, measured; negative where it
+    /// pushes the other way. Without it there is no force.
+    std::optional<double> force_full_n{};
+    /// What a hand is given at most, whatever full scale is: a base made for steering wheels can
+    /// break a wrist. The default is the peak of a PHANToM Omni.
+    double force_cap_n = 3.3;
+    /// Half of the way between the stops of an axis, at the grip, in metres. The default is half
+    /// the width of a PHANToM Omni's workspace, so that the paper's scene fits.
+    double reach_m = 0.08;
+};
+
+} // namespace hapnet::device::hid

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/buttons.hpp"
+#include "device/device.hpp"
+#include "device/hid/mailbox.hpp"
+#include "device/hid/options.hpp"
+#include "device/hid/pid_layout.hpp"
+#include "device/hid/wire.hpp"
+#include "device/velocity_filter.hpp"
+
+#include <chrono>
+#include <memory>
+
+namespace hapnet::device::hid {
+
+/// What a PID device is made of, once it has been opened.
+struct PidParts {
+    Identity identity{};
+    InputLayout input{};
+    Options options{};
+    std::unique_ptr<Wire> wire{};     // to read from
+    std::unique_ptr<Outbox> outbox{}; // none: no force
+    bool answers_questions = false;
+};
+
+/// A joystick or wheel base with force feedback by USB HID PID, as a device of one or two degrees
+/// of freedom: its axis X is x, and Y, which grows toward the user, is -y, so that away from the
+/// user is up, as on a screen. Places are uncalibrated shares of the reach, forces uncalibrated
+/// shares of full scale.
+///
+/// Many such devices say nothing while nothing moves. Silence is therefore no fault as long as the
+/// device answers questions, of which it is asked one after 8 ms of silence; a device that answers
+/// none, or that is only read, may be silent.
+///
+/// When this program is killed the device lets go by itself 100 ms later, if it keeps to the
+/// duration of its effects: nothing else stops it then but its power switch.
+class PidDevice final : public Device {
+public:
+    explicit PidDevice(PidParts parts);
+    ~PidDevice() override;
+
+    [[nodiscard]] const Identity& identity() const override { return parts_.identity; }
+    [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
+    [[nodiscard]] Sample read(base::TimePoint now) override;
+    void apply(const GovernedForce& force) override;
+    void halt() noexcept override;
+
+    static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
+    static constexpr base::Duration question_after{std::chrono::milliseconds{8}};
+    /// A pause between two reads counts as no more: it was the host's.
+    static constexpr base::Duration pause_max{std::chrono::milliseconds{5}};
+    static constexpr int reports_per_read_max = 64; // the kernel keeps as many
+    static constexpr double velocity_cutoff_hz = 30.0;
+
+private:
+    void drain();
+    void on_report(std::span<const std::byte> report);
+    void watch(base::Duration passed);
+    void ask(base::Duration passed);
+    [[nodiscard]] Fault fault() const;
+
+    PidParts parts_;
+    Capabilities capabilities_;
+    VelocityFilter velocity_{velocity_cutoff_hz};
+    Buttons buttons_;
+    Sample sample_;
+    std::optional<base::TimePoint> read_at_;
+    Progress progress_{};
+    base::Duration silent_{};  // since its last word
+    base::Duration unmoved_{}; // since it last took something, while there is something to take
+    base::Duration since_asked_{};
+    std::uint8_t buttons_down_ = 0;
+    bool was_garbled_ = false; // the last report
+    bool is_garbled_ = false;  // a report since the last read
+    bool is_refusing_ = false;
+    bool is_gone_ = false;
+};
+
+} // namespace hapnet::device::hid

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/hid/descriptor.hpp"
+#include "proto/base/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hapnet::device::hid {
+
+/// Where a report is and how long.
+struct ReportPlace {
+    std::uint8_t id = 0;   // 0: not numbered
+    std::size_t bytes = 0; // without the ID
+};
+
+/// The report that says where the grip is.
+struct InputLayout {
+    ReportPlace place{};
+    std::vector<Field> axes{};    // X, and Y where there is one
+    std::vector<Field> buttons{}; // the first eight
+};
+
+/// A way to say one of several things: an array's value, or a bit for each.
+struct Selector {
+    std::vector<Field> fields{}; // of one report
+};
+
+/// Where a PID device wants to hear what of a constant force: USB Device Class Definition for
+/// Physical Interface Devices 1.0. Report IDs and places differ from device to device.
+struct ForceLayout {
+    struct SetEffect {
+        ReportPlace place{};
+        Field block{};
+        Selector type{};
+        Field duration{};
+        std::optional<Field> gain{};
+        Field direction_enable{};
+        Field direction{}; // the first of them: an angle
+    } set_effect{};
+    struct SetConstantForce {
+        ReportPlace place{};
+        Field block{};
+        Field magnitude{};
+    } set_constant_force{};
+    struct Operation {
+        ReportPlace place{};
+        Field block{};
+        Selector operation{};
+        std::optional<Field> loop_count{};
+    } operation{};
+    struct Control {
+        ReportPlace place{};
+        Selector control{};
+    } control{};
+    struct DeviceGain {
+        ReportPlace place{};
+        Field gain{};
+    };
+    std::optional<DeviceGain> device_gain{};
+    struct Create { // feature
+        ReportPlace place{};
+        Selector type{};
+    } create{};
+    struct BlockLoad { // feature
+        ReportPlace place{};
+        Field block{};
+        Selector status{};
+    } block_load{};
+    struct BlockFree {
+        ReportPlace place{};
+        Field block{};
+    };
+    std::optional<BlockFree> block_free{};
+    std::optional<ReportPlace> pool{}; // feature; asked to hear whether the device lives
+};
+
+/// Reports that a full-speed interrupt pipe takes in one go are no longer than this, ID included.
+inline constexpr std::size_t report_bytes_max = 64;
+
+/// Whether the device is of page 0x0f at all: it knows a Set Effect report.
+[[nodiscard]] bool is_force_device(const Descriptor& descriptor);
+/// The report with the axis X, or why there is none that serves.
+[[nodiscard]] base::Result<InputLayout> find_input(const Descriptor& descriptor);
+/// All that a constant force needs, or what of it is missing.
+[[nodiscard]] base::Result<ForceLayout> find_force(const Descriptor& descriptor);
+
+} // namespace hapnet::device::hid

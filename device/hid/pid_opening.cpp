@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/hid/pid_opening.hpp"
+
+#include "device/hid/pid_reports.hpp"
+#include "device/hid/usages.hpp"
+
+#include <string>
+
+namespace hapnet::device::hid {
+
+namespace {
+
+// Some devices need a moment to find the place: the kernel's own driver (hid-pidff) asks 60 times.
+constexpr int load_questions_max = 60;
+
+tl::unexpected<Trouble> refused(Moved moved, const std::string& what)
+{
+    if (moved == Moved::gone) {
+        return trouble(Fault::disconnected, "the device went away: plug it in and start again");
+    }
+    return trouble(Fault::communication,
+                   "the device refuses " + what + ": unplug it, plug it in and start again");
+}
+
+Opened<std::uint32_t> load_effect(Wire& wire, const ForceLayout& layout)
+{
+    const Report create = create_report(layout);
+    if (const Moved moved = wire.set_feature(create.all()); moved != Moved::yes) {
+        return refused(moved, "a new effect");
+    }
+    for (int i = 0; i < load_questions_max; ++i) {
+        Report answer{layout.block_load.place};
+        const Moved moved = wire.get_feature(answer.all());
+        if (moved == Moved::gone) return refused(moved, "");
+        if (moved != Moved::yes) continue;
+        const Loaded loaded = read_block_load(layout, answer);
+        if (loaded.load == Load::success) return loaded.block;
+        if (loaded.load == Load::full) {
+            return trouble(Fault::in_use, "the device has no room for another effect: end the "
+                                          "programs that play effects on it, or unplug it and "
+                                          "plug it in again");
+        }
+    }
+    return refused(Moved::failed, "to make room for an effect");
+}
+
+class Preparation {
+public:
+    Preparation(Wire& wire, const ForceLayout& layout) : wire_{wire}, layout_{layout} {}
+
+    Opened<Prepared> run(std::size_t axes)
+    {
+        Prepared prepared;
+        write(control_report(layout_, usage::device_reset));
+        write(control_report(layout_, usage::stop_all_effects));
+        for (std::size_t axis = 0; axis < axes && moved_ == Moved::yes; ++axis) {
+            const auto block = load_effect(wire_, layout_);
+            if (!block) {
+                clean_up(prepared);
+                return tl::unexpected{block.error()};
+            }
+            prepared.blocks.push_back(*block);
+            write(set_effect_report(layout_, *block, axis == 0 ? Axis::right : Axis::away));
+            write(level_report(layout_, *block, 0.0));
+        }
+        if (const auto gain = gain_report(layout_)) write(*gain);
+        // Some devices enable their actuators by themselves when an effect is set.
+        write(control_report(layout_, usage::disable_actuators));
+        if (moved_ != Moved::yes) {
+            clean_up(prepared);
+            return refused(moved_, "an effect");
+        }
+        if (layout_.pool) {
+            Report answer{*layout_.pool};
+            prepared.answers_questions = wire_.get_feature(answer.all()) == Moved::yes;
+        }
+        return prepared;
+    }
+
+private:
+    void write(const Report& report)
+    {
+        if (moved_ == Moved::yes) moved_ = wire_.write(report.all());
+    }
+
+    void clean_up(const Prepared& prepared)
+    {
+        std::ignore = wire_.write(control_report(layout_, usage::stop_all_effects).all());
+        std::ignore = wire_.write(control_report(layout_, usage::disable_actuators).all());
+        for (const std::uint32_t block : prepared.blocks) {
+            const auto report = free_report(layout_, block);
+            if (report) std::ignore = wire_.write(report->all());
+        }
+    }
+
+    Wire& wire_;
+    const ForceLayout& layout_;
+    Moved moved_ = Moved::yes; // of all writes so far
+};
+
+} // namespace
+
+Opened<Prepared> prepare(Wire& wire, const ForceLayout& layout, std::size_t axes)
+{
+    return Preparation{wire, layout}.run(axes);
+}
+
+} // namespace hapnet::device::hid

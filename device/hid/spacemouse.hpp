@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/buttons.hpp"
+#include "device/device.hpp"
+#include "device/hid/spacemouse_report.hpp"
+#include "device/hid/wire.hpp"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+namespace hapnet::device::hid {
+
+/// A SpaceMouse: a cap to push and pull, without motors. How far it is pushed is how fast the
+/// position goes, inside a box of a PHANToM Omni's workspace, from whose middle it starts. Only
+/// translation counts. Its left button grips.
+///
+/// It is silent while nobody touches it, so that silence is no fault; but a deflection that it has
+/// not repeated for 200 ms counts no more, as a cap that has been let go might.
+class SpaceMouse final : public Device {
+public:
+    SpaceMouse(Identity identity, std::unique_ptr<Wire> wire);
+
+    [[nodiscard]] const Identity& identity() const override { return identity_; }
+    [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
+    [[nodiscard]] Sample read(base::TimePoint now) override;
+    void apply(const GovernedForce& /*force*/) override {} // it has no motors
+    void halt() noexcept override {}
+
+    static constexpr double speed_max_m_per_s = 0.1; // at full deflection
+    static constexpr int deflection_full = 350;
+    static constexpr int deflection_least = 10; // less is a cap at rest
+    static constexpr base::Duration deflection_lasts{std::chrono::milliseconds{200}};
+    /// A pause between two reads counts as no more, or the position would jump.
+    static constexpr base::Duration pause_max{std::chrono::milliseconds{20}};
+    static constexpr int reports_per_read_max = 64; // the kernel keeps as many
+
+private:
+    void drain(base::TimePoint now);
+    void on_report(std::span<const std::byte> report, base::TimePoint now);
+    void move(base::Duration passed);
+
+    Identity identity_;
+    Capabilities capabilities_;
+    std::unique_ptr<Wire> wire_;
+    Buttons buttons_;
+    Sample sample_;
+    std::optional<base::TimePoint> read_at_;
+    base::TimePoint deflected_at_{};
+    glm::dvec3 speed_{0.0}; // m/s, asked for by the cap
+    std::uint8_t buttons_down_ = 0;
+    bool is_garbled_ = false;
+    bool is_gone_ = false;
+};
+
+} // namespace hapnet::device::hid

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/fault.hpp"
+#include "device/hid/options.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hapnet::device::hid {
+
+/// The force-feedback devices (USB HID PID) and the SpaceMouses that the kernel shows as hidraw
+/// nodes, with or without permission to use them; nothing else that is HID. Where a device has no
+/// serial number the node's name stands in for it, such as "hidraw0".
+[[nodiscard]] std::vector<Found> find_hids(const Options& options);
+
+/// Opens the one with this serial number or node name; "": the first that is usable. A PID device
+/// is read only where options.force_full_n is missing; its note says so.
+[[nodiscard]] Opened<std::unique_ptr<Device>> open_hid(const std::string& serial,
+                                                       const Options& options);
+
+} // namespace hapnet::device::hid

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/fault.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hapnet::device::hid {
+
+/// A hidraw node that is ours: the kernel lets anyone open it twice, so programs of ours agree by
+/// a lock on it.
+class Claim {
+public:
+    /// Or why not: no permission, in use, gone.
+    [[nodiscard]] static Opened<Claim> take(const std::string& path);
+
+    ~Claim();
+    Claim(Claim&& other) noexcept : descriptor_{std::exchange(other.descriptor_, -1)} {}
+    Claim& operator=(Claim&& other) noexcept
+    {
+        std::swap(descriptor_, other.descriptor_);
+        return *this;
+    }
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+
+private:
+    explicit Claim(int descriptor) : descriptor_{descriptor} {}
+
+    int descriptor_;
+};
+
+/// The report descriptor of "/dev/hidraw0", which anyone may read; nullopt where it is not there.
+[[nodiscard]] std::optional<std::vector<std::byte>> descriptor_of(const std::string& path);
+
+} // namespace hapnet::device::hid

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/hid/transport/sender_thread.hpp"
+
+#include "device/hid/pump.hpp"
+#include "device/hid/transport/bell.hpp"
+
+#include <atomic>
+#include <semaphore>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+namespace hapnet::device::hid {
+
+struct SenderThread::Shared {
+    Shared(std::unique_ptr<Wire> its_wire, PidSender its_sender)
+        : wire{std::move(its_wire)}, sender{std::move(its_sender)}
+    {}
+
+    void run()
+    {
+        while (true) {
+            // Asked first: what was ordered before it was set is then sent below.
+            const bool ends = is_closing;
+            while (pump_one(mailbox, sender, *wire)) {}
+            if (ends) break;
+            bell.wait();
+        }
+        wire.reset(); // whoever waits may open the device again
+        done.release();
+    }
+
+    std::unique_ptr<Wire> wire;
+    PidSender sender;
+    Mailbox mailbox;
+    Bell bell;
+    std::atomic<bool> is_closing{false};
+    std::binary_semaphore done{0};
+};
+
+SenderThread::SenderThread(std::unique_ptr<Wire> wire, PidSender sender)
+    : shared_{std::make_shared<Shared>(std::move(wire), std::move(sender))}
+{
+    std::thread{[shared = shared_] { shared->run(); }}.detach();
+}
+
+SenderThread::~SenderThread()
+{
+    shared_->is_closing = true;
+    shared_->bell.ring();
+    std::ignore = shared_->done.try_acquire_for(close_max);
+}
+
+Mailbox& SenderThread::mailbox() { return shared_->mailbox; }
+
+void SenderThread::wake() noexcept { shared_->bell.ring(); }
+
+} // namespace hapnet::device::hid

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/hid/mailbox.hpp"
+#include "device/hid/pid_sender.hpp"
+#include "device/hid/wire.hpp"
+
+#include <chrono>
+#include <memory>
+
+namespace hapnet::device::hid {
+
+/// An outbox with a thread of its own: the kernel lets a write to hidraw wait for the device, for
+/// up to 5 s and whatever the file's flags say, and no tick may.
+class SenderThread final : public Outbox {
+public:
+    SenderThread(std::unique_ptr<Wire> wire, PidSender sender);
+    /// Waits for the last order to be sent, but no longer than close_max; a thread that is still
+    /// stuck in a write then ends, and lets go of the node, when the kernel gives up.
+    ~SenderThread() override;
+
+    [[nodiscard]] Mailbox& mailbox() override;
+    void wake() noexcept override;
+
+    static constexpr std::chrono::milliseconds close_max{250};
+
+private:
+    struct Shared;
+    std::shared_ptr<Shared> shared_;
+};
+
+} // namespace hapnet::device::hid

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hapnet::device::hid {
+
+/// How moving a report went.
+enum class Moved : std::uint8_t {
+    yes,
+    nothing, // no report was waiting
+    failed,  // the device refused it or did not answer
+    gone,    // there is no device any more
+};
+
+/// What came of a read.
+struct Heard {
+    Moved moved = Moved::nothing;
+    std::size_t size = 0; // bytes, with the ID where reports are numbered
+};
+
+/// Moves reports to a device and from it, and decides nothing. Used by one thread at a time.
+class Wire {
+public:
+    Wire() = default;
+    virtual ~Wire() = default;
+    Wire(const Wire&) = delete;
+    Wire& operator=(const Wire&) = delete;
+
+    /// The oldest input report that waits; never waits for one. It begins with its ID only where
+    /// the device numbers its reports.
+    [[nodiscard]] virtual Heard read(std::span<std::byte> into) = 0;
+
+    // These begin with an ID in any case, 0 where there is none, and wait as long as the system
+    // does: the kernel gives up after 5 s.
+    [[nodiscard]] virtual Moved write(std::span<const std::byte> report) = 0;
+    [[nodiscard]] virtual Moved set_feature(std::span<const std::byte> report) = 0;
+    /// Asks for the report whose ID stands first, into the same bytes.
+    [[nodiscard]] virtual Moved get_feature(std::span<std::byte> report) = 0;
+};
+
+} // namespace hapnet::device::hid
