@@ -47,8 +47,8 @@ GovernorState Governor::state() const
 GovernedForce Governor::govern(const Wish& wish, const Sample& sample, base::TimePoint now)
 {
     const base::Duration gap = pass(now);
-    if (!may_push(sample, gap)) to_zero();
-    const bool usable = finding_ == Finding::usable && !latch_.is_closed();
+    const bool usable = may_push(sample, gap);
+    if (!usable) to_zero();
     fade(wish.permitted && usable && limits_.axes_out > 0, gap);
     last_ = shape(wish.force, sample, std::min(gap, limits_.tick));
     return strength_ > 0.0 ? GovernedForce{last_} : GovernedForce{};

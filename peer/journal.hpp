@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/peer.hpp"
+#include "peer/device_news.hpp"
 #include "proto/record/rows.hpp"
 
 #include <atomic>
@@ -17,8 +18,14 @@ struct Happening {
     base::TimePoint at;
 };
 
+/// The same, of the device.
+struct DeviceHappening {
+    DeviceNews news;
+    base::TimePoint at;
+};
+
 /// What leaves the servo thread for the record, the status line and the log.
-using Entry = std::variant<record::Row, Happening>;
+using Entry = std::variant<record::Row, Happening, DeviceHappening>;
 
 /// The one way out of the servo thread: a bounded queue that never makes it wait. What does not
 /// fit is counted, not waited for.

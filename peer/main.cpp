@@ -6,27 +6,23 @@
 #include "peer/options.hpp"
 #include "peer/report.hpp"
 #include "peer/servo.hpp"
+#include "peer/supervise.hpp"
 #include "peer/watcher.hpp"
 #include "proto/net/clock.hpp"
+#include "proto/net/crash_signal.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
-#include "proto/net/wait.hpp"
 
-#include <array>
-#include <cstdio>
-#include <exception>
 #include <memory>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
-#include <thread>
 
 namespace hapnet::peer {
 
 namespace {
 
 constexpr std::string_view program = "hapnet-peer";
-constexpr base::Duration drain_every{std::chrono::milliseconds{50}};
 
 void say(std::string_view text) { net::say(program, text); }
 
@@ -95,72 +91,13 @@ std::string ready_line(const Options& options, const net::UdpSocket& socket,
                        name_of(options.algorithm), options.seed.value());
 }
 
-/// The servo on a thread of its own; an exception in it comes out of join().
-class ServoThread {
-public:
-    explicit ServoThread(Servo& servo)
-        : thread_{[this, &servo] {
-              try {
-                  servo.run();
-              } catch (...) {
-                  failure_ = std::current_exception();
-                  failed_.store(true, std::memory_order_release);
-              }
-          }}
-    {}
-
-    [[nodiscard]] bool has_failed() const { return failed_.load(std::memory_order_acquire); }
-
-    void join()
-    {
-        thread_.join();
-        if (failure_) std::rethrow_exception(failure_);
-    }
-
-private:
-    std::exception_ptr failure_;
-    std::atomic<bool> failed_{false};
-    std::jthread thread_; // last: it uses the others
-};
-
-/// Watches the servo until it has ended; SIGINT and SIGTERM end it.
-void watch(Servo& servo, Watcher& watcher, net::StopSignal& stop, const std::string& ready)
-{
-    ServoThread thread{servo};
-    bool is_announced = false;
-    try {
-        while (!servo.is_done() && !thread.has_failed()) {
-            const auto now = net::monotonic_now();
-            const std::array descriptors{stop.descriptor()};
-            // Once a stop is asked for, the descriptor may stay readable: then only sleep.
-            net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
-                               now + drain_every);
-            if (stop.requested()) servo.stop();
-            if (!is_announced && servo.is_running()) {
-                fmt::print("{}", ready);
-                std::fflush(stdout);
-                is_announced = true;
-                if (const auto shortage = servo.real_time().shortage(); !shortage.empty()) {
-                    say(shortage);
-                }
-            }
-            watcher.drain();
-            watcher.show(net::monotonic_now());
-        }
-    } catch (...) {
-        servo.stop(); // such as a full disk: the hand comes first
-        thread.join();
-        throw;
-    }
-    thread.join();
-    watcher.finish();
-}
-
 base::Result<int> play(const Options& options)
 {
     const auto places = look_up(options);
     if (!places) return tl::unexpected{places.error()};
-    net::StopSignal stop;
+    net::StopSignal stop; // before any thread
+    const net::CrashSignal crash;
+    const net::CrashStack stack;
     net::UdpSocket socket{places->listen};
     auto opened = open_chosen(options.device, options.task);
     if (!opened) {
@@ -168,7 +105,8 @@ base::Result<int> play(const Options& options)
         return net::exit_environment;
     }
     const device::Mount mount = mount_of(options.device, (*opened)->capabilities());
-    device::Rig rig{*std::move(opened), device::GovernorLimits{}, mount};
+    device::Rig rig{*std::move(opened), device::GovernorLimits{.force_max_n = options.force_max_n},
+                    mount};
     const std::string device = device::description(rig.device());
     if (options.device.is_real()) say(introduction(rig.device(), mount, options.task));
     const Settings settings = settings_of(options);
@@ -177,9 +115,10 @@ base::Result<int> play(const Options& options)
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Peer peer{settings};
-    Servo servo{{peer, rig, socket, places->remote, journal, options.id}};
+    Watchdog watchdog{rig.device(), &crash};
+    Servo servo{{peer, rig, socket, places->remote, journal, watchdog, options.id}};
 
-    watch(servo, watcher, stop, ready_line(options, socket, places->remote));
+    supervise(servo, watcher, stop, ready_line(options, socket, places->remote));
 
     const Run run{options, peer, servo, journal, socket, device};
     if (file) {

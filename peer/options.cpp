@@ -51,6 +51,8 @@ Prints one line "ready ..." on stdout when its loop runs, and what happens on st
 SIGINT or SIGTERM ends it with zero force and says goodbye to the other peer.
 Exit codes: 0 done, 1 the run failed, 2 bad usage, 3 the system refused (port in use, no route).)";
 
+constexpr double force_limit_max_n = 40.0; // more than any of the devices has
+
 struct Texts {
     std::string id = "1";
     std::string listen = "127.0.0.1:0";
@@ -58,6 +60,7 @@ struct Texts {
     DeviceTexts device;
     std::optional<std::string> scene;
     std::string grip_damping = "4Ns/m";
+    std::string force_limit = "3.3N";
     std::string task = "P1";
     std::string algorithm = "base";
     std::optional<std::string> print_algorithm;
@@ -88,6 +91,10 @@ void add_options(CLI::App& app, Texts& texts)
         "Damping of the device and the loosest grip on it (default 4Ns/m, a nominal grip on\n"
         "a stylus): contacts that need more to be rendered safely feel softer",
         "DAMPING");
+    add("--force-limit", texts.force_limit,
+        "The most that the hand is given (default 3.3N, an Omni's peak; never more than the\n"
+        "device has); 0N: nothing is felt. See docs/GOVERNOR.md",
+        "FORCE");
     add("--task", texts.task, "What the simulated hands do (default P1)", "P1|T1|...|T6");
     add("--algorithm", texts.algorithm,
         "How the two cubes are kept together: base (default), dead-reckoning, sep, or a file of\n"
@@ -115,6 +122,16 @@ base::Result<double> parse_grip_damping(const std::string& text)
                         base::quantity_text(scene::damping_max_ns_per_m, base::damping_kind)));
     }
     return damping;
+}
+
+base::Result<double> parse_force_limit(const std::string& text)
+{
+    auto force = base::parse_quantity(text, base::force_kind);
+    if (force && !(*force >= 0.0 && *force <= force_limit_max_n)) {
+        return base::fail(fmt::format("'{}' is out of range: 0N to {} is possible", text,
+                                      base::quantity_text(force_limit_max_n, base::force_kind)));
+    }
+    return force;
 }
 
 /// A scene that two peers can share.
@@ -158,6 +175,7 @@ net::CommandLine<Options> options_from(const Texts& texts)
     taker.take(options.scene, "--scene", scene_for_a_session(options.scene_name));
     taker.take(options.grip_damping_ns_per_m, "--grip-damping",
                parse_grip_damping(texts.grip_damping));
+    taker.take(options.force_max_n, "--force-limit", parse_force_limit(texts.force_limit));
     taker.require(!texts.key, "--key: authenticated sessions are not available yet; use --insecure "
                               "on a network you trust");
     taker.require(texts.record != "-", "--record: '-' is not a file: a record needs one");

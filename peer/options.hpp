@@ -27,6 +27,7 @@ struct Options {
     std::string scene_name = "paper";
     scene::Description scene; // one that two peers can share
     double grip_damping_ns_per_m = 4.0;
+    double force_max_n = 3.3; // that the hand is given at most
     device::Task task = device::Task::p1;
     Algorithm algorithm;
     base::Seed seed{1};

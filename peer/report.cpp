@@ -80,6 +80,45 @@ json session_json(const Run& run)
     return out;
 }
 
+json governor_json(const Run& run)
+{
+    const device::Governor& governor = run.servo.rig().governor();
+    const device::GovernorCounters& c = governor.counters();
+    const device::RigCounters& device = run.servo.rig().counters();
+    return {{"state", device::name_of(governor.state())},
+            {"fault", device::name_of(governor.fault().fault)},
+            {"tripped_by", device::name_of(governor.fault().trip)},
+            {"force_limit_n", governor.limits().force_max_n},
+            {"motor_heat", governor.heat()},
+            {"not_finite", c.not_finite},
+            {"clamped", c.clamped},
+            {"heat_limited", c.heat_limited},
+            {"joint_limited", c.joint_limited},
+            {"flattened", c.flattened},
+            {"outside", c.outside},
+            {"slewed", c.slewed},
+            {"faded", c.faded},
+            {"stalled", c.stalled},
+            {"silent", c.silent},
+            {"docked", c.docked},
+            {"uncalibrated", c.uncalibrated},
+            {"too_fast", c.too_fast},
+            {"faults",
+             {{"device", c.device_faults},
+              {"silence", c.silence_faults},
+              {"loop", c.loop_faults},
+              {"speed", c.speed_trips},
+              {"jump", c.jump_trips},
+              {"nonsense", c.nonsense_trips}}},
+            {"resets", c.resets},
+            {"watchdog_halts", run.servo.watchdog().halts()},
+            {"unusable_samples", run.peer.counters().unusable_hand},
+            {"device",
+             {{"reads", device.reads},
+              {"repeated", device.repeated},
+              {"repeated_most", device.repeated_most}}}};
+}
+
 bool is_valid(const LoopCounters& loop)
 {
     const auto p99 = loop.late.quantile(0.99);
@@ -101,6 +140,7 @@ json configuration_json(const Options& options, std::string_view device)
             {"scene_toml", scene::to_text(options.scene)},
             {"scene_hash", fmt::format("{:016x}", scene::hash(options.scene))},
             {"grip_damping_ns_per_m", options.grip_damping_ns_per_m},
+            {"force_limit_n", options.force_max_n},
             {"algorithm", name_of(options.algorithm)},
             {"algorithm_toml", print_algorithm(options.algorithm)},
             {"seed", options.seed.value()},
@@ -115,18 +155,12 @@ json configuration_json(const Options& options, std::string_view device)
 
 std::string statistics_json(const Run& run)
 {
-    const device::GovernorCounters& governor = run.servo.governor();
     json out = configuration_json(run.options, run.device);
     out.erase("started_unix_s");
     out["session"] = session_json(run);
     out["tick"] = tick_json(run.servo.counters());
     out["messages"] = messages_json(run);
-    out["governor"] = {{"not_finite", governor.not_finite},
-                       {"clamped", governor.clamped},
-                       {"slewed", governor.slewed},
-                       {"faded", governor.faded},
-                       {"stalled", governor.stalled},
-                       {"unusable_samples", run.peer.counters().unusable_hand}};
+    out["governor"] = governor_json(run);
     out["record_rows_lost"] = run.journal.lost();
     out["real_time"] = {{"fifo", run.servo.real_time().fifo},
                         {"locked_memory", run.servo.real_time().locked_memory}};

@@ -27,19 +27,24 @@ record::Phase phase_of(Phase phase, bool alone)
     return record::Phase::ended;
 }
 
-/// Zero force on every way out of a scope, repeated because a wire may lose one.
+/// On every way out of a scope zero force, repeated because a wire may lose one; and nobody is to
+/// be watched any more.
 class ZeroForceAtTheEnd {
 public:
-    explicit ZeroForceAtTheEnd(device::Device& device) : device_{device} {}
+    ZeroForceAtTheEnd(device::Device& device, Watchdog& watchdog)
+        : device_{device}, watchdog_{watchdog}
+    {}
     ~ZeroForceAtTheEnd()
     {
         for (int i = 0; i < zero_force_repeats; ++i) device_.apply({});
+        watchdog_.rest();
     }
     ZeroForceAtTheEnd(const ZeroForceAtTheEnd&) = delete;
     ZeroForceAtTheEnd& operator=(const ZeroForceAtTheEnd&) = delete;
 
 private:
     device::Device& device_;
+    Watchdog& watchdog_;
 };
 
 } // namespace
@@ -48,52 +53,82 @@ Servo::Servo(const Parts& parts) : parts_{parts} {}
 
 void Servo::run()
 {
+    const net::CrashStack stack;
     {
-        const ZeroForceAtTheEnd zero{parts_.rig.device()};
+        const ZeroForceAtTheEnd zero{parts_.rig.device(), parts_.watchdog};
         real_time_ = net::request_real_time(servo_priority);
-        loop();
+        follow_device();
+        go_at_own_pace();
     }
     done_.store(true, std::memory_order_release);
 }
 
-void Servo::loop()
-{
-    base::TimePoint due = net::monotonic_now() + parts_.tick;
-    std::uint32_t missed_before = 0;
-    while (!parts_.peer.finished()) {
-        net::sleep_until(due);
-        const base::TimePoint now = net::monotonic_now();
-        record::TickRow row;
-        row.tick = counters_.ticks++;
-        row.due = due;
-        row.late = now - due;
-        row.missed_before = missed_before;
-        counters_.late.add(row.late);
-        if (stop_.load(std::memory_order_relaxed)) parts_.peer.leave(wire::ByeReason::interrupted);
-        turn(row, now);
-        parts_.journal.put(row);
-        running_.store(true, std::memory_order_release);
+bool Servo::goes_on() const { return !parts_.peer.finished() && !parts_.watchdog.is_dying(); }
 
-        due += parts_.tick;
-        missed_before = 0;
-        if (const base::TimePoint after = net::monotonic_now(); after >= due + parts_.tick) {
-            const auto behind = (after - due) / parts_.tick;
-            missed_before = static_cast<std::uint32_t>(behind);
-            counters_.missed += missed_before;
-            due += behind * parts_.tick;
-        }
+void Servo::follow_device()
+{
+    device::Device& device = parts_.rig.device();
+    if (device.capabilities().pacing != device::Pacing::device) return;
+    DeviceRhythm rhythm{parts_.tick};
+    device.pace([this, &rhythm] { return cycle(rhythm); });
+    if (failure_) std::rethrow_exception(failure_);
+}
+
+/// Called by a device, perhaps out of a library that knows no exceptions.
+bool Servo::cycle(DeviceRhythm& rhythm)
+{
+    try {
+        const base::TimePoint now = net::monotonic_now();
+        parts_.watchdog.beat(now);
+        if (const auto beat = rhythm.at(now)) take_turn(*beat, now);
+        return goes_on();
+    } catch (...) {
+        failure_ = std::current_exception();
+        return false;
     }
+}
+
+void Servo::go_at_own_pace()
+{
+    OwnRhythm rhythm{net::monotonic_now(), parts_.tick};
+    while (goes_on()) {
+        net::sleep_until(rhythm.next());
+        const base::TimePoint now = net::monotonic_now();
+        parts_.watchdog.beat(now);
+        take_turn(rhythm.begin(now), now);
+        rhythm.end(net::monotonic_now());
+    }
+}
+
+void Servo::take_turn(const Beat& beat, base::TimePoint now)
+{
+    record::TickRow row;
+    row.tick = counters_.ticks++;
+    row.due = beat.due;
+    row.late = beat.late;
+    row.missed_before = beat.missed_before;
+    counters_.late.add(row.late);
+    counters_.missed += beat.missed_before;
+    if (stop_.load(std::memory_order_relaxed)) parts_.peer.leave(wire::ByeReason::interrupted);
+    turn(row, now);
+    parts_.journal.put(row);
+    running_.store(true, std::memory_order_release);
 }
 
 void Servo::turn(record::TickRow& row, base::TimePoint now)
 {
     Peer& peer = parts_.peer;
     receive(row.tick);
+    if (parts_.watchdog.take_fault()) {
+        parts_.rig.governor().latch({device::Fault::timeout, device::Trip::loop});
+    }
     const device::Sample& sample = parts_.rig.read(now);
     const Tick tick = peer.tick(now, {sample.hip, sample.velocity, sample.gripping});
-    const base::Force force = parts_.rig.apply(tick.force, tick.permitted, now);
+    base::Force force;
+    if (!parts_.watchdog.is_dying()) force = parts_.rig.apply(tick.force, tick.permitted, now);
     send();
     while (const auto event = peer.event()) parts_.journal.put(Happening{*event, now});
+    tell_of_device(now);
     note_session(now);
 
     row.sent_sequence = tick.sequence;
@@ -115,6 +150,13 @@ void Servo::turn(record::TickRow& row, base::TimePoint now)
     row.buttons = sample.buttons;
     row.fault = static_cast<std::uint8_t>(sample.fault);
     row.sample_sequence = static_cast<std::uint32_t>(sample.sequence);
+}
+
+void Servo::tell_of_device(base::TimePoint now)
+{
+    const device::Rig& rig = parts_.rig;
+    const auto news = reporter_.look(rig.calibration(), rig.governor().fault(), now);
+    if (news) parts_.journal.put(DeviceHappening{*news, now});
 }
 
 void Servo::receive(std::uint64_t tick)

@@ -5,11 +5,14 @@
 #include "device/rig.hpp"
 #include "peer/core/peer.hpp"
 #include "peer/journal.hpp"
+#include "peer/rhythm.hpp"
+#include "peer/watchdog.hpp"
 #include "proto/base/histogram.hpp"
 #include "proto/net/real_time.hpp"
 #include "proto/net/udp_socket.hpp"
 
 #include <atomic>
+#include <exception>
 
 namespace hapnet::peer {
 
@@ -22,10 +25,11 @@ struct LoopCounters {
     std::uint64_t send_failures = 0; // the remote's host may be down: not an end
 };
 
-/// The 1 kHz loop: device, scene, governor, device, network, in this order and on one thread.
-/// Wakes by absolute time; a tick that comes later than a whole period skips the ones it has
-/// missed and counts them. After run() the device has been told zero force three times, whatever
-/// ended it.
+/// The 1 kHz loop: device, scene, governor, device, network, in this order. It goes at its own
+/// pace, waking by absolute time; or, where a device sets the rhythm, at that one's, on the thread
+/// that the device calls it from, and at its own pace again when the device falls silent. A tick
+/// that comes later than a whole period skips the ones it has missed and counts them. After run()
+/// the device has been told zero force three times, whatever ended it.
 class Servo {
 public:
     /// All that a servo works with; outlives it.
@@ -35,6 +39,7 @@ public:
         net::UdpSocket& socket;
         net::Endpoint remote;
         Journal& journal;
+        Watchdog& watchdog;
         std::uint16_t id = 1;
         base::Duration tick{std::chrono::milliseconds{1}};
     };
@@ -53,20 +58,25 @@ public:
 
     /// After run().
     [[nodiscard]] const LoopCounters& counters() const { return counters_; }
-    [[nodiscard]] const device::GovernorCounters& governor() const
-    {
-        return parts_.rig.governor().counters();
-    }
+    [[nodiscard]] const device::Rig& rig() const { return parts_.rig; }
+    [[nodiscard]] const Watchdog& watchdog() const { return parts_.watchdog; }
     [[nodiscard]] net::RealTime real_time() const { return real_time_; }
 
 private:
-    void loop();
+    void follow_device();
+    void go_at_own_pace();
+    [[nodiscard]] bool goes_on() const;
+    [[nodiscard]] bool cycle(DeviceRhythm& rhythm);
+    void take_turn(const Beat& beat, base::TimePoint now);
     void turn(record::TickRow& row, base::TimePoint now);
+    void tell_of_device(base::TimePoint now);
     void receive(std::uint64_t tick);
     void send();
     void note_session(base::TimePoint now);
 
     Parts parts_;
+    DeviceReporter reporter_;
+    std::exception_ptr failure_; // of a turn that a device's own thread took
     LoopCounters counters_;
     net::RealTime real_time_;
     std::optional<record::SessionRow> noted_;

@@ -69,8 +69,11 @@ void Watcher::drain()
     while (const auto entry = journal_.take()) {
         if (const auto* row = std::get_if<record::Row>(&*entry)) {
             take(*row);
+        } else if (const auto* happening = std::get_if<Happening>(&*entry)) {
+            tell(happening->at, words_for(happening->event));
         } else {
-            tell(std::get<Happening>(*entry));
+            const auto& [news, at] = std::get<DeviceHappening>(*entry);
+            tell(at, words_for(news));
         }
     }
 }
@@ -89,14 +92,13 @@ void Watcher::take(const record::Row& row)
     }
 }
 
-void Watcher::tell(const Happening& happening)
+void Watcher::tell(base::TimePoint at, std::string_view words)
 {
-    const bool in_session = glance_.session && happening.at >= glance_.session->start;
+    const bool in_session = glance_.session && at >= glance_.session->start;
     if (in_session) {
-        say(fmt::format("{:.1f} s: {}", base::to_seconds(happening.at - glance_.session->start),
-                        words_for(happening.event)));
+        say(fmt::format("{:.1f} s: {}", base::to_seconds(at - glance_.session->start), words));
     } else {
-        say(words_for(happening.event));
+        say(words);
     }
 }
 

@@ -34,7 +34,7 @@ public:
 
 private:
     void take(const record::Row& row);
-    void tell(const Happening& happening);
+    void tell(base::TimePoint at, std::string_view words);
     void say(std::string_view text);
 
     Journal& journal_;

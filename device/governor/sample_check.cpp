@@ -41,9 +41,11 @@ SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample
         placed_ = false;
         return {Finding::tripped, {Fault::communication, Trip::nonsense}};
     }
-    const Trip trip = is_new ? too_fast(limits, sample, since_last) : Trip::none;
-    place_ = sample.hip;
-    placed_ = true;
+    const Trip trip = too_fast(limits, sample, since_last);
+    if (is_new) {
+        place_ = sample.hip;
+        placed_ = true;
+    }
     if (trip != Trip::none) {
         if (pushing) return {Finding::tripped, {Fault::over_velocity, trip}};
         return {Finding::too_fast};

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/device_news.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+namespace {
+
+std::string_view way_back(const device::Latched& fault)
+{
+    using device::Fault;
+    const bool needs_a_restart = fault.fault == Fault::disconnected ||
+                                 fault.fault == Fault::not_found ||
+                                 fault.trip == device::Trip::nonsense;
+    if (needs_a_restart) return "";
+    return "; to feel force again put the stylus into its holder, or hold it still for a second "
+           "and "
+           "press its button";
+}
+
+} // namespace
+
+std::string words_for(const DeviceNews& news)
+{
+    if (news.is_of_calibration) {
+        if (news.calibration == device::CalibrationStep::done) return "the device is calibrated";
+        return std::string{device::words_for(news.calibration)};
+    }
+    if (news.fault.fault == device::Fault::none) return "the device is well again: force ramps in";
+    return fmt::format("zero force ({}): {}{}", device::name_of(news.fault.fault),
+                       device::what_happened(news.fault), way_back(news.fault));
+}
+
+bool DeviceReporter::is_time(std::optional<base::TimePoint>& last, base::TimePoint now) const
+{
+    if (last && now - *last < at_most_every) return false;
+    last = now;
+    return true;
+}
+
+std::optional<DeviceNews> DeviceReporter::look(device::CalibrationStep calibration,
+                                               const device::Latched& fault, base::TimePoint now)
+{
+    if (!(fault == told_.fault) && is_time(fault_told_, now)) {
+        told_.fault = fault;
+        return DeviceNews{.fault = fault};
+    }
+    if (calibration != told_.calibration && is_time(calibration_told_, now)) {
+        told_.calibration = calibration;
+        return DeviceNews{.calibration = calibration, .is_of_calibration = true};
+    }
+    return std::nullopt;
+}
+
+} // namespace hapnet::peer

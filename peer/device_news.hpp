@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/rig.hpp"
+
+#include <optional>
+#include <string>
+
+namespace hapnet::peer {
+
+/// Something about the device that a person should be told.
+struct DeviceNews {
+    device::CalibrationStep calibration = device::CalibrationStep::done;
+    device::Latched fault{}; // none: it is, or is again, without one
+    bool is_of_calibration = false;
+};
+
+/// What to tell: what it is, and what to do about it.
+[[nodiscard]] std::string words_for(const DeviceNews& news);
+
+/// Finds news in a device's state, tick by tick. Of its calibration and of its faults it tells one
+/// a second at most, and the first at once: of what changes faster, how it is by then.
+class DeviceReporter {
+public:
+    [[nodiscard]] std::optional<DeviceNews> look(device::CalibrationStep calibration,
+                                                 const device::Latched& fault, base::TimePoint now);
+
+    static constexpr base::Duration at_most_every{std::chrono::seconds{1}};
+
+private:
+    [[nodiscard]] bool is_time(std::optional<base::TimePoint>& last, base::TimePoint now) const;
+
+    DeviceNews told_;
+    std::optional<base::TimePoint> fault_told_;
+    std::optional<base::TimePoint> calibration_told_;
+};
+
+} // namespace hapnet::peer

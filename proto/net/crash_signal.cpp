@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/net/crash_signal.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <system_error>
+#include <tuple>
+#include <unistd.h>
+
+namespace hapnet::net {
+
+namespace {
+
+constexpr std::size_t crash_stack_bytes = 65536;
+
+/// What a signal handler can know: nothing is passed to it, so that this has to be global. Set
+/// before the handlers are, and only read by them.
+struct ForTheHandler {
+    std::atomic<int> dying{-1};
+    std::atomic<int> in_order{-1};
+    std::array<struct sigaction, CrashSignal::signals.size()> former{};
+};
+ForTheHandler for_the_handler;
+
+void add_one_to(int counter)
+{
+    const std::uint64_t one = 1;
+    std::ignore = write(counter, &one, sizeof one);
+}
+
+/// Calls nothing but what signal-safety(7) allows.
+extern "C" void hapnet_on_crash(int number)
+{
+    for (std::size_t i = 0; i < CrashSignal::signals.size(); ++i) {
+        if (CrashSignal::signals[i] == number) {
+            sigaction(number, &for_the_handler.former[i], nullptr);
+        }
+    }
+    add_one_to(for_the_handler.dying.load(std::memory_order_relaxed));
+    pollfd in_order{for_the_handler.in_order.load(std::memory_order_relaxed), POLLIN, 0};
+    constexpr auto patience_ms = std::chrono::milliseconds{20}.count();
+    static_assert(CrashSignal::patience == std::chrono::milliseconds{patience_ms});
+    poll(&in_order, 1, patience_ms);
+    raise(number); // comes when this returns, and to whom it would have come
+}
+
+int make_counter()
+{
+    const int counter = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    if (counter < 0) throw std::system_error{errno, std::generic_category(), "eventfd"};
+    return counter;
+}
+
+} // namespace
+
+CrashSignal::CrashSignal() : dying_{make_counter()}, in_order_{make_counter()}
+{
+    base::ensure(for_the_handler.dying.load() < 0); // one at a time
+    for_the_handler.dying = dying_;
+    for_the_handler.in_order = in_order_;
+    struct sigaction action {};
+    action.sa_handler = hapnet_on_crash;
+    action.sa_flags = SA_ONSTACK;
+    sigemptyset(&action.sa_mask);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        sigaction(signals[i], &action, &for_the_handler.former[i]);
+    }
+}
+
+CrashSignal::~CrashSignal()
+{
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        sigaction(signals[i], &for_the_handler.former[i], nullptr);
+    }
+    for_the_handler.dying = -1;
+    for_the_handler.in_order = -1;
+    close(dying_);
+    close(in_order_);
+}
+
+void CrashSignal::acknowledge() const { add_one_to(in_order_); }
+
+CrashStack::CrashStack() : bytes_{std::make_unique<std::byte[]>(crash_stack_bytes)}
+{
+    stack_t stack{};
+    stack.ss_sp = bytes_.get();
+    stack.ss_size = crash_stack_bytes;
+    sigaltstack(&stack, &former_);
+}
+
+CrashStack::~CrashStack() { sigaltstack(&former_, nullptr); }
+
+} // namespace hapnet::net

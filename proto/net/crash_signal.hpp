@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <csignal>
+#include <cstddef>
+#include <memory>
+
+namespace hapnet::net {
+
+/// The signals by which a program comes to a sudden end (abort() and with it std::terminate() and a
+/// failed ensure(), a wild pointer, too much real time, ...) as something to wait for. The thread
+/// that dies is held for at most 20 ms, in which another one may leave the world in order; then
+/// the program dies as it would have without. Construct at most one, early. Nothing helps against
+/// SIGKILL.
+class CrashSignal {
+public:
+    CrashSignal();
+    ~CrashSignal();
+    CrashSignal(const CrashSignal&) = delete;
+    CrashSignal& operator=(const CrashSignal&) = delete;
+
+    /// Readable once the program is dying, and from then on.
+    [[nodiscard]] int descriptor() const { return dying_; }
+    /// All is in order: let it die.
+    void acknowledge() const;
+
+    static constexpr base::Duration patience{std::chrono::milliseconds{20}};
+    static constexpr std::array signals{SIGABRT, SIGSEGV, SIGBUS,  SIGFPE,
+                                        SIGILL,  SIGSYS,  SIGQUIT, SIGXCPU};
+
+private:
+    int dying_ = -1;
+    int in_order_ = -1;
+};
+
+/// A stack on which the calling thread can be told that its own has overflowed. One per thread that
+/// may crash; lives as long as the thread works.
+class CrashStack {
+public:
+    CrashStack();
+    ~CrashStack();
+    CrashStack(const CrashStack&) = delete;
+    CrashStack& operator=(const CrashStack&) = delete;
+
+private:
+    std::unique_ptr<std::byte[]> bytes_;
+    stack_t former_{};
+};
+
+} // namespace hapnet::net
