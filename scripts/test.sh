@@ -53,18 +53,30 @@ check_pages() {
     ! command -v node >/dev/null || find lab -name '*.js' -print0 | xargs -0 -n 1 node --check
 }
 
-# clang-tidy reads several files of a library as one, and each header so once: a third of the time.
-# Names without linkage have to differ within a library for that.
+# Reads all but the tests, and compiles nothing: cmake/HapnetTidy.cmake says how.
 check_tidy() {
     cmake --preset tidy && cmake --build --preset tidy --parallel "$(nproc)"
+}
+
+# The tests of the sanitizers and those end to end leave processors idle: clang-tidy has those, at
+# the lowest priority there is.
+tidy=
+begin_tidy() {
+    echo "clang-tidy runs beside the tests that follow"
+    export -f check_tidy
+    chrt --idle 0 bash -euo pipefail -c check_tidy >"$logs/clang-tidy.log" 2>&1 &
+    tidy=$!
 }
 
 # Builds a preset and runs its tests but those end to end. Which kinds those are, the preset says.
 # The sanitizers' build is Clang's: so the tests also see whether another compiler gives other bits.
 run_preset() {
-    local preset=$1
+    local preset=$1 is_built=
     step "$preset configure" cmake --preset "$preset" &&
         step "$preset build" cmake --build --preset "$preset" --parallel "$(nproc)" &&
+        is_built=yes
+    [[ $preset != asan ]] || begin_tidy
+    [[ -n $is_built ]] &&
         step "$preset tests" ctest --preset "$preset" --parallel "$(nproc)" --label-exclude '^e2e$'
 }
 
@@ -72,16 +84,6 @@ step "format" check_format || true
 step "scripts" check_scripts || true
 step "pages" check_pages || true
 for preset in "${presets[@]}"; do run_preset "$preset" || true; done
-
-# The tests end to end wait most of the time: clang-tidy has the rest of the processors, at the
-# lowest priority there is.
-tidy=
-if [[ ${presets[*]} == *asan* ]]; then
-    echo "clang-tidy runs beside the tests that follow"
-    export -f check_tidy
-    chrt --idle 0 bash -euo pipefail -c check_tidy >"$logs/clang-tidy.log" 2>&1 &
-    tidy=$!
-fi
 step "release e2e" ctest --preset release --label-regex '^e2e$' || true
 show_tidy() {
     cat "$logs/clang-tidy.log"
