@@ -241,15 +241,16 @@ Opened<Candidate> choose(libusb_context* context, const std::string& serial)
     return trouble(Fault::not_found, fmt::format("{}: {}", which, words_for(Fault::not_found)));
 }
 
-Opened<std::unique_ptr<Device>> start(Context context, Candidate candidate,
+Opened<std::unique_ptr<Device>> start(Context context, Candidate&& candidate,
                                       std::vector<std::byte> firmware)
 {
+    // Together from here on: the context goes last.
+    ClaimedUsb usb{std::move(context), {}};
     if (!candidate.handle) return tl::unexpected{candidate.handle.error()};
-    if (auto why = claim(candidate.handle->get(), candidate.serial)) {
+    usb.handle.reset(candidate.handle->release());
+    if (auto why = claim(usb.handle.get(), candidate.serial)) {
         return tl::unexpected{*std::move(why)};
     }
-    ClaimedUsb usb{std::move(context), {}};
-    usb.handle.reset(candidate.handle->release());
     Startup startup{std::move(firmware)};
     if (auto why = Starter{usb.handle.get(), startup}.run()) {
         return tl::unexpected{*std::move(why)};

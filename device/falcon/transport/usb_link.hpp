@@ -17,8 +17,8 @@ inline constexpr unsigned char endpoint_out = 0x02;
 inline constexpr std::size_t usb_packet_bytes = 64;
 inline constexpr std::size_t ftdi_status_bytes = 2; // in front of each packet from FTDI's chip
 
-/// A device whose interface 0 is claimed; a library context of its own, so that no one else handles
-/// its events.
+/// An open device whose interface 0 is ours, or about to be; a library context of its own, so that
+/// no one else handles its events.
 struct ClaimedUsb {
     struct Exit {
         void operator()(libusb_context* context) const { libusb_exit(context); }
