@@ -25,6 +25,10 @@ struct Mount {
     {
         return {(1.0 / scale) * (p.value - offset.value)};
     }
+    [[nodiscard]] base::Velocity to_device(const base::Velocity& v) const
+    {
+        return {(1.0 / scale) * v.value};
+    }
     [[nodiscard]] base::Force to_device(const base::Force& f) const { return {scale * f.value}; }
 
     friend bool operator==(const Mount&, const Mount&) = default;

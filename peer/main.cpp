@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "device/governor/limits_text.hpp"
 #include "device/rig.hpp"
 #include "peer/chosen_device.hpp"
 #include "peer/core/sync/text.hpp"
@@ -75,11 +76,15 @@ Settings settings_of(const Options& options)
 }
 
 std::optional<record::Writer> writer_for(const Options& options, std::string_view device,
-                                         std::uint32_t nonce)
+                                         const device::Rig& rig, std::uint32_t nonce)
 {
     if (!options.record) return std::nullopt;
     nlohmann::json configuration = configuration_json(options, device);
     configuration["nonce"] = nonce; // the session's number follows from it
+    const device::Mount& mount = rig.mount();
+    const glm::dvec3& offset = mount.offset.value;
+    configuration["mount"] = {{"offset_m", {offset.x, offset.y, offset.z}}, {"scale", mount.scale}};
+    configuration["governor_toml"] = device::print_limits(rig.governor().limits());
     return record::Writer{*options.record, configuration};
 }
 
@@ -111,7 +116,8 @@ base::Result<int> play(const Options& options)
     if (options.device.is_real()) say(introduction(rig.device(), mount, options.task));
     const Settings settings = settings_of(options);
     Journal journal;
-    Watcher watcher{journal, writer_for(options, device, settings.introduction.nonce), options.id};
+    Watcher watcher{journal, writer_for(options, device, rig, settings.introduction.nonce),
+                    options.id};
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Peer peer{settings};

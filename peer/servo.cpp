@@ -149,7 +149,9 @@ void Servo::turn(record::TickRow& row, base::TimePoint now)
     row.calibrated = sample.calibrated;
     row.buttons = sample.buttons;
     row.fault = static_cast<std::uint8_t>(sample.fault);
-    row.sample_sequence = static_cast<std::uint32_t>(sample.sequence);
+    row.presses = sample.presses;
+    row.sample_sequence = static_cast<std::uint16_t>(sample.sequence);
+    row.governor = static_cast<std::uint8_t>(parts_.rig.governor().state());
 }
 
 void Servo::tell_of_device(base::TimePoint now)

@@ -90,6 +90,10 @@ struct Cells {
     {
         line += fmt::format(",{}", value);
     }
+    void operator()(std::string_view, std::uint16_t value) const
+    {
+        line += fmt::format(",{}", value);
+    }
     void operator()(std::string_view, std::uint32_t value) const
     {
         line += fmt::format(",{}", value);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/core/recorded_settings.hpp"
 
+#include "device/governor/limits_text.hpp"
 #include "peer/core/scene/text/text.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/text.hpp"
@@ -49,6 +50,24 @@ public:
         return is_there ? found->get<std::string>() : std::string{};
     }
 
+    device::Mount mount(const char* key)
+    {
+        const auto at = [&](const char* part) {
+            return json_.value(nlohmann::json::json_pointer{fmt::format("/{}/{}", key, part)},
+                               nlohmann::json{});
+        };
+        device::Mount mount;
+        bool is_there = at("scale").is_number() && at("scale") > 0.0;
+        if (is_there) mount.scale = at("scale").get<double>();
+        for (const int axis : {0, 1, 2}) {
+            const auto part = at(fmt::format("offset_m/{}", axis).c_str());
+            is_there = is_there && part.is_number();
+            if (is_there) mount.offset.value[axis] = part.get<double>();
+        }
+        if (!is_there) miss(key, "mount");
+        return mount;
+    }
+
     [[nodiscard]] const std::optional<std::string>& complaint() const { return complaint_; }
 
 private:
@@ -69,10 +88,11 @@ constexpr double seconds_max = 1e6;
 
 } // namespace
 
-base::Result<peer::Settings> settings_of(const nlohmann::json& config)
+base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
 {
     Config read{config};
-    peer::Settings settings;
+    RecordedSettings recorded;
+    peer::Settings& settings = recorded.peer;
     settings.introduction.id = read.whole<std::uint16_t>("peer_id");
     settings.introduction.nonce = read.whole<std::uint32_t>("nonce");
     settings.introduction.seed = read.whole<std::uint64_t>("seed");
@@ -82,6 +102,8 @@ base::Result<peer::Settings> settings_of(const nlohmann::json& config)
     const std::string task = read.text("task");
     const std::string scene_text = read.text("scene_toml");
     const std::string algorithm_text = read.text("algorithm_toml");
+    const std::string limits_text = read.text("governor_toml");
+    recorded.mount = read.mount("mount");
     if (read.complaint()) return base::fail(*read.complaint());
 
     const auto name = wire::TaskName::from_text(task);
@@ -103,7 +125,10 @@ base::Result<peer::Settings> settings_of(const nlohmann::json& config)
     auto algorithm = peer::parse_algorithm(algorithm_text, "algorithm_toml");
     if (!algorithm) return tl::unexpected{algorithm.error()};
     settings.algorithm = *std::move(algorithm);
-    return settings;
+    const auto limits = device::parse_limits(limits_text, "governor_toml");
+    if (!limits) return tl::unexpected{limits.error()};
+    recorded.limits = *limits;
+    return recorded;
 }
 
 } // namespace hapnet::lab

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/governor/limits.hpp"
+#include "device/mount.hpp"
 #include "peer/core/peer.hpp"
 #include "proto/base/result.hpp"
 
@@ -9,7 +11,14 @@
 
 namespace hapnet::lab {
 
-/// With what a peer was made whose record has this configuration. The error names the key.
-[[nodiscard]] base::Result<peer::Settings> settings_of(const nlohmann::json& config);
+/// How a peer and what stood between it and its motors were made.
+struct RecordedSettings {
+    peer::Settings peer;
+    device::GovernorLimits limits;
+    device::Mount mount;
+};
+
+/// Of a record with this configuration. The error names the key.
+[[nodiscard]] base::Result<RecordedSettings> settings_of(const nlohmann::json& config);
 
 } // namespace hapnet::lab

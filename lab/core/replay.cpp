@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <spdlog/fmt/fmt.h>
+#include <tuple>
 #include <utility>
 
 namespace hapnet::lab {
@@ -27,6 +28,7 @@ device::Sample said_in(const record::TickRow& row)
     sample.calibrated = row.calibrated;
     sample.fault = static_cast<device::Fault>(row.fault);
     sample.buttons = row.buttons;
+    sample.presses = row.presses;
     sample.sequence = row.sample_sequence;
     return sample;
 }
@@ -34,8 +36,8 @@ device::Sample said_in(const record::TickRow& row)
 /// One peer as it was.
 class Revival {
 public:
-    Revival(const record::Record& record, const peer::Settings& settings)
-        : record_{record}, peer_{settings}
+    Revival(const record::Record& record, const RecordedSettings& settings)
+        : record_{record}, mount_{settings.mount}, peer_{settings.peer}, governor_{settings.limits}
     {}
 
     ReplayedTick turn(const record::TickRow& row)
@@ -51,16 +53,35 @@ public:
             peer_.tick(row.at(), {sample.hip, sample.velocity, sample.gripping});
         while (peer_.poll()) {}
         while (peer_.event()) {}
-        const auto force = governor_.govern({tick.force, tick.permitted}, sample, row.at());
-        return {row.tick, row.at(), row.contact, tick.force, row.device, force.force()};
+        const device::Wish wish{mount_.to_device(tick.force), tick.permitted};
+        const base::Force force = governed(wish, sample, row);
+        return {row.tick, row.at(), row.contact, tick.force, row.device, force};
     }
 
     [[nodiscard]] std::size_t messages() const { return message_; }
 
 private:
+    base::Force governed(const device::Wish& wish, device::Sample sample,
+                         const record::TickRow& row)
+    {
+        sample.hip = mount_.to_device(sample.hip);
+        sample.velocity = mount_.to_device(sample.velocity);
+        constexpr auto fault = static_cast<std::uint8_t>(device::GovernorState::fault);
+        if (row.governor == fault && governor_.state() != device::GovernorState::fault) {
+            // What nothing in the row explains was the watchdog's doing.
+            device::Governor by_itself = governor_;
+            std::ignore = by_itself.govern(wish, sample, row.at());
+            if (by_itself.state() != device::GovernorState::fault) {
+                governor_.latch({device::Fault::timeout, device::Trip::loop});
+            }
+        }
+        return governor_.govern(wish, sample, row.at()).force();
+    }
+
     const record::Record& record_;
+    device::Mount mount_;
     peer::Peer peer_;
-    device::Governor governor_{device::GovernorLimits{}};
+    device::Governor governor_;
     std::size_t message_ = 0;
 };
 
@@ -106,10 +127,10 @@ base::Result<Replayed> replay(const record::Record& record,
     auto settings = settings_of(record.config);
     if (!settings) return tl::unexpected{settings.error()};
     if (const auto gap = gap_in(record)) return base::fail(*gap);
-    if (instead) settings->algorithm = *instead;
+    if (instead) settings->peer.algorithm = *instead;
 
     Replayed replayed;
-    replayed.algorithm = peer::name_of(settings->algorithm);
+    replayed.algorithm = peer::name_of(settings->peer.algorithm);
     replayed.is_the_recorded_one = !instead;
     replayed.ticks.reserve(record.ticks.size());
     Revival revival{record, *settings};

@@ -39,6 +39,7 @@ constexpr void for_each_field(R& row, auto&& visit)
     visit("calibrated", row.calibrated);
     visit("buttons", row.buttons);
     visit("fault", row.fault);
+    visit("presses", row.presses);
     visit("sample_sequence", row.sample_sequence);
     visit("governor", row.governor);
 }

@@ -65,8 +65,10 @@ struct TickRow {
     bool calibrated = true;
     std::uint8_t buttons = 0;
     std::uint8_t fault = 0; // device::Fault
-    /// Grows with every word from the device; its low half.
-    std::uint32_t sample_sequence = 0;
+    /// Presses of the primary button, counted.
+    std::uint16_t presses = 0;
+    /// Grows with every word from the device; its lowest bits.
+    std::uint16_t sample_sequence = 0;
     /// device::GovernorState after this tick.
     std::uint8_t governor = 0;
 

@@ -87,7 +87,7 @@ TEST(Csv, NamesEveryColumnOfATickWithItsUnit)
               "hip_velocity_y_mm_per_s,hip_velocity_z_mm_per_s,cube_x_mm,cube_y_mm,cube_z_mm,"
               "cube_velocity_x_mm_per_s,cube_velocity_y_mm_per_s,cube_velocity_z_mm_per_s,"
               "contact_x_n,contact_y_n,contact_z_n,device_x_n,device_y_n,device_z_n,remote_x_n,"
-              "remote_y_n,remote_z_n,gripping,docked,calibrated,buttons,fault,sample_sequence,"
+              "remote_y_n,remote_z_n,gripping,docked,calibrated,buttons,fault,presses,sample_sequence,"
               "governor");
 }
 
@@ -105,7 +105,7 @@ TEST(Csv, ShowsATickInMillimetresNewtonsAndSecondsSinceZero)
     const std::string line = csv_line(row, start);
     EXPECT_TRUE(line.starts_with(
         "-0.000984500,7,15.500,0,3,hands_off,1,0,0,22.500000,0.000000,-1.000000,"));
-    EXPECT_TRUE(line.ends_with(",,0.000000,0.500000,0,0,1,0,0,0,0"));
+    EXPECT_TRUE(line.ends_with(",,0.000000,0.500000,0,0,1,0,0,0,0,0"));
     EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(tick_csv_header(), ','));
 }
 

@@ -3,6 +3,7 @@
 #include "lab/core/replay.hpp"
 
 #include "device/governor.hpp"
+#include "device/governor/limits_text.hpp"
 #include "peer/core/scene/text/text.hpp"
 #include "peer/core/sync/text.hpp"
 #include "tests/unit/peer/pair.hpp"
@@ -24,6 +25,8 @@ nlohmann::json config_of(const peer::Settings& settings)
             {"duration_s", base::to_seconds(settings.length)},
             {"grip_damping_ns_per_m", settings.grip_damping_ns_per_m},
             {"task", "T3"},
+            {"mount", {{"offset_m", {0.0, 0.0, 0.0}}, {"scale", 1.0}}},
+            {"governor_toml", device::print_limits(device::GovernorLimits{})},
             {"scene_toml", scene::to_text(settings.scene)},
             {"algorithm_toml", peer::print_algorithm(settings.algorithm)}};
 }
@@ -68,7 +71,7 @@ private:
         row.due = pair_.now;
         row.hip = pair_.hands[0].hip;
         row.hip_velocity = pair_.hands[0].velocity;
-        row.sample_sequence = static_cast<std::uint32_t>(tick + 1);
+        row.sample_sequence = static_cast<std::uint16_t>(tick + 1);
         row.contact = pair_.ticks[0].force;
         device::Sample sample;
         sample.hip = row.hip;

@@ -38,7 +38,7 @@ TEST(RecordCodec, PutsFieldsLittleEndianAtTheOffsetsOfVersion2)
     EXPECT_EQ(at(bytes, 43), 0xf0); // hip: 1.0 is 0x3ff0000000000000
     EXPECT_EQ(at(bytes, 44), 0x3f);
     EXPECT_EQ(at(bytes, 207), 1);    // calibrated
-    EXPECT_EQ(at(bytes, 210), 0xfe); // sample_sequence
+    EXPECT_EQ(at(bytes, 212), 0xfe); // sample_sequence
     EXPECT_EQ(at(bytes, 215), 0);    // after the last field
 }
 

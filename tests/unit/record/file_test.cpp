@@ -178,7 +178,7 @@ TEST(RecordHeader, DescribesEveryFieldWithItsTypeOffsetAndUnit)
     EXPECT_EQ(header["format"], "hapnet-record");
     EXPECT_EQ(header["row_bytes"], row_bytes);
     const auto& fields = header["schema"]["tick"]["fields"];
-    ASSERT_EQ(fields.size(), 23);
+    ASSERT_EQ(fields.size(), 24);
     EXPECT_EQ(fields[1],
               nlohmann::json::parse(
                   R"({"name":"due","type":"i64","offset":9,"unit":"ns of CLOCK_MONOTONIC"})"));

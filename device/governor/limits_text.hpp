@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/governor/limits.hpp"
+#include "proto/base/result.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace hapnet::device {
+
+/// Limits as TOML, for records: what has none is left out.
+[[nodiscard]] std::string print_limits(const GovernorLimits& limits);
+
+/// Reads what print_limits() wrote, to the same bits. `source` names the text in errors, which
+/// begin with "SOURCE:LINE:COLUMN: ". Limits of joints are known of one arm, the PHANToM Omni's.
+[[nodiscard]] base::Result<GovernorLimits> parse_limits(std::string_view text,
+                                                        const std::string& source);
+
+} // namespace hapnet::device
