@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "device/catalogue/catalogue.hpp"
 
+#include "device/hdapi/transport/hdapis.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <spdlog/fmt/fmt.h>
@@ -11,7 +13,11 @@ namespace hapnet::device {
 const std::vector<Backend>& backends()
 {
     static const std::vector<Backend> all{
-        // One line each.
+        {"hdapi",
+         [](const DeviceOptions& options) { return hdapi::find_hdapis(options.hd_library); },
+         [](const std::string& name, const DeviceOptions& options) {
+             return hdapi::open_hdapi(name, options.hd_library);
+         }},
     };
     return all;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -109,15 +110,19 @@ TEST_F(Device, GivesFinitePositionsInsideItsWorkspaceAndNewerOnesAsTimePasses)
     open_calibrated();
     const std::uint64_t before = sample().sequence;
     const device::Capabilities& can = rig_->device().capabilities();
+    const auto is_inside = [&] {
+        const auto& hip = sample().hip.value;
+        return glm::all(glm::greaterThanEqual(hip, can.workspace_min.value)) &&
+               glm::all(glm::lessThanEqual(hip, can.workspace_max.value));
+    };
+    // Who has moved the joints to every stop just now comes back first.
+    EXPECT_TRUE(play_until(is_inside, {}));
     for (int i = 0; i < 50; ++i) {
         play({});
         ASSERT_TRUE(base::is_finite(sample().hip));
         ASSERT_TRUE(base::is_finite(sample().velocity));
         ASSERT_EQ(sample().fault, device::Fault::none);
-        for (const int axis : {0, 1, 2}) {
-            ASSERT_GE(sample().hip.value[axis], can.workspace_min.value[axis]);
-            ASSERT_LE(sample().hip.value[axis], can.workspace_max.value[axis]);
-        }
+        ASSERT_TRUE(is_inside());
     }
     EXPECT_GT(sample().sequence, before);
 }
@@ -127,7 +132,8 @@ TEST_F(Device, PushesAsSoonAsItMayAndRampsIn)
     SKIP_UNLESS(traits().has_motors);
     open_calibrated();
     const std::size_t first = subject().commands().size();
-    play_for(1500ms, along_x);
+    // A second; more on a busy machine, as a late tick begins again.
+    EXPECT_TRUE(play_until([&] { return felt_.x() > 0.9; }, along_x));
     EXPECT_TRUE(was_pushed_since(first));
     EXPECT_TRUE(subject().commands().back().motors_on);
     EXPECT_NEAR(felt_.x(), 1.0, 0.3);

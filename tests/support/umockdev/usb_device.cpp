@@ -60,7 +60,6 @@ void UsbDevice::unplug()
         owner_ = nullptr;
         model_.on_released();
     }
-    testbed_.announce(path_of(usb_), "remove");
     testbed_.remove(path_of(usb_));
 }
 
@@ -72,7 +71,6 @@ void UsbDevice::plug_in()
         stalled_ = false;
     }
     testbed_.add(testbed_text_of(usb_));
-    testbed_.announce(path_of(usb_), "add");
 }
 
 bool UsbDevice::kernel_has_it()

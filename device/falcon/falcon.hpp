@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/buttons.hpp"
+#include "device/device.hpp"
+#include "device/falcon/link.hpp"
+#include "device/falcon/packet.hpp"
+#include "device/velocity_filter.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace hapnet::device::falcon {
+
+/// Motor counts for a newton metre at a leg's arm. libnifalcon's factor
+/// (src/kinematic/FalconKinematicStamper.cpp), which gives no source for it: nobody is known to
+/// have measured one. So a newton here is a newton in name.
+inline constexpr double counts_per_newton_metre = 10000.0;
+
+/// As the catalogue shows it; "" for a serial that it does not tell.
+[[nodiscard]] Identity identity_of(std::string serial);
+
+/// A Novint Falcon whose firmware runs. Its positions mean nothing until its three legs have been
+/// at their stops once: calibrate() asks the person for that, and the device's light is red so
+/// long. It answers each packet with one, so the host sets the rate.
+///
+/// When the program is killed, the motors keep the last torque they were told, as far as is known:
+/// nobody has described a watchdog in the firmware. Pulling its power plug ends it.
+class Falcon final : public Device {
+public:
+    Falcon(std::unique_ptr<Link> link, std::string serial);
+    ~Falcon() override;
+
+    [[nodiscard]] const Identity& identity() const override { return identity_; }
+    [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
+    [[nodiscard]] CalibrationStep calibrate(base::TimePoint now) override;
+    [[nodiscard]] Sample read(base::TimePoint now) override;
+    void apply(const GovernedForce& force) override;
+    void halt() noexcept override;
+
+    /// Silence, or nonsense, for longer than this is a fault.
+    static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
+    /// A packet without an answer for so long is taken as lost.
+    static constexpr base::Duration lost_after{std::chrono::milliseconds{10}};
+
+private:
+    void take(const Report& report, base::TimePoint now);
+    [[nodiscard]] Fault fault_at(base::TimePoint now) const;
+    [[nodiscard]] Command command_for(const GovernedForce& force) const;
+    [[nodiscard]] Command resting() const;
+
+    std::unique_ptr<Link> link_;
+    Identity identity_;
+    Capabilities capabilities_;
+    PacketFinder finder_;
+    VelocityFilter velocity_;
+    Buttons buttons_;
+    Sample sample_;
+    base::TimePoint now_{};                    // of the last read
+    std::optional<base::TimePoint> last_word_; // that made sense; at first: when it was first asked
+    std::uint64_t nonsense_ = 0;               // reports that no arm can give
+    std::uint64_t nonsense_before_ = 0;        // at the last word
+    bool was_calibrated_ = false;
+    bool homes_ = false;
+    std::optional<base::TimePoint> unanswered_since_;
+    bool pushes_ = false; // the last packet that was sent did
+};
+
+} // namespace hapnet::device::falcon

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/falcon/packet.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hapnet::device::falcon {
+
+/// What carries packets to a Falcon whose firmware runs, and bytes back. It takes no decisions. One
+/// thread calls all but interrupt(). None throws.
+class Link {
+public:
+    Link() = default;
+    virtual ~Link() = default;
+    Link(const Link&) = delete;
+    Link& operator=(const Link&) = delete;
+
+    /// Begins to send; false: the one before has not left yet, or the device has gone.
+    [[nodiscard]] virtual bool send(const Packet& packet) noexcept = 0;
+
+    enum class Wait : std::uint8_t { no, briefly }; // briefly: at most 2 ms, usually 1 ms
+    /// What has come since the last call, good until the next one. Empty: nothing.
+    [[nodiscard]] virtual std::span<const std::byte> receive(Wait wait) noexcept = 0;
+
+    /// Whether the device has been unplugged; it does not come back.
+    [[nodiscard]] virtual bool is_gone() const noexcept = 0;
+
+    /// Sends behind whatever is on its way; from any thread. Nothing when the last one that was
+    /// sent so has not left yet.
+    virtual void interrupt(const Packet& packet) noexcept = 0;
+
+    /// Sends, and waits at most 50 ms until it has left.
+    virtual void send_now(const Packet& packet) noexcept = 0;
+};
+
+} // namespace hapnet::device::falcon

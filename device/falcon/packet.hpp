@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace hapnet::device::falcon {
+
+// What a Falcon and its host say to each other once its firmware runs: one packet of 16 bytes each
+// way, the host's first. '<', three numbers of 16 bits in four nibbles each, the least significant
+// first, two bytes of flags, '>'; to each nibble and flag 'A' is added. Known from libnifalcon
+// (src/firmware/FalconFirmwareNovintSDK.cpp), not from the device's maker.
+
+inline constexpr std::size_t packet_bytes = 16;
+using Packet = std::array<std::byte, packet_bytes>;
+using Counts = std::array<std::int16_t, 3>; // one for each leg
+
+/// The lights around the logo, as libnifalcon names them.
+enum class Lights : std::uint8_t { none = 0x0, green = 0x2, blue = 0x4, red = 0x8 };
+
+/// From the host.
+struct Command {
+    Counts motors{};
+    Lights lights = Lights::none;
+    bool home = false; // look for the ends of the legs' reach
+
+    friend bool operator==(const Command&, const Command&) = default;
+};
+
+/// The motors take no more than this, either way.
+inline constexpr int motor_max = 4096;
+
+/// From the device.
+struct Report {
+    Counts encoders{};
+    std::uint8_t buttons = 0;    // bit 0 plus, 1 forward, 2 centre, 3 minus
+    std::uint8_t legs_homed = 0; // bits 0 to 2
+    std::uint8_t rest = 'A';     // the last byte before '>': nobody knows what it says
+
+    friend bool operator==(const Report&, const Report&) = default;
+};
+inline constexpr std::uint8_t all_legs = 0x7;
+
+[[nodiscard]] Packet encode(const Command& command);
+[[nodiscard]] Packet encode(const Report& report); // for doubles of the device
+/// nullopt: it is none; what is accepted encodes to the same bytes again.
+[[nodiscard]] std::optional<Report> decode_report(std::span<const std::byte, packet_bytes> bytes);
+[[nodiscard]] std::optional<Command> decode_command(std::span<const std::byte, packet_bytes> bytes);
+
+/// Finds packets in a stream of bytes of which some may be missing or wrong: each packet whose 16
+/// bytes came without a break is found, whatever is around it.
+class PacketFinder {
+public:
+    /// Takes one byte; gives the packet that it ends.
+    [[nodiscard]] std::optional<Packet> feed(std::byte byte);
+
+    /// Bytes so far that belong to no packet.
+    [[nodiscard]] std::uint64_t skipped() const { return skipped_; }
+
+private:
+    Packet packet_{};
+    std::size_t size_ = 0;
+    std::uint64_t skipped_ = 0;
+};
+
+} // namespace hapnet::device::falcon

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/falcon/packet.hpp"
+#include "device/fault.hpp"
+#include "proto/base/time.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hapnet::device::falcon {
+
+/// A request to the FTDI chip that stands between the bus and the Falcon.
+struct Ask {
+    std::uint8_t request = 0;
+    std::uint16_t value = 0;
+
+    friend bool operator==(const Ask&, const Ask&) = default;
+};
+/// Bytes for the Falcon.
+struct Say {
+    std::vector<std::byte> bytes;
+};
+/// Wait for one answer of the chip, which may hold no byte of the Falcon's.
+struct Listen {
+    base::Duration at_most;
+};
+/// The Falcon's firmware runs and answers.
+struct Ready {};
+/// It will not be ready, and why.
+struct Refused {
+    Trouble trouble;
+};
+using Step = std::variant<Ask, Say, Listen, Ready, Refused>;
+
+/// Brings a Falcon from its loader to its running firmware, as libnifalcon does
+/// (src/comm/FalconCommLibUSB.cpp, src/core/FalconFirmware.cpp): asks whether it runs already, else
+/// loads it, again and again, as the first attempts often fail. Does no I/O and reads no clock:
+/// carry out step(), say how it went, and again, until it is Ready or Refused. It ends: after 5
+/// attempts.
+class Startup {
+public:
+    /// `firmware`: Novint's, as in a file of theirs; empty: there is none.
+    explicit Startup(std::vector<std::byte> firmware);
+
+    [[nodiscard]] const Step& step() const { return step_; }
+
+    /// An Ask or a Say was carried out.
+    void on_done();
+    /// What Listen brought; empty: the chip had nothing of the Falcon's.
+    void on_heard(std::span<const std::byte> bytes);
+    /// Listen brought nothing at all in its time, or a step could not be carried out in its.
+    void on_silence();
+
+    static constexpr int attempts_max = 5;
+
+private:
+    enum class Phase : std::uint8_t { greet, call_loader, call_fast_loader, load };
+    enum class Answer : std::uint8_t { incomplete, right, wrong };
+
+    void begin(Phase phase);
+    void advance();
+    void say();
+    void next_phase();
+    void next_attempt();
+    void refuse(Fault fault, std::string message);
+    [[nodiscard]] std::span<const std::byte> chunk() const;
+    [[nodiscard]] Answer answer_in(std::span<const std::byte> bytes);
+
+    std::vector<std::byte> firmware_;
+    Step step_;
+    std::vector<Ask> plan_; // what prepares this phase and is still to do, the last one first
+    Phase phase_ = Phase::greet;
+    PacketFinder finder_;
+    std::vector<std::byte> heard_; // since the last Say
+    std::size_t loaded_ = 0;       // bytes of the firmware that came back right
+    int tries_ = 0;                // of this phase's Say
+    int empty_ = 0;                // answers without a byte since then
+    int attempts_ = 0;             // to load the firmware
+};
+
+} // namespace hapnet::device::falcon

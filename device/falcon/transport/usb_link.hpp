@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/falcon/link.hpp"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <libusb.h>
+#include <memory>
+
+namespace hapnet::device::falcon {
+
+inline constexpr unsigned char endpoint_in = 0x81;
+inline constexpr unsigned char endpoint_out = 0x02;
+inline constexpr std::size_t usb_packet_bytes = 64;
+inline constexpr std::size_t ftdi_status_bytes = 2; // in front of each packet from FTDI's chip
+
+/// An open device whose interface 0 is ours, or about to be; a library context of its own, so that
+/// no one else handles its events.
+struct ClaimedUsb {
+    struct Exit {
+        void operator()(libusb_context* context) const { libusb_exit(context); }
+    };
+    struct Release {
+        void operator()(libusb_device_handle* handle) const
+        {
+            libusb_release_interface(handle, 0);
+            libusb_close(handle);
+        }
+    };
+    std::unique_ptr<libusb_context, Exit> context;
+    std::unique_ptr<libusb_device_handle, Release> handle;
+};
+
+/// Packets over libusb: one transfer each way at most is under way, and one more for interrupt().
+/// The library's events are handled in the calls, there is no thread.
+class UsbLink final : public Link {
+public:
+    explicit UsbLink(ClaimedUsb usb);
+    ~UsbLink() override;
+
+    [[nodiscard]] bool send(const Packet& packet) noexcept override;
+    [[nodiscard]] std::span<const std::byte> receive(Wait wait) noexcept override;
+    [[nodiscard]] bool is_gone() const noexcept override { return is_gone_; }
+    void interrupt(const Packet& packet) noexcept override;
+    void send_now(const Packet& packet) noexcept override;
+
+private:
+    struct Free {
+        void operator()(libusb_transfer* transfer) const { libusb_free_transfer(transfer); }
+    };
+    using Transfer = std::unique_ptr<libusb_transfer, Free>;
+    using Buffer = std::array<unsigned char, usb_packet_bytes>;
+
+    static void on_in(libusb_transfer* transfer);
+    static void on_out(libusb_transfer* transfer);
+    static void on_urgent(libusb_transfer* transfer);
+
+    [[nodiscard]] bool submit(libusb_transfer* transfer) noexcept;
+    void listen() noexcept;
+    void take(const libusb_transfer& transfer) noexcept;
+    void handle_events(int milliseconds_max) noexcept;
+    [[nodiscard]] bool is_idle() const noexcept;
+
+    ClaimedUsb usb_;
+    Transfer in_;
+    Transfer out_;
+    Transfer urgent_;
+    Buffer in_buffer_{};
+    Buffer out_buffer_{};
+    Buffer urgent_buffer_{};
+    std::array<std::byte, 1024> inbox_{};
+    std::size_t inbox_size_ = 0;
+    bool listens_ = false;
+    bool sends_ = false;
+    bool closes_ = false;
+    std::atomic<bool> is_gone_{false};
+    std::atomic<bool> interrupts_{false};
+};
+
+} // namespace hapnet::device::falcon

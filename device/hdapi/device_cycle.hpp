@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/hdapi/library.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace hapnet::device::hdapi {
+
+/// What the device is to do, in newtons.
+struct Command {
+    std::array<double, 3> force_n{};
+    bool motors_on = false;
+};
+
+/// What the device said in a cycle of the library, in the library's units.
+struct Report {
+    std::uint64_t cycle = 0; // counted from 1; 0: nothing yet
+    std::array<double, 3> position_mm{};
+    std::array<double, 3> velocity_mm_per_s{};
+    int buttons = 0;
+    bool inkwell_switch = false;
+    unsigned int calibration = calibration::needs_update;
+    unsigned int error = error::none;    // the latest one
+    std::uint64_t error_cycle = 0;       // ... and when it came
+    std::uint64_t failures_in_a_row = 0; // cycles up to this one, all with an error of the line
+};
+
+/// What is done to one device in each cycle of the library's scheduler, in its callback. Keeps the
+/// library's rules: state and force only within a frame, one frame at a time.
+class DeviceCycle {
+public:
+    DeviceCycle(const Functions& functions, Handle handle, int style)
+        : functions_{&functions}, handle_{handle}, style_{style}
+    {}
+
+    /// Goes on with the calibration, opens the frame, and reads.
+    const Report& begin();
+    /// Sets the force and closes the frame. A command that is `is_new` no more for 20 cycles is not
+    /// repeated: who gave it has stopped.
+    void end(const Command& command, bool is_new);
+
+    [[nodiscard]] Handle handle() const { return handle_; }
+    /// Frames in a row that told the device zero force with its motors off.
+    [[nodiscard]] std::uint64_t silent_frames() const { return silent_frames_; }
+
+    static constexpr std::uint64_t stale_after_cycles = 20; // 20 ms at 1 kHz
+
+private:
+    void calibrate();
+    void switch_motors(bool on);
+    void take_errors();
+
+    const Functions* functions_;
+    Handle handle_;
+    int style_;
+    Report report_;
+    std::uint64_t stale_cycles_ = 0;
+    std::uint64_t silent_frames_ = 0;
+    bool motors_on_ = false;
+};
+
+/// Takes the errors off the library's stack: the first that came, as the others follow from it.
+[[nodiscard]] ErrorInfo first_error(const Functions& functions);
+
+} // namespace hapnet::device::hdapi

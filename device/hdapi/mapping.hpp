@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/capabilities.hpp"
+#include "device/device.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace hapnet::device::hdapi {
+
+/// What one of the library's error codes means.
+[[nodiscard]] Fault fault_of(unsigned int code);
+
+/// What the library's word on its calibration asks for.
+[[nodiscard]] CalibrationStep calibration_step(unsigned int status);
+
+/// With which of the styles that a device has it is calibrated: inkwell before automatic before
+/// encoder reset, as the first needs no care of the person's.
+[[nodiscard]] int preferred_style(int styles);
+
+/// What the library says a device can do, in its own units.
+struct Properties {
+    std::array<double, 6> workspace_mm{};
+    double force_max_n = 0.0;
+    double force_continuous_n = 0.0;
+    double stiffness_max_n_per_mm = 0.0;
+    double damping_max_ns_per_mm = 0.0;
+    double velocity_limit_mm_per_s = 0.0;
+    int update_rate_hz = 0;
+    int calibration_styles = 0;
+};
+
+/// The same in ours. Where the library says nothing sensible, an Omni's data sheet does; but no
+/// more force than an Omni bears for ever.
+[[nodiscard]] Capabilities capabilities_of(const Properties& properties);
+
+/// What a person is to do about a device that does not open. `name` is as in the vendor's
+/// configuration, "" for the default one; `said` is the library's own text for `code`.
+[[nodiscard]] std::string words_for_refusal(const std::string& name, unsigned int code,
+                                            const std::string& said);
+
+} // namespace hapnet::device::hdapi

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/buttons.hpp"
+#include "device/device.hpp"
+#include "device/hdapi/device_cycle.hpp"
+
+#include <chrono>
+#include <optional>
+
+namespace hapnet::device::hdapi {
+
+/// What the library's reports say of the stylus, and what their absence does.
+class Stylus {
+public:
+    /// Of a device that has a holder with a switch, or not.
+    explicit Stylus(bool has_inkwell) : has_inkwell_{has_inkwell} { sample_.calibrated = false; }
+
+    /// The stylus at `now` by the newest report there is, which may be an old one.
+    [[nodiscard]] const Sample& read(const Report& report, base::TimePoint now);
+
+    static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
+    /// An error of the line that lasts so many cycles: the device has gone.
+    static constexpr std::uint64_t gone_after_cycles = 100;
+
+private:
+    void take(const Report& report, base::TimePoint now);
+    [[nodiscard]] Fault fault_of_line(const Report& report);
+
+    bool has_inkwell_;
+    Sample sample_;
+    Buttons buttons_;
+    std::uint64_t errors_seen_ = 0; // the cycle of the latest one
+    std::optional<base::TimePoint> heard_;
+};
+
+} // namespace hapnet::device::hdapi

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hapnet::device::hdapi {
+
+/// The names in the vendor's configuration, and devices on the USB that need its library. The
+/// library is loaded to see whether it can be, but no device is touched.
+[[nodiscard]] std::vector<Found> find_hdapis(const std::string& library);
+
+/// Opens the device of this name; "": the default one, by all the names that it goes by.
+[[nodiscard]] Opened<std::unique_ptr<Device>> open_hdapi(const std::string& name,
+                                                         const std::string& library);
+
+/// Opens several at once, all or none: they share the library's one scheduler, so that one process
+/// can own them. Whether two processes can each own one is not known.
+[[nodiscard]] Opened<std::vector<std::unique_ptr<Device>>>
+open_hdapis(const std::vector<std::string>& names, const std::string& library);
+
+} // namespace hapnet::device::hdapi

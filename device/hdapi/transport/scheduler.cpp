@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/hdapi/transport/scheduler.hpp"
+
+#include "device/hdapi/transport/shared_library.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
+#include <tuple>
+
+namespace hapnet::device::hdapi {
+
+namespace {
+
+constexpr unsigned long rate_hz = 1000;
+
+std::string text_or_nothing(const char* text) { return text == nullptr ? "" : text; }
+
+Properties properties_of_current(const Functions& functions)
+{
+    Properties it;
+    functions.get_doubles(parameter::usable_workspace, it.workspace_mm.data());
+    functions.get_doubles(parameter::force_max, &it.force_max_n);
+    functions.get_doubles(parameter::force_continuous, &it.force_continuous_n);
+    functions.get_doubles(parameter::stiffness_max, &it.stiffness_max_n_per_mm);
+    functions.get_doubles(parameter::damping_max, &it.damping_max_ns_per_mm);
+    functions.get_doubles(parameter::velocity_limit, &it.velocity_limit_mm_per_s);
+    functions.get_integers(parameter::update_rate, &it.update_rate_hz);
+    functions.get_integers(parameter::calibration_style, &it.calibration_styles);
+    return it;
+}
+
+} // namespace
+
+Opened<std::vector<Opening>> Scheduler::open(const std::vector<std::string>& names)
+{
+    const std::lock_guard lock{mutex_};
+    for (const std::string& name : names) {
+        if (std::any_of(open_.begin(), open_.end(),
+                        [&](const Opening& one) { return one.name == name; })) {
+            return trouble(Fault::in_use,
+                           words_for_refusal(name, error::already_open, "open in this program"),
+                           error::already_open);
+        }
+    }
+    stop();
+    std::vector<Opening> fresh;
+    std::optional<Trouble> why_not;
+    for (const std::string& name : names) {
+        auto opening = open_one(name);
+        if (!opening) {
+            why_not = opening.error();
+            break;
+        }
+        fresh.push_back(*opening);
+        open_.push_back(*opening);
+    }
+    if (const auto started = start(); !started && !why_not) why_not = started.error();
+    if (!why_not) return fresh;
+    stop();
+    for (const Opening& opening : fresh) give_back(opening);
+    std::ignore = start();
+    return tl::unexpected{*why_not};
+}
+
+Opened<Opening> Scheduler::open_one(const std::string& name)
+{
+    std::ignore = first_error(functions_); // of earlier calls
+    const Handle handle = functions_.init_device(name.empty() ? nullptr : name.c_str());
+    const ErrorInfo error = first_error(functions_);
+    if (handle == no_device || error.code != error::none) {
+        const Fault fault =
+            fault_of(error.code) == Fault::in_use ? Fault::in_use : Fault::not_found;
+        const std::string said = text_or_nothing(functions_.get_error_string(error.code));
+        return trouble(fault, words_for_refusal(name, error.code, said), error.code);
+    }
+    functions_.make_current_device(handle);
+    Opening opening{.seat = nullptr,
+                    .name = name,
+                    .model = text_or_nothing(functions_.get_string(parameter::model)),
+                    .serial = text_or_nothing(functions_.get_string(parameter::serial)),
+                    .properties = properties_of_current(functions_)};
+    functions_.disable(capability::force_output);  // until a governor asks for force
+    functions_.enable(capability::force_clamping); // the library's own limit, behind ours
+    std::ignore = first_error(functions_);         // of what this model does not have
+    opening.seat = std::make_shared<Seat>(
+        DeviceCycle{functions_, handle, preferred_style(opening.properties.calibration_styles)});
+    return opening;
+}
+
+void Scheduler::close(const Opening& opening)
+{
+    opening.seat->fall_silent();
+    const std::lock_guard lock{mutex_};
+    stop();
+    give_back(opening);
+    std::ignore = start(); // the others; one that cannot go on falls silent and is found so
+}
+
+void Scheduler::give_back(const Opening& opening)
+{
+    const Handle handle = opening.seat->handle();
+    functions_.make_current_device(handle);
+    functions_.disable(capability::force_output);
+    functions_.disable_device(handle);
+    std::ignore = first_error(functions_);
+    std::erase_if(open_, [&](const Opening& one) { return one.seat == opening.seat; });
+}
+
+Opened<bool> Scheduler::start()
+{
+    if (open_.empty()) return true;
+    callback_ = functions_.schedule_asynchronous(&Scheduler::serve_all, this, priority_max);
+    functions_.set_scheduler_rate(rate_hz);
+    std::ignore = first_error(functions_); // a device that knows other rates keeps its own
+    functions_.start_scheduler();
+    is_running_ = true;
+    const ErrorInfo error = first_error(functions_);
+    if (error.code == error::none) return true;
+    return trouble(Fault::internal,
+                   fmt::format("libHD cannot start its scheduler (error 0x{:x}: {}): end other "
+                               "programs that use the device, and plug it in again",
+                               error.code,
+                               text_or_nothing(functions_.get_error_string(error.code))),
+                   error.code);
+}
+
+void Scheduler::stop()
+{
+    if (!is_running_) return;
+    functions_.stop_scheduler();
+    functions_.unschedule(callback_);
+    is_running_ = false;
+    std::ignore = first_error(functions_);
+}
+
+unsigned int Scheduler::serve_all(void* self)
+{
+    for (const Opening& opening : static_cast<Scheduler*>(self)->open_) opening.seat->serve();
+    return callback_continue;
+}
+
+Opened<Scheduler*> scheduler_of(const std::string& file)
+{
+    // The library is one per process, with its own state and thread, and is never unloaded: so is
+    // what drives it.
+    static std::mutex mutex;
+    static std::map<std::string, std::unique_ptr<Scheduler>> schedulers;
+    const std::lock_guard lock{mutex};
+    auto& scheduler = schedulers[file];
+    if (!scheduler) {
+        const auto functions = load_library(file);
+        if (!functions) return tl::unexpected{functions.error()};
+        scheduler = std::make_unique<Scheduler>(*functions);
+    }
+    return scheduler.get();
+}
+
+} // namespace hapnet::device::hdapi

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/fault.hpp"
+#include "device/hdapi/mapping.hpp"
+#include "device/hdapi/transport/seat.hpp"
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace hapnet::device::hdapi {
+
+/// A device as the library opened it.
+struct Opening {
+    std::shared_ptr<Seat> seat;
+    std::string name; // as in the vendor's configuration, "" for the default one
+    std::string model;
+    std::string serial;
+    Properties properties;
+};
+
+/// The library's one scheduler, which serves all its devices in one callback. Safe from several
+/// threads.
+class Scheduler {
+public:
+    explicit Scheduler(const Functions& functions) : functions_{functions} {}
+
+    /// Opens devices by their names, all or none. Those that are open already stand still for a
+    /// moment, with zero force.
+    [[nodiscard]] Opened<std::vector<Opening>> open(const std::vector<std::string>& names);
+    /// Leaves it at zero force and gives it back.
+    void close(const Opening& opening);
+
+private:
+    [[nodiscard]] Opened<Opening> open_one(const std::string& name);
+    void give_back(const Opening& opening);
+    [[nodiscard]] Opened<bool> start();
+    void stop();
+    static unsigned int serve_all(void* self);
+
+    Functions functions_;
+    std::mutex mutex_;
+    std::vector<Opening> open_; // changed only while the scheduler stands still
+    bool is_running_ = false;
+    unsigned long callback_ = 0;
+};
+
+/// The process's one scheduler of the library in `file` ("": by its usual names), loaded when it is
+/// asked for first.
+[[nodiscard]] Opened<Scheduler*> scheduler_of(const std::string& file);
+
+} // namespace hapnet::device::hdapi

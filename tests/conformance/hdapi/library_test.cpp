@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What is special to devices behind a library with a scheduler of its own.
+#include "device/hdapi/transport/hdapis.hpp"
+#include "proto/net/clock.hpp"
+#include "tests/conformance/hdapi/fake.hpp"
+#include "tests/support/device/ungoverned.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <gtest/gtest.h>
+#include <stdexcept>
+
+namespace hapnet::conformance {
+namespace {
+
+using namespace std::chrono_literals;
+
+const base::Force along_x{{1.0, 0.0, 0.0}};
+
+void expect_words(const std::string& text, const std::vector<std::string>& words)
+{
+    for (const std::string& word : words) {
+        EXPECT_NE(text.find(word), std::string::npos) << word << " is not in: " << text;
+    }
+}
+
+class Hdapi : public ::testing::Test {
+protected:
+    ~Hdapi() override
+    {
+        devices_.clear();
+        const FakeHdMisuse misuse = fake_.misuse();
+        EXPECT_EQ(misuse.force_outside_frame, 0U);
+        EXPECT_EQ(misuse.nested_frames, 0U);
+        EXPECT_EQ(misuse.frames_off_scheduler, 0U);
+        EXPECT_EQ(misuse.initialised_while_running, 0U);
+    }
+
+    void open(const std::vector<std::string>& names = {"Default Device"})
+    {
+        auto opened = device::hdapi::open_hdapis(names, HAPNET_FAKE_HD);
+        ASSERT_TRUE(opened) << opened.error().message;
+        devices_ = *std::move(opened);
+    }
+    [[nodiscard]] device::Device& device(std::size_t i = 0) { return *devices_.at(i); }
+
+    /// Reads every millisecond until the sample is as wanted; at most 5 s.
+    template <typename Condition>
+    bool read_until(Condition is_wanted)
+    {
+        for (int i = 0; i < 5000; ++i) {
+            if (is_wanted(device().read(net::monotonic_now()))) return true;
+            pass(1ms);
+        }
+        return false;
+    }
+    static void pass(base::Duration duration) { net::sleep_until(net::monotonic_now() + duration); }
+
+    Fake fake_;
+    std::vector<std::unique_ptr<device::Device>> devices_;
+};
+
+TEST_F(Hdapi, SaysWhichLibraryIsMissingAndWhatToDo)
+{
+    const auto none = device::hdapi::open_hdapi("", "/no/such/libHD.so");
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().fault, device::Fault::library_missing);
+    expect_words(none.error().message, {"/no/such/libHD.so", "OpenHaptics", "--hd-library"});
+}
+
+TEST_F(Hdapi, SaysWhichFunctionALibraryLacks)
+{
+    const auto none = device::hdapi::open_hdapi("", HAPNET_FAKE_HD_WITHOUT_SCHEDULER);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().fault, device::Fault::library_missing);
+    expect_words(none.error().message, {"without_scheduler", "hdDisableDevice()"});
+}
+
+TEST_F(Hdapi, ListsADeviceWhoseLibraryCannotBeLoadedWithTheReason)
+{
+    const auto found = device::hdapi::find_hdapis("/no/such/libHD.so");
+    ASSERT_FALSE(found.empty());
+    for (const device::Found& one : found) {
+        ASSERT_TRUE(one.unusable);
+        EXPECT_EQ(one.unusable->fault, device::Fault::library_missing);
+        EXPECT_EQ(one.identity.note, device::never_run);
+    }
+    EXPECT_FALSE(device::hdapi::find_hdapis(HAPNET_FAKE_HD).at(0).unusable);
+}
+
+TEST_F(Hdapi, SaysOfANameThatTheLibraryDoesNotKnowHowToFindTheRightOne)
+{
+    const auto none = device::hdapi::open_hdapi("Rigth", HAPNET_FAKE_HD);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().fault, device::Fault::not_found);
+    EXPECT_EQ(none.error().code, 0x302);
+    expect_words(none.error().message,
+                 {"'Rigth'", "0x302", "Touch_HeadlessSetup", "Default PHANToM", "dialout"});
+}
+
+TEST_F(Hdapi, OpensAllOfSeveralOrNone)
+{
+    const auto none = device::hdapi::open_hdapis({"Left", "Rigth"}, HAPNET_FAKE_HD);
+    ASSERT_FALSE(none);
+    open({"Left"});
+    EXPECT_TRUE(read_until([](const auto& sample) { return sample.sequence > 0; }));
+}
+
+TEST_F(Hdapi, TellsTwoDevicesOfOneProcessEachItsOwnForce)
+{
+    open({"Default Device", "Left"});
+    for (int i = 0; i < 100; ++i) {
+        device(0).apply(device::ungoverned(along_x));
+        device(1).apply(device::ungoverned({{0.0, 0.5, 0.0}}));
+        pass(1ms);
+    }
+    const auto mine = fake_.commands(0);
+    const auto left = fake_.commands(1);
+    devices_.clear();
+    const auto pushed = [](const auto& commands, double x, double y) {
+        return std::any_of(commands.begin(), commands.end(), [&](const FakeHdCommand& it) {
+            return it.motors_on && it.force_n[0] == x && it.force_n[1] == y;
+        });
+    };
+    EXPECT_TRUE(pushed(mine, 1.0, 0.0));
+    EXPECT_FALSE(pushed(mine, 0.0, 0.5));
+    EXPECT_TRUE(pushed(left, 0.0, 0.5));
+}
+
+TEST_F(Hdapi, ReportsAnErrorOfOneFrameOnceAndGoesOn)
+{
+    open();
+    ASSERT_TRUE(read_until([](const auto& sample) { return sample.sequence > 0; }));
+    fake_.fail_frame(0, 5);
+    EXPECT_TRUE(read_until(
+        [](const auto& sample) { return sample.fault == device::Fault::communication; }));
+    EXPECT_TRUE(read_until([](const auto& sample) { return sample.fault == device::Fault::none; }));
+}
+
+TEST_F(Hdapi, CallsWarmMotorsAnOverheat)
+{
+    open();
+    fake_.set(0, FakeHdFate::warm, true);
+    EXPECT_TRUE(
+        read_until([](const auto& sample) { return sample.fault == device::Fault::overheat; }));
+}
+
+TEST_F(Hdapi, DropsAForceThatNobodyRepeats)
+{
+    open();
+    for (int i = 0; i < 20; ++i) {
+        device().apply(device::ungoverned(along_x));
+        pass(1ms);
+    }
+    pass(200ms); // 20 cycles of the library, and what a busy machine adds
+    const FakeHdCommand last = fake_.commands(0).back();
+    EXPECT_EQ(last.force_n[0], 0.0);
+    EXPECT_FALSE(last.motors_on);
+}
+
+TEST_F(Hdapi, CountsAPressOfTheButtonThatIsDebounced)
+{
+    open();
+    fake_.set(0, FakeHdFate::pressed, true);
+    EXPECT_TRUE(read_until([](const auto& sample) { return sample.gripping; }));
+    EXPECT_EQ(device().read(net::monotonic_now()).presses, 1);
+}
+
+TEST_F(Hdapi, SetsTheBeatOfALoopThatItPacesAndTakesItsForceInTheSameFrame)
+{
+    open();
+    int beats = 0;
+    std::uint64_t sequence = 0;
+    device().pace([&] {
+        const auto sample = device().read(net::monotonic_now());
+        EXPECT_GT(sample.sequence, sequence); // never the same word twice
+        sequence = sample.sequence;
+        device().apply(device::ungoverned(along_x));
+        return ++beats < 100;
+    });
+    EXPECT_EQ(beats, 100);
+    const auto commands = fake_.commands(0);
+    const auto pushes = std::count_if(commands.begin(), commands.end(),
+                                      [](const auto& it) { return it.force_n[0] == 1.0; });
+    EXPECT_GE(pushes, 100);
+}
+
+TEST_F(Hdapi, GivesTheLoopBackWhenTheSchedulerStalls)
+{
+    open();
+    std::atomic<int> beats{0};
+    device().pace([&] {
+        if (++beats == 10) fake_.set(0, FakeHdFate::stalled, true);
+        return true;
+    });
+    EXPECT_EQ(beats, 10);
+    EXPECT_TRUE(
+        read_until([](const auto& sample) { return sample.fault == device::Fault::timeout; }));
+    fake_.set(0, FakeHdFate::stalled, false);
+    EXPECT_TRUE(read_until([](const auto& sample) { return sample.fault == device::Fault::none; }));
+    EXPECT_EQ(beats, 10); // nobody beats any more
+}
+
+TEST_F(Hdapi, LetsAnExceptionOfTheLoopOutOnTheThreadThatPaces)
+{
+    open();
+    EXPECT_THROW(device().pace([]() -> bool { throw std::runtime_error{"in the servo"}; }),
+                 std::runtime_error);
+    EXPECT_TRUE(read_until([](const auto& sample) { return sample.sequence > 2; }));
+}
+
+TEST_F(Hdapi, EndsWhenTheSchedulerHasStalledForGood)
+{
+    open();
+    device().apply(device::ungoverned(along_x));
+    pass(20ms);
+    fake_.set(0, FakeHdFate::stalled, true);
+    const auto before = net::monotonic_now();
+    devices_.clear();
+    EXPECT_LT(net::monotonic_now() - before, 2s); // 100 ms, and what a busy machine adds
+    fake_.set(0, FakeHdFate::stalled, false);
+}
+
+} // namespace
+} // namespace hapnet::conformance

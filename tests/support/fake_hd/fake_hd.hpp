@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// Fate, for the fake library's two devices: 0 is "Default Device", 1 is "Left".
+enum class FakeHdFate : int {
+    docked,  // the stylus is in its inkwell
+    pressed, // button 1
+    unplugged,
+    garbled, // positions are no numbers
+    warm,    // an error of warm motors in each frame
+    stalled, // of either device: the scheduler calls nobody
+};
+
+/// A force as a frame took it to the device.
+struct FakeHdCommand {
+    double force_n[3];
+    bool motors_on;
+};
+
+/// How the rules of the interface were kept.
+struct FakeHdMisuse {
+    std::uint64_t force_outside_frame;
+    std::uint64_t nested_frames;
+    std::uint64_t frames_off_scheduler; // opened by another thread than the scheduler's
+    std::uint64_t initialised_while_running;
+};
+
+extern "C" {
+/// As it was when it was loaded; only while no device is open.
+void fakehd_reset();
+void fakehd_set(std::size_t device, FakeHdFate fate, bool on);
+/// One error of the line, in the n-th frame from now.
+void fakehd_fail_frame(std::size_t device, std::uint64_t n);
+/// Copies up to `room` commands from number `first` on; gives how many there are in all.
+std::size_t fakehd_commands(std::size_t device, std::size_t first, FakeHdCommand* to,
+                            std::size_t room);
+FakeHdMisuse fakehd_misuse();
+}

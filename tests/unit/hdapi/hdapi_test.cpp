@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/hdapi/library.hpp"
+#include "device/hdapi/mapping.hpp"
+#include "device/hdapi/stylus.hpp"
+
+#include <gtest/gtest.h>
+#include <limits>
+#include <utility>
+
+namespace hapnet::device::hdapi {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr base::TimePoint start{1000s};
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Report report_of(std::uint64_t cycle)
+{
+    Report report;
+    report.cycle = cycle;
+    report.position_mm = {10.0, -20.0, 30.0};
+    report.velocity_mm_per_s = {100.0, 0.0, -5.0};
+    report.inkwell_switch = true;
+    report.calibration = calibration::done;
+    return report;
+}
+
+} // namespace
+
+TEST(HdapiMapping, KnowsEveryErrorOfTheInterface)
+{
+    const std::vector<std::pair<unsigned int, Fault>> all{
+        {0x000, Fault::none},          {0x100, Fault::internal},      {0x101, Fault::internal},
+        {0x102, Fault::internal},      {0x103, Fault::internal},      {0x104, Fault::internal},
+        {0x200, Fault::overheat},      {0x201, Fault::over_force},    {0x202, Fault::over_force},
+        {0x203, Fault::over_velocity}, {0x204, Fault::over_force},    {0x300, Fault::communication},
+        {0x301, Fault::in_use},        {0x302, Fault::communication}, {0x303, Fault::communication},
+        {0x304, Fault::timeout},       {0x400, Fault::internal},      {0x401, Fault::internal},
+        {0x402, Fault::internal},      {0x500, Fault::internal},      {0x501, Fault::internal},
+        {0x600, Fault::internal}};
+    for (const auto& [code, fault] : all) EXPECT_EQ(fault_of(code), fault) << std::hex << code;
+}
+
+TEST(HdapiMapping, AsksForTheInkwellOnlyWhenAPersonIsNeeded)
+{
+    EXPECT_EQ(calibration_step(0x5000), CalibrationStep::done);
+    EXPECT_EQ(calibration_step(0x5001), CalibrationStep::busy);
+    EXPECT_EQ(calibration_step(0x5002), CalibrationStep::dock_stylus);
+    EXPECT_EQ(calibration_step(0), CalibrationStep::failed);
+    EXPECT_EQ(preferred_style(7), 4);
+    EXPECT_EQ(preferred_style(3), 2);
+    EXPECT_EQ(preferred_style(1), 1);
+}
+
+TEST(HdapiMapping, SpeaksMetresAndDoubtsWhatIsNotSensible)
+{
+    const Capabilities can = capabilities_of({.workspace_mm = {-80, -60, -35, 80, 60, 35},
+                                              .force_max_n = 3.3,
+                                              .force_continuous_n = 0.88,
+                                              .stiffness_max_n_per_mm = 0.5,
+                                              .damping_max_ns_per_mm = 0.004,
+                                              .velocity_limit_mm_per_s = 800.0,
+                                              .update_rate_hz = 1000});
+    EXPECT_DOUBLE_EQ(can.workspace_min.y(), -0.060);
+    EXPECT_DOUBLE_EQ(can.workspace_max.x(), 0.080);
+    EXPECT_DOUBLE_EQ(can.stiffness_max_n_per_m, 500.0);
+    EXPECT_DOUBLE_EQ(can.damping_max_ns_per_m, 4.0);
+    EXPECT_DOUBLE_EQ(can.speed_max_m_per_s, 0.8);
+    EXPECT_EQ(can.pacing, Pacing::device);
+
+    const Capabilities doubtful =
+        capabilities_of({.workspace_mm = {nan, 5, 0, 1, -5, 0}, .force_max_n = nan});
+    EXPECT_DOUBLE_EQ(doubtful.force_max_n, 0.88);
+    EXPECT_LT(doubtful.workspace_min.y(), doubtful.workspace_max.y());
+    EXPECT_LT(doubtful.workspace_min.x(), doubtful.workspace_max.x());
+}
+
+TEST(HdapiStylus, SpeaksMetresAndGrowsItsSequenceWithTheCycles)
+{
+    Stylus stylus{true};
+    const Sample sample = stylus.read(report_of(7), start);
+    EXPECT_EQ(sample.hip.value, 1e-3 * glm::dvec3(10.0, -20.0, 30.0));
+    EXPECT_EQ(sample.velocity.value, 1e-3 * glm::dvec3(100.0, 0.0, -5.0));
+    EXPECT_EQ(sample.sequence, 7U);
+    EXPECT_TRUE(sample.calibrated);
+    EXPECT_FALSE(sample.docked);
+}
+
+TEST(HdapiStylus, IsDockedOnlyWhereThereIsAnInkwell)
+{
+    Report report = report_of(1);
+    report.inkwell_switch = false;
+    EXPECT_TRUE(Stylus{true}.read(report, start).docked);
+    EXPECT_FALSE(Stylus{false}.read(report, start).docked);
+}
+
+TEST(HdapiStylus, IsNotCalibratedBeforeItsFirstWord)
+{
+    EXPECT_FALSE(Stylus{true}.read(Report{}, start).calibrated);
+}
+
+TEST(HdapiStylus, TimesOutAfterTwentyMillisecondsOfSilenceAndNotANanosecondEarlier)
+{
+    Stylus stylus{true};
+    const Report report = report_of(1);
+    EXPECT_EQ(stylus.read(report, start).fault, Fault::none);
+    EXPECT_EQ(stylus.read(report, start + 20ms).fault, Fault::none);
+    EXPECT_EQ(stylus.read(report, start + 20ms + 1ns).fault, Fault::timeout);
+    EXPECT_EQ(stylus.read(report_of(2), start + 21ms).fault, Fault::none);
+}
+
+TEST(HdapiStylus, KeepsTheLastPlaceThatIsFiniteAndSaysThatTheNewOneIsNot)
+{
+    Stylus stylus{true};
+    std::ignore = stylus.read(report_of(1), start);
+    Report report = report_of(2);
+    report.position_mm[1] = nan;
+    const Sample sample = stylus.read(report, start + 1ms);
+    EXPECT_EQ(sample.fault, Fault::communication);
+    EXPECT_EQ(sample.hip.y(), -0.020);
+}
+
+TEST(HdapiStylus, TellsAnErrorOnceEvenIfItReadsLate)
+{
+    Stylus stylus{true};
+    Report report = report_of(30);
+    report.error = error::warm_motors;
+    report.error_cycle = 12;
+    EXPECT_EQ(stylus.read(report, start).fault, Fault::overheat);
+    report.cycle = 31;
+    EXPECT_EQ(stylus.read(report, start + 1ms).fault, Fault::none);
+}
+
+TEST(HdapiStylus, TakesALineThatFailsForAHundredCyclesForADeviceThatHasGone)
+{
+    Stylus stylus{true};
+    Report report = report_of(99);
+    report.error = error::communication;
+    report.error_cycle = 99;
+    report.failures_in_a_row = 99;
+    EXPECT_EQ(stylus.read(report, start).fault, Fault::communication);
+    report.cycle = report.error_cycle = report.failures_in_a_row = 100;
+    EXPECT_EQ(stylus.read(report, start + 1ms).fault, Fault::disconnected);
+}
+
+} // namespace hapnet::device::hdapi
