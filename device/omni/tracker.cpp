@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace hapnet::device::omni {
 
@@ -45,7 +46,7 @@ void Tracker::on_word(const Word& word, base::TimePoint now)
         return zero_.reset();
     }
     sample_.hip = position_of(joints);
-    sample_.velocity = velocity_.at(sample_.hip, now);
+    has_moved_ = true;
 }
 
 bool Tracker::is_jump(const Word& word) const
@@ -72,6 +73,9 @@ void Tracker::follow_dock(const Word& word, base::TimePoint now)
 const Sample& Tracker::at(base::TimePoint now)
 {
     if (!heard_at_) heard_at_ = now;
+    // Of several words that come together, the last one counts: they say nothing of the time
+    // between them.
+    if (std::exchange(has_moved_, false)) sample_.velocity = velocity_.at(sample_.hip, now);
     sample_.calibrated = zero_.has_value();
     sample_.fault = fault_at(now);
     if (!zero_ || sample_.fault != Fault::none) sample_.velocity = {};

@@ -66,6 +66,7 @@ private:
     bool broken_ = false;
     bool gone_ = false;
     bool heard_nonsense_ = false; // since the last word
+    bool has_moved_ = false;      // since the last at()
     Buttons buttons_;
     VelocityFilter velocity_{30.0}; // Hz: a count a millisecond is 55 mm/s
     Sample sample_{.hip = {}, .velocity = {}, .calibrated = false};

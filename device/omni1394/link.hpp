@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/fault.hpp"
+#include "device/omni1394/packet.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hapnet::device::omni1394 {
+
+/// The two isochronous channels of a device.
+struct Channels {
+    std::uint8_t to_device = 0;
+    std::uint8_t to_host = 0;
+};
+
+/// What came next.
+enum class Arrival : std::uint8_t {
+    nothing,   // it has nothing more to say now
+    packet,    // see the packet
+    bus_reset, // someone was plugged in or out, and all have new addresses
+    gone,      // the device is no more
+};
+
+/// A packet of the device, as it came.
+struct ReceivedPacket {
+    std::array<std::byte, device_packet_bytes_max> bytes{};
+    std::size_t size = 0;
+    unsigned cycle = 0; // of the bus, of 125 us, 0 to 7999
+
+    [[nodiscard]] std::span<const std::byte> content() const
+    {
+        return std::span{bytes}.first(size);
+    }
+};
+
+/// The way to one device over the bus. It makes no decisions; its end stops whatever it has
+/// started and gives its channels back.
+class Link {
+public:
+    Link() = default;
+    virtual ~Link() = default;
+    Link(const Link&) = delete;
+    Link& operator=(const Link&) = delete;
+
+    // For the start and the end; they wait for an answer, but no longer than two seconds.
+
+    [[nodiscard]] virtual Opened<Channels> allocate() = 0;
+    /// Reads as many bytes as there is room for.
+    [[nodiscard]] virtual Opened<std::size_t> read_register(std::uint64_t address,
+                                                            std::span<std::byte> bytes) = 0;
+    [[nodiscard]] virtual Opened<std::size_t> write_register(std::uint64_t address,
+                                                             std::span<const std::byte> bytes) = 0;
+    /// Begins to listen, and to be able to send.
+    [[nodiscard]] virtual Opened<Channels> start(const Channels& channels) = 0;
+    /// Waits until what was sent is on the wire, or cannot be any more.
+    virtual void drain() noexcept = 0;
+
+    // In a tick: none of them waits.
+
+    /// The oldest that has not been asked for yet.
+    [[nodiscard]] virtual Arrival receive(ReceivedPacket& packet) noexcept = 0;
+    /// Sends a command for the next millisecond; from any thread. False when it cannot be sent now
+    /// because the last ones are still under way: one that pushes may be dropped then; one at zero
+    /// is always taken.
+    virtual bool send(const HostPacket& packet) noexcept = 0;
+
+    /// Waits until something comes, and not longer; whether something has.
+    [[nodiscard]] virtual bool wait(base::Duration most) noexcept = 0;
+};
+
+} // namespace hapnet::device::omni1394

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/omni/tracker.hpp"
+#include "device/omni1394/drive.hpp"
+#include "device/omni1394/link.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace hapnet::device::omni1394 {
+
+/// The PHANToM Omni with FireWire; written from descriptions, never run on the physical device.
+/// Without a measured table of torques it sends no force, except, where that is asked for, a
+/// quarter of what the motors may be told. The device has a watchdog or not: nobody knows. What it
+/// does when this program is killed is therefore unknown; no more packets come then.
+class Omni final : public Device {
+public:
+    /// Goes through the start; gives a device that speaks, or why it does not.
+    [[nodiscard]] static Opened<std::unique_ptr<Device>> open(std::unique_ptr<Link> link,
+                                                              const Profile& profile, Use use);
+    ~Omni() override;
+
+    [[nodiscard]] const Identity& identity() const override { return identity_; }
+    [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
+    [[nodiscard]] CalibrationStep calibrate(base::TimePoint now) override;
+    [[nodiscard]] Sample read(base::TimePoint now) override;
+    void apply(const GovernedForce& force) override;
+    void halt() noexcept override;
+    void pace(const std::function<bool()>& beat) override;
+
+    /// What was not heard, by the device's own count of its messages.
+    [[nodiscard]] std::uint64_t lost() const { return lost_; }
+    /// What was heard and not understood.
+    [[nodiscard]] std::uint64_t garbled() const { return garbled_; }
+
+private:
+    struct Started {
+        std::unique_ptr<Link> link;
+        std::string serial;
+    };
+    Omni(Started started, const Profile& profile, Use use);
+
+    /// Takes what has come; whether that makes a beat.
+    [[nodiscard]] bool gather();
+    void take(const ReceivedPacket& packet, base::TimePoint now);
+    [[nodiscard]] HostPacket lights() const;
+
+    struct News {
+        Arrival arrival = Arrival::nothing;
+        ReceivedPacket packet;
+    };
+
+    std::unique_ptr<Link> link_;
+    Identity identity_;
+    Capabilities capabilities_;
+    Drive drive_;
+    omni::Tracker tracker_;
+    Sample sample_;
+    bool has_gone_ = false;
+    std::optional<std::uint32_t> message_; // the last one's number
+    std::uint64_t lost_ = 0;
+    std::uint64_t garbled_ = 0;
+    std::array<News, 64> news_; // not read yet
+    std::size_t news_count_ = 0;
+    std::optional<unsigned> beat_cycle_; // of the bus, at the last beat
+};
+
+} // namespace hapnet::device::omni1394

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/omni/encoders.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace hapnet::device::omni1394 {
+
+// The isochronous packets of the FireWire Omni, little-endian, as three open programs describe
+// them: ytsutano/raw_omni, scottsharris/phantom-drivers (University of Twente) and
+// jdrew1303/ros_geomagic_touch_phantom_omni. They are read for facts; nothing is copied.
+
+/// What the computer says to the device.
+struct HostPacket {
+    /// Of the motors, -2047 to 2047: 12 bits about 0x07ff on the wire.
+    glm::ivec3 motors{0};
+    bool motors_on = false;
+    bool dock_light_flashes = false;
+    bool dock_light_flashes_fast = false; // with the other one: it shines
+
+    friend bool operator==(const HostPacket&, const HostPacket&) = default;
+};
+inline constexpr std::size_t host_packet_bytes = 16;
+inline constexpr int motor_max = 2047;
+using HostBytes = std::array<std::byte, host_packet_bytes>;
+
+/// Motors beyond their range are clamped.
+[[nodiscard]] HostBytes encode(const HostPacket& packet);
+/// nullopt where encode() gives nothing like it.
+[[nodiscard]] std::optional<HostPacket> decode_host(std::span<const std::byte> bytes);
+
+/// What the device says.
+struct DevicePacket {
+    omni::Counts counts{0};
+    std::array<std::uint16_t, 3> gimbal{};          // potentiometers; the low 5 bits are noise
+    std::array<std::uint16_t, 3> gimbal_opposite{}; // the same from the other end
+    std::uint8_t number = 0;                        // of the packet
+    std::uint8_t buttons = 0;                       // bits 0 and 1, 1: down
+    bool docked = false;
+    std::uint32_t message = 0; // counts on by 1, also while nobody listens
+    std::uint32_t clock = 0;   // of unknown unit
+
+    friend bool operator==(const DevicePacket&, const DevicePacket&) = default;
+};
+inline constexpr std::size_t device_packet_bytes_min = 44;
+inline constexpr std::size_t device_packet_bytes_max = 64;
+using DeviceBytes = std::array<std::byte, device_packet_bytes_min>;
+
+/// For doubles of the device.
+[[nodiscard]] DeviceBytes encode(const DevicePacket& packet);
+/// nullopt where it is too short or does not begin as all of them do.
+[[nodiscard]] std::optional<DevicePacket> decode_device(std::span<const std::byte> bytes);
+
+} // namespace hapnet::device::omni1394

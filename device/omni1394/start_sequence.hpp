@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/omni1394/link.hpp"
+#include "device/omni1394/registers.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace hapnet::device::omni1394 {
+
+/// A register to read, or to write.
+struct RegisterAccess {
+    std::uint64_t address = 0;
+    std::size_t size = 0;
+    bool writes = false;
+    std::array<std::byte, 4> bytes{}; // to write; the first `size`
+
+    [[nodiscard]] std::span<const std::byte> to_write() const
+    {
+        return std::span{bytes}.first(size);
+    }
+};
+
+/// What has to be said to an Omni before it speaks, step by step: who are you, which channels,
+/// and go. Does no I/O: ask next(), do that, and tell the answer.
+class StartSequence {
+public:
+    StartSequence(const Channels& channels, bool writes_dubious_register)
+        : channels_{channels}, writes_dubious_register_{writes_dubious_register}
+    {}
+
+    /// nullopt: it is over, well or not.
+    [[nodiscard]] std::optional<RegisterAccess> next() const;
+    /// Of the access last given: what was read, nothing of a write.
+    void on_answer(std::span<const std::byte> bytes);
+
+    [[nodiscard]] bool is_done() const { return step_ == Step::done; }
+    /// Why it is over without being done; "" while nothing is wrong.
+    [[nodiscard]] const std::string& failure() const { return failure_; }
+    /// As printed on the device; "" until it is known.
+    [[nodiscard]] const std::string& serial() const { return serial_; }
+
+private:
+    enum class Step : std::uint8_t {
+        model,
+        serial,
+        to_device_channel,
+        to_host_channel,
+        to_host_channel_again, // read back
+        dubious,
+        control, // read, and
+        stream,  // written
+        done,
+        failed,
+    };
+    void go_to(Step step) { step_ = step; }
+    void fail(std::string why);
+
+    Channels channels_;
+    bool writes_dubious_register_;
+    Step step_ = Step::model;
+    std::byte control_{0};
+    std::string serial_;
+    std::string failure_;
+};
+
+/// What ends the streaming, as the last thing said to it.
+[[nodiscard]] RegisterAccess stop_streaming();
+
+} // namespace hapnet::device::omni1394

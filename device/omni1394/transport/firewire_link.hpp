@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/omni1394/link.hpp"
+#include "device/omni1394/transport/node.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace hapnet::device::omni1394 {
+
+/// The way over the kernel's <linux/firewire-cdev.h>, without mapped memory: what is sent lies in
+/// the headers of the packets, and what is received in those of the events. Three descriptors, as
+/// each may have one isochronous context.
+class FirewireLink final : public Link {
+public:
+    /// `path` such as /dev/fw1. Another of these on the same node is refused.
+    [[nodiscard]] static Opened<std::unique_ptr<Link>> open(const std::string& path);
+    ~FirewireLink() override;
+
+    [[nodiscard]] Opened<Channels> allocate() override;
+    [[nodiscard]] Opened<std::size_t> read_register(std::uint64_t address,
+                                                    std::span<std::byte> bytes) override;
+    [[nodiscard]] Opened<std::size_t> write_register(std::uint64_t address,
+                                                     std::span<const std::byte> bytes) override;
+    [[nodiscard]] Opened<Channels> start(const Channels& channels) override;
+    void drain() noexcept override;
+    [[nodiscard]] Arrival receive(ReceivedPacket& packet) noexcept override;
+    bool send(const HostPacket& packet) noexcept override;
+    [[nodiscard]] bool wait(base::Duration most) noexcept override;
+
+private:
+    FirewireLink(Node node, Node sender, Node receiver);
+
+    [[nodiscard]] Opened<std::uint8_t> allocate_channel(std::uint32_t bytes);
+    [[nodiscard]] Opened<std::size_t> transact(std::uint32_t code, std::uint64_t address,
+                                               std::span<const std::byte> request,
+                                               std::span<std::byte> response);
+    [[nodiscard]] int make_context(Node& node, std::uint32_t type, std::uint8_t channel);
+    [[nodiscard]] int queue_room(std::size_t packets) noexcept;
+    void count_what_was_sent(base::Duration within) noexcept;
+    [[nodiscard]] Arrival hear_of(const Node& node) noexcept;
+    [[nodiscard]] Arrival next_of_event(ReceivedPacket& packet) noexcept;
+
+    Node node_; // registers, channels, bus resets
+    Node sender_;
+    Node receiver_;
+    Event event_;                 // the last one heard of any of them
+    Event packets_;               // the last one with packets; only the receiver's
+    std::uint64_t requests_ = 0;  // so far
+    std::size_t at_ = 0;          // so far it has been read
+    std::atomic<int> sending_{0}; // packets on their way
+};
+
+} // namespace hapnet::device::omni1394

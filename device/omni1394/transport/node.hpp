@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/fault.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace hapnet::device::omni1394 {
+
+/// What the kernel says of a node: one of the events of <linux/firewire-cdev.h>, byte for byte.
+/// Big enough for a page of isochronous headers.
+struct alignas(8) Event {
+    std::array<std::byte, 4096 + 64> bytes;
+    std::size_t size = 0;
+
+    /// FW_CDEV_EVENT_...; of what is too short for one, UINT32_MAX.
+    [[nodiscard]] std::uint32_t type() const;
+    [[nodiscard]] std::span<const std::byte> content() const
+    {
+        return std::span{bytes}.first(size);
+    }
+};
+
+/// What reading an event came to.
+enum class Heard : std::uint8_t { nothing, event, gone };
+
+/// An open /dev/fwN: thin, and without decisions. The kernel has one isochronous context for each
+/// of these.
+class Node {
+public:
+    [[nodiscard]] static Opened<Node> open(const std::string& path);
+    ~Node();
+    Node(Node&& other) noexcept;
+    Node& operator=(Node&& other) noexcept;
+
+    /// Keeps other programs that do the same from it, until it is closed; false: another has it.
+    [[nodiscard]] bool lock();
+    /// 0, or the kernel's error number.
+    [[nodiscard]] int control(unsigned long request, void* argument) const noexcept;
+    /// The next event, if one is there within the time.
+    [[nodiscard]] Heard hear(Event& event, base::Duration within) const noexcept;
+
+    [[nodiscard]] int descriptor() const { return descriptor_; }
+    [[nodiscard]] std::uint32_t generation() const { return generation_; } // of the bus
+
+    void set_generation(std::uint32_t generation) { generation_ = generation; }
+
+private:
+    Node(int descriptor, std::uint32_t generation)
+        : descriptor_{descriptor}, generation_{generation}
+    {}
+
+    int descriptor_ = -1;
+    std::uint32_t generation_ = 0;
+};
+
+/// Why a call to the kernel failed, with the cure.
+[[nodiscard]] Trouble trouble_of(int error, const std::string& what);
+
+} // namespace hapnet::device::omni1394

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/omni1394/transport/omni1394s.hpp"
+
+#include "device/omni1394/omni.hpp"
+#include "device/omni1394/registers.hpp"
+#include "device/omni1394/transport/firewire_link.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <spdlog/fmt/fmt.h>
+#include <sstream>
+#include <system_error>
+
+namespace hapnet::device::omni1394 {
+
+namespace {
+
+constexpr const char* bus_folder = "/sys/bus/firewire/devices";
+
+std::string first_line_of(const std::filesystem::path& file)
+{
+    std::ifstream in{file};
+    std::string line;
+    std::getline(in, line);
+    return line;
+}
+
+/// One on a bus: its node, and the serial of its bus interface.
+struct Seen {
+    std::string node;
+    std::string guid;
+};
+
+std::vector<Seen> look_around()
+{
+    std::vector<Seen> seen;
+    std::error_code error;
+    // Units, such as fw1.0, have no vendor of their own.
+    for (const auto& entry : std::filesystem::directory_iterator{bus_folder, error}) {
+        if (first_line_of(entry.path() / "vendor") != fmt::format("{:#08x}", vendor_id)) continue;
+        seen.push_back(
+            {"/dev/" + entry.path().filename().string(), first_line_of(entry.path() / "guid")});
+    }
+    std::sort(seen.begin(), seen.end(),
+              [](const Seen& a, const Seen& b) { return a.node < b.node; });
+    return seen;
+}
+
+Found found(const Seen& seen)
+{
+    Found omni{{.backend = "omni1394",
+                .serial = seen.guid,
+                .model = "PHANToM Omni (FireWire)",
+                .note = std::string{never_run}}};
+    const auto link = FirewireLink::open(seen.node);
+    if (!link) {
+        omni.unusable = link.error();
+        return omni;
+    }
+    std::array<std::byte, 4> quadlet{};
+    const auto read = (*link)->read_register(serial_register, quadlet);
+    if (read && *read == quadlet.size()) {
+        omni.identity.serial = serial_of(quadlet_of(quadlet));
+    } else {
+        omni.unusable = read ? Trouble{Fault::communication, "it does not say its serial number"}
+                             : read.error();
+    }
+    return omni;
+}
+
+Opened<Profile> profile_in(const std::string& file)
+{
+    if (file.empty()) return Profile{};
+    std::ifstream in{file};
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (!in) return trouble(Fault::not_found, file + ": cannot be read");
+    const auto profile = parse_profile(text.str(), file);
+    if (!profile) return trouble(Fault::internal, profile.error().message);
+    return *profile;
+}
+
+} // namespace
+
+std::vector<Found> find_omnis()
+{
+    std::vector<Found> omnis;
+    for (const Seen& seen : look_around()) omnis.push_back(found(seen));
+    return omnis;
+}
+
+Opened<std::unique_ptr<Device>> open_omni(const std::string& serial, const Options& options)
+{
+    const auto profile = profile_in(options.profile);
+    if (!profile) return tl::unexpected{profile.error()};
+    Trouble why{Fault::not_found,
+                fmt::format("no FireWire Omni {}is on a bus: {}",
+                            serial.empty() ? "" : serial + " ", words_for(Fault::not_found))};
+    for (const Seen& seen : look_around()) {
+        const Found omni = found(seen);
+        if (!serial.empty() && serial != omni.identity.serial && serial != seen.guid) continue;
+        if (omni.unusable) {
+            why = *omni.unusable;
+            continue;
+        }
+        auto link = FirewireLink::open(seen.node);
+        if (!link) return tl::unexpected{link.error()};
+        return Omni::open(*std::move(link), *profile, use_of(*profile, options.uncalibrated_force));
+    }
+    return tl::unexpected{why};
+}
+
+} // namespace hapnet::device::omni1394

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hapnet::device::omni1394 {
+
+/// What a person may say of the FireWire Omnis.
+struct Options {
+    std::string profile{};           // a file as of device/omni1394/drive.hpp; "": none
+    bool uncalibrated_force = false; // a quarter of full scale without such a file
+};
+
+/// All on the computer's buses. The serial is that printed on the device, or, where the device
+/// cannot be asked for it, that of its bus interface, "0x000b99...".
+[[nodiscard]] std::vector<Found> find_omnis();
+
+/// By either serial; "": the first that is usable.
+[[nodiscard]] Opened<std::unique_ptr<Device>> open_omni(const std::string& serial,
+                                                        const Options& options);
+
+} // namespace hapnet::device::omni1394

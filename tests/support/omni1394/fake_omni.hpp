@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/omni1394/packet.hpp"
+#include "device/simulated/joints/plant.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::device::omni1394 {
+
+/// What stands in for a FireWire Omni behind its bus: registers, a mechanism, and a hand. It is
+/// our reading of the descriptions, and proves nothing about the device.
+class FakeOmni {
+public:
+    /// One serial number is that of 0x83a6d80e, a quadlet that was seen.
+    explicit FakeOmni(bool begins_docked = true, std::uint32_t serial = 0x83a6d80e);
+
+    // The bus. nullopt, false: there is no such register.
+    [[nodiscard]] std::optional<std::vector<std::byte>> read_register(std::uint64_t address,
+                                                                      std::size_t size) const;
+    [[nodiscard]] bool write_register(std::uint64_t address, std::span<const std::byte> bytes);
+    [[nodiscard]] bool is_streaming() const;
+    /// A packet to it.
+    void hear(std::span<const std::byte> bytes);
+    /// Lives, and says what it then has to say; nothing when it does not stream or has stalled.
+    [[nodiscard]] std::vector<std::byte> live(base::Duration elapsed);
+
+    // Fate.
+    /// The hand goes there within a second, and stays.
+    void lead_to(const base::Position& place);
+    void press(std::uint8_t buttons) { buttons_ = buttons; }
+    void stall(bool on) { stalls_ = on; }
+    void garble(bool on) { garbles_ = on; }
+    /// The encoders are off by so much from now on.
+    void jump(const omni::Counts& counts) { off_ += counts; }
+    void skip(std::uint32_t messages) { message_ += messages; }
+
+    /// What it has heard; nullopt where it made no sense.
+    [[nodiscard]] const std::vector<std::optional<HostPacket>>& heard() const { return heard_; }
+    [[nodiscard]] std::span<const std::uint64_t> written() const { return written_; }
+    [[nodiscard]] const JointPlant& plant() const { return plant_; }
+
+    /// What a count of its motors does.
+    static constexpr double nm_per_count = omni::force_max_n * omni::link_m / motor_max;
+
+private:
+    std::map<std::uint64_t, std::vector<std::byte>> registers_;
+    std::vector<std::uint64_t> written_; // addresses
+    JointPlant plant_;
+    base::Position from_;
+    base::Position to_;
+    base::Duration walked_{};
+    std::uint8_t buttons_ = 0;
+    bool stalls_ = false;
+    bool garbles_ = false;
+    omni::Counts off_{0};
+    std::uint32_t message_ = 0x00ffff00; // it has counted since its power came on
+    std::uint8_t number_ = 0;
+    std::vector<std::optional<HostPacket>> heard_;
+};
+
+} // namespace hapnet::device::omni1394
