@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace hapnet::hid_double {
@@ -51,7 +52,12 @@ public:
     /// Effect starts that it has heard of.
     [[nodiscard]] std::size_t starts() const { return starts_; }
     /// As when it is plugged in anew.
-    void power_up() { *this = FakePid{ids_}; }
+    void power_up()
+    {
+        std::vector<Push> all = std::move(pushes_);
+        *this = FakePid{ids_};
+        pushes_ = std::move(all);
+    }
 
     static constexpr double reach_m = 0.08;
     static constexpr double force_full_n = 8.0;
