@@ -2,44 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "proto/net/clock.hpp"
+#include "proto/base/time.hpp"
 #include "tests/support/hid/fake_pid.hpp"
 #include "tests/support/umockdev/hidraw_device.hpp"
 
-#include <atomic>
-#include <thread>
 #include <utility>
 
 namespace hapnet::conformance {
 
-/// Somebody who does something once a millisecond, of real time, until this ends.
-class Rhythm {
-public:
-    template <typename Beat>
-    explicit Rhythm(Beat beat)
-        : thread_{[this, beat = std::move(beat)]() mutable {
-              base::TimePoint last = net::monotonic_now();
-              while (!ends_) {
-                  net::sleep_until(last + std::chrono::milliseconds{1});
-                  const base::TimePoint now = net::monotonic_now();
-                  beat(now - std::exchange(last, now));
-              }
-          }}
-    {}
-    ~Rhythm()
-    {
-        ends_ = true;
-        thread_.join();
-    }
-    Rhythm(const Rhythm&) = delete;
-    Rhythm& operator=(const Rhythm&) = delete;
-
-private:
-    std::atomic<bool> ends_{false};
-    std::thread thread_;
-};
-
-/// A fake PID device behind hidraw: it moves and speaks in real time.
+/// A fake PID device behind hidraw. It moves and speaks when it is told that time passes.
 class EmulatedPid final : private umockdev::HidModel {
 public:
     explicit EmulatedPid(umockdev::Testbed& testbed, int number = 0)
@@ -53,7 +24,17 @@ public:
     {
         return hidraw_.with_model([&] { return action(pid_); });
     }
-    /// Of its reports only a part arrives, and what does not belong there.
+    /// Time passes, and it says where it is at the end of it.
+    void pass(base::Duration duration)
+    {
+        auto report = with([&](hid_double::FakePid& pid) {
+            pid.pass(base::to_seconds(duration));
+            return pid.input_report();
+        });
+        if (garbles_) report.resize(report.size() / 2);
+        hidraw_.say(std::move(report));
+    }
+    /// Of its reports only a part arrives.
     void garble(bool on) { garbles_ = on; }
 
     static umockdev::HidDescription description(int number)
@@ -74,20 +55,9 @@ private:
         return pid_.feature(id);
     }
 
-    void beat(base::Duration passed)
-    {
-        auto report = with([&](hid_double::FakePid& pid) {
-            pid.pass(base::to_seconds(passed));
-            return pid.input_report();
-        });
-        if (garbles_) report.resize(report.size() / 2);
-        hidraw_.say(std::move(report));
-    }
-
     hid_double::FakePid pid_;
-    std::atomic<bool> garbles_{false};
+    bool garbles_ = false;
     umockdev::HidrawDevice hidraw_;
-    Rhythm rhythm_{[this](base::Duration passed) { beat(passed); }};
 };
 
 } // namespace hapnet::conformance

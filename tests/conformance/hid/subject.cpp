@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/conformance/subject.hpp"
 #include "device/hid/transport/hids.hpp"
+#include "proto/net/clock.hpp"
 #include "tests/conformance/hid/emulated.hpp"
 
 #include <algorithm>
@@ -11,6 +12,8 @@ namespace hapnet::conformance {
 
 namespace {
 
+constexpr base::Duration step{std::chrono::milliseconds{1}};
+
 /// A fake PID device under unmodified hidapi.
 class PidSubject final : public Subject {
 public:
@@ -19,10 +22,17 @@ public:
     {
         return device::hid::open_hid("", {.force_full_n = hid_double::FakePid::force_full_n});
     }
-    [[nodiscard]] base::TimePoint now() override { return net::monotonic_now(); }
+    [[nodiscard]] base::TimePoint now() override { return now_; }
     void pass(base::Duration duration) override
     {
-        net::sleep_until(net::monotonic_now() + duration);
+        // The device's time is virtual, a tick is never late; but its library and the thread that
+        // writes to it have at least as much of real time to keep up.
+        const base::TimePoint due = net::monotonic_now() + duration;
+        for (base::Duration left = duration; left > base::Duration{0}; left -= step) {
+            pid_.pass(std::min(left, step));
+        }
+        now_ += duration;
+        net::sleep_until(due);
     }
     void press(bool down) override
     {
@@ -51,6 +61,7 @@ public:
 private:
     umockdev::Testbed testbed_;
     mutable EmulatedPid pid_{testbed_};
+    base::TimePoint now_{std::chrono::seconds{1000}};
 };
 
 } // namespace

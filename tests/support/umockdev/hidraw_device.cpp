@@ -78,11 +78,6 @@ HidrawDevice::~HidrawDevice()
 
 std::string HidrawDevice::node() const { return fmt::format("/dev/hidraw{}", hid_.number); }
 
-std::string HidrawDevice::path() const
-{
-    return fmt::format("/devices/usb9/9-{}", hid_.number + 1);
-}
-
 void HidrawDevice::attach()
 {
     attachment_.emplace(testbed_, node(), static_cast<Handler&>(*this));
