@@ -121,6 +121,7 @@ void HidrawDevice::unplug()
     const auto paths = paths_of(hid_);
     std::for_each(paths.rbegin(), paths.rend(),
                   [&](const std::string& path) { testbed_.remove("/sys" + path); });
+    unlink(testbed_.real_path(node()).c_str()); // a terminal's node is left lying about
 }
 
 void HidrawDevice::plug_in()
