@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "device/catalogue/catalogue.hpp"
 
+#include "device/falcon/transport/falcons.hpp"
 #include "device/hdapi/transport/hdapis.hpp"
 #include "device/hid/transport/hids.hpp"
+#include "device/omni1394/transport/omni1394s.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -23,10 +25,19 @@ hid::Options hid_options(const DeviceOptions& options)
 const std::vector<Backend>& backends()
 {
     static const std::vector<Backend> all{
+        {"omni1394", [](const DeviceOptions&) { return omni1394::find_omnis(); },
+         [](const std::string& serial, const DeviceOptions& options) {
+             return omni1394::open_omni(serial, {.profile = options.omni_torque,
+                                                 .uncalibrated_force = options.uncalibrated_force});
+         }},
         {"hdapi",
          [](const DeviceOptions& options) { return hdapi::find_hdapis(options.hd_library); },
          [](const std::string& name, const DeviceOptions& options) {
              return hdapi::open_hdapi(name, options.hd_library);
+         }},
+        {"falcon", [](const DeviceOptions&) { return falcon::find_falcons(); },
+         [](const std::string& serial, const DeviceOptions& options) {
+             return falcon::open_falcon(serial, options.falcon_firmware);
          }},
         {"hid", [](const DeviceOptions& options) { return hid::find_hids(hid_options(options)); },
          [](const std::string& serial, const DeviceOptions& options) {

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/hid/mailbox.hpp"
+#include "device/hid/pid_sender.hpp"
+#include "device/hid/pump.hpp"
+#include "device/hid/wire.hpp"
+#include "tests/support/hid/fake_pid.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <utility>
+
+namespace hapnet::hid_double {
+
+/// What a double has said and not yet been heard, and what happens to it.
+struct Line {
+    FakePid pid{};
+    std::deque<std::vector<std::byte>> waiting{};
+    bool is_gone = false;
+    bool refuses = false;  // every write
+    bool is_stuck = false; // it takes nothing for the time being
+    std::size_t questions = 0;
+};
+
+/// A wire without a system under it.
+class MemoryWire final : public device::hid::Wire {
+public:
+    explicit MemoryWire(Line& line) : line_{line} {}
+
+    device::hid::Heard read(std::span<std::byte> into) override
+    {
+        using device::hid::Moved;
+        if (line_.is_gone) return {Moved::gone, 0};
+        if (line_.waiting.empty()) return {Moved::nothing, 0};
+        const auto report = std::exchange(line_.waiting.front(), {});
+        line_.waiting.pop_front();
+        const std::size_t size = std::min(report.size(), into.size());
+        std::copy_n(report.begin(), size, into.begin());
+        return {Moved::yes, size};
+    }
+    device::hid::Moved write(std::span<const std::byte> report) override
+    {
+        if (!moves()) return trouble();
+        line_.pid.on_output(report);
+        return device::hid::Moved::yes;
+    }
+    device::hid::Moved set_feature(std::span<const std::byte> report) override
+    {
+        if (!moves()) return trouble();
+        line_.pid.on_feature(report);
+        return device::hid::Moved::yes;
+    }
+    device::hid::Moved get_feature(std::span<std::byte> report) override
+    {
+        ++line_.questions;
+        if (!moves()) return trouble();
+        const auto answer = line_.pid.feature(std::to_integer<std::uint8_t>(report[0]));
+        if (!answer || answer->size() > report.size()) return device::hid::Moved::failed;
+        std::copy(answer->begin(), answer->end(), report.begin());
+        return device::hid::Moved::yes;
+    }
+
+private:
+    [[nodiscard]] bool moves() const { return !line_.is_gone && !line_.refuses; }
+    [[nodiscard]] device::hid::Moved trouble() const
+    {
+        return line_.is_gone ? device::hid::Moved::gone : device::hid::Moved::failed;
+    }
+
+    Line& line_;
+};
+
+/// Sends at once, unless the line is stuck.
+class MemoryOutbox final : public device::hid::Outbox {
+public:
+    MemoryOutbox(Line& line, device::hid::PidSender sender)
+        : line_{line}, wire_{line}, sender_{std::move(sender)}
+    {}
+
+    device::hid::Mailbox& mailbox() override { return mailbox_; }
+    void wake() noexcept override
+    {
+        while (!line_.is_stuck && device::hid::pump_one(mailbox_, sender_, wire_)) {}
+    }
+
+private:
+    Line& line_;
+    MemoryWire wire_;
+    device::hid::PidSender sender_;
+    device::hid::Mailbox mailbox_;
+};
+
+} // namespace hapnet::hid_double
