@@ -87,8 +87,8 @@ TEST(Csv, NamesEveryColumnOfATickWithItsUnit)
               "hip_velocity_y_mm_per_s,hip_velocity_z_mm_per_s,cube_x_mm,cube_y_mm,cube_z_mm,"
               "cube_velocity_x_mm_per_s,cube_velocity_y_mm_per_s,cube_velocity_z_mm_per_s,"
               "contact_x_n,contact_y_n,contact_z_n,device_x_n,device_y_n,device_z_n,remote_x_n,"
-              "remote_y_n,remote_z_n,gripping,docked,calibrated,buttons,fault,presses,sample_sequence,"
-              "governor");
+              "remote_y_n,remote_z_n,gripping,docked,calibrated,buttons,fault,presses,"
+              "sample_sequence,governor");
 }
 
 TEST(Csv, ShowsATickInMillimetresNewtonsAndSecondsSinceZero)
