@@ -19,7 +19,10 @@ void OwnRhythm::end(base::TimePoint now)
 std::optional<Beat> DeviceRhythm::at(base::TimePoint now)
 {
     if (!due_) due_ = now;
-    if (now < *due_ - tick_ / 2) return std::nullopt;
+    // The cycle nearest to the due time is the turn's.
+    const base::Duration period = last_ ? std::min(now - *last_, tick_) : tick_;
+    last_ = now;
+    if (now + period / 2 < *due_) return std::nullopt;
     const auto behind = std::max<base::Duration::rep>(0, (now - *due_) / tick_);
     const base::TimePoint due = *due_ + behind * tick_;
     const base::Duration off = now - due;

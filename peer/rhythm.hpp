@@ -49,6 +49,7 @@ public:
 private:
     base::Duration tick_;
     std::optional<base::TimePoint> due_;
+    std::optional<base::TimePoint> last_; // cycle
 };
 
 } // namespace hapnet::peer

@@ -5,7 +5,7 @@
 # Measures one part of the project against its baselines.
 set -euo pipefail
 
-usage="usage: scripts/bench.sh emulator|scene|lab [--quick] [--json FILE] [--plot FILE.svg]
+usage="usage: scripts/bench.sh emulator|scene|lab|device [--quick] [--json FILE] [--plot FILE.svg]
        scripts/bench.sh scene [... the same ...] [--csv FILE] [--markdown FILE]
        scripts/bench.sh lab   [... the same ...] [--csv FILE]
 Installs what is missing, builds the release preset's benchmark, and runs it: a table on stdout, and
@@ -25,7 +25,7 @@ subject=$1
 shift
 case $subject in
 -h | --help) echo "$usage" && exit 0 ;;
-emulator | scene | lab) ;;
+emulator | scene | lab | device) ;;
 *) refuse "unknown subject '$subject'" ;;
 esac
 

@@ -22,6 +22,7 @@ public:
     /// Starts it and waits until its loop runs; fails the test when it does not.
     Peer(int id, std::string listen, std::string remote, std::vector<std::string> options);
 
+    [[nodiscard]] const std::string& listen() const { return words_[3]; }
     [[nodiscard]] Process& process() { return *process_; }
 
     /// Whether it says this on stderr within 20 s; what it has said so far does when it does not.

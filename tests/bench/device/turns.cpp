@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/bench/device/turns.hpp"
+
+#include "device/velocity_filter.hpp"
+#include "tests/bench/device/arm.hpp"
+#include "tests/support/device/ungoverned.hpp"
+
+#include <utility>
+
+namespace hapnet::bench {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double radians_per_count = base::two_pi / 15000.0;
+constexpr double push_m = 0.002; // each hand presses so deep into the cube
+constexpr double sway_m = 0.020; // and goes to and fro with it
+constexpr double sway_hz = 0.25;
+
+double cube_x(base::TimePoint now)
+{
+    return sway_m * base::sin(base::two_pi * sway_hz * base::to_seconds(now.time_since_epoch()));
+}
+
+peer::Hand hand_at(std::size_t side, base::TimePoint now)
+{
+    const double away = 0.025 - push_m;
+    return {.hip = {{cube_x(now) + (side == 0 ? -away : away), 0.0, 0.0}}, .velocity = {}};
+}
+
+/// Says in counts where the hand of the left peer is, as three encoders would.
+class EncodedHand final : public device::Device {
+public:
+    explicit EncodedHand(Load load) : load_{load}
+    {
+        capabilities_.force_max_n = 3.3;
+        capabilities_.force_continuous_n = 0.88;
+        capabilities_.speed_max_m_per_s = 1.0;
+        capabilities_.joints = device::JointLimits{arm_jacobian, glm::dvec3{0.55, 0.44, 0.44}};
+    }
+    [[nodiscard]] const device::Identity& identity() const override { return identity_; }
+    [[nodiscard]] const device::Capabilities& capabilities() const override
+    {
+        return capabilities_;
+    }
+    [[nodiscard]] device::Sample read(base::TimePoint now) override
+    {
+        device::Sample sample;
+        sample.sequence = ++words_;
+        const peer::Hand hand = hand_at(0, now);
+        sample.hip = hand.hip;
+        if (load_ == Load::contact) return sample;
+        // The same place again, by way of the arm: what its counts say, and how fast it moves.
+        const base::Displacement off = stylus_at(counts_now()) - stylus_at(glm::dvec3{0.0});
+        sample.hip = hand.hip + 1e-6 * off;
+        sample.velocity = velocity_.at(sample.hip, now);
+        return sample;
+    }
+    void apply(const device::GovernedForce& force) override { last_ = force.force(); }
+    void halt() noexcept override {}
+
+private:
+    [[nodiscard]] glm::dvec3 counts_now() const
+    {
+        const auto turn = static_cast<double>(words_ % 1000);
+        return radians_per_count * glm::dvec3{turn, 0.7 * turn, -0.4 * turn};
+    }
+
+    Load load_;
+    device::Identity identity_;
+    device::Capabilities capabilities_;
+    device::VelocityFilter velocity_{30.0};
+    std::uint64_t words_ = 0;
+    base::Force last_;
+};
+
+peer::Settings settings_of(std::size_t side)
+{
+    peer::Settings settings;
+    settings.introduction = {.id = static_cast<std::uint16_t>(side + 1),
+                             .nonce = static_cast<std::uint32_t>(side + 1),
+                             .scene_hash = scene::hash(settings.scene),
+                             .seed = 1,
+                             .task = wire::TaskName::from_text("T3").value()};
+    settings.length = 24h;
+    return settings;
+}
+
+} // namespace
+
+Turns::Turns(Load load)
+    : load_{load},
+      peers_{std::make_unique<peer::Peer>(settings_of(0)),
+             std::make_unique<peer::Peer>(settings_of(1))},
+      rig_{std::make_unique<EncodedHand>(load), {}}
+{
+    std::vector<double> unused;
+    play(
+        4000, [] { return std::int64_t{0}; }, unused); // until both play and push
+}
+
+Turns::~Turns() = default;
+
+void Turns::play(int turns, const Clock& clock, std::vector<double>& nanoseconds)
+{
+    for (int i = 0; i < turns; ++i) {
+        now_ += 1ms;
+        deliver();
+        const std::int64_t begin = clock();
+        turn();
+        nanoseconds.push_back(static_cast<double>(clock() - begin));
+        std::ignore = peers_[1]->tick(now_, hand_at(1, now_));
+    }
+}
+
+void Turns::deliver()
+{
+    for (const std::size_t side : {0U, 1U}) {
+        while (const auto datagram = peers_[side]->poll()) {
+            peers_[1 - side]->on_datagram(datagram->bytes(), now_);
+        }
+        while (peers_[side]->event()) {}
+    }
+}
+
+void Turns::turn()
+{
+    if (load_ == Load::governed) {
+        const device::Sample& sample = rig_.read(now_);
+        const peer::Tick tick =
+            peers_[0]->tick(now_, {sample.hip, sample.velocity, sample.gripping});
+        felt_ = rig_.apply(tick.force, tick.permitted, now_);
+        return;
+    }
+    const device::Sample sample = rig_.device().read(now_);
+    const peer::Tick tick = peers_[0]->tick(now_, {sample.hip, sample.velocity, sample.gripping});
+    felt_ = tick.force;
+    rig_.device().apply(device::ungoverned(felt_));
+}
+
+} // namespace hapnet::bench

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/rig.hpp"
+#include "peer/core/peer.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace hapnet::bench {
+
+/// What a turn of the servo does between the device's bytes and the network's, with or without what
+/// a real device adds to it.
+enum class Load : std::uint8_t {
+    contact,  // the scene alone: the force goes as it comes
+    governed, // from encoder counts to a place, and through the governor with the joints' torques
+};
+
+/// Two peers that carry the cube to and fro between them, T3's way, and whose turns are timed on
+/// one side.
+class Turns {
+public:
+    explicit Turns(Load load);
+    ~Turns();
+
+    /// A reading of a clock, in nanoseconds.
+    using Clock = std::function<std::int64_t()>;
+    /// Plays so many turns; the nanoseconds that each took.
+    void play(int turns, const Clock& clock, std::vector<double>& nanoseconds);
+
+    /// The force that was felt last: work that cannot be left out.
+    [[nodiscard]] const base::Force& felt() const { return felt_; }
+    [[nodiscard]] const device::Governor& governor() const { return rig_.governor(); }
+
+private:
+    void deliver();
+    void turn();
+
+    Load load_;
+    base::TimePoint now_{std::chrono::hours{1}};
+    std::array<std::unique_ptr<peer::Peer>, 2> peers_;
+    device::Rig rig_;
+    base::Force felt_;
+};
+
+} // namespace hapnet::bench

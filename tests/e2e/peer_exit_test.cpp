@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// Every way out of the daemon in the middle of a push, and what the device was told last.
+#include "tests/e2e/peer.hpp"
+#include "tests/e2e/recorded_peer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <gtest/gtest.h>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A recorded daemon that carries the cube, and another peer that watches.
+struct Push {
+    explicit Push(RecordedPlay play)
+        : other{2, free_place(), here, {"--task", "P1", "--duration", "60s"}},
+          recorded{with_places(std::move(play))}
+    {
+        EXPECT_TRUE(recorded.pushes()) << messages();
+    }
+    [[nodiscard]] std::string messages() const { return text_of(folder.file("stderr")); }
+
+    TemporaryFolder folder;
+    std::string here = free_place();
+    Peer other;
+    RecordedPeer recorded;
+
+private:
+    [[nodiscard]] RecordedPlay with_places(RecordedPlay play) const
+    {
+        play.listen = here;
+        play.remote = other.listen();
+        play.messages = folder.file("stderr");
+        return play;
+    }
+};
+
+bool is_zero(const Told& told) { return told.newtons == 0.0 && !told.motors_on; }
+
+/// How long after the trouble (or after the last force) the device was told zero for the first
+/// time, never to be told otherwise again; expects that it was told so three times.
+std::chrono::nanoseconds time_to_zero(const std::vector<Told>& told)
+{
+    const auto last_push =
+        std::find_if(told.rbegin(), told.rend(), [](const Told& t) { return t.newtons > 0.0; });
+    EXPECT_NE(last_push, told.rend());
+    const auto trouble =
+        std::find_if(told.begin(), told.end(), [](const Told& t) { return t.is_trouble; });
+    const auto words =
+        std::count_if(last_push.base(), told.end(), [](const Told& t) { return !t.is_trouble; });
+    EXPECT_GE(words, 3);
+    if (words >= 3) {
+        EXPECT_TRUE(std::all_of(told.end() - 3, told.end(), is_zero));
+    }
+    const auto first_zero =
+        std::find_if(last_push.base(), told.end(), [](const Told& t) { return !t.is_trouble; });
+    if (first_zero == told.end()) return 1h;
+    const std::int64_t from = trouble != told.end() ? trouble->at_ns : last_push->at_ns;
+    return std::chrono::nanoseconds{first_zero->at_ns - from};
+}
+
+/// What of a machine's own delays is let off.
+constexpr auto patience = 30ms;
+
+} // namespace
+
+TEST(PeerExit, ByASignalThatAsksForItEndsInZeroForceAndExitCode0)
+{
+    for (const int signal : {SIGTERM, SIGHUP}) {
+        Push push{{}};
+        push.recorded.signal(signal);
+        EXPECT_EQ(push.recorded.wait_end(), 0) << push.messages();
+        EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+    }
+}
+
+TEST(PeerExit, ByAnExceptionInTheServoEndsInZeroForceAndAMessage)
+{
+    for (const auto pacing : {device::Pacing::host, device::Pacing::device}) {
+        Push push{{.trouble = Trouble::exception, .pacing = pacing}};
+        EXPECT_EQ(push.recorded.wait_end(), 1);
+        EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+        EXPECT_NE(push.messages().find("the servo met what it cannot handle"), std::string::npos);
+    }
+}
+
+TEST(PeerExit, ByADeathOfTheServoEndsInZeroForceThatTheWatchdogGives)
+{
+    for (const Trouble trouble : {Trouble::abort, Trouble::wild_write, Trouble::stack}) {
+        Push push{{.trouble = trouble}};
+        EXPECT_NE(push.recorded.wait_end(), 0);
+        EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+        EXPECT_TRUE(push.recorded.told().back().by_halt);
+    }
+}
+
+TEST(PeerExit, ByADeadlySignalFromElsewhereEndsInZeroForceAlthoughTheServoStillRuns)
+{
+    Push push{{}};
+    push.recorded.signal(SIGQUIT);
+    EXPECT_EQ(push.recorded.wait_end(), 128 + SIGQUIT);
+    EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+}
+
+TEST(PeerTrouble, AHangInApplyIsEndedByTheWatchdogAndTheSessionGoesOn)
+{
+    Push push{{.trouble = Trouble::hang}};
+    std::this_thread::sleep_for(1500ms);
+    push.recorded.signal(SIGTERM);
+    EXPECT_EQ(push.recorded.wait_end(), 0);
+    const auto& told = push.recorded.told();
+    const auto hang =
+        std::find_if(told.begin(), told.end(), [](const Told& t) { return t.is_trouble; });
+    ASSERT_NE(hang, told.end());
+    const auto halt = std::find_if(hang, told.end(), [](const Told& t) { return t.by_halt; });
+    ASSERT_NE(halt, told.end());
+    const std::chrono::nanoseconds after{halt->at_ns - hang->at_ns};
+    EXPECT_GE(after, 15ms); // the turn had begun a little before
+    EXPECT_LT(after, 20ms + patience);
+    const auto again = std::find_if(halt, told.end(), [](const Told& t) { return t.newtons > 0; });
+    ASSERT_NE(again, told.end()) << "it never ramped in again";
+    EXPECT_LT(again->newtons, 0.05);
+}
+
+TEST(PeerTrouble, ALongHangInApplyIsAFaultThatAPersonIsToldOf)
+{
+    Push push{{.trouble = Trouble::long_hang}};
+    std::this_thread::sleep_for(1000ms);
+    push.recorded.signal(SIGTERM);
+    std::ignore = push.recorded.wait_end();
+    EXPECT_LT(time_to_zero(push.recorded.told()), 20ms + patience);
+    EXPECT_NE(push.messages().find("this program stood still for more than 100 ms"),
+              std::string::npos)
+        << push.messages();
+}
+
+TEST(PeerTrouble, ALostDeviceIsToldZeroAtOnceAndAPersonWhatToDo)
+{
+    Push push{{.trouble = Trouble::device_lost}};
+    std::this_thread::sleep_for(300ms);
+    push.recorded.signal(SIGTERM);
+    std::ignore = push.recorded.wait_end();
+    EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+    EXPECT_NE(push.messages().find("zero force (disconnected): the device has gone: plug it in"),
+              std::string::npos)
+        << push.messages();
+}
+
+} // namespace hapnet::e2e

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/e2e/recorded_peer.hpp"
+
+#include "device/simulated/omni.hpp"
+#include "peer/supervise.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/program.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int pushes_before_trouble = 200;
+
+/// Deeper than any stack; the optimiser must not see through it.
+// NOLINTNEXTLINE(misc-no-recursion)
+int fall(volatile int* depth)
+{
+    volatile char room[4096] = {};
+    room[0] = static_cast<char>(*depth);
+    *depth = *depth + 1;
+    return *depth < 0 ? 0 : fall(depth) + room[0];
+}
+
+class RecordingOmni final : public device::Device {
+public:
+    RecordingOmni(const RecordedPlay& play, int pipe)
+        : play_{play}, pipe_{pipe}, capabilities_{omni_.capabilities()}
+    {
+        capabilities_.pacing = play.pacing;
+    }
+    ~RecordingOmni() override
+    {
+        for (int i = 0; i < 3; ++i) tell({}); // as every device's destructor does
+    }
+    [[nodiscard]] const device::Identity& identity() const override { return omni_.identity(); }
+    [[nodiscard]] const device::Capabilities& capabilities() const override
+    {
+        return capabilities_;
+    }
+    void on_cue(const device::Cue& cue) override { omni_.on_cue(cue); }
+
+    [[nodiscard]] device::Sample read(base::TimePoint now) override
+    {
+        device::Sample sample = omni_.read(now);
+        if (pushes_ == pushes_before_trouble) trouble(sample);
+        return sample;
+    }
+    void apply(const device::GovernedForce& force) override
+    {
+        const double newtons = base::norm(force.force());
+        tell({.newtons = newtons, .motors_on = force.motors_on()});
+        omni_.apply(force);
+        if (newtons > 0.0) ++pushes_;
+        if (pushes_ != pushes_before_trouble || hung_) return;
+        if (play_.trouble == Trouble::hang) hang(60ms);
+        if (play_.trouble == Trouble::long_hang) hang(200ms);
+    }
+    void halt() noexcept override
+    {
+        tell({.by_halt = true});
+        omni_.halt();
+    }
+    void pace(const std::function<bool()>& beat) override
+    {
+        base::TimePoint due = net::monotonic_now();
+        do {
+            net::sleep_until(due += 1ms);
+        } while (beat());
+    }
+
+private:
+    void tell(Told told) const
+    {
+        told.at_ns = net::monotonic_now().time_since_epoch().count();
+        std::ignore = write(pipe_, &told, sizeof told);
+    }
+    void hang(base::Duration duration)
+    {
+        hung_ = true;
+        tell({.is_trouble = true});
+        net::sleep_until(net::monotonic_now() + duration);
+    }
+    void trouble(device::Sample& sample) const
+    {
+        switch (play_.trouble) {
+        case Trouble::none:
+        case Trouble::hang:
+        case Trouble::long_hang: return;
+        case Trouble::device_lost:
+            if (sample.fault == device::Fault::none) tell({.is_trouble = true});
+            sample.fault = device::Fault::disconnected;
+            return;
+        case Trouble::exception:
+            tell({.is_trouble = true});
+            throw std::runtime_error{"the servo met what it cannot handle"};
+        case Trouble::abort: tell({.is_trouble = true}); std::abort();
+        case Trouble::wild_write: {
+            tell({.is_trouble = true});
+            volatile int* volatile nowhere = nullptr;
+            *nowhere = 1; // NOLINT(clang-analyzer-core.NullDereference)
+            return;
+        }
+        case Trouble::stack: {
+            tell({.is_trouble = true});
+            volatile int depth = 0;
+            std::exit(fall(&depth));
+        }
+        }
+    }
+
+    RecordedPlay play_;
+    int pipe_;
+    device::SimulatedOmni omni_{{}};
+    device::Capabilities capabilities_;
+    int pushes_ = 0;
+    bool hung_ = false;
+};
+
+/// What hapnet-peer does, with this device.
+base::Result<int> play(const std::pair<RecordedPlay, int>& options)
+{
+    const auto& [asked, pipe] = options;
+    net::StopSignal stop;
+    const net::CrashSignal crash;
+    const net::CrashStack stack;
+    net::UdpSocket socket{net::resolve(net::parse_host_port(asked.listen).value())};
+    device::Rig rig{std::make_unique<RecordingOmni>(asked, pipe), device::GovernorLimits{}};
+    peer::Journal journal;
+    peer::Watcher watcher{journal, std::nullopt, 1};
+    peer::Settings settings;
+    settings.introduction = {.id = 1,
+                             .nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U),
+                             .scene_hash = scene::hash(settings.scene),
+                             .seed = 1,
+                             .task = wire::TaskName::from_text("P1").value()};
+    peer::Peer peer{settings};
+    peer::Watchdog watchdog{rig.device(), &crash};
+    peer::Servo servo{{peer, rig, socket, net::resolve(net::parse_host_port(asked.remote).value()),
+                       journal, watchdog, 1}};
+    peer::supervise(servo, watcher, stop, "");
+    return 0;
+}
+
+} // namespace
+
+RecordedPeer::RecordedPeer(const RecordedPlay& asked)
+{
+    int ends[2] = {-1, -1};
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error{"pipe2"};
+    pid_ = fork();
+    if (pid_ == 0) {
+        const int messages = open(asked.messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        dup2(messages, STDERR_FILENO);
+        const net::CommandLine<std::pair<RecordedPlay, int>> line{std::pair{asked, ends[1]}};
+        // Not this test program's own ways out.
+        _exit(net::run_program<std::pair<RecordedPlay, int>>("recorded peer", line, play));
+    }
+    close(ends[1]);
+    pipe_ = ends[0];
+}
+
+RecordedPeer::~RecordedPeer()
+{
+    if (pid_ > 0) {
+        kill(pid_, SIGKILL);
+        waitpid(pid_, nullptr, 0);
+    }
+    close(pipe_);
+}
+
+bool RecordedPeer::take_one()
+{
+    Told told;
+    if (read(pipe_, &told, sizeof told) != static_cast<ssize_t>(sizeof told)) return false;
+    told_.push_back(told);
+    return true;
+}
+
+bool RecordedPeer::pushes()
+{
+    int pushes = 0;
+    while (pushes < pushes_before_trouble && take_one()) pushes += told_.back().newtons > 0 ? 1 : 0;
+    return pushes == pushes_before_trouble;
+}
+
+void RecordedPeer::signal(int number) const { kill(pid_, number); }
+
+int RecordedPeer::wait_end()
+{
+    while (take_one()) {}
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+} // namespace hapnet::e2e

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/capabilities.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hapnet::e2e {
+
+/// What becomes of a daemon in the middle of a push.
+enum class Trouble : std::uint8_t {
+    none,
+    exception,   // in the servo
+    abort,       // in the servo: as a failed ensure() or std::terminate() end it
+    wild_write,  // in the servo: SIGSEGV
+    stack,       // of the servo's thread overflows: SIGSEGV
+    hang,        // apply() does not return for 60 ms
+    long_hang,   // ... for 200 ms
+    device_lost, // the device says that it has been unplugged
+};
+
+/// How the daemon is built, and what happens to it.
+struct RecordedPlay {
+    Trouble trouble = Trouble::none;
+    device::Pacing pacing = device::Pacing::host;
+    std::string listen{};
+    std::string remote{};
+    std::string messages{}; // the file that its stderr goes to
+};
+
+/// One thing that the device was told: bytes as they go through a pipe.
+struct Told {
+    double newtons = 0.0;
+    std::int64_t at_ns = 0; // CLOCK_MONOTONIC
+    bool motors_on = false;
+    bool by_halt = false;
+    bool is_trouble = false; // nothing was told: here the trouble begins
+};
+
+/// A daemon of the shell's own parts in a child process, with a device that writes down all that it
+/// is told: a simulated Omni in a hand that plays P1.
+class RecordedPeer {
+public:
+    explicit RecordedPeer(const RecordedPlay& play);
+    ~RecordedPeer();
+    RecordedPeer(const RecordedPeer&) = delete;
+    RecordedPeer& operator=(const RecordedPeer&) = delete;
+
+    /// Waits until its hand has felt a force 200 times.
+    [[nodiscard]] bool pushes();
+    void signal(int number) const;
+    /// Waits for its end: the exit code, or 128 + the signal that it died of.
+    [[nodiscard]] int wait_end();
+
+    [[nodiscard]] const std::vector<Told>& told() const { return told_; }
+
+private:
+    bool take_one();
+
+    int pid_ = -1;
+    int pipe_ = -1;
+    std::vector<Told> told_;
+};
+
+} // namespace hapnet::e2e

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/device_news.hpp"
+
+#include <chrono>
+#include <gtest/gtest.h>
+
+namespace hapnet::peer {
+namespace {
+
+using namespace std::chrono_literals;
+using device::CalibrationStep;
+using device::Fault;
+using device::Latched;
+using device::Trip;
+
+constexpr base::TimePoint noon{12h};
+constexpr Latched cable{Fault::communication, Trip::device};
+
+TEST(DeviceReporter, SaysNothingOfADeviceThatIsWell)
+{
+    DeviceReporter reporter;
+    for (int ms = 0; ms < 5000; ++ms) {
+        EXPECT_FALSE(reporter.look(CalibrationStep::done, {}, noon + ms * 1ms));
+    }
+}
+
+TEST(DeviceReporter, TellsAFaultAtOnceAndOnceAndItsEnd)
+{
+    DeviceReporter reporter;
+    const auto fault = reporter.look(CalibrationStep::done, cable, noon);
+    ASSERT_TRUE(fault);
+    EXPECT_EQ(words_for(*fault),
+              "zero force (communication): the device was not understood: check its cable, and use "
+              "no hub; to feel force again put the stylus into its holder, or hold it still for a "
+              "second and press its button");
+    EXPECT_FALSE(reporter.look(CalibrationStep::done, cable, noon + 5s));
+    const auto end = reporter.look(CalibrationStep::done, {}, noon + 6s);
+    ASSERT_TRUE(end);
+    EXPECT_EQ(words_for(*end), "the device is well again: force ramps in");
+}
+
+TEST(DeviceReporter, TellsNoMoreThanOnceASecondOfWhatComesAndGoesAndThenHowItIs)
+{
+    DeviceReporter reporter;
+    int told = 0;
+    for (int ms = 0; ms < 10'000; ++ms) {
+        const bool flickers = ms % 2 == 0;
+        told += reporter.look(flickers ? CalibrationStep::dock_stylus : CalibrationStep::busy,
+                              flickers ? cable : Latched{}, noon + ms * 1ms)
+                    ? 1
+                    : 0;
+    }
+    EXPECT_LE(told, 20);
+    EXPECT_GE(told, 10);
+    const auto last = reporter.look(CalibrationStep::done, {}, noon + 20s);
+    EXPECT_TRUE(last);
+}
+
+TEST(DeviceReporter, TellsThePersonWhatACalibrationNeeds)
+{
+    DeviceReporter reporter;
+    const auto dock = reporter.look(CalibrationStep::dock_stylus, {}, noon);
+    ASSERT_TRUE(dock);
+    EXPECT_EQ(words_for(*dock), device::words_for(CalibrationStep::dock_stylus));
+    EXPECT_FALSE(reporter.look(CalibrationStep::done, {}, noon + 999ms));
+    const auto done = reporter.look(CalibrationStep::done, {}, noon + 1s);
+    ASSERT_TRUE(done);
+    EXPECT_EQ(words_for(*done), "the device is calibrated");
+}
+
+TEST(DeviceNews, PromiseNoWayBackWhereThereIsNone)
+{
+    for (const Latched& fault : {Latched{Fault::disconnected, Trip::device},
+                                 Latched{Fault::communication, Trip::nonsense}}) {
+        EXPECT_EQ(words_for(DeviceNews{.fault = fault}).find("button"), std::string::npos);
+    }
+    const auto trip = words_for(DeviceNews{.fault = {Fault::over_velocity, Trip::speed}});
+    EXPECT_NE(trip.find("button"), std::string::npos);
+}
+
+} // namespace
+} // namespace hapnet::peer
