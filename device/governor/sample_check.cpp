@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "device/governor/sample_check.hpp"
 
+#include <limits>
+
 namespace hapnet::device {
 
 namespace {
@@ -57,6 +59,7 @@ Trip SampleCheck::too_fast(const GovernorLimits& limits, const Sample& sample,
                            base::Duration since_last) const
 {
     const double most = limits.speed_max_m_per_s;
+    if (most == std::numeric_limits<double>::infinity()) return Trip::none;
     if (squared(sample.velocity.value) > most * most) return Trip::speed;
     if (!placed_) return Trip::none;
     const double step_max = most * base::to_seconds(since_last + jump_grace);
