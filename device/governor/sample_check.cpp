@@ -29,7 +29,8 @@ SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample
     sequence_ = sample.sequence;
     silence_ += passed;
     const base::Duration since_last = silence_;
-    if (is_new) silence_ = base::Duration{0};
+    // Without motors it may be silent: a cap or a grip at rest has nothing to say.
+    if (is_new || limits.axes_out <= 0) silence_ = base::Duration{0};
 
     if (silence_ >= limits.fault_after) {
         return {Finding::tripped, {Fault::timeout, Trip::silence}};
