@@ -49,8 +49,9 @@ GovernedForce Governor::govern(const Wish& wish, const Sample& sample, base::Tim
     const base::Duration gap = pass(now);
     const bool usable = may_push(sample, gap);
     if (!usable) to_zero();
-    fade(wish.permitted && usable && limits_.axes_out > 0, gap);
-    last_ = shape(wish.force, sample, std::min(gap, limits_.tick));
+    if (gap != step_.gap) step_ = step_of(gap);
+    fade(wish.permitted && usable && limits_.axes_out > 0);
+    last_ = shape(wish.force, sample);
     return strength_ > 0.0 ? GovernedForce{last_} : GovernedForce{};
 }
 
@@ -125,20 +126,27 @@ void Governor::count(Finding finding)
     }
 }
 
-void Governor::fade(bool permitted, base::Duration gap)
+Governor::Step Governor::step_of(base::Duration gap) const
 {
     // A late tick fades by all the time that has passed, but ramps in by one tick only.
-    const base::Duration step_time = std::min(gap, limits_.tick);
-    const double change = permitted
-                              ? base::to_seconds(step_time) / base::to_seconds(limits_.ramp_in)
-                              : -base::to_seconds(gap) / base::to_seconds(limits_.fade_out);
-    strength_ = std::clamp(strength_ + change, 0.0, 1.0);
+    const double seconds = base::to_seconds(std::min(gap, limits_.tick));
+    return {.gap = gap,
+            .ramp = seconds / base::to_seconds(limits_.ramp_in),
+            .fade = base::to_seconds(gap) / base::to_seconds(limits_.fade_out),
+            .slew_n = limits_.slew_max_n_per_s * seconds,
+            .slew_ramping_n =
+                std::min(limits_.slew_max_n_per_s, limits_.slew_ramping_n_per_s) * seconds};
+}
+
+void Governor::fade(bool permitted)
+{
+    strength_ = std::clamp(strength_ + (permitted ? step_.ramp : -step_.fade), 0.0, 1.0);
     if (strength_ < 1.0) ++counters_.faded;
     if (strength_ == 0.0) from_zero_ = true;
     if (strength_ == 1.0) from_zero_ = false;
 }
 
-base::Force Governor::shape(base::Force wanted, const Sample& sample, base::Duration step_time)
+base::Force Governor::shape(base::Force wanted, const Sample& sample)
 {
     if (!base::is_finite(wanted)) {
         ++counters_.not_finite;
@@ -162,7 +170,7 @@ base::Force Governor::shape(base::Force wanted, const Sample& sample, base::Dura
         ++counters_.heat_limited;
         force = base::limited(force, bearable_n);
     }
-    force = slew(strength_ * force, step_time);
+    force = slew(strength_ * force);
     if (strength_ == 0.0) return {}; // zero when in doubt, whatever the slew
     if (!inside) force = with_outward_part_cut(limits_, sample.hip, force);
     if (limits_.joints) {
@@ -173,13 +181,10 @@ base::Force Governor::shape(base::Force wanted, const Sample& sample, base::Dura
     return force;
 }
 
-base::Force Governor::slew(const base::Force& wanted, base::Duration step_time)
+base::Force Governor::slew(const base::Force& wanted)
 {
-    double rate = limits_.slew_max_n_per_s;
-    if (from_zero_ && !is_release(last_, wanted)) {
-        rate = std::min(rate, limits_.slew_ramping_n_per_s);
-    }
-    const double step_max = rate * base::to_seconds(step_time);
+    const bool gently = from_zero_ && !is_release(last_, wanted);
+    const double step_max = gently ? step_.slew_ramping_n : step_.slew_n;
     const base::Force step = wanted - last_;
     if (base::norm(step) <= step_max) return wanted;
     ++counters_.slewed;

@@ -91,13 +91,21 @@ public:
     [[nodiscard]] double heat() const { return heat_.heat(); }
 
 private:
+    /// What a gap between two ticks comes to.
+    struct Step {
+        base::Duration gap{};
+        double ramp = 0.0;   // of strength
+        double fade = 0.0;   // of strength
+        double slew_n = 0.0; // of force
+        double slew_ramping_n = 0.0;
+    };
+    [[nodiscard]] Step step_of(base::Duration gap) const;
     [[nodiscard]] base::Duration pass(base::TimePoint now);
     [[nodiscard]] bool may_push(const Sample& sample, base::Duration gap);
     void count(Finding finding);
-    void fade(bool permitted, base::Duration gap);
-    [[nodiscard]] base::Force shape(base::Force wanted, const Sample& sample,
-                                    base::Duration step_time);
-    [[nodiscard]] base::Force slew(const base::Force& wanted, base::Duration step_time);
+    void fade(bool permitted);
+    [[nodiscard]] base::Force shape(base::Force wanted, const Sample& sample);
+    [[nodiscard]] base::Force slew(const base::Force& wanted);
     void to_zero();
 
     GovernorLimits limits_;
@@ -106,6 +114,7 @@ private:
     SampleCheck check_;
     FaultLatch latch_;
     Finding finding_ = Finding::unheard; // of the last sample
+    Step step_;                          // of the last gap: in a steady loop it stays the same
     base::Force last_;
     double strength_ = 0.0; // 0: nothing passes, 1: all does
     bool from_zero_ = true; // it has not been at full strength since it was at zero

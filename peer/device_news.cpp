@@ -33,6 +33,14 @@ std::string words_for(const DeviceNews& news)
                        device::what_happened(news.fault), way_back(news.fault));
 }
 
+std::string fault_at_the_end(const device::Governor& governor)
+{
+    const device::Latched& fault = governor.fault();
+    if (fault.fault == device::Fault::none) return "";
+    return fmt::format("the session ended at zero force, for a fault of the device ({}): {}",
+                       device::name_of(fault.fault), device::what_happened(fault));
+}
+
 bool DeviceReporter::is_time(std::optional<base::TimePoint>& last, base::TimePoint now) const
 {
     if (last && now - *last < at_most_every) return false;

@@ -19,6 +19,10 @@ struct DeviceNews {
 /// What to tell: what it is, and what to do about it.
 [[nodiscard]] std::string words_for(const DeviceNews& news);
 
+/// Why a session whose device has a fault by the end was no success; "" when it has none. A fault
+/// that an operator has ended is none.
+[[nodiscard]] std::string fault_at_the_end(const device::Governor& governor);
+
 /// Finds news in a device's state, tick by tick. Of its calibration and of its faults it tells one
 /// a second at most, and the first at once: of what changes faster, how it is by then.
 class DeviceReporter {

@@ -139,6 +139,10 @@ base::Result<int> run(const Options& options)
                         words_for(*reason)));
         return net::exit_failed;
     }
+    if (const std::string fault = fault_at_the_end(rig.governor()); !fault.empty()) {
+        say(fault);
+        return net::exit_failed;
+    }
     return 0;
 }
 

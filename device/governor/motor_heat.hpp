@@ -27,7 +27,11 @@ public:
     {
         const glm::dvec3& f = force.value;
         const double goal = heating_ * (f.x * f.x + f.y * f.y + f.z * f.z);
-        heat_ += std::min(1.0, per_s_ * base::to_seconds(duration)) * (goal - heat_);
+        if (duration != duration_) {
+            duration_ = duration;
+            share_ = std::min(1.0, per_s_ * base::to_seconds(duration));
+        }
+        heat_ += share_ * (goal - heat_);
     }
 
     /// The most that may be asked of them now, where `peak_n` is the most at all.
@@ -47,6 +51,8 @@ private:
     double heating_;
     double per_s_;
     double heat_ = 0.0;
+    base::Duration duration_{}; // what the next is for: in a steady loop it stays the same
+    double share_ = 0.0;
 };
 
 } // namespace hapnet::device

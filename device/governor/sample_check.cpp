@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "device/governor/sample_check.hpp"
 
+#include <limits>
+
 namespace hapnet::device {
 
 namespace {
@@ -27,7 +29,8 @@ SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample
     sequence_ = sample.sequence;
     silence_ += passed;
     const base::Duration since_last = silence_;
-    if (is_new) silence_ = base::Duration{0};
+    // Without motors it may be silent: a cap or a grip at rest has nothing to say.
+    if (is_new || limits.axes_out <= 0) silence_ = base::Duration{0};
 
     if (silence_ >= limits.fault_after) {
         return {Finding::tripped, {Fault::timeout, Trip::silence}};
@@ -57,6 +60,7 @@ Trip SampleCheck::too_fast(const GovernorLimits& limits, const Sample& sample,
                            base::Duration since_last) const
 {
     const double most = limits.speed_max_m_per_s;
+    if (most == std::numeric_limits<double>::infinity()) return Trip::none;
     if (squared(sample.velocity.value) > most * most) return Trip::speed;
     if (!placed_) return Trip::none;
     const double step_max = most * base::to_seconds(since_last + jump_grace);

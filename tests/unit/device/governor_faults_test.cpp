@@ -104,6 +104,16 @@ TEST(GovernorLatches, ATimeoutWhenADeviceRepeatsItselfForAHundredMilliseconds)
     EXPECT_EQ(governed.governor.counters().silence_faults, 1U);
 }
 
+TEST(GovernorLatches, NothingForTheSilenceOfADeviceWithoutMotors)
+{
+    Governance governed{{.axes_out = 0}};
+    governed(along_x(1.0));
+    governed.speaks = false;
+    EXPECT_EQ(governed.play(500, along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    EXPECT_EQ(governed.governor.counters().silent, 0U);
+}
+
 TEST(GovernorLatches, EveryFaultThatADeviceReports)
 {
     for (const Fault fault : {Fault::communication, Fault::timeout, Fault::overheat,

@@ -79,5 +79,17 @@ TEST(DeviceNews, PromiseNoWayBackWhereThereIsNone)
     EXPECT_NE(trip.find("button"), std::string::npos);
 }
 
+TEST(FaultAtTheEnd, IsOneThatNobodyHasEnded)
+{
+    device::Governor governor{{}};
+    EXPECT_EQ(fault_at_the_end(governor), "");
+    governor.latch({Fault::disconnected, Trip::device});
+    EXPECT_EQ(fault_at_the_end(governor),
+              "the session ended at zero force, for a fault of the device (disconnected): the "
+              "device has gone: plug it in and start again");
+    governor.reset();
+    EXPECT_EQ(fault_at_the_end(governor), "");
+}
+
 } // namespace
 } // namespace hapnet::peer
