@@ -153,7 +153,7 @@ Timing try_timing()
         const net::RealTime granted = net::request_real_time(servo_priority);
         timing.fifo = granted.fifo;
         timing.locked_memory = granted.locked_memory;
-        timing.shortage = granted.shortage();
+        timing.is_root = geteuid() == 0;
         timing.slack = std::chrono::nanoseconds{prctl(PR_GET_TIMERSLACK, 0UL, 0UL, 0UL, 0UL)};
         base::TimePoint due = net::monotonic_now();
         for (int i = 0; i < wake_ups; ++i) {
