@@ -87,9 +87,9 @@ base::Result<double> parse_scale(const std::string& text)
 base::Result<double> parse_hid_force(const std::string& text)
 {
     auto force = base::parse_quantity(text, base::force_kind);
-    if (force && !(*force > 0.0 && *force <= hid_force_max_n)) {
-        return base::fail(fmt::format("'{}' is out of range: more than 0 and at most {:.0f}N", text,
-                                      hid_force_max_n));
+    if (force && !(*force != 0.0 && std::abs(*force) <= hid_force_max_n)) {
+        return base::fail(
+            fmt::format("'{}' is out of range: not 0, and at most {:.0f}N", text, hid_force_max_n));
     }
     return force;
 }
@@ -132,7 +132,10 @@ void add_backend_options(CLI::App& app, DeviceTexts& texts)
     add("--omni-torque", texts.options.omni_torque,
         "omni1394: what its motors were measured to give per count (docs/HARDWARE.md)", "FILE");
     add("--hid-force", texts.hid_force,
-        "hid: the force at the grip at full scale, measured (default: no force)", "FORCE");
+        "hid: the force at the grip at full scale, measured; negative where it pushes the other "
+        "way,\n"
+        "as --hid-force=-5N (default: no force)",
+        "FORCE");
 }
 
 void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts)
