@@ -53,7 +53,7 @@ net::CommandLine<Command> parse_list_devices(std::span<char*> words)
     CLI::App app{list_devices_description, "hapnet-peer list-devices"};
     DeviceTexts texts;
     ListDevicesCommand command;
-    add_device_options(app, texts);
+    add_backend_options(app, texts);
     app.add_flag("--json", command.json, "Print one JSON object instead of a table");
     if (const auto said = parse(app, words)) return answer_of(*said);
     Taker taker;

@@ -33,6 +33,18 @@ std::string device_help()
                               names, device::never_run);
 }
 
+/// What --help says of an option, and the form of its value.
+struct Explanation {
+    std::string help;
+    const char* type;
+};
+
+template <typename Text>
+void add_option(CLI::App& app, const char* name, Text& text, const Explanation& explanation)
+{
+    app.add_option(name, text, explanation.help)->type_name(explanation.type)->group("Device");
+}
+
 base::Result<device::HandTrace> hand_trace_in(const std::string& file)
 {
     const auto text = net::text_of_file(file);
@@ -75,9 +87,9 @@ base::Result<double> parse_scale(const std::string& text)
 base::Result<double> parse_hid_force(const std::string& text)
 {
     auto force = base::parse_quantity(text, base::force_kind);
-    if (force && !(*force > 0.0 && *force <= hid_force_max_n)) {
-        return base::fail(fmt::format("'{}' is out of range: more than 0 and at most {:.0f}N", text,
-                                      hid_force_max_n));
+    if (force && !(*force != 0.0 && std::abs(*force) <= hid_force_max_n)) {
+        return base::fail(
+            fmt::format("'{}' is out of range: not 0, and at most {:.0f}N", text, hid_force_max_n));
     }
     return force;
 }
@@ -88,7 +100,7 @@ void add_device_options(CLI::App& app, DeviceTexts& texts)
 {
     const auto add = [&app](const char* name, auto& text, const std::string& help,
                             const char* type) {
-        app.add_option(name, text, help)->type_name(type)->group("Device");
+        add_option(app, name, text, {help, type});
     };
     add("--device", texts.device, device_help(), "sim|replay:FILE|BACKEND[:SERIAL]");
     add("--operator", texts.person,
@@ -102,6 +114,14 @@ void add_device_options(CLI::App& app, DeviceTexts& texts)
         "Metres in the scene per metre of the device (default for a real one: as much as it\n"
         "needs to cover what an Omni does, 160 x 120 x 70 mm, at least 1). Forces grow with it",
         "NUMBER");
+    add_backend_options(app, texts);
+}
+
+void add_backend_options(CLI::App& app, DeviceTexts& texts)
+{
+    const auto add = [&app](const char* name, auto& text, const char* help, const char* type) {
+        add_option(app, name, text, {help, type});
+    };
     add("--hd-library", texts.options.hd_library,
         "hdapi: the vendor's library (default: libHD.so where the system finds it)", "FILE");
     add("--falcon-firmware", texts.options.falcon_firmware,
@@ -112,7 +132,10 @@ void add_device_options(CLI::App& app, DeviceTexts& texts)
     add("--omni-torque", texts.options.omni_torque,
         "omni1394: what its motors were measured to give per count (docs/HARDWARE.md)", "FILE");
     add("--hid-force", texts.hid_force,
-        "hid: the force at the grip at full scale, measured (default: no force)", "FORCE");
+        "hid: the force at the grip at full scale, measured; negative where it pushes the other "
+        "way,\n"
+        "as --hid-force=-5N (default: no force)",
+        "FORCE");
 }
 
 void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts)

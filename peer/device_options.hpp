@@ -40,6 +40,8 @@ struct DeviceTexts {
 
 /// Adds --device and what belongs to it.
 void add_device_options(CLI::App& app, DeviceTexts& texts);
+/// Of these, what the backends of real devices ask for.
+void add_backend_options(CLI::App& app, DeviceTexts& texts);
 
 /// Reads them, and the files that they name.
 void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts);

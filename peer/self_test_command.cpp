@@ -11,6 +11,7 @@
 #include "proto/net/stop_signal.hpp"
 #include "proto/net/wait.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -38,11 +39,15 @@ public:
     void run()
     {
         std::ignore = net::request_real_time(test_priority);
-        const bool is_paced = rig_.device().capabilities().pacing == device::Pacing::device;
+        if (rig_.device().capabilities().pacing == device::Pacing::device) {
+            rig_.device().pace([this] { return turn(), !is_over(); });
+        }
+        // At our own pace; also after a device that has stopped to set one.
+        base::TimePoint due = net::monotonic_now();
         while (!is_over()) {
-            if (is_paced) rig_.device().pace([this] { return turn(), !is_over(); });
-            if (!is_over()) turn();
-            net::sleep_until(net::monotonic_now() + test_tick);
+            due = std::max(due + test_tick, net::monotonic_now());
+            net::sleep_until(due);
+            turn();
         }
     }
     void stop() { stop_.store(true, std::memory_order_relaxed); }

@@ -19,7 +19,7 @@ struct DeviceOptions {
     std::string falcon_firmware{};       // falcon: "": it has to be running already
     std::string omni_torque{};           // omni1394: measured torque per count; "": none
     bool uncalibrated_force = false;     // omni1394: force without such a table, at most a quarter
-    std::optional<double> hid_force_n{}; // hid: what full scale is at the grip; without: no force
+    std::optional<double> hid_force_n{}; // hid: of full scale at the grip; without: no force
 };
 
 /// A kind of real device, and the way to its devices.

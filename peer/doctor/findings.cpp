@@ -19,12 +19,25 @@ constexpr std::uint64_t buffer_wanted_bytes = 4U << 20; // what the peers' socke
 
 double in_microseconds(base::Duration duration) { return 1e6 * base::to_seconds(duration); }
 
+std::string_view what_is_withheld(const Timing& timing)
+{
+    if (timing.fifo) return "locked memory is";
+    return timing.locked_memory ? "SCHED_FIFO is" : "SCHED_FIFO and locked memory are";
+}
+
 Finding on_priority(const Timing& timing)
 {
     if (timing.fifo && timing.locked_memory) {
         return {"real time", Level::ok, "SCHED_FIFO and locked memory are granted"};
     }
-    return {"real time", Level::warning, timing.shortage,
+    const std::string withheld =
+        fmt::format("{} withheld: wake-ups will be later", what_is_withheld(timing));
+    if (timing.is_root) {
+        return {"real time", Level::warning, withheld,
+                "run outside of this container or virtual machine, or let it have CAP_SYS_NICE and "
+                "an unlimited memlock"};
+    }
+    return {"real time", Level::warning, withheld,
             "printf '@audio - rtprio 50\\n@audio - memlock unlimited\\n' | sudo tee "
             "/etc/security/limits.d/hapnet.conf && sudo usermod -aG audio \"$USER\"   # then log "
             "in again"};

@@ -31,7 +31,7 @@ struct Finding {
 struct Timing {
     bool fifo = false;
     bool locked_memory = false;
-    std::string shortage;      // why not, and the cure
+    bool is_root = false;      // then only who runs the system can help
     base::Duration slack{};    // of the thread's timers
     base::Duration late_p99{}; // of wake-ups, once a millisecond
 };

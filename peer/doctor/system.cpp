@@ -38,7 +38,7 @@ struct KnownDevice {
 constexpr std::array usb_devices{KnownDevice{"0403", "cb48", "cb48", "Novint Falcon"}};
 constexpr std::array hid_devices{KnownDevice{"1209", "ffb0", "ffb0", "OpenFFBoard"},
                                  KnownDevice{"046d", "c603", "c62b", "SpaceMouse"},
-                                 KnownDevice{"256f", "c62e", "c63a", "SpaceMouse"},
+                                 KnownDevice{"256f", "c62e", "c652", "SpaceMouse"},
                                  KnownDevice{"2988", "0304", "0304", "Touch"}};
 
 /// Its whole text, without the line's end; nullopt when it cannot be read.
@@ -153,7 +153,7 @@ Timing try_timing()
         const net::RealTime granted = net::request_real_time(servo_priority);
         timing.fifo = granted.fifo;
         timing.locked_memory = granted.locked_memory;
-        timing.shortage = granted.shortage();
+        timing.is_root = geteuid() == 0;
         timing.slack = std::chrono::nanoseconds{prctl(PR_GET_TIMERSLACK, 0UL, 0UL, 0UL, 0UL)};
         base::TimePoint due = net::monotonic_now();
         for (int i = 0; i < wake_ups; ++i) {

@@ -68,10 +68,11 @@ Outcome ForceStep::outcome() const
             fmt::format("the governor let only {:.2f} of {:.2f} N through", force_most_n_, peak_n);
     } else {
         outcome.verdict = Verdict::passed;
-        outcome.text =
-            fmt::format("up to {:.2f} N were asked of the motors{}; whether you felt "
-                        "them, and to the right, only you can say",
-                        force_most_n_, was_released_ ? ", and none after a release" : "");
+        outcome.text = fmt::format("up to {:.2f} N were asked of the motors{}{}", force_most_n_,
+                                   was_released_ ? ", and none after a release" : "",
+                                   dead_man_ == DeadMan::person
+                                       ? "; whether it pushed you to the right, only you can say"
+                                       : "");
     }
     return outcome;
 }

@@ -67,7 +67,7 @@ Outcome ReadStep::outcome() const
     if (fault_ != device::Fault::none) {
         outcome.text = fmt::format("{}; {}", device::words_for(fault_), outcome.text);
     } else if (words_ == 0) {
-        outcome.text = "the device says nothing: is it powered?";
+        outcome.text = "the device says nothing, although it may have been moved: is it powered?";
     } else if (rate < rate_share_wanted * nominal_hz_) {
         outcome.text += fmt::format(", but {:.0f} a second are nominal: another cable, port or "
                                     "hub may help",

@@ -8,6 +8,12 @@ namespace hapnet::peer::self_test {
 
 namespace {
 
+/// What only points may rest while nobody touches it.
+double rate_wanted_hz(const device::Capabilities& capabilities)
+{
+    return capabilities.axes_out > 0 ? capabilities.rate_hz : 0.0;
+}
+
 std::string why_no_force(const Plan& plan)
 {
     if (plan.capabilities.axes_out == 0) return "the device gives no force";
@@ -28,7 +34,7 @@ SelfTest::SelfTest(const Plan& plan)
     };
     const DeadMan dead_man = plan.is_real ? DeadMan::person : DeadMan::simulated_hand;
     steps_ = {
-        {"read", ReadStep{plan.read_for, plan.capabilities.rate_hz}, asked_for("read", "")},
+        {"read", ReadStep{plan.read_for, rate_wanted_hz(plan.capabilities)}, asked_for("read", "")},
         {"calibrate", CalibrateStep{}, asked_for("calibrate", "")},
         {"force", ForceStep{dead_man}, asked_for("force", why_no_force(plan))},
         {"cable", CableStep{},

@@ -1,110 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "tests/support/fake_hd/fake_hd.hpp"
-#include "device/hdapi/library.hpp"
+// The functions of the interface, as we read it.
+#include "tests/support/fake_hd/fake_library.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
-#include <ctime>
 #include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 #include <limits>
-#include <memory>
-#include <mutex>
 #include <string_view>
-#include <thread>
-#include <vector>
+
+namespace hapnet::device::hdapi {
 
 namespace {
 
-using namespace hapnet::device::hdapi;
-
-constexpr std::array names{"Default Device", "Left"};
-constexpr long period_ns = 1'000'000;
 constexpr double resolution_mm = 0.055;
 constexpr double grip_n_per_mm = 0.3; // of the hand that holds the stylus
 constexpr double force_max_n = 3.3;
-
-struct FakeDevice {
-    bool is_open = false;
-    bool in_frame = false;
-    bool docked = false;
-    bool calibrated = false;
-    bool pressed = false;
-    bool unplugged = false;
-    bool garbled = false;
-    bool warm = false;
-    bool force_output = true; // as the library has it before anyone asks
-    bool clamps = false;
-    std::uint64_t failing_frame = 0; // counted down; 0: none
-    glm::dvec3 frame_force{0.0};
-    glm::dvec3 tip_mm{0.0};
-    glm::dvec3 velocity_mm_per_s{0.0};
-    std::vector<FakeHdCommand> commands;
-};
-
-struct Library {
-    std::mutex mutex; // of all below
-    std::array<FakeDevice, names.size()> devices;
-    std::vector<ErrorInfo> errors;
-    Handle current = no_device;
-    Callback callback = nullptr;
-    void* data = nullptr;
-    FakeHdMisuse misuse{};
-    std::atomic<bool> stalled{false};
-    std::atomic<bool> running{false};
-    std::thread scheduler;
-
-    FakeDevice* device(Handle handle)
-    {
-        const bool is_one = handle < devices.size() && devices[handle].is_open;
-        if (!is_one) complain(0x104, handle);
-        return is_one ? &devices[handle] : nullptr;
-    }
-    void complain(unsigned int code, Handle handle) { errors.push_back({code, 0, handle}); }
-};
-
-Library& library()
-{
-    // Never destroyed: like the real one it may be in use when the process ends.
-    static Library& it = *new Library;
-    return it;
-}
-
-timespec later(timespec time)
-{
-    time.tv_nsec += period_ns;
-    if (time.tv_nsec >= 1'000'000'000) {
-        time.tv_nsec -= 1'000'000'000;
-        ++time.tv_sec;
-    }
-    return time;
-}
-
-void run_scheduler()
-{
-    Library& it = library();
-    timespec due{};
-    clock_gettime(CLOCK_MONOTONIC, &due);
-    while (it.running) {
-        due = later(due);
-        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
-        Callback callback = nullptr;
-        void* data = nullptr;
-        {
-            const std::lock_guard lock{it.mutex};
-            callback = it.callback;
-            data = it.data;
-        }
-        if (it.stalled || callback == nullptr) continue;
-        if (callback(data) != callback_continue) {
-            const std::lock_guard lock{it.mutex};
-            it.callback = nullptr;
-        }
-    }
-}
 
 void move_tip(FakeDevice& device, const glm::dvec3& force)
 {
@@ -333,12 +244,7 @@ void hdStartScheduler()
     it.scheduler = std::thread{run_scheduler};
 }
 
-void hdStopScheduler()
-{
-    Library& it = library();
-    if (!it.running.exchange(false)) return;
-    it.scheduler.join();
-}
+void hdStopScheduler() { stop_scheduler(); }
 
 void hdSetSchedulerRate(unsigned long hertz)
 {
@@ -366,57 +272,6 @@ void hdUnschedule(unsigned long /*scheduled*/)
     const std::lock_guard lock{it.mutex};
     it.callback = nullptr;
 }
-
-void fakehd_reset()
-{
-    Library& it = library();
-    hdStopScheduler();
-    const std::lock_guard lock{it.mutex};
-    it.devices = {};
-    it.errors.clear();
-    it.current = no_device;
-    it.callback = nullptr;
-    it.misuse = {};
-    it.stalled = false;
 }
 
-void fakehd_set(std::size_t index, FakeHdFate fate, bool on)
-{
-    Library& it = library();
-    const std::lock_guard lock{it.mutex};
-    FakeDevice& device = it.devices.at(index);
-    switch (fate) {
-    case FakeHdFate::docked: device.docked = on; break;
-    case FakeHdFate::pressed: device.pressed = on; break;
-    case FakeHdFate::unplugged: device.unplugged = on; break;
-    case FakeHdFate::garbled: device.garbled = on; break;
-    case FakeHdFate::warm: device.warm = on; break;
-    case FakeHdFate::stalled: it.stalled = on; break;
-    }
-}
-
-void fakehd_fail_frame(std::size_t index, std::uint64_t n)
-{
-    Library& it = library();
-    const std::lock_guard lock{it.mutex};
-    it.devices.at(index).failing_frame = n;
-}
-
-std::size_t fakehd_commands(std::size_t index, std::size_t first, FakeHdCommand* to,
-                            std::size_t room)
-{
-    Library& it = library();
-    const std::lock_guard lock{it.mutex};
-    const auto& commands = it.devices.at(index).commands;
-    for (std::size_t i = 0; i < room && first + i < commands.size(); ++i)
-        to[i] = commands[first + i];
-    return commands.size();
-}
-
-FakeHdMisuse fakehd_misuse()
-{
-    Library& it = library();
-    const std::lock_guard lock{it.mutex};
-    return it.misuse;
-}
-}
+} // namespace hapnet::device::hdapi

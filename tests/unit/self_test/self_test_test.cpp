@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/self_test/self_test.hpp"
+
+#include <chrono>
+#include <gtest/gtest.h>
+
+namespace hapnet::peer::self_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr base::TimePoint start{1000s};
+const std::vector<std::string> all_steps{"read", "calibrate", "force", "cable"};
+
+std::vector<std::string> all_but(const std::string& step)
+{
+    std::vector<std::string> others = all_steps;
+    std::erase(others, step);
+    return others;
+}
+
+device::Capabilities an_omni()
+{
+    device::Capabilities can;
+    can.force_max_n = 3.3;
+    can.force_continuous_n = 0.88;
+    return can;
+}
+
+/// A test of one step, in virtual time at 1 kHz, whose device applies what is wanted at once.
+class Played {
+public:
+    explicit Played(const std::string& step, bool is_real = true)
+        : test_{{.capabilities = an_omni(),
+                 .is_real = is_real,
+                 .read_for = 1s,
+                 .skip = all_but(step)}},
+          step_{step}
+    {
+        feeling.sample.sequence = 1;
+    }
+
+    void play(base::Duration duration)
+    {
+        for (base::Duration t{}; t < duration && !turn.is_done; t += 1ms) {
+            now_ += 1ms;
+            if (!is_mute) ++feeling.sample.sequence;
+            turn = test_.on_tick(feeling, now_);
+            if (!ignores_forces) feeling.applied = turn.permitted ? turn.wanted : base::Force{};
+            most_n = std::max(most_n, base::norm(turn.wanted));
+        }
+    }
+    /// That of the step, after its end.
+    [[nodiscard]] Outcome outcome()
+    {
+        test_.stop();
+        for (const Outcome& one : test_.outcomes()) {
+            if (one.step == step_) return one;
+        }
+        return {};
+    }
+
+    Feeling feeling;
+    Turn turn;
+    double most_n = 0.0;
+    bool is_mute = false;
+    bool ignores_forces = false;
+
+private:
+    SelfTest test_;
+    std::string step_;
+    base::TimePoint now_ = start;
+};
+
+double figure(const Outcome& outcome, std::string_view name)
+{
+    for (const Figure& one : outcome.figures) {
+        if (one.name == name) return one.value;
+    }
+    return -1.0;
+}
+
+} // namespace
+
+TEST(SelfTest, MeasuresTheRateAtWhichADeviceSpeaks)
+{
+    Played read{"read"};
+    read.play(2s);
+    EXPECT_TRUE(read.turn.is_done);
+    EXPECT_EQ(read.most_n, 0.0);
+    const Outcome outcome = read.outcome();
+    EXPECT_EQ(outcome.verdict, Verdict::passed) << outcome.text;
+    EXPECT_DOUBLE_EQ(figure(outcome, "rate_hz"), 1000.0);
+    EXPECT_DOUBLE_EQ(figure(outcome, "gap_max_ms"), 1.0);
+    EXPECT_NE(outcome.drawing.find("0.9 to 1.1 ms    1000  ####"), std::string::npos)
+        << outcome.drawing;
+}
+
+TEST(SelfTest, CountsTheWordsOfADeviceAndNotItsOwnTicks)
+{
+    Played read{"read"};
+    read.play(500ms);
+    read.is_mute = true;
+    read.play(100ms);
+    read.is_mute = false;
+    read.play(2s);
+    EXPECT_DOUBLE_EQ(figure(read.outcome(), "gap_max_ms"), 101.0);
+}
+
+TEST(SelfTest, FailsADeviceThatIsMuteOrSlowOrAtFault)
+{
+    Played mute{"read"};
+    mute.is_mute = true;
+    mute.play(2s);
+    EXPECT_EQ(mute.outcome().verdict, Verdict::failed);
+
+    Played slow{"read"};
+    slow.is_mute = true;
+    for (int i = 0; i < 400; ++i) {
+        ++slow.feeling.sample.sequence;
+        slow.play(3ms);
+    }
+    EXPECT_EQ(slow.outcome().verdict, Verdict::failed);
+    EXPECT_NE(slow.outcome().text.find("1000 a second are nominal"), std::string::npos);
+
+    Played faulty{"read"};
+    faulty.feeling.sample.fault = device::Fault::overheat;
+    faulty.play(1ms);
+    faulty.feeling.sample.fault = device::Fault::none;
+    faulty.play(2s);
+    EXPECT_EQ(faulty.outcome().verdict, Verdict::failed);
+}
+
+TEST(SelfTest, TellsAPersonStepByStepHowToCalibrate)
+{
+    Played calibration{"calibrate"};
+    calibration.feeling.sample.calibrated = false;
+    calibration.feeling.calibration = device::CalibrationStep::dock_stylus;
+    calibration.play(10ms);
+    EXPECT_EQ(calibration.turn.prompt, Prompt::dock);
+    calibration.feeling.sample.calibrated = true;
+    calibration.feeling.sample.docked = true;
+    calibration.play(10ms);
+    EXPECT_EQ(calibration.turn.prompt, Prompt::undock);
+    EXPECT_FALSE(calibration.turn.is_done);
+    calibration.feeling.sample.docked = false;
+    calibration.play(10ms);
+    EXPECT_TRUE(calibration.turn.is_done);
+    EXPECT_EQ(calibration.outcome().verdict, Verdict::passed);
+}
+
+TEST(SelfTest, GivesUpACalibrationThatTakesAMinute)
+{
+    Played calibration{"calibrate"};
+    calibration.feeling.sample.calibrated = false;
+    calibration.play(61s);
+    EXPECT_TRUE(calibration.turn.is_done);
+    EXPECT_EQ(calibration.outcome().verdict, Verdict::failed);
+}
+
+TEST(SelfTest, PushesOnlyWhileTheButtonIsHeldAndNeverWithMoreThanAFifthOfANewton)
+{
+    Played force{"force"};
+    force.play(1s);
+    EXPECT_EQ(force.most_n, 0.0);
+    EXPECT_EQ(force.turn.prompt, Prompt::hold_button);
+    force.feeling.sample.gripping = true;
+    force.play(1s);
+    EXPECT_NEAR(force.turn.wanted.x(), 0.1, 1e-3);
+    force.feeling.sample.gripping = false;
+    force.play(1ms);
+    EXPECT_EQ(force.turn.wanted, base::Force{});
+    EXPECT_FALSE(force.turn.permitted);
+    force.play(1s);
+    EXPECT_FALSE(force.turn.is_done);
+    force.feeling.sample.gripping = true; // from zero again
+    force.play(1ms);
+    EXPECT_LT(base::norm(force.turn.wanted), 1e-3);
+    force.play(10s);
+    EXPECT_TRUE(force.turn.is_done);
+    EXPECT_DOUBLE_EQ(force.most_n, 0.2);
+    EXPECT_EQ(force.outcome().verdict, Verdict::passed) << force.outcome().text;
+}
+
+TEST(SelfTest, FailsAForceThatOutlastsTheButton)
+{
+    Played force{"force"};
+    force.feeling.sample.gripping = true;
+    force.play(1s);
+    force.ignores_forces = true; // it stays
+    force.feeling.sample.gripping = false;
+    force.play(200ms);
+    force.feeling.sample.gripping = true;
+    force.play(10s);
+    EXPECT_EQ(force.outcome().verdict, Verdict::failed);
+    EXPECT_NE(force.outcome().text.find("outlasted"), std::string::npos);
+}
+
+TEST(SelfTest, FailsAForceThatDoesNotCome)
+{
+    Played force{"force"};
+    force.ignores_forces = true;
+    force.feeling.sample.gripping = true;
+    force.play(10s);
+    EXPECT_EQ(force.outcome().verdict, Verdict::failed);
+}
+
+TEST(SelfTest, StopsPushingAtAFault)
+{
+    Played force{"force"};
+    force.feeling.sample.gripping = true;
+    force.play(2s);
+    force.feeling.sample.fault = device::Fault::timeout;
+    force.play(1ms);
+    EXPECT_TRUE(force.turn.is_done);
+    EXPECT_FALSE(force.turn.permitted);
+    EXPECT_EQ(force.outcome().verdict, Verdict::failed);
+}
+
+TEST(SelfTest, DoesNotPushWhatHasNoMotorsOrNoButton)
+{
+    device::Capabilities mouse = an_omni();
+    mouse.axes_out = 0;
+    device::Capabilities buttonless = an_omni();
+    buttonless.buttons = 0;
+    for (const auto& can : {mouse, buttonless}) {
+        SelfTest test{{.capabilities = can, .is_real = true, .skip = all_but("force")}};
+        EXPECT_TRUE(test.on_tick({}, start).is_done);
+        EXPECT_EQ(test.outcomes().at(2).verdict, Verdict::skipped);
+    }
+}
+
+TEST(SelfTest, SeesACableBeingPulledAndHowLongThatTook)
+{
+    Played cable{"cable"};
+    cable.play(3s);
+    EXPECT_EQ(cable.turn.prompt, Prompt::pull_cable);
+    cable.is_mute = true;
+    cable.play(21ms);
+    cable.feeling.sample.fault = device::Fault::timeout;
+    cable.play(1ms);
+    EXPECT_TRUE(cable.turn.is_done);
+    EXPECT_EQ(cable.outcome().verdict, Verdict::passed);
+    EXPECT_DOUBLE_EQ(figure(cable.outcome(), "noticed_after_ms"), 22.0);
+}
+
+TEST(SelfTest, LeavesTheCableOfASimulatedDeviceAloneAndWhatIsSkippedToo)
+{
+    SelfTest test{{.capabilities = an_omni(), .is_real = false, .skip = all_but("cable")}};
+    EXPECT_TRUE(test.on_tick({}, start).is_done);
+    ASSERT_EQ(test.outcomes().size(), 4U);
+    for (const Outcome& one : test.outcomes()) EXPECT_EQ(one.verdict, Verdict::skipped);
+}
+
+} // namespace hapnet::peer::self_test
