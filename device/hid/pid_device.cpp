@@ -111,7 +111,7 @@ void PidDevice::on_report(std::span<const std::byte> report)
         report = report.subspan(1);
     }
     std::array<double, 2> shares{};
-    was_garbled_ = false;
+    was_garbled_ = report.size() < parts_.input.place.bytes;
     for (std::size_t i = 0; i < parts_.input.axes.size(); ++i) {
         const auto value = unpack(parts_.input.axes[i], report);
         if (value) {

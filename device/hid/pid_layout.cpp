@@ -180,6 +180,14 @@ std::optional<ReportPlace> find_pool(const Descriptor& descriptor)
     return std::nullopt;
 }
 
+bool plays_on(const Descriptor& descriptor, Usage axis)
+{
+    return std::any_of(descriptor.fields.begin(), descriptor.fields.end(), [&](const Field& field) {
+        return lies_in(field, usage::set_effect_report) && lies_in(field, usage::axes_enable) &&
+               (is_variable_of(field, axis) || value_of(field, axis).has_value());
+    });
+}
+
 } // namespace
 
 bool is_force_device(const Descriptor& descriptor)
@@ -195,7 +203,8 @@ base::Result<InputLayout> find_input(const Descriptor& descriptor)
     InputLayout layout;
     layout.axes.push_back(search.field(usage::x, "axis X"));
     if (!search.missing().empty()) return base::fail(search.missing());
-    if (auto y = search.optional(usage::y)) layout.axes.push_back(*std::move(y));
+    auto y = search.optional(usage::y);
+    if (y && plays_on(descriptor, usage::y)) layout.axes.push_back(*std::move(y));
     for (const Field& axis : layout.axes) {
         if (axis.logical_min == axis.logical_max) return base::fail("an axis of it has no range");
     }

@@ -21,7 +21,7 @@ struct ReportPlace {
 /// The report that says where the grip is.
 struct InputLayout {
     ReportPlace place{};
-    std::vector<Field> axes{};    // X, and Y where there is one
+    std::vector<Field> axes{};    // X, and Y where it has a motor, too
     std::vector<Field> buttons{}; // the first eight
 };
 
@@ -84,7 +84,8 @@ inline constexpr std::size_t report_bytes_max = 64;
 
 /// Whether the device is of page 0x0f at all: it knows a Set Effect report.
 [[nodiscard]] bool is_force_device(const Descriptor& descriptor);
-/// The report with the axis X, or why there is none that serves.
+/// The report with the axis X, or why there is none that serves. An axis Y counts where effects
+/// can be played on it: that of a steering wheel is a pedal.
 [[nodiscard]] base::Result<InputLayout> find_input(const Descriptor& descriptor);
 /// All that a constant force needs, or what of it is missing.
 [[nodiscard]] base::Result<ForceLayout> find_force(const Descriptor& descriptor);

@@ -13,6 +13,7 @@ namespace {
 
 // Some devices need a moment to find the place: the kernel's own driver (hid-pidff) asks 60 times.
 constexpr int load_questions_max = 60;
+constexpr int stops_said = 3;
 
 tl::unexpected<Trouble> refused(Moved moved, const std::string& what)
 {
@@ -86,8 +87,10 @@ private:
 
     void clean_up(const Prepared& prepared)
     {
-        std::ignore = wire_.write(control_report(layout_, usage::stop_all_effects).all());
-        std::ignore = wire_.write(control_report(layout_, usage::disable_actuators).all());
+        for (int i = 0; i < stops_said; ++i) {
+            std::ignore = wire_.write(control_report(layout_, usage::stop_all_effects).all());
+            std::ignore = wire_.write(control_report(layout_, usage::disable_actuators).all());
+        }
         for (const std::uint32_t block : prepared.blocks) {
             const auto report = free_report(layout_, block);
             if (report) std::ignore = wire_.write(report->all());

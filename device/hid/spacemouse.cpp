@@ -38,7 +38,6 @@ Sample SpaceMouse::read(base::TimePoint now)
         read_at_ ? std::min(now - *read_at_, pause_max) : base::Duration{0};
     read_at_ = now;
     move(passed); // as the cap stood until now
-    is_garbled_ = false;
     if (!is_gone_) drain(now);
     if (now - deflected_at_ > deflection_lasts || is_gone_) speed_ = {};
     buttons_.update(buttons_down_, now);
@@ -79,8 +78,8 @@ void SpaceMouse::drain(base::TimePoint now)
 void SpaceMouse::on_report(std::span<const std::byte> report, base::TimePoint now)
 {
     const auto word = read_spacemouse(report);
+    is_garbled_ = !word;
     if (!word) {
-        is_garbled_ = true;
         speed_ = {};
         return;
     }

@@ -51,7 +51,7 @@ private:
     base::TimePoint deflected_at_{};
     glm::dvec3 speed_{0.0}; // m/s, asked for by the cap
     std::uint8_t buttons_down_ = 0;
-    bool is_garbled_ = false;
+    bool is_garbled_ = false; // its last report
     bool is_gone_ = false;
 };
 

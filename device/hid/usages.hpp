@@ -18,6 +18,7 @@ inline constexpr Usage effect_block_index = 0x000f'0022;
 inline constexpr Usage constant_force = 0x000f'0026;
 inline constexpr Usage duration = 0x000f'0050;
 inline constexpr Usage gain = 0x000f'0052;
+inline constexpr Usage axes_enable = 0x000f'0055;
 inline constexpr Usage direction_enable = 0x000f'0056;
 inline constexpr Usage direction = 0x000f'0057;
 inline constexpr Usage magnitude = 0x000f'0070;

@@ -24,6 +24,7 @@ namespace hapnet::umockdev {
 namespace {
 
 constexpr std::size_t reports_max = 64;
+constexpr int numbers_per_plug = 16; // above those of all devices at once
 
 std::string hex_text(std::span<const std::byte> bytes)
 {
@@ -121,7 +122,6 @@ void HidrawDevice::unplug()
     const auto paths = paths_of(hid_);
     std::for_each(paths.rbegin(), paths.rend(),
                   [&](const std::string& path) { testbed_.remove("/sys" + path); });
-    unlink(testbed_.real_path(node()).c_str()); // a terminal's node is left lying about
 }
 
 void HidrawDevice::plug_in()
@@ -131,6 +131,7 @@ void HidrawDevice::plug_in()
         const std::lock_guard lock{mutex_};
         has_gone_ = false;
         stalled_ = false;
+        hid_.number += numbers_per_plug;
     }
     testbed_.add(testbed_text(hid_));
     attach();

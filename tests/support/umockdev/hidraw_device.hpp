@@ -54,7 +54,7 @@ public:
     void stall(bool on);
     /// It is pulled out: for all who have opened it it has gone.
     void unplug();
-    /// ... and put in again: for who opens it anew.
+    /// ... and put in again, as another node: for who opens it anew.
     void plug_in();
     /// Looks at or changes the model between two of its calls.
     template <typename Action>

@@ -111,6 +111,15 @@ TEST(PidLayout, NamesWhatAConstantForceWouldNeed)
     EXPECT_EQ(what_is_missing({0x09, 0x7f}, {0x09, 0x02}), "nothing"); // it is only never asked
 }
 
+TEST(PidLayout, LeavesOutAnAxisYThatNoEffectPlaysOnAsThatOfAPedal)
+{
+    const auto axes = [](const std::vector<std::byte>& descriptor) {
+        return find_input(parse_descriptor(descriptor).value()).value().axes.size();
+    };
+    EXPECT_EQ(axes(hid_double::pid_descriptor()), 2U);
+    EXPECT_EQ(axes(with({0x09, 0x30, 0x09, 0x31, 0x15}, {0x09, 0x30, 0x09, 0x32, 0x15})), 1U);
+}
+
 TEST(Seen, AForceDeviceIsKnownByItsDescriptionAndASpaceMouseByItsIdentityAndNothingElseIs)
 {
     const auto seen = [](std::uint16_t vendor, std::uint16_t product, std::vector<std::byte> d) {
@@ -175,6 +184,20 @@ TEST(PidOpening, SaysWhyItFailedAndLeavesNothingBehind)
     EXPECT_EQ(prepare(wire, layout_of({}), 2).error().fault, Fault::communication);
     line.is_gone = true;
     EXPECT_EQ(prepare(wire, layout_of({}), 2).error().fault, Fault::disconnected);
+}
+
+TEST(PidOpening, OfAWheelLoadsOneEffectAndItsSenderSpeaksOfNoOther)
+{
+    Line line;
+    MemoryWire wire{line};
+    const auto prepared = prepare(wire, layout_of({}), 1);
+    ASSERT_TRUE(prepared.has_value());
+    EXPECT_EQ(line.pid.places_taken(), 1U);
+    PidSender sender{layout_of({}), prepared->blocks};
+    const Order order{.levels = {5, 7}, .motors_on = true, .number = 1};
+    std::size_t reports = 0;
+    while (sender.next(order)) ++reports;
+    EXPECT_EQ(reports, 3U); // enable, force, start
 }
 
 class Sender : public ::testing::Test {
