@@ -8,6 +8,8 @@
 #include "device/falcon/packet.hpp"
 #include "device/velocity_filter.hpp"
 
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,8 +43,10 @@ public:
     void apply(const GovernedForce& force) override;
     void halt() noexcept override;
 
-    /// Silence, or nonsense, for longer than this is a fault.
+    /// Silence, or nonsense, for longer than this is a fault, if it was asked so often meanwhile: a
+    /// host that was away cannot tell.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
+    static constexpr int silent_reads_min = 5;
     /// A packet without an answer for so long is taken as lost.
     static constexpr base::Duration lost_after{std::chrono::milliseconds{10}};
 
@@ -61,6 +65,7 @@ private:
     Sample sample_;
     base::TimePoint now_{};                    // of the last read
     std::optional<base::TimePoint> last_word_; // that made sense; at first: when it was first asked
+    int silent_reads_ = 0;                     // since then
     std::uint64_t nonsense_ = 0;               // reports that no arm can give
     std::uint64_t nonsense_before_ = 0;        // at the last word
     bool was_calibrated_ = false;

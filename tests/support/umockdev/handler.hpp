@@ -21,11 +21,12 @@ typedef struct _UMockdevIoctlData UMockdevIoctlData;
 namespace hapnet::umockdev {
 
 /// A piece of a program's memory that belongs to a request, as a copy; what is written to it is in
-/// the program's memory once the request, or a later one that refers to it, is answered.
+/// the program's memory once the request, or a later one that refers to it, is answered. Empty when
+/// the program has gone meanwhile.
 class Memory {
 public:
     Memory() = default;
-    explicit Memory(UMockdevIoctlData* owned);
+    explicit Memory(UMockdevIoctlData* owned); // or none
 
     /// Where it lies in the program.
     [[nodiscard]] unsigned long address() const;

@@ -192,6 +192,14 @@ TEST_F(FalconTest, SilenceForMoreThan20MillisecondsIsATimeout)
     EXPECT_EQ(tick_with(homed_at({})).fault, Fault::none); // what is latched, others latch
 }
 
+TEST_F(FalconTest, AHostThatWasAwayTakesItForNoSilence)
+{
+    tick_with(homed_at({}));
+    now_ += 500ms;
+    EXPECT_EQ(tick().fault, Fault::none);
+    EXPECT_EQ(tick_with(homed_at({})).fault, Fault::none);
+}
+
 TEST_F(FalconTest, NonsenseForMoreThan20MillisecondsIsAFaultOfTheLine)
 {
     tick_with(homed_at({}));
