@@ -15,9 +15,10 @@ namespace hapnet::device::omni1394 {
 namespace {
 
 constexpr std::array<std::string_view, 3> joint_names{"waist", "shoulder", "forearm"};
-// 3.3 N on a link of 0.133 m, for all the counts there are: an estimate, and nobody knows of which
-// sign.
-constexpr double estimated_nm_per_count = omni::force_max_n * omni::link_m / motor_max;
+// The estimated peak torque for all the counts there are; nobody knows of which sign.
+constexpr glm::dvec3 estimated_nm_per_count{omni::torque_max_nm.x / motor_max,
+                                            omni::torque_max_nm.y / motor_max,
+                                            omni::torque_max_nm.z / motor_max};
 constexpr double uncalibrated_share = 0.25;
 // Full scale is between 2 mN m and 4 N m then: a factor of a hundred and of ten off the estimate.
 constexpr double least_nm_per_count = 1e-6;
@@ -111,7 +112,7 @@ Use use_of(const Profile& profile, bool uncalibrated_force)
 
 Drive::Drive(Use use, const Profile& profile)
     : use_{use},
-      nm_per_count_{profile.torque_nm_per_count.value_or(glm::dvec3{estimated_nm_per_count})},
+      nm_per_count_{profile.torque_nm_per_count.value_or(estimated_nm_per_count)},
       word_max_{motor_max}
 {
     if (use == Use::uncalibrated) word_max_ = static_cast<int>(uncalibrated_share * motor_max);

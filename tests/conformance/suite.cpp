@@ -39,7 +39,16 @@ protected:
         if (subject_->traits().calibrates) subject_->help_calibrate();
         EXPECT_TRUE(play_until([&] { return sample().calibrated; }, {}));
         if (subject_->traits().docks) subject_->dock(false);
-        EXPECT_TRUE(play_until([&] { return !sample().docked; }, {}));
+        // Whoever takes the stylus out of its holder, or has moved the joints to every stop just
+        // now, needs a while to where it works.
+        EXPECT_TRUE(play_until([&] { return !sample().docked && is_inside(); }, {}));
+    }
+    [[nodiscard]] bool is_inside() const
+    {
+        const device::Capabilities& can = rig_->device().capabilities();
+        const auto& hip = sample().hip.value;
+        return glm::all(glm::greaterThanEqual(hip, can.workspace_min.value)) &&
+               glm::all(glm::lessThanEqual(hip, can.workspace_max.value));
     }
 
     void play(const base::Force& wanted)
@@ -109,14 +118,6 @@ TEST_F(Device, GivesFinitePositionsInsideItsWorkspaceAndNewerOnesAsTimePasses)
 {
     open_calibrated();
     const std::uint64_t before = sample().sequence;
-    const device::Capabilities& can = rig_->device().capabilities();
-    const auto is_inside = [&] {
-        const auto& hip = sample().hip.value;
-        return glm::all(glm::greaterThanEqual(hip, can.workspace_min.value)) &&
-               glm::all(glm::lessThanEqual(hip, can.workspace_max.value));
-    };
-    // Who has moved the joints to every stop just now comes back first.
-    EXPECT_TRUE(play_until(is_inside, {}));
     for (int i = 0; i < 50; ++i) {
         play({});
         ASSERT_TRUE(base::is_finite(sample().hip));
@@ -132,11 +133,13 @@ TEST_F(Device, PushesAsSoonAsItMayAndRampsIn)
     SKIP_UNLESS(traits().has_motors);
     open_calibrated();
     const std::size_t first = subject().commands().size();
+    // A newton, or as much as it has.
+    const double wanted = std::min(1.0, rig_->device().capabilities().force_max_n);
     // A second; more on a busy machine, as a late tick begins again.
-    EXPECT_TRUE(play_until([&] { return felt_.x() > 0.9; }, along_x));
+    EXPECT_TRUE(play_until([&] { return felt_.x() > 0.9 * wanted; }, along_x));
     EXPECT_TRUE(was_pushed_since(first));
     EXPECT_TRUE(subject().commands().back().motors_on);
-    EXPECT_NEAR(felt_.x(), 1.0, 0.3);
+    EXPECT_NEAR(felt_.x(), wanted, 0.3);
 }
 
 TEST_F(Device, IsToldNoForceBeforeItIsCalibrated)

@@ -101,11 +101,11 @@ Opened<std::unique_ptr<Device>> open_omni(const std::string& serial, const Optio
                             serial.empty() ? "" : serial + " ", words_for(Fault::not_found))};
     for (const Seen& seen : look_around()) {
         const Found omni = found(seen);
-        if (!serial.empty() && serial != omni.identity.serial && serial != seen.guid) continue;
         if (omni.unusable) {
-            why = *omni.unusable;
+            why = *omni.unusable; // it may be the one that is meant: it did not say its serial
             continue;
         }
+        if (!serial.empty() && serial != omni.identity.serial && serial != seen.guid) continue;
         auto link = FirewireLink::open(seen.node);
         if (!link) return tl::unexpected{link.error()};
         return Omni::open(*std::move(link), *profile, use_of(*profile, options.uncalibrated_force));

@@ -63,7 +63,6 @@ private:
     void walk(const base::Position& place)
     {
         omni_.with_omni([&](omni1394::FakeOmni& omni) { omni.lead_to(place); });
-        pass(std::chrono::milliseconds{1500});
     }
 
     base::TimePoint now_{std::chrono::seconds{1000}};

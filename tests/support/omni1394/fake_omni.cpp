@@ -64,7 +64,7 @@ void FakeOmni::hear(std::span<const std::byte> bytes)
     const auto packet = decode_host(bytes);
     heard_.push_back(packet);
     const bool pushes = packet && packet->motors_on;
-    plant_.set_torque(pushes ? nm_per_count * glm::dvec3{packet->motors} : glm::dvec3{0.0});
+    plant_.set_torque(pushes ? torque_of(packet->motors) : glm::dvec3{0.0});
 }
 
 std::vector<std::byte> FakeOmni::live(base::Duration elapsed)

@@ -47,8 +47,11 @@ public:
     [[nodiscard]] std::span<const std::uint64_t> written() const { return written_; }
     [[nodiscard]] const JointPlant& plant() const { return plant_; }
 
-    /// What a count of its motors does.
-    static constexpr double nm_per_count = omni::force_max_n * omni::link_m / motor_max;
+    /// What counts of its motors do, N m: as the driver estimates it.
+    [[nodiscard]] static glm::dvec3 torque_of(const glm::ivec3& motors)
+    {
+        return omni::torque_max_nm * glm::dvec3{motors} / double{motor_max};
+    }
 
 private:
     std::map<std::uint64_t, std::vector<std::byte>> registers_;

@@ -25,9 +25,10 @@ namespace {
 
 std::string testbed_text(const std::string& path, int number)
 {
-    return fmt::format("P: {0}\nN: fw{1}\nE: DEVNAME=/dev/fw{1}\nE: SUBSYSTEM=firewire\n"
-                       "A: dev=246:{1}\\n\nA: vendor={2:#08x}\\n\nA: guid={2:#08x}0082b698{1:02x}\\n\n",
-                       path, number, vendor_id);
+    return fmt::format(
+        "P: {0}\nN: fw{1}\nE: DEVNAME=/dev/fw{1}\nE: SUBSYSTEM=firewire\n"
+        "A: dev=246:{1}\\n\nA: vendor={2:#08x}\\n\nA: guid={2:#08x}0082b698{1:02x}\\n\n",
+        path, number, vendor_id);
 }
 
 std::string path_of(int number) { return fmt::format("/devices/pci0000:00/fw{}", number); }
@@ -108,7 +109,9 @@ void FirewireOmni::reset_bus()
 {
     const std::lock_guard lock{mutex_};
     ++generation_;
-    for (auto& [opener, client] : clients_) tell(client, reset_event(generation_));
+    for (auto& [opener, client] : clients_) {
+        if (client.is_in_use) tell(client, reset_event(generation_));
+    }
 }
 
 void FirewireOmni::unplug()
@@ -118,6 +121,7 @@ void FirewireOmni::unplug()
         for (auto& [opener, client] : clients_) {
             client.has_gone = true;
             client.runs = false;
+            client.events.clear();
         }
         std::ignore = ::write(master_, "!", 1); // who waits is to ask, and be told
     }
@@ -130,6 +134,7 @@ void FirewireOmni::plug_in()
     {
         const std::lock_guard lock{mutex_};
         close(std::exchange(slave_, -1));
+        clients_.clear();
         omni_ = FakeOmni{};
         ++number_; // umockdev has no terminal twice
     }
@@ -178,7 +183,7 @@ void FirewireOmni::tell(Client& client, Bytes event)
 void FirewireOmni::silence()
 {
     const bool is_quiet = std::all_of(clients_.begin(), clients_.end(), [](const auto& entry) {
-        return entry.second.events.empty() && !entry.second.has_gone;
+        return entry.second.events.empty() && !(entry.second.has_gone && entry.second.is_in_use);
     });
     if (is_quiet) tcflush(slave_, TCIFLUSH);
 }
@@ -199,7 +204,10 @@ bool FirewireOmni::on_ioctl(const umockdev::Request& request)
 int FirewireOmni::answer(const umockdev::Request& request, Client& client)
 {
     switch (request.code()) {
-    case FW_CDEV_IOC_GET_INFO: get_info(request); return 0;
+    case FW_CDEV_IOC_GET_INFO: // the first that everyone asks
+        client = Client{};
+        get_info(request);
+        return 0;
     case FW_CDEV_IOC_SEND_REQUEST: send_request(request, client); return 0;
     case FW_CDEV_IOC_ALLOCATE_ISO_RESOURCE: allocate(request, client); return 0;
     case FW_CDEV_IOC_CREATE_ISO_CONTEXT: return create_context(request, client);
@@ -211,6 +219,7 @@ int FirewireOmni::answer(const umockdev::Request& request, Client& client)
     case FW_CDEV_IOC_STOP_ISO:
         if (!client.context) return EINVAL;
         client.runs = false;
+        client.is_in_use = false;
         return 0;
     case FW_CDEV_IOC_FLUSH_ISO:
         if (!client.context) return EINVAL;
@@ -266,6 +275,8 @@ void FirewireOmni::allocate(const umockdev::Request& request, Client& client)
     head.channel = channels_given_++ % 31;
     head.bandwidth = static_cast<std::int32_t>(wanted.bandwidth);
     argument.write_as(head.handle, offsetof(fw_cdev_allocate_iso_resource, handle));
+    for (auto& [opener, other] : clients_) other.is_in_use = false;
+    client.is_in_use = true;
     tell(client, event_of(head, sizeof head));
 }
 
@@ -276,6 +287,7 @@ int FirewireOmni::create_context(const umockdev::Request& request, Client& clien
         request.argument(sizeof(fw_cdev_create_iso_context)).as<fw_cdev_create_iso_context>();
     if (wanted.header_size % 4 != 0 || wanted.header_size < 4) return EINVAL;
     client.context = wanted.type;
+    client.is_in_use = true;
     client.channel = wanted.channel;
     client.header_size = wanted.header_size;
     return 0;

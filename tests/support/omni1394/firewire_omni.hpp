@@ -51,6 +51,8 @@ private:
     /// Who has opened it, and what it has asked for.
     struct Client {
         bool has_gone = false;
+        /// umockdev does not say when its own process closes something: then this is false.
+        bool is_in_use = false;
         std::deque<Bytes> events;
         std::optional<std::uint32_t> context; // its type
         std::uint32_t channel = 0;

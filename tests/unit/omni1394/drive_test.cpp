@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/omni1394/drive.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -73,13 +74,14 @@ TEST(OmniDrive, UsesNoMoreThanAQuarterOfTheCountsUncalibrated)
 {
     const Drive drive{Use::uncalibrated, {}};
     const glm::ivec3 words = drive.words_for({10.0, -4.0, 0.1});
-    EXPECT_EQ(words, glm::ivec3(511, -204, 5)); // the direction stays: 511 * (1, -0.4, 0.01)
+    // The direction stays, by counts that are of another size at the waist.
+    EXPECT_EQ(words, glm::ivec3(511, std::lround(-0.4 * 0.16835 / 0.13335 * 511), 6));
     Capabilities can;
     drive.describe(can);
     EXPECT_NEAR(can.force_max_n, 3.3 / 4, 0.01);
     EXPECT_FALSE(can.force_is_calibrated);
     // 3.3 N on 0.133 m for 2047 counts.
-    EXPECT_EQ(drive.words_for({3.3 * 0.13335 / 2047, 0.0, 0.0}), glm::ivec3(1, 0, 0));
+    EXPECT_EQ(drive.words_for({0.0, 3.3 * 0.13335 / 2047, 0.0}), glm::ivec3(0, 1, 0));
 }
 
 TEST(OmniDrive, UsesAllTheCountsByAMeasuredTable)

@@ -104,10 +104,10 @@ TEST(Omni1394, SendsTheTransposedJacobianTimesTheForce)
     const glm::dvec3 force{0.1, -0.2, 0.15};
     omni.play_for(1ms, force);
     EXPECT_TRUE(omni.last().motors_on);
-    const glm::dvec3 torque = FakeOmni::nm_per_count * glm::dvec3{omni.last().motors};
+    const glm::dvec3 torque = FakeOmni::torque_of(omni.last().motors);
     const glm::dvec3 wanted = glm::transpose(omni::jacobian_at(omni.sample.hip)) * force;
     for (const int joint : {0, 1, 2}) {
-        EXPECT_NEAR(torque[joint], wanted[joint], FakeOmni::nm_per_count / 2);
+        EXPECT_NEAR(torque[joint], wanted[joint], omni::torque_max_nm[joint] / 2047 / 2);
     }
 }
 

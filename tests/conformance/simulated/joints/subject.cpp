@@ -4,7 +4,6 @@
 #include "device/simulated/joints/joint_omni.hpp"
 
 #include <chrono>
-#include <tuple>
 
 namespace hapnet::conformance {
 
@@ -53,7 +52,6 @@ private:
     std::vector<Command>& commands_;
 };
 
-/// The person walks while time passes, read or not.
 class JointsSubject final : public Subject {
 public:
     [[nodiscard]] Traits traits() const override
@@ -70,22 +68,14 @@ public:
     void pass(base::Duration duration) override { now_ += duration; }
     [[nodiscard]] std::vector<Command> commands() const override { return commands_; }
 
-    void help_calibrate() override { walk(inkwell); }
-    void dock(bool in) override { walk(in ? inkwell : base::Position{}); }
+    void help_calibrate() override { omni_->lead_to(inkwell); }
+    void dock(bool in) override { omni_->lead_to(in ? inkwell : base::Position{}); }
     void press(bool down) override { omni_->press(down ? 1 : 0); }
     void stall(bool on) override { happen(device::Mishap::Kind::stall, on); }
     void garble(bool on) override { happen(device::Mishap::Kind::communication_error, on); }
     void unplug() override { happen(device::Mishap::Kind::unplug, true); }
 
 private:
-    void walk(const base::Position& place)
-    {
-        omni_->lead_to(place);
-        for (int ms = 0; ms < 1500; ++ms) {
-            pass(1ms);
-            std::ignore = omni_->read(now_);
-        }
-    }
     void happen(device::Mishap::Kind kind, bool on)
     {
         device::Mishaps mishaps;
