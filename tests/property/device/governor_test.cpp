@@ -217,5 +217,34 @@ TEST(Governor, KeepsTheDirectionOfWhatItShortens)
     EXPECT_GT(governor.counters().heat_limited, 0U);
 }
 
+TEST(Governor, GivesTheSameBitsWithEveryCompiler)
+{
+    const auto stream = base::Seed{3}.stream("bits");
+    Capabilities can{.force_max_n = 3.3, .force_continuous_n = 0.88};
+    can.joints = JointLimits{skew_arm, glm::dvec3{0.3}};
+    Governor governor{limits_for(can, {})};
+    Sample sample;
+    base::TimePoint now{1h};
+    std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a
+    for (std::uint64_t round = 0; round < 30'000; ++round) {
+        ++sample.sequence;
+        now += base::Duration{900'000 + stream.below(200'000, round, 9)};
+        base::Force wanted;
+        for (const int axis : {0, 1, 2}) {
+            const auto draw = static_cast<std::uint32_t>(axis);
+            sample.hip.value[axis] = 0.06 * stream.uniform(round / 20, draw) - 0.03;
+            wanted.value[axis] = 8.0 * stream.uniform(round / 50, draw + 3) - 4.0;
+        }
+        const bool permitted = stream.below(40, round / 300, 8) != 0;
+        const base::Force force = governor.govern({wanted, permitted}, sample, now).force();
+        for (const int axis : {0, 1, 2}) {
+            hash = (hash ^ std::bit_cast<std::uint64_t>(force.value[axis])) * 0x100000001b3;
+        }
+    }
+    EXPECT_GT(governor.counters().joint_limited, 0U);
+    EXPECT_GT(governor.counters().heat_limited, 0U);
+    EXPECT_EQ(hash, 0x58a7544e7a0a3599U);
+}
+
 } // namespace
 } // namespace hapnet::device
