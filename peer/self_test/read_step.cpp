@@ -32,7 +32,7 @@ Turn ReadStep::on_tick(const Feeling& feeling, base::TimePoint now)
 void ReadStep::count_gap(base::Duration gap)
 {
     ++words_;
-    gap_most_ = std::max(gap_most_, gap);
+    all_gaps_.add(gap);
     const double gap_ms = 1e3 * base::to_seconds(gap);
     const auto edge = std::upper_bound(edges_ms.begin(), edges_ms.end(), gap_ms);
     ++gaps_[static_cast<std::size_t>(edge - edges_ms.begin())];
@@ -59,16 +59,20 @@ Outcome ReadStep::outcome() const
 {
     Outcome outcome{.step = "read", .verdict = Verdict::failed, .text = {}};
     const double seconds = start_ ? base::to_seconds(now_ - *start_) : 0.0;
-    const double rate = seconds > 0.0 ? static_cast<double>(words_) / seconds : 0.0;
-    outcome.figures = {{"rate_hz", rate}, {"gap_max_ms", 1e3 * base::to_seconds(gap_most_)}};
+    const double rate_hz = seconds > 0.0 ? static_cast<double>(words_) / seconds : 0.0;
+    const double median_s = base::to_seconds(all_gaps_.quantile(0.5).value_or(base::Duration{}));
+    const double most_s = base::to_seconds(all_gaps_.max().value_or(base::Duration{}));
+    outcome.figures = {
+        {"rate_hz", rate_hz}, {"gap_p50_ms", 1e3 * median_s}, {"gap_max_ms", 1e3 * most_s}};
     outcome.drawing = drawing();
-    outcome.text = fmt::format("{:.0f} words a second, at most {:.1f} ms apart", rate,
-                               1e3 * base::to_seconds(gap_most_));
+    outcome.text = fmt::format("{:.0f} words a second, {:.1f} ms apart in the median and {:.1f} ms "
+                               "at most",
+                               rate_hz, 1e3 * median_s, 1e3 * most_s);
     if (fault_ != device::Fault::none) {
         outcome.text = fmt::format("{}; {}", device::words_for(fault_), outcome.text);
     } else if (words_ == 0) {
         outcome.text = "the device says nothing, although it may have been moved: is it powered?";
-    } else if (rate < rate_share_wanted * nominal_hz_) {
+    } else if (median_s * rate_share_wanted * nominal_hz_ > 1.0) {
         outcome.text += fmt::format(", but {:.0f} a second are nominal: another cable, port or "
                                     "hub may help",
                                     nominal_hz_);

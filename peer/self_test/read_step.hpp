@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/self_test/step.hpp"
+#include "proto/base/histogram.hpp"
 #include "proto/base/time.hpp"
 
 #include <array>
@@ -11,6 +12,7 @@
 namespace hapnet::peer::self_test {
 
 /// Reads without force: how often the device has something new to say, and how long it is silent.
+/// It is judged by the median of the time between two words, as some rest while nothing moves.
 class ReadStep {
 public:
     ReadStep(base::Duration length, double nominal_hz) : length_{length}, nominal_hz_{nominal_hz} {}
@@ -32,7 +34,7 @@ private:
     base::TimePoint now_;
     std::uint64_t sequence_ = 0;
     std::uint64_t words_ = 0;
-    base::Duration gap_most_{};
+    base::DurationHistogram all_gaps_;
     std::array<std::uint64_t, edges_ms.size() + 1> gaps_{};
     device::Fault fault_ = device::Fault::none;
 };

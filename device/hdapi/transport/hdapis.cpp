@@ -33,6 +33,8 @@ public:
           stylus_{(opening_.properties.calibration_styles & calibration::style_inkwell) != 0}
     {}
     ~LibraryDevice() override { scheduler_.close(opening_); }
+    LibraryDevice(const LibraryDevice&) = delete;
+    LibraryDevice& operator=(const LibraryDevice&) = delete;
 
     [[nodiscard]] const Identity& identity() const override { return identity_; }
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }

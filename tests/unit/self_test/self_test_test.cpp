@@ -108,6 +108,18 @@ TEST(SelfTest, CountsTheWordsOfADeviceAndNotItsOwnTicks)
     EXPECT_DOUBLE_EQ(figure(read.outcome(), "gap_max_ms"), 101.0);
 }
 
+TEST(SelfTest, PassesADeviceThatRestsWhileNothingMoves)
+{
+    Played read{"read"};
+    read.play(200ms);
+    read.is_mute = true;
+    for (int i = 0; i < 101; ++i) {
+        ++read.feeling.sample.sequence;
+        read.play(8ms);
+    }
+    EXPECT_EQ(read.outcome().verdict, Verdict::passed) << read.outcome().text;
+}
+
 TEST(SelfTest, FailsADeviceThatIsMuteOrSlowOrAtFault)
 {
     Played mute{"read"};
