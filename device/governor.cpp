@@ -57,6 +57,8 @@ GovernedForce Governor::govern(const Wish& wish, const Sample& sample, base::Tim
 
 void Governor::latch(const Latched& cause)
 {
+    // A loop that stood still while there was no force has harmed nobody.
+    if (cause.trip == Trip::loop && strength_ == 0.0) return;
     if (!latch_.close(cause)) return;
     to_zero();
     switch (cause.trip) {
@@ -92,8 +94,8 @@ base::Duration Governor::pass(base::TimePoint now)
     heat_.pass(last_, gap);
     if (gap <= limits_.stall_max) return gap;
     ++counters_.stalled;
-    to_zero();
     if (gap > limits_.fault_after) latch({Fault::timeout, Trip::loop});
+    to_zero();
     return base::Duration{0};
 }
 

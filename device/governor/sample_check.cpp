@@ -19,23 +19,24 @@ double squared(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; 
 SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample& sample,
                                       base::Duration passed, bool pushing)
 {
-    if (sample.fault != Fault::none) {
+    const bool says_silent = sample.fault == Fault::timeout; // it heard nothing from its device
+    if (sample.fault != Fault::none && !says_silent) {
         placed_ = false;
         return {Finding::tripped, {sample.fault, Trip::device}};
     }
-    if (!heard_ && sample.sequence == 0) return {Finding::unheard};
-    const bool is_new = !heard_ || sample.sequence != sequence_;
+    if (!heard_ && sample.sequence == 0 && !says_silent) return {Finding::unheard};
+    const bool is_new = !says_silent && (!heard_ || sample.sequence != sequence_);
     heard_ = true;
     sequence_ = sample.sequence;
     silence_ += passed;
     const base::Duration since_last = silence_;
     // Without motors it may be silent: a cap or a grip at rest has nothing to say.
-    if (is_new || limits.axes_out <= 0) silence_ = base::Duration{0};
+    if (is_new || (limits.axes_out <= 0 && !says_silent)) silence_ = base::Duration{0};
 
     if (silence_ >= limits.fault_after) {
         return {Finding::tripped, {Fault::timeout, Trip::silence}};
     }
-    if (silence_ >= limits.stall_max) return {Finding::silent};
+    if (says_silent || silence_ >= limits.stall_max) return {Finding::silent};
     if (!sample.calibrated) {
         placed_ = false;
         return {Finding::uncalibrated};

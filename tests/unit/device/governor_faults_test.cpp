@@ -104,6 +104,32 @@ TEST(GovernorLatches, ATimeoutWhenADeviceRepeatsItselfForAHundredMilliseconds)
     EXPECT_EQ(governed.governor.counters().silence_faults, 1U);
 }
 
+TEST(GovernorStops, WhenADeviceSaysItHeardNothingAndLatchesThatAfterAHundredMilliseconds)
+{
+    Governance governed = pushing();
+    governed.sample.fault = Fault::timeout;
+    EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.play(50, along_x(1.0)), base::Force{});
+    governed.sample.fault = Fault::none; // a hiccup
+    EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
+    governed.sample.fault = Fault::timeout;
+    governed.play(99, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    expect_latched(governed, {Fault::timeout, Trip::silence});
+}
+
+TEST(GovernorLatches, NothingWhenTheLoopStoodStillWithoutForce)
+{
+    Governance governed = pushing();
+    governed.permitted = false;
+    governed.play(100, along_x(1.0));
+    EXPECT_EQ(governed.after(10s, along_x(1.0)), base::Force{});
+    governed.governor.latch({Fault::timeout, Trip::loop});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    governed.permitted = true;
+    EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
+}
+
 TEST(GovernorLatches, NothingForTheSilenceOfADeviceWithoutMotors)
 {
     Governance governed{{.axes_out = 0}};
@@ -116,7 +142,7 @@ TEST(GovernorLatches, NothingForTheSilenceOfADeviceWithoutMotors)
 
 TEST(GovernorLatches, EveryFaultThatADeviceReports)
 {
-    for (const Fault fault : {Fault::communication, Fault::timeout, Fault::overheat,
+    for (const Fault fault : {Fault::communication, Fault::overheat,
                               Fault::over_force, Fault::disconnected, Fault::internal}) {
         Governance governed = pushing();
         governed.sample.fault = fault;
