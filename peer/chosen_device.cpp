@@ -3,6 +3,7 @@
 #include "peer/chosen_device.hpp"
 
 #include "device/replay/replay.hpp"
+#include "device/simulated/joints/joint_omni.hpp"
 #include "device/simulated/omni.hpp"
 
 #include <algorithm>
@@ -37,6 +38,10 @@ device::Opened<std::unique_ptr<device::Device>> open_chosen(const DeviceChoice& 
                                                             device::Task task)
 {
     if (choice.replay) return std::make_unique<device::Replay>(*choice.replay, choice.name);
+    if (choice.has_joints()) {
+        return std::make_unique<device::JointOmni>(
+            device::JointOmniSettings{.role = {.task = task, .person = choice.person}});
+    }
     if (choice.is_simulated()) {
         return std::make_unique<device::SimulatedOmni>(
             device::Performer{.task = task, .person = choice.person});

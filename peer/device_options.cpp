@@ -20,8 +20,9 @@ constexpr double hid_force_max_n = 100.0;
 std::string device_help()
 {
     std::string help =
-        "sim: a simulated Omni in a simulated hand (default); replay:FILE: a hand that goes the\n"
-        "way in FILE, CSV with time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it";
+        "sim: a simulated Omni in a simulated hand (default); sim:joints: with its joints,\n"
+        "encoders, motors and inkwell; replay:FILE: a hand that goes the way in FILE, CSV with\n"
+        "time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it";
     std::string names;
     for (const device::Backend& backend : device::backends()) {
         names += names.empty() ? "" : ", ";
@@ -102,7 +103,7 @@ void add_device_options(CLI::App& app, DeviceTexts& texts)
                             const char* type) {
         add_option(app, name, text, {help, type});
     };
-    add("--device", texts.device, device_help(), "sim|replay:FILE|BACKEND[:SERIAL]");
+    add("--device", texts.device, device_help(), "sim|sim:joints|replay:FILE|BACKEND[:SERIAL]");
     add("--operator", texts.person,
         "Whose hand is simulated: relaxed, nominal (default), firm, lifelike, or a TOML file",
         "NAME|FILE");

@@ -23,7 +23,8 @@ struct DeviceChoice {
     std::optional<base::Displacement> mount_offset;
     std::optional<double> mount_scale;
 
-    [[nodiscard]] bool is_simulated() const { return name == "sim"; }
+    [[nodiscard]] bool has_joints() const { return name == "sim:joints"; } // simulated ones
+    [[nodiscard]] bool is_simulated() const { return name == "sim" || has_joints(); }
     /// A person holds it.
     [[nodiscard]] bool is_real() const { return !is_simulated() && !replay; }
 };
