@@ -126,7 +126,7 @@ std::string Parser::on_item(const Item& item)
 
 std::string Parser::on_main(const Item& item)
 {
-    const std::uint32_t flags = static_cast<std::uint32_t>(item.value.as_unsigned);
+    const auto flags = static_cast<std::uint32_t>(item.value.as_unsigned);
     switch (item.tag) {
     case 0x8: return add_fields(ReportKind::input, flags);
     case 0x9: return add_fields(ReportKind::output, flags);

@@ -40,6 +40,8 @@ class PidDevice final : public Device {
 public:
     explicit PidDevice(PidParts parts);
     ~PidDevice() override;
+    PidDevice(const PidDevice&) = delete;
+    PidDevice& operator=(const PidDevice&) = delete;
 
     [[nodiscard]] const Identity& identity() const override { return parts_.identity; }
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }

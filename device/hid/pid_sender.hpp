@@ -64,7 +64,7 @@ private:
     void add_per_axis(Step right, Step away);
     [[nodiscard]] std::optional<Report> report_for(Step step, const Order& order) const;
 
-    const ForceLayout layout_;
+    ForceLayout layout_;
     std::vector<std::uint32_t> blocks_;
     std::array<Step, steps_max> steps_{};
     std::size_t steps_planned_ = 0;

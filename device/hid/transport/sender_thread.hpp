@@ -19,6 +19,8 @@ public:
     /// Waits for the last order to be sent, but no longer than close_max; a thread that is still
     /// stuck in a write then ends, and lets go of the node, when the kernel gives up.
     ~SenderThread() override;
+    SenderThread(const SenderThread&) = delete;
+    SenderThread& operator=(const SenderThread&) = delete;
 
     [[nodiscard]] Mailbox& mailbox() override;
     void wake() noexcept override;

@@ -28,6 +28,18 @@ bool is_preloaded()
 
 } // namespace
 
+// The libraries under umockdev lock by means that ThreadSanitizer does not see.
+// NOLINTNEXTLINE(bugprone-reserved-identifier): its name for it
+extern "C" const char* __tsan_default_suppressions();
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+extern "C" const char* __tsan_default_suppressions()
+{
+    return "called_from_lib:libumockdev.so.0\n"
+           "called_from_lib:libglib-2.0.so.0\n"
+           "called_from_lib:libgobject-2.0.so.0\n"
+           "called_from_lib:libgio-2.0.so.0\n";
+}
+
 int main(int count, char** words)
 {
     if (!is_preloaded()) {

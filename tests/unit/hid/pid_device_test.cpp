@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "device/hid/pid_device.hpp"
 #include "device/hid/pid_opening.hpp"
+#include "tests/support/allocations.hpp"
 #include "tests/support/device/ungoverned.hpp"
 #include "tests/support/hid/memory_pid.hpp"
 
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace hapnet::device::hid {
 namespace {
@@ -236,6 +238,23 @@ TEST_F(Pid, GripsByItsFirstButton)
     line_.pid.press(false);
     for (int i = 0; i < 10; ++i) tick();
     EXPECT_FALSE(tick().gripping);
+}
+
+TEST_F(Pid, TakesNoMemoryInATick)
+{
+    open({.force_full_n = 8.0});
+    tick(ungoverned({{1.0, 0.0, 0.0}}));
+    line_.is_stuck = true; // the double takes memory for what it notes
+    for (int i = 0; i < 10; ++i) line_.waiting.push_back(line_.pid.input_report());
+    const auto before = test::allocations();
+    for (int i = 0; i < 10; ++i) {
+        now_ += 1ms;
+        std::ignore = device_->read(now_);
+        device_->apply(ungoverned({{1.0, 0.0, 0.0}}));
+    }
+    device_->halt();
+    EXPECT_EQ(test::allocations(), before);
+    line_.is_stuck = false;
 }
 
 TEST_F(Pid, ReadsAllThatWaitsAtOnceAndNoMoreThanThat)
