@@ -121,12 +121,10 @@ TEST(GovernorStops, WhenADeviceSaysItHeardNothingAndLatchesThatAfterAHundredMill
 TEST(GovernorLatches, NothingWhenTheLoopStoodStillWithoutForce)
 {
     Governance governed = pushing();
-    governed.permitted = false;
-    governed.play(100, along_x(1.0));
-    EXPECT_EQ(governed.after(10s, along_x(1.0)), base::Force{});
+    governed.play(100, along_x(1.0), false);
+    EXPECT_EQ(governed.after(10s, along_x(1.0), false), base::Force{});
     governed.governor.latch({Fault::timeout, Trip::loop});
     EXPECT_EQ(governed.governor.state(), GovernorState::ready);
-    governed.permitted = true;
     EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
 }
 
