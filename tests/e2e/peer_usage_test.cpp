@@ -40,10 +40,11 @@ TEST(PeerUsage, PrintsHelpWithEveryOptionAndExamples)
     const auto outcome = run("hapnet-peer", {"--help"});
     EXPECT_EQ(outcome.exit, 0);
     for (const char* word :
-         {"--id",    "--listen",    "--remote",     "--device", "--scene",    "--grip-damping",
-          "--task",  "--algorithm", "--seed",       "--key",    "--duration", "--record",
-          "--stats", "--insecure",  "--version",    "Examples", "P1",         "T1",
-          "T3",      "Exit codes",  "list-devices", "doctor",   "self-test",  "--mount-scale"}) {
+         {"--id",       "--force-limit",  "--listen", "--remote",    "--device",
+          "--scene",    "--grip-damping", "--task",   "--algorithm", "--seed",
+          "--key",      "--duration",     "--record", "--stats",     "--insecure",
+          "--version",  "Examples",       "P1",       "T1",          "T3",
+          "Exit codes", "list-devices",   "doctor",   "self-test",   "--mount-scale"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
 }
@@ -79,6 +80,8 @@ TEST(PeerUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
     expect_refusal(run_with({"--seed", "x"}), 2, {"--seed", "'x'"});
     expect_refusal(run_with({"--grip-damping", "4"}), 2, {"--grip-damping", "'4'", "2Ns/m"});
     expect_refusal(run_with({"--grip-damping", "0"}), 2, {"--grip-damping", "more than 0"});
+    expect_refusal(run_with({"--force-limit", "3"}), 2, {"--force-limit", "'3'", "500mN"});
+    expect_refusal(run_with({"--force-limit", "-1N"}), 2, {"--force-limit", "0N to 40N"});
     expect_refusal(run_with({"--listen", "7000"}), 2, {"--listen", "HOST:PORT"});
     expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:0"}), 2, {"--remote", "port"});
     expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:99999"}), 2, {"--remote", "65535"});
