@@ -13,6 +13,8 @@ namespace {
 
 // Some devices need a moment to find the place: the kernel's own driver (hid-pidff) asks 60 times.
 constexpr int load_questions_max = 60;
+// ... but each answer that does not come takes the kernel 5 s to give up.
+constexpr int silences_max = 3;
 constexpr int stops_said = 3;
 
 tl::unexpected<Trouble> refused(Moved moved, const std::string& what)
@@ -30,11 +32,15 @@ Opened<std::uint32_t> load_effect(Wire& wire, const ForceLayout& layout)
     if (const Moved moved = wire.set_feature(create.all()); moved != Moved::yes) {
         return refused(moved, "a new effect");
     }
-    for (int i = 0; i < load_questions_max; ++i) {
+    int silences = 0;
+    for (int i = 0; i < load_questions_max && silences < silences_max; ++i) {
         Report answer{layout.block_load.place};
         const Moved moved = wire.get_feature(answer.all());
         if (moved == Moved::gone) return refused(moved, "");
-        if (moved != Moved::yes) continue;
+        if (moved != Moved::yes) {
+            ++silences;
+            continue;
+        }
         const Loaded loaded = read_block_load(layout, answer);
         if (loaded.load == Load::success) return loaded.block;
         if (loaded.load == Load::full) {
@@ -68,9 +74,9 @@ public:
         if (const auto gain = gain_report(layout_)) write(*gain);
         // Some devices enable their actuators by themselves when an effect is set.
         write(control_report(layout_, usage::disable_actuators));
-        if (moved_ != Moved::yes) {
+        if (const Moved moved = moved_; moved != Moved::yes) {
             clean_up(prepared);
-            return refused(moved_, "an effect");
+            return refused(moved, "an effect");
         }
         if (layout_.pool) {
             Report answer{*layout_.pool};
@@ -85,15 +91,17 @@ private:
         if (moved_ == Moved::yes) moved_ = wire_.write(report.all());
     }
 
+    /// As far as the device takes it: each report that it does not take costs 5 s.
     void clean_up(const Prepared& prepared)
     {
+        moved_ = Moved::yes;
         for (int i = 0; i < stops_said; ++i) {
-            std::ignore = wire_.write(control_report(layout_, usage::stop_all_effects).all());
-            std::ignore = wire_.write(control_report(layout_, usage::disable_actuators).all());
+            write(control_report(layout_, usage::stop_all_effects));
+            write(control_report(layout_, usage::disable_actuators));
         }
         for (const std::uint32_t block : prepared.blocks) {
             const auto report = free_report(layout_, block);
-            if (report) std::ignore = wire_.write(report->all());
+            if (report) write(*report);
         }
     }
 

@@ -20,6 +20,7 @@ struct Line {
     std::deque<std::vector<std::byte>> waiting{};
     bool is_gone = false;
     bool refuses = false;  // every write
+    bool is_mute = false;  // answers no question
     bool is_stuck = false; // it takes nothing for the time being
     std::size_t questions = 0;
 };
@@ -55,7 +56,7 @@ public:
     device::hid::Moved get_feature(std::span<std::byte> report) override
     {
         ++line_.questions;
-        if (!moves()) return trouble();
+        if (!moves() || line_.is_mute) return trouble();
         const auto answer = line_.pid.feature(std::to_integer<std::uint8_t>(report[0]));
         if (!answer || answer->size() > report.size()) return device::hid::Moved::failed;
         std::copy(answer->begin(), answer->end(), report.begin());

@@ -200,6 +200,15 @@ TEST(PidOpening, OfAWheelLoadsOneEffectAndItsSenderSpeaksOfNoOther)
     EXPECT_EQ(reports, 3U); // enable, force, start
 }
 
+TEST(PidOpening, AsksADeviceThatAnswersNothingOnlyThreeTimes)
+{
+    Line line;
+    line.is_mute = true;
+    MemoryWire wire{line};
+    EXPECT_EQ(prepare(wire, layout_of({}), 2).error().fault, Fault::communication);
+    EXPECT_EQ(line.questions, 3U);
+}
+
 class Sender : public ::testing::Test {
 protected:
     std::vector<std::vector<std::byte>> said(const Order& order)
