@@ -37,7 +37,8 @@ public:
     [[nodiscard]] T as() const
     {
         static_assert(std::is_trivially_copyable_v<T>);
-        T value{};
+        T value; // not by {}: the kernel's own end in arrays of no size
+        std::memset(&value, 0, sizeof value);
         std::memcpy(&value, bytes().data(), std::min(sizeof(T), bytes().size()));
         return value;
     }
