@@ -35,6 +35,8 @@ class Falcon final : public Device {
 public:
     Falcon(std::unique_ptr<Link> link, std::string serial);
     ~Falcon() override;
+    Falcon(const Falcon&) = delete;
+    Falcon& operator=(const Falcon&) = delete;
 
     [[nodiscard]] const Identity& identity() const override { return identity_; }
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
