@@ -7,6 +7,7 @@
 #include "device/simulated/omni.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::peer {
@@ -77,11 +78,13 @@ std::string_view parts_in(device::Task task)
 std::string introduction(const device::Device& device, const device::Mount& mount,
                          device::Task task)
 {
-    const glm::dvec3 offset_mm = 1e3 * mount.offset.value;
+    const auto millimetres = [&](int axis) {
+        return std::round(1e3 * mount.offset.value[axis]) + 0.0; // no -0
+    };
     return fmt::format(
         "{}; mounted at {:.0f},{:.0f},{:.0f} mm, magnified {:.2f} times (--mount-offset, "
         "--mount-scale). Task {} is yours to play, the lower --id is L: {}",
-        device::description(device), offset_mm.x, offset_mm.y, offset_mm.z, mount.scale,
+        device::description(device), millimetres(0), millimetres(1), millimetres(2), mount.scale,
         device::name_of(task), parts_in(task));
 }
 

@@ -73,8 +73,9 @@ std::string_view name_among(const std::array<KnownDevice, count>& known, const s
                             const std::string& product)
 {
     for (const KnownDevice& one : known) {
-        const bool is_it =
-            vendor == one.vendor && product >= one.product_first && product <= one.product_last;
+        // By compare(): Clang 14 cannot order these with this library.
+        const bool is_it = vendor == one.vendor && product.compare(one.product_first) >= 0 &&
+                           product.compare(one.product_last) <= 0;
         if (is_it) return one.name;
     }
     return "";

@@ -3,6 +3,7 @@
 #include "peer/self_test/self_test.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hapnet::peer::self_test {
 
@@ -30,7 +31,7 @@ SelfTest::SelfTest(const Plan& plan)
     const auto asked_for = [&](std::string_view name, std::string why_not) {
         const bool is_skipped =
             std::find(plan.skip.begin(), plan.skip.end(), name) != plan.skip.end();
-        return is_skipped ? "left out by --skip" : why_not;
+        return is_skipped ? "left out by --skip" : std::move(why_not);
     };
     const DeadMan dead_man = plan.is_real ? DeadMan::person : DeadMan::simulated_hand;
     steps_ = {
