@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/device/turns.hpp"
 
+#include "device/omni/geometry.hpp"
 #include "device/velocity_filter.hpp"
-#include "tests/bench/device/arm.hpp"
 #include "tests/support/device/ungoverned.hpp"
 
 #include <utility>
@@ -38,7 +38,8 @@ public:
         capabilities_.force_max_n = 3.3;
         capabilities_.force_continuous_n = 0.88;
         capabilities_.speed_max_m_per_s = 1.0;
-        capabilities_.joints = device::JointLimits{arm_jacobian, glm::dvec3{0.55, 0.44, 0.44}};
+        capabilities_.joints =
+            device::JointLimits{device::omni::jacobian_at, device::omni::torque_max_nm};
     }
     [[nodiscard]] const device::Identity& identity() const override { return identity_; }
     [[nodiscard]] const device::Capabilities& capabilities() const override
@@ -53,7 +54,8 @@ public:
         sample.hip = hand.hip;
         if (load_ == Load::contact) return sample;
         // The same place again, by way of the arm: what its counts say, and how fast it moves.
-        const base::Displacement off = stylus_at(counts_now()) - stylus_at(glm::dvec3{0.0});
+        const base::Displacement off =
+            device::omni::position_of({counts_now()}) - device::omni::position_of({});
         sample.hip = hand.hip + 1e-6 * off;
         sample.velocity = velocity_.at(sample.hip, now);
         return sample;
