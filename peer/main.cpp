@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/rig.hpp"
 #include "peer/chosen_device.hpp"
+#include "peer/commands.hpp"
 #include "peer/core/sync/text.hpp"
 #include "peer/options.hpp"
 #include "peer/report.hpp"
@@ -153,7 +154,7 @@ void watch(Servo& servo, Watcher& watcher, net::StopSignal& stop, const std::str
     watcher.finish();
 }
 
-base::Result<int> play(const Options& options)
+base::Result<int> run(const Options& options)
 {
     const auto places = look_up(options);
     if (!places) return tl::unexpected{places.error()};
@@ -192,11 +193,16 @@ base::Result<int> play(const Options& options)
     return 0;
 }
 
+base::Result<int> execute(const Command& command)
+{
+    return std::visit([](const auto& chosen) { return run(chosen); }, command);
+}
+
 } // namespace
 
 int main_program(std::span<char*> words)
 {
-    return net::run_program(program, parse_options(words), play);
+    return net::run_program(program, parse_command_line(words), execute);
 }
 
 } // namespace hapnet::peer

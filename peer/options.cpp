@@ -47,6 +47,11 @@ Examples, with hapnet-emulator listening on ports 7001 and 7002 of this machine:
   hapnet-peer --id 1 --remote 127.0.0.1:7001 --task T3 --duration 20s --record a.rec
   hapnet-peer --id 2 --remote 127.0.0.1:7002 --task T3 --duration 20s --record b.rec
 
+Other commands, each with a --help of its own:
+  hapnet-peer list-devices   every haptic device that is seen, and what keeps one from being used
+  hapnet-peer doctor         what this machine grants to a haptic loop, and how to mend it
+  hapnet-peer self-test      tries a device step by step, through the governor
+
 Prints one line "ready ..." on stdout when its loop runs, and what happens on stderr.
 SIGINT or SIGTERM ends it with zero force and says goodbye to the other peer.
 Exit codes: 0 done, 1 the run failed, 2 bad usage, 3 the system refused (port in use, no route).)";

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/catalogue/catalogue.hpp"
 
+#include "device/falcon/transport/falcons.hpp"
 #include "device/hdapi/transport/hdapis.hpp"
 
 #include <algorithm>
@@ -13,6 +14,10 @@ namespace hapnet::device {
 const std::vector<Backend>& backends()
 {
     static const std::vector<Backend> all{
+        {"falcon", [](const DeviceOptions&) { return falcon::find_falcons(); },
+         [](const std::string& serial, const DeviceOptions& options) {
+             return falcon::open_falcon(serial, options.falcon_firmware);
+         }},
         {"hdapi",
          [](const DeviceOptions& options) { return hdapi::find_hdapis(options.hd_library); },
          [](const std::string& name, const DeviceOptions& options) {

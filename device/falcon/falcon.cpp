@@ -98,6 +98,7 @@ Sample Falcon::read(base::TimePoint now)
 {
     now_ = now;
     if (!last_word_) last_word_ = now;
+    ++silent_reads_;
     const bool expects = unanswered_since_ && sample_.fault == Fault::none;
     const auto bytes = link_->receive(expects ? Link::Wait::briefly : Link::Wait::no);
     for (const std::byte byte : bytes) {
@@ -137,6 +138,7 @@ void Falcon::take(const Report& report, base::TimePoint now)
     buttons_.tell(sample_);
     ++sample_.sequence;
     last_word_ = now;
+    silent_reads_ = 0;
     nonsense_before_ = nonsense_ + finder_.skipped();
     unanswered_since_.reset();
 }
@@ -144,7 +146,7 @@ void Falcon::take(const Report& report, base::TimePoint now)
 Fault Falcon::fault_at(base::TimePoint now) const
 {
     if (link_->is_gone()) return Fault::disconnected;
-    if (now - *last_word_ > silence_max) {
+    if (now - *last_word_ > silence_max && silent_reads_ >= silent_reads_min) {
         const bool has_talked = nonsense_ + finder_.skipped() > nonsense_before_;
         return has_talked ? Fault::communication : Fault::timeout;
     }

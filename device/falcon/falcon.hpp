@@ -8,6 +8,8 @@
 #include "device/falcon/packet.hpp"
 #include "device/velocity_filter.hpp"
 
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,7 +18,8 @@ namespace hapnet::device::falcon {
 
 /// Motor counts for a newton metre at a leg's arm. libnifalcon's factor
 /// (src/kinematic/FalconKinematicStamper.cpp), which gives no source for it: nobody is known to
-/// have measured one. So a newton here is a newton in name.
+/// have measured one. It makes the most that the motors take 7.4 N sideways at the middle of the
+/// workspace (computed), near the 8 N that CHAI3D states; but a newton here is one in name only.
 inline constexpr double counts_per_newton_metre = 10000.0;
 
 /// As the catalogue shows it; "" for a serial that it does not tell.
@@ -32,6 +35,8 @@ class Falcon final : public Device {
 public:
     Falcon(std::unique_ptr<Link> link, std::string serial);
     ~Falcon() override;
+    Falcon(const Falcon&) = delete;
+    Falcon& operator=(const Falcon&) = delete;
 
     [[nodiscard]] const Identity& identity() const override { return identity_; }
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
@@ -40,8 +45,10 @@ public:
     void apply(const GovernedForce& force) override;
     void halt() noexcept override;
 
-    /// Silence, or nonsense, for longer than this is a fault.
+    /// Silence, or nonsense, for longer than this is a fault, if it was asked so often meanwhile: a
+    /// host that was away cannot tell.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
+    static constexpr int silent_reads_min = 5;
     /// A packet without an answer for so long is taken as lost.
     static constexpr base::Duration lost_after{std::chrono::milliseconds{10}};
 
@@ -60,6 +67,7 @@ private:
     Sample sample_;
     base::TimePoint now_{};                    // of the last read
     std::optional<base::TimePoint> last_word_; // that made sense; at first: when it was first asked
+    int silent_reads_ = 0;                     // since then
     std::uint64_t nonsense_ = 0;               // reports that no arm can give
     std::uint64_t nonsense_before_ = 0;        // at the last word
     bool was_calibrated_ = false;

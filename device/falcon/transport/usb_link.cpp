@@ -108,7 +108,7 @@ std::span<const std::byte> UsbLink::receive(Wait wait) noexcept
 
 void UsbLink::handle_events(int milliseconds_max) noexcept
 {
-    timeval most{0, milliseconds_max * 1000};
+    timeval most{0, 1000L * milliseconds_max};
     libusb_handle_events_timeout_completed(usb_.context.get(), &most, nullptr);
 }
 

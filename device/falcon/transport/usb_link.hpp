@@ -21,13 +21,13 @@ inline constexpr std::size_t ftdi_status_bytes = 2; // in front of each packet f
 /// no one else handles its events.
 struct ClaimedUsb {
     struct Exit {
-        void operator()(libusb_context* context) const { libusb_exit(context); }
+        void operator()(libusb_context* ours) const { libusb_exit(ours); }
     };
     struct Release {
-        void operator()(libusb_device_handle* handle) const
+        void operator()(libusb_device_handle* open) const
         {
-            libusb_release_interface(handle, 0);
-            libusb_close(handle);
+            libusb_release_interface(open, 0);
+            libusb_close(open);
         }
     };
     std::unique_ptr<libusb_context, Exit> context;
@@ -40,6 +40,8 @@ class UsbLink final : public Link {
 public:
     explicit UsbLink(ClaimedUsb usb);
     ~UsbLink() override;
+    UsbLink(const UsbLink&) = delete;
+    UsbLink& operator=(const UsbLink&) = delete;
 
     [[nodiscard]] bool send(const Packet& packet) noexcept override;
     [[nodiscard]] std::span<const std::byte> receive(Wait wait) noexcept override;

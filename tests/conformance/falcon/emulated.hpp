@@ -12,7 +12,7 @@ struct EmulatedFalcon {
     explicit EmulatedFalcon(std::string kernel_driver = "")
         : usb{testbed, description(std::move(kernel_driver)), falcon}
     {
-        falcon.follow([](double) { return base::Position{}; });
+        falcon.want(base::Position{});
     }
 
     [[nodiscard]] static umockdev::UsbDescription description(std::string kernel_driver)

@@ -33,7 +33,7 @@ constexpr double lives_at_most_s = 0.02; // in one go: a host that was away miss
 constexpr double reach_of_grip_m = 0.060;
 constexpr double stop_rad = -0.9; // the legs' lower stops, -52 degrees
 const base::Position all_the_way_in{{0.0, 0.0, -0.055}};
-constexpr double sweep_s = 0.4;
+constexpr double hand_speed_m_per_s = 0.2;
 
 } // namespace
 
@@ -63,11 +63,6 @@ FakeFalcon::FakeFalcon(Clock clock)
 {
     lived_until_ = clock_();
     last_answer_ = lived_until_;
-}
-
-void FakeFalcon::follow(std::function<std::optional<base::Position>(double time_s)> path)
-{
-    path_ = std::move(path);
 }
 
 std::optional<std::vector<std::byte>> FakeFalcon::on_control(const umockdev::UsbSetup& setup,
@@ -143,10 +138,10 @@ std::optional<std::vector<std::byte>> FakeFalcon::on_bulk_in(std::size_t size)
 void FakeFalcon::obey(const Command& command)
 {
     const base::TimePoint now = clock_();
-    if (!first_packet_) first_packet_ = now;
     live_until(now); // by the command before this one
     command_ = command;
     commands_.push_back(command);
+    if (command.motors != Counts{}) last_push_ = now;
     if (is_garbling_) {
         to_host_.insert(to_host_.end(), {std::byte{'<'}, std::byte{0xff}, std::byte{'>'}});
         return;
@@ -162,20 +157,21 @@ void FakeFalcon::live_until(base::TimePoint now)
     for (; left > 0.0; left -= step_s) step(std::min(left, step_s));
 }
 
-std::optional<base::Position> FakeFalcon::aim() const
+void FakeFalcon::move_aim(double seconds)
 {
-    if (helps_homing_ && command_.home && legs_homed_ != all_legs) {
-        const double way = std::min(homing_s_ / sweep_s, 1.0);
-        return base::Position{way * all_the_way_in.value};
+    const bool homes = helps_homing_ && command_.home && legs_homed_ != all_legs;
+    const auto goal = homes ? std::optional{all_the_way_in} : wanted_;
+    if (!goal) {
+        aim_.reset();
+        return;
     }
-    if (!path_ || !first_packet_) return std::nullopt;
-    return path_(base::to_seconds(lived_until_ - *first_packet_));
+    const base::Position from = aim_.value_or(grip_);
+    aim_ = from + base::limited(*goal - from, hand_speed_m_per_s * seconds);
 }
 
 void FakeFalcon::step(double seconds)
 {
-    const auto aimed = aim();
-    if (command_.home) homing_s_ += seconds;
+    move_aim(seconds);
     const glm::dmat3 map = jacobian(grip_);
     glm::dvec3 torque{};
     for (int i = 0; i < 3; ++i) {
@@ -184,8 +180,8 @@ void FakeFalcon::step(double seconds)
     force_ = {glm::determinant(map) == 0.0 ? glm::dvec3{0.0}
                                            : glm::inverse(glm::transpose(map)) * torque};
     glm::dvec3 sum = force_.value;
-    if (aimed) {
-        sum += hand_stiffness_n_per_m * (aimed->value - grip_.value) -
+    if (aim_) {
+        sum += hand_stiffness_n_per_m * (aim_->value - grip_.value) -
                hand_damping_ns_per_m * velocity_.value;
     } else {
         sum -= free_damping_ns_per_m * velocity_.value;

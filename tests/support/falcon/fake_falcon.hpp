@@ -44,11 +44,13 @@ public:
     // The person.
     /// Pushes the grip to every stop when the device asks for it.
     void help_homing() { helps_homing_ = true; }
-    /// Wants the grip there; the time is since the first packet. nullopt: lets it go.
-    void follow(std::function<std::optional<base::Position>(double time_s)> path);
+    /// Wants the grip there, and means to get there at 0.2 m/s at most; nullopt: lets it go.
+    void want(std::optional<base::Position> place) { wanted_ = place; }
 
     // What it saw.
     [[nodiscard]] const std::vector<device::falcon::Command>& commands() const { return commands_; }
+    /// When it was last told a torque.
+    [[nodiscard]] base::TimePoint last_push() const { return last_push_; }
     [[nodiscard]] base::Position grip() const { return grip_; }
     [[nodiscard]] base::Force force() const { return force_; } // of the motors at the grip
     [[nodiscard]] int loads() const { return loads_; }         // attempts
@@ -66,7 +68,7 @@ private:
     void obey(const device::falcon::Command& command);
     void live_until(base::TimePoint now);
     void step(double seconds);
-    [[nodiscard]] std::optional<base::Position> aim() const;
+    void move_aim(double seconds);
     [[nodiscard]] device::falcon::Report report();
 
     Clock clock_;
@@ -79,7 +81,7 @@ private:
     device::falcon::PacketFinder finder_;
     std::vector<device::falcon::Command> commands_;
     device::falcon::Command command_;
-    std::optional<base::TimePoint> first_packet_;
+    base::TimePoint last_push_{};
     base::TimePoint lived_until_{};
 
     base::Position grip_{};
@@ -88,8 +90,8 @@ private:
     device::falcon::Counts power_up_; // what the encoders said when they were zero
     std::uint8_t legs_homed_ = 0;
     std::uint8_t buttons_ = 0;
-    double homing_s_ = 0.0; // for how long the person has been at it
-    std::function<std::optional<base::Position>(double)> path_;
+    std::optional<base::Position> wanted_;
+    std::optional<base::Position> aim_; // of the hand, on its way there
     bool helps_homing_ = false;
     bool is_garbling_ = false;
     int spoiled_loads_ = 0;

@@ -41,36 +41,37 @@ UMockdevIoctlData* argument_of(UMockdevIoctlClient* client)
 } // namespace
 
 Memory::Memory(UMockdevIoctlData* owned)
-    : data_{owned, [](UMockdevIoctlData* data) { g_object_unref(data); }}
 {
-    base::ensure(owned != nullptr);
+    if (owned != nullptr) data_.reset(owned, [](UMockdevIoctlData* data) { g_object_unref(data); });
 }
 
-unsigned long Memory::address() const { return data_->client_addr; }
+unsigned long Memory::address() const { return data_ ? data_->client_addr : 0; }
 
 std::span<const std::byte> Memory::bytes() const
 {
+    if (!data_) return {};
     return std::as_bytes(std::span{data_->data, static_cast<std::size_t>(data_->data_len)});
 }
 
 void Memory::write(std::size_t offset, std::span<const std::byte> bytes)
 {
+    if (!data_ || bytes.empty()) return;
     base::ensure(offset + bytes.size() <= this->bytes().size());
     // Its library takes what it does not change by a pointer to what may change.
     std::vector<guint8> copy(bytes.size());
-    if (bytes.empty()) return;
     std::memcpy(copy.data(), bytes.data(), bytes.size());
     umockdev_ioctl_data_update(data_.get(), offset, copy.data(), static_cast<gint>(copy.size()));
 }
 
 Memory Memory::pointed_to(std::size_t offset, std::size_t size) const
 {
+    if (!data_) return {};
     return Memory{umockdev_ioctl_data_resolve(data_.get(), offset, size, nullptr)};
 }
 
 void Memory::point_to(std::size_t offset, const Memory& other)
 {
-    umockdev_ioctl_data_set_ptr(data_.get(), offset, other.data_.get());
+    if (data_ && other) umockdev_ioctl_data_set_ptr(data_.get(), offset, other.data_.get());
 }
 
 Request::Request(UMockdevIoctlClient* client)

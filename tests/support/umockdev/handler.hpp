@@ -21,11 +21,12 @@ typedef struct _UMockdevIoctlData UMockdevIoctlData;
 namespace hapnet::umockdev {
 
 /// A piece of a program's memory that belongs to a request, as a copy; what is written to it is in
-/// the program's memory once the request, or a later one that refers to it, is answered.
+/// the program's memory once the request, or a later one that refers to it, is answered. Empty when
+/// the program has gone meanwhile.
 class Memory {
 public:
     Memory() = default;
-    explicit Memory(UMockdevIoctlData* owned);
+    explicit Memory(UMockdevIoctlData* owned); // or none
 
     /// Where it lies in the program.
     [[nodiscard]] unsigned long address() const;
@@ -36,7 +37,8 @@ public:
     [[nodiscard]] T as() const
     {
         static_assert(std::is_trivially_copyable_v<T>);
-        T value{};
+        T value; // not by {}: the kernel's own end in arrays of no size
+        std::memset(&value, 0, sizeof value);
         std::memcpy(&value, bytes().data(), std::min(sizeof(T), bytes().size()));
         return value;
     }

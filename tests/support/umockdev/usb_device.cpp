@@ -188,6 +188,10 @@ void UsbDevice::submit(const Request& request)
         transfer.buffer = transfer.urb.pointed_to(offsetof(usbdevfs_urb, buffer),
                                                   static_cast<std::size_t>(urb.buffer_length));
     }
+    if (!transfer.urb || (urb.buffer_length > 0 && !transfer.buffer)) {
+        request.fail(EFAULT); // its program has gone
+        return;
+    }
     under_way_.push_back(std::move(transfer));
     work();
     request.succeed();
@@ -260,6 +264,10 @@ UsbDevice::Step UsbDevice::carry_out(Transfer& transfer)
 void UsbDevice::control(Transfer& transfer)
 {
     const auto bytes = transfer.buffer.bytes();
+    if (bytes.size() < setup_bytes) {
+        finish(transfer, -EINVAL, 0);
+        return;
+    }
     const UsbSetup setup = setup_of(bytes);
     const auto said = reply(setup, bytes.subspan(setup_bytes));
     if (!said) {

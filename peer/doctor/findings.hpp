@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::peer::doctor {
+
+enum class Level : std::uint8_t {
+    ok,
+    warning, // it works, but worse than it could
+    bad,     // something that is there cannot be used
+};
+[[nodiscard]] std::string_view name_of(Level level);
+
+/// One thing that was looked at.
+struct Finding {
+    std::string subject;
+    Level level = Level::ok;
+    std::string text;
+    std::string cure{}; // one line, "" where all is well
+};
+
+/// What the kernel grants to a loop at 1 kHz.
+struct Timing {
+    bool fifo = false;
+    bool locked_memory = false;
+    std::string shortage;      // why not, and the cure
+    base::Duration slack{};    // of the thread's timers
+    base::Duration late_p99{}; // of wake-ups, once a millisecond
+};
+
+/// A node of a device that hapnet knows.
+struct Node {
+    std::string device; // such as "Novint Falcon"
+    std::string path;   // such as /dev/bus/usb/001/002
+    bool is_accessible = false;
+};
+
+/// What the system was found to be.
+struct Facts {
+    Timing timing;
+    std::vector<std::string> cpu_governors; // the different ones; none: it cannot be set
+    std::optional<std::uint64_t> receive_buffer_max_bytes;
+    bool forces_buffers = false; // may exceed that
+    bool has_udev = false;
+    std::optional<std::string> installed_rules; // the text of ours
+    std::vector<Node> nodes;
+    bool has_firewire_card = false;
+    bool has_firewire_driver = false;
+    std::string hd_trouble; // why libHD cannot be loaded; "": it can
+    bool hd_wanted = false; // a device that needs it is there
+};
+
+/// What to think of it.
+[[nodiscard]] std::vector<Finding> judge(const Facts& facts);
+
+/// The udev rules of this version.
+[[nodiscard]] std::string_view udev_rules();
+/// The one line that installs them, from wherever the program is.
+[[nodiscard]] std::string_view udev_cure();
+
+} // namespace hapnet::peer::doctor

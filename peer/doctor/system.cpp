@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/doctor/system.hpp"
+
+#include "device/hdapi/transport/configuration.hpp"
+#include "device/hdapi/transport/shared_library.hpp"
+#include "proto/base/histogram.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/real_time.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <spdlog/fmt/fmt.h>
+#include <sys/prctl.h>
+#include <thread>
+#include <unistd.h>
+
+namespace hapnet::peer::doctor {
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr int servo_priority = 45; // as the loop asks for it
+constexpr int wake_ups = 300;
+
+struct KnownDevice {
+    std::string_view vendor; // hexadecimal, small letters
+    std::string_view product_first;
+    std::string_view product_last;
+    std::string_view name;
+};
+constexpr std::array usb_devices{KnownDevice{"0403", "cb48", "cb48", "Novint Falcon"}};
+constexpr std::array hid_devices{KnownDevice{"1209", "ffb0", "ffb0", "OpenFFBoard"},
+                                 KnownDevice{"046d", "c603", "c62b", "SpaceMouse"},
+                                 KnownDevice{"256f", "c62e", "c63a", "SpaceMouse"},
+                                 KnownDevice{"2988", "0304", "0304", "Touch"}};
+
+/// Its whole text, without the line's end; nullopt when it cannot be read.
+std::optional<std::string> text_in(const fs::path& file)
+{
+    std::ifstream in{file};
+    if (!in) return std::nullopt;
+    std::string text{std::istreambuf_iterator<char>{in}, {}};
+    return text;
+}
+
+std::string word_in(const fs::path& file)
+{
+    std::ifstream in{file};
+    std::string word;
+    in >> word;
+    return word;
+}
+
+/// The entries of a folder, sorted; none when there is no folder.
+std::vector<fs::path> entries_of(const fs::path& folder)
+{
+    std::error_code trouble;
+    std::vector<fs::path> entries;
+    for (const auto& entry : fs::directory_iterator{folder, trouble}) entries.push_back(entry);
+    std::sort(entries.begin(), entries.end());
+    return entries;
+}
+
+template <std::size_t count>
+std::string_view name_among(const std::array<KnownDevice, count>& known, const std::string& vendor,
+                            const std::string& product)
+{
+    for (const KnownDevice& one : known) {
+        const bool is_it =
+            vendor == one.vendor && product >= one.product_first && product <= one.product_last;
+        if (is_it) return one.name;
+    }
+    return "";
+}
+
+Node node_at(const fs::path& root, std::string_view device, const std::string& path)
+{
+    const fs::path here = root / path.substr(1);
+    return {std::string{device}, path, access(here.c_str(), R_OK | W_OK) == 0};
+}
+
+void find_usb(const fs::path& root, std::vector<Node>& nodes)
+{
+    for (const fs::path& entry : entries_of(root / "sys/bus/usb/devices")) {
+        const auto name =
+            name_among(usb_devices, word_in(entry / "idVendor"), word_in(entry / "idProduct"));
+        if (name.empty()) continue;
+        const auto number = [&](const char* file) {
+            return fmt::format("{:0>3}", word_in(entry / file));
+        };
+        nodes.push_back(node_at(
+            root, name, fmt::format("/dev/bus/usb/{}/{}", number("busnum"), number("devnum"))));
+    }
+}
+
+void find_firewire(const fs::path& root, std::vector<Node>& nodes)
+{
+    for (const fs::path& entry : entries_of(root / "sys/bus/firewire/devices")) {
+        if (word_in(entry / "vendor") != "0x000b99") continue;
+        const std::string name = entry.filename();
+        if (name.find('.') != std::string::npos) continue; // a unit of it
+        nodes.push_back(node_at(root, "PHANToM Omni (FireWire)", "/dev/" + name));
+    }
+}
+
+/// "HID_ID=0003:00001209:0000FFB0"
+void find_hid(const fs::path& root, std::vector<Node>& nodes)
+{
+    for (const fs::path& entry : entries_of(root / "sys/class/hidraw")) {
+        std::string text = text_in(entry / "device/uevent").value_or("");
+        const auto at = text.find("HID_ID=");
+        constexpr std::size_t length = 28; // of "HID_ID=bbbb:vvvvvvvv:pppppppp"
+        if (at == std::string::npos || text.size() < at + length + 1) continue;
+        std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+            return c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c;
+        });
+        const auto name = name_among(hid_devices, text.substr(at + 16, 4), text.substr(at + 25, 4));
+        if (name.empty()) continue;
+        nodes.push_back(node_at(root, name, "/dev/" + entry.filename().string()));
+    }
+}
+
+std::optional<std::string> rules_in(const fs::path& root)
+{
+    for (const char* folder : {"etc/udev/rules.d", "run/udev/rules.d", "usr/local/lib/udev/rules.d",
+                               "usr/lib/udev/rules.d", "lib/udev/rules.d"}) {
+        if (auto text = text_in(root / folder / "60-hapnet.rules")) return text;
+    }
+    return std::nullopt;
+}
+
+bool has_firewire_card(const fs::path& root)
+{
+    const auto cards = entries_of(root / "sys/bus/pci/devices");
+    return std::any_of(cards.begin(), cards.end(), [](const fs::path& card) {
+        return word_in(card / "class").starts_with("0x0c00"); // IEEE 1394
+    });
+}
+
+/// As the loop of a peer has it, on a thread that ends.
+Timing try_timing()
+{
+    Timing timing;
+    base::DurationHistogram late;
+    std::jthread{[&] {
+        const net::RealTime granted = net::request_real_time(servo_priority);
+        timing.fifo = granted.fifo;
+        timing.locked_memory = granted.locked_memory;
+        timing.shortage = granted.shortage();
+        timing.slack = std::chrono::nanoseconds{prctl(PR_GET_TIMERSLACK, 0UL, 0UL, 0UL, 0UL)};
+        base::TimePoint due = net::monotonic_now();
+        for (int i = 0; i < wake_ups; ++i) {
+            due += 1ms;
+            net::sleep_until(due);
+            late.add(net::monotonic_now() - due);
+        }
+    }}.join();
+    timing.late_p99 = late.quantile(0.99).value_or(base::Duration{});
+    return timing;
+}
+
+} // namespace
+
+Facts look_at(const fs::path& root, const std::string& hd_library)
+{
+    Facts facts;
+    facts.timing = try_timing();
+    std::set<std::string> governors;
+    for (const fs::path& cpu : entries_of(root / "sys/devices/system/cpu")) {
+        if (auto name = word_in(cpu / "cpufreq/scaling_governor"); !name.empty()) {
+            governors.insert(std::move(name));
+        }
+    }
+    facts.cpu_governors.assign(governors.begin(), governors.end());
+    if (const auto text = word_in(root / "proc/sys/net/core/rmem_max"); !text.empty()) {
+        facts.receive_buffer_max_bytes = std::strtoull(text.c_str(), nullptr, 10);
+    }
+    facts.forces_buffers = geteuid() == 0;
+    facts.has_udev = fs::exists(root / "run/udev") || fs::exists(root / "etc/udev");
+    facts.installed_rules = rules_in(root);
+    find_usb(root, facts.nodes);
+    find_firewire(root, facts.nodes);
+    find_hid(root, facts.nodes);
+    facts.has_firewire_card = has_firewire_card(root);
+    facts.has_firewire_driver = fs::exists(root / "sys/bus/firewire");
+    if (const auto library = device::hdapi::load_library(hd_library); !library) {
+        facts.hd_trouble = library.error().message;
+    }
+    facts.hd_wanted = !hd_library.empty() || !device::hdapi::models_on_usb().empty() ||
+                      !device::hdapi::configured_names().empty();
+    return facts;
+}
+
+} // namespace hapnet::peer::doctor

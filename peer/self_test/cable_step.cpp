@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/self_test/cable_step.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer::self_test {
+
+Turn CableStep::on_tick(const Feeling& feeling, base::TimePoint now)
+{
+    if (!start_) start_ = now;
+    if (!heard_ || feeling.sample.sequence != sequence_) heard_ = now;
+    sequence_ = feeling.sample.sequence;
+    fault_ = feeling.sample.fault;
+    silent_for_ = now - *heard_;
+    const bool is_over = fault_ != device::Fault::none || now - *start_ >= patience;
+    return {.is_done = is_over, .prompt = Prompt::pull_cable};
+}
+
+Outcome CableStep::outcome() const
+{
+    Outcome outcome{.step = "cable", .verdict = Verdict::skipped, .text = "no cable was pulled"};
+    if (fault_ == device::Fault::none) return outcome;
+    const double noticed_ms = 1e3 * base::to_seconds(silent_for_);
+    const bool is_loss = fault_ == device::Fault::disconnected ||
+                         fault_ == device::Fault::timeout || fault_ == device::Fault::communication;
+    outcome.verdict = is_loss ? Verdict::passed : Verdict::failed;
+    outcome.figures = {{"noticed_after_ms", noticed_ms}};
+    outcome.text = fmt::format("noticed {:.0f} ms after its last word, as {}", noticed_ms,
+                               device::name_of(fault_));
+    return outcome;
+}
+
+} // namespace hapnet::peer::self_test

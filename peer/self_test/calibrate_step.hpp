@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/self_test/step.hpp"
+#include "proto/base/time.hpp"
+
+#include <chrono>
+#include <optional>
+
+namespace hapnet::peer::self_test {
+
+/// Waits until the device is calibrated and its stylus in a hand, and says what that takes.
+class CalibrateStep {
+public:
+    static constexpr base::Duration patience{std::chrono::seconds{60}};
+
+    [[nodiscard]] Turn on_tick(const Feeling& feeling, base::TimePoint now);
+    [[nodiscard]] Outcome outcome() const;
+
+private:
+    std::optional<base::TimePoint> start_;
+    base::Duration took_{};
+    Prompt prompt_ = Prompt::nothing; // the last one; nothing: all is done
+};
+
+} // namespace hapnet::peer::self_test

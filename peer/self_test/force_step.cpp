@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/self_test/force_step.hpp"
+
+#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer::self_test {
+
+namespace {
+
+constexpr double share_wanted = 0.75; // of the peak: a governor's ramp is on its way meanwhile
+
+} // namespace
+
+double ForceStep::wanted_n(base::Duration into)
+{
+    const base::Duration whole = 2 * ramp + plateau;
+    const base::Duration edge = std::min(into, whole - into);
+    return peak_n * std::clamp(base::to_seconds(edge) / base::to_seconds(ramp), 0.0, 1.0);
+}
+
+void ForceStep::watch(const Feeling& feeling, bool is_held, base::TimePoint now)
+{
+    force_most_n_ = std::max(force_most_n_, base::norm(feeling.applied));
+    if (fault_ == device::Fault::none) fault_ = feeling.sample.fault;
+    if (is_held) {
+        if (!held_since_) held_since_ = now;
+        released_at_.reset();
+    } else if (held_since_) {
+        held_since_.reset();
+        released_at_ = now;
+        was_released_ = true;
+    }
+    const bool is_over = released_at_ && now - *released_at_ > zero_after;
+    if (is_over && base::norm(feeling.applied) > 0.0) outlasted_release_ = true;
+}
+
+Turn ForceStep::on_tick(const Feeling& feeling, base::TimePoint now)
+{
+    if (!start_) start_ = now;
+    const bool is_held = dead_man_ == DeadMan::simulated_hand || feeling.sample.gripping;
+    watch(feeling, is_held, now);
+    const bool is_in_vain = fault_ != device::Fault::none || now - *start_ >= patience;
+    if (is_in_vain) return {.is_done = true};
+    if (!held_since_) return {.prompt = Prompt::hold_button};
+    const base::Duration into = now - *held_since_;
+    is_complete_ = into >= 2 * ramp + plateau;
+    return {.wanted = {{wanted_n(into), 0.0, 0.0}},
+            .permitted = !is_complete_,
+            .is_done = is_complete_,
+            .prompt = Prompt::keep_button};
+}
+
+Outcome ForceStep::outcome() const
+{
+    Outcome outcome{.step = "force", .verdict = Verdict::failed, .text = {}};
+    outcome.figures = {{"force_max_n", force_most_n_}};
+    if (fault_ != device::Fault::none) {
+        outcome.text = device::words_for(fault_);
+    } else if (outlasted_release_) {
+        outcome.text = "the force outlasted the release of the button: do not use this device";
+    } else if (!is_complete_) {
+        outcome.verdict = Verdict::skipped;
+        outcome.text = "the button was not held to the end of the ramp";
+    } else if (force_most_n_ < share_wanted * peak_n) {
+        outcome.text =
+            fmt::format("the governor let only {:.2f} of {:.2f} N through", force_most_n_, peak_n);
+    } else {
+        outcome.verdict = Verdict::passed;
+        outcome.text =
+            fmt::format("up to {:.2f} N were asked of the motors{}; whether you felt "
+                        "them, and to the right, only you can say",
+                        force_most_n_, was_released_ ? ", and none after a release" : "");
+    }
+    return outcome;
+}
+
+} // namespace hapnet::peer::self_test

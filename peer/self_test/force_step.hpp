@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/self_test/step.hpp"
+#include "proto/base/time.hpp"
+
+#include <chrono>
+#include <optional>
+
+namespace hapnet::peer::self_test {
+
+/// Who keeps the dead man's button down.
+enum class DeadMan : std::uint8_t { person, simulated_hand };
+
+/// A ramp to 0.2 N along x in 2 s, a second there, and down again, only while the primary button is
+/// held; the ramp begins again when it is held again.
+class ForceStep {
+public:
+    static constexpr double peak_n = 0.2;
+    static constexpr base::Duration ramp{std::chrono::seconds{2}};
+    static constexpr base::Duration plateau{std::chrono::seconds{1}};
+    static constexpr base::Duration patience{std::chrono::seconds{60}};
+    /// By then a governor has faded out.
+    static constexpr base::Duration zero_after{std::chrono::milliseconds{100}};
+
+    explicit ForceStep(DeadMan dead_man) : dead_man_{dead_man} {}
+
+    [[nodiscard]] Turn on_tick(const Feeling& feeling, base::TimePoint now);
+    [[nodiscard]] Outcome outcome() const;
+
+private:
+    void watch(const Feeling& feeling, bool is_held, base::TimePoint now);
+    [[nodiscard]] static double wanted_n(base::Duration into);
+
+    DeadMan dead_man_;
+    std::optional<base::TimePoint> start_;
+    std::optional<base::TimePoint> held_since_;
+    std::optional<base::TimePoint> released_at_;
+    double force_most_n_ = 0.0;
+    bool is_complete_ = false;
+    bool was_released_ = false; // in the middle
+    bool outlasted_release_ = false;
+    device::Fault fault_ = device::Fault::none;
+};
+
+} // namespace hapnet::peer::self_test

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/self_test/step.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <optional>
+
+namespace hapnet::peer::self_test {
+
+/// Reads without force: how often the device has something new to say, and how long it is silent.
+class ReadStep {
+public:
+    ReadStep(base::Duration length, double nominal_hz) : length_{length}, nominal_hz_{nominal_hz} {}
+
+    [[nodiscard]] Turn on_tick(const Feeling& feeling, base::TimePoint now);
+    [[nodiscard]] Outcome outcome() const;
+
+    /// The upper edges of the histogram's bins of the time between two words; the last has none.
+    static constexpr std::array edges_ms{0.5, 0.9, 1.1, 1.5, 2.0, 5.0, 20.0};
+
+private:
+    void count_gap(base::Duration gap);
+    [[nodiscard]] std::string drawing() const;
+
+    base::Duration length_;
+    double nominal_hz_;
+    std::optional<base::TimePoint> start_;
+    std::optional<base::TimePoint> heard_;
+    base::TimePoint now_;
+    std::uint64_t sequence_ = 0;
+    std::uint64_t words_ = 0;
+    base::Duration gap_most_{};
+    std::array<std::uint64_t, edges_ms.size() + 1> gaps_{};
+    device::Fault fault_ = device::Fault::none;
+};
+
+} // namespace hapnet::peer::self_test

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/self_test/step.hpp"
+
+namespace hapnet::peer::self_test {
+
+std::string_view name_of(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::passed: return "passed";
+    case Verdict::failed: return "failed";
+    case Verdict::skipped: return "skipped";
+    }
+    return "failed";
+}
+
+std::string_view words_for(Prompt prompt)
+{
+    switch (prompt) {
+    case Prompt::nothing: return "";
+    case Prompt::hold_still: return "reading, without force: move the stylus a little";
+    case Prompt::wait: return device::words_for(device::CalibrationStep::busy);
+    case Prompt::dock: return device::words_for(device::CalibrationStep::dock_stylus);
+    case Prompt::sweep: return device::words_for(device::CalibrationStep::sweep_joints);
+    case Prompt::undock: return "take the stylus out of its holder";
+    case Prompt::hold_button:
+        return "hold the stylus loosely, then press the primary button and keep it down: 0.2 N "
+               "will push to the right; let go of the button to stop it";
+    case Prompt::keep_button: return "0.2 N to the right: keep the button down, or let go to stop";
+    case Prompt::pull_cable: return "pull the device's cable, now";
+    }
+    return "";
+}
+
+} // namespace hapnet::peer::self_test

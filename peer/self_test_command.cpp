@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/rig.hpp"
+#include "peer/chosen_device.hpp"
+#include "peer/commands.hpp"
+#include "peer/self_test/report.hpp"
+#include "peer/self_test/self_test.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/real_time.hpp"
+#include "proto/net/result_file.hpp"
+#include "proto/net/stop_signal.hpp"
+#include "proto/net/wait.hpp"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+namespace {
+
+using namespace std::chrono_literals;
+using self_test::Prompt;
+using self_test::SelfTest;
+
+constexpr int test_priority = 45; // as the loop of a session
+constexpr base::Duration test_tick = 1ms;
+constexpr base::Duration prompts_shown_every = 50ms;
+constexpr int ticks_after_the_end = 60; // a governor's fade
+
+/// The test's loop, at the device's pace where it has one, and what another thread sees of it.
+class TestLoop {
+public:
+    TestLoop(SelfTest& test, device::Rig& rig) : test_{test}, rig_{rig} {}
+
+    void run()
+    {
+        std::ignore = net::request_real_time(test_priority);
+        const bool is_paced = rig_.device().capabilities().pacing == device::Pacing::device;
+        while (!is_over()) {
+            if (is_paced) rig_.device().pace([this] { return turn(), !is_over(); });
+            if (!is_over()) turn();
+            net::sleep_until(net::monotonic_now() + test_tick);
+        }
+    }
+    void stop() { stop_.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] Prompt prompt() const { return prompt_.load(std::memory_order_relaxed); }
+
+private:
+    [[nodiscard]] bool is_over() const { return ticks_left_ == 0; }
+
+    void turn()
+    {
+        const base::TimePoint now = net::monotonic_now();
+        const device::Sample& sample = rig_.read(now);
+        self_test::Turn turn{.is_done = true};
+        if (!is_ending_ && !stop_.load(std::memory_order_relaxed)) {
+            turn = test_.on_tick({sample, rig_.calibration(), applied_}, now);
+        }
+        applied_ = rig_.apply(turn.wanted, turn.permitted, now);
+        prompt_.store(turn.prompt, std::memory_order_relaxed);
+        if (turn.is_done) is_ending_ = true;
+        if (is_ending_) --ticks_left_;
+    }
+
+    SelfTest& test_;
+    device::Rig& rig_;
+    base::Force applied_;
+    bool is_ending_ = false;
+    int ticks_left_ = ticks_after_the_end;
+    std::atomic<bool> stop_{false};
+    std::atomic<Prompt> prompt_{Prompt::nothing};
+};
+
+/// Shows what the person is to do until the loop has ended; SIGINT and SIGTERM end it.
+void accompany(TestLoop& loop, net::StopSignal& stop)
+{
+    auto ended = std::async(std::launch::async, [&loop] { loop.run(); });
+    Prompt shown = Prompt::nothing;
+    while (ended.wait_for(0ms) != std::future_status::ready) {
+        const std::array descriptors{stop.descriptor()};
+        net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
+                           net::monotonic_now() + prompts_shown_every);
+        if (stop.requested()) loop.stop();
+        const Prompt prompt = loop.prompt();
+        if (prompt == shown) continue;
+        shown = prompt;
+        if (prompt != Prompt::nothing) net::say("hapnet-peer", self_test::words_for(prompt));
+    }
+    ended.get();
+}
+
+} // namespace
+
+base::Result<int> run(const SelfTestCommand& command)
+{
+    std::optional<net::ResultFile> file;
+    if (command.json) file.emplace(*command.json);
+    net::StopSignal stop;
+    auto opened = open_chosen(command.device, device::Task::p1);
+    if (!opened) {
+        net::say("hapnet-peer",
+                 fmt::format("--device {}: {}", command.device.name, opened.error().message));
+        return net::exit_environment;
+    }
+    const auto& capabilities = (*opened)->capabilities();
+    SelfTest test{{.capabilities = capabilities,
+                   .is_real = command.device.is_real(),
+                   .read_for = command.read_for,
+                   .skip = command.skip}};
+    // In the device's own frame: nothing of a scene is felt here.
+    device::Rig rig{*std::move(opened), device::GovernorLimits{}};
+    net::say("hapnet-peer", device::description(rig.device()));
+    TestLoop loop{test, rig};
+    accompany(loop, stop);
+    test.stop();
+    fmt::print("{}", self_test::report_text(device::description(rig.device()), test.outcomes()));
+    if (file) file->commit(self_test::report_json(rig.device(), test.outcomes()).dump(2) + "\n");
+    const bool is_broken_off = stop.requested();
+    return self_test::has_failed(test.outcomes()) || is_broken_off ? net::exit_failed : 0;
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// Two daemons, each with a Falcon of its own, play through the emulator. The Falcons are emulated:
+// what is real is the daemons, libusb, and the network.
+#include "proto/net/clock.hpp"
+#include "tests/e2e/emulator.hpp"
+#include "tests/e2e/peer.hpp"
+#include "tests/support/falcon/fake_falcon.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+using device::falcon::Counts;
+
+/// A Falcon on the bus of a testbed, and the person who holds it.
+struct Held {
+    Held(umockdev::Testbed& testbed, const std::string& serial, int address)
+        : usb{testbed, test::usb_of_falcon(serial, address), falcon}
+    {
+        falcon.help_homing();
+    }
+
+    void want(double x_m)
+    {
+        usb.with_model([&] { falcon.want(base::Position{{x_m, 0.0, 0.0}}); });
+    }
+    void press(bool down) // the centre button
+    {
+        usb.with_model([&] { falcon.press(down ? 0x4 : 0); });
+    }
+    [[nodiscard]] std::vector<device::falcon::Command> commands()
+    {
+        return usb.with_model([&] { return falcon.commands(); });
+    }
+    [[nodiscard]] bool is_pushed()
+    {
+        const auto heard = commands();
+        return !heard.empty() && heard.back().motors != Counts{};
+    }
+    /// To the right, what its motors do at the grip.
+    [[nodiscard]] double push_n()
+    {
+        return usb.with_model([&] { return falcon.force().x(); });
+    }
+    [[nodiscard]] base::TimePoint last_push()
+    {
+        return usb.with_model([&] { return falcon.last_push(); });
+    }
+
+    test::FakeFalcon falcon{net::monotonic_now};
+    umockdev::UsbDevice usb;
+};
+
+/// Both hands at the cube, from its two sides. A Falcon is magnified twice: the cube begins 10 mm
+/// from the middle of its workspace, and is touched from 12.5 mm on.
+class TwoFalcons : public ::testing::Test {
+protected:
+    static std::vector<std::string> options(const std::string& serial)
+    {
+        return {"--device", "falcon:" + serial, "--task", "T3", "--duration", "60s"};
+    }
+
+    /// Homes both and lets both hands press the cube between them.
+    void press_together()
+    {
+        left_.want(-0.020);
+        right_.want(0.020);
+        ASSERT_TRUE(a_.says("session started"));
+        ASSERT_TRUE(b_.says("session started"));
+        ASSERT_TRUE(comes_true([&] { return is_homed(left_) && is_homed(right_); }));
+        std::this_thread::sleep_for(1s);
+        left_.want(-0.009);
+        right_.want(0.009);
+        // The cube pushes each back to its own side. On a machine that is too busy a governor may
+        // have closed on one of them: then they do what it says, and press the button.
+        const auto is_felt = [&] { return left_.push_n() < -0.2 && right_.push_n() > 0.2; };
+        for (int i = 0; i < 4 && !comes_true(is_felt, 4s); ++i) {
+            for (const bool down : {true, false}) {
+                left_.press(down);
+                right_.press(down);
+                std::this_thread::sleep_for(200ms);
+            }
+        }
+        ASSERT_TRUE(is_felt()) << left_.push_n() << " N, " << right_.push_n() << " N\n"
+                               << a_.process().err() << b_.process().err();
+    }
+
+    static bool is_homed(Held& held)
+    {
+        const auto heard = held.commands();
+        return !heard.empty() && heard.back().lights != device::falcon::Lights::red;
+    }
+
+    template <typename Condition>
+    static bool comes_true(Condition condition, base::Duration most = 15s)
+    {
+        const auto end = net::monotonic_now() + most;
+        while (!condition() && net::monotonic_now() < end) std::this_thread::sleep_for(20ms);
+        return condition();
+    }
+
+    umockdev::Testbed testbed_;
+    Held left_{testbed_, "LEFT", 2};
+    Held right_{testbed_, "RIGHT", 3};
+    Emulator emulator_{{"--delay", "5ms"}};
+    Peer a_{1, free_place(), emulator_.a().to_text(), options("LEFT")};
+    Peer b_{2, free_place(), emulator_.b().to_text(), options("RIGHT")};
+};
+
+void expect_left_at_zero(Held& held)
+{
+    const auto heard = held.commands();
+    ASSERT_GE(heard.size(), 3U);
+    for (auto last = heard.end() - 3; last != heard.end(); ++last) {
+        EXPECT_EQ(last->motors, Counts{});
+    }
+}
+
+TEST_F(TwoFalcons, FeelEachOtherThroughTheCubeAndAreLeftAtZero)
+{
+    ASSERT_NO_FATAL_FAILURE(press_together());
+    const std::size_t before = left_.commands().size();
+    std::this_thread::sleep_for(1s);
+    const std::size_t cycles = left_.commands().size() - before;
+    std::printf("beside another daemon: %zu cycles/s\n", cycles);
+    EXPECT_GT(cycles, 50U); // emulated, and on a busy machine: it only shows that the loop goes on
+    b_.stop();
+    expect_left_at_zero(right_);
+    a_.stop();
+    expect_left_at_zero(left_);
+
+    for (Peer* peer : {&a_, &b_}) {
+        EXPECT_EQ(peer->statistics()["messages"]["malformed"], 0);
+    }
+}
+
+TEST_F(TwoFalcons, OneFeelsNothing300MillisecondsAfterTheOtherWasKilled)
+{
+    ASSERT_NO_FATAL_FAILURE(press_together());
+    const base::TimePoint killed = net::monotonic_now();
+    a_.kill();
+    std::this_thread::sleep_for(1s);
+    EXPECT_FALSE(right_.is_pushed());
+    // The last word comes 5 ms after the kill through the emulator; from then on 250 ms to hold and
+    // 50 ms to fade, and 25 ms for a late tick and its packet on a busy machine.
+    EXPECT_LE(right_.last_push() - killed, 330ms);
+    EXPECT_GE(right_.last_push() - killed, -50ms); // it was pushed until then
+    b_.stop();
+    expect_left_at_zero(right_);
+}
+
+TEST_F(TwoFalcons, OneThatIsToldToEndLeavesItsMotorsAtZero)
+{
+    ASSERT_NO_FATAL_FAILURE(press_together());
+    a_.process().signal(SIGTERM);
+    EXPECT_EQ(a_.process().wait_exit(5s), 0) << a_.process().err();
+    expect_left_at_zero(left_);
+    EXPECT_TRUE(b_.says("goodbye"));
+    std::this_thread::sleep_for(400ms);
+    EXPECT_FALSE(right_.is_pushed());
+    b_.stop();
+}
+
+TEST_F(TwoFalcons, OneThatIsUnpluggedSaysSoAndTheOtherFeelsNothingOfIt)
+{
+    ASSERT_NO_FATAL_FAILURE(press_together());
+    left_.usb.unplug();
+    EXPECT_TRUE(a_.says("the device has gone"));
+    a_.stop();
+    b_.stop();
+    expect_left_at_zero(right_);
+}
+
+} // namespace
+
+} // namespace hapnet::e2e
