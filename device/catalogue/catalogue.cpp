@@ -4,6 +4,7 @@
 
 #include "device/falcon/transport/falcons.hpp"
 #include "device/hdapi/transport/hdapis.hpp"
+#include "device/omni1394/transport/omni1394s.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -22,6 +23,10 @@ const std::vector<Backend>& backends()
          [](const DeviceOptions& options) { return hdapi::find_hdapis(options.hd_library); },
          [](const std::string& name, const DeviceOptions& options) {
              return hdapi::open_hdapi(name, options.hd_library);
+         }},
+        {"omni1394", [](const DeviceOptions&) { return omni1394::find_omnis(); },
+         [](const std::string& serial, const DeviceOptions& options) {
+             return omni1394::open_omni(serial, {options.omni_torque, options.uncalibrated_force});
          }},
     };
     return all;
