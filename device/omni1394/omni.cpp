@@ -4,10 +4,13 @@
 
 #include "device/omni1394/start_sequence.hpp"
 
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <glm/glm.hpp>
 #include <span>
 #include <spdlog/fmt/fmt.h>
+#include <tuple>
 #include <utility>
 
 namespace hapnet::device::omni1394 {

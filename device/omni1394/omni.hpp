@@ -26,6 +26,8 @@ public:
     [[nodiscard]] static Opened<std::unique_ptr<Device>> open(std::unique_ptr<Link> link,
                                                               const Profile& profile, Use use);
     ~Omni() override;
+    Omni(const Omni&) = delete;
+    Omni& operator=(const Omni&) = delete;
 
     [[nodiscard]] const Identity& identity() const override { return identity_; }
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
@@ -49,7 +51,7 @@ private:
 
     /// Takes what has come; whether that makes a beat.
     [[nodiscard]] bool gather();
-    void take(const ReceivedPacket& packet, base::TimePoint now);
+    void take(const ReceivedPacket& received, base::TimePoint now);
     [[nodiscard]] HostPacket lights() const;
 
     struct News {

@@ -137,6 +137,7 @@ TEST_F(Device, PushesAsSoonAsItMayAndRampsIn)
     // a late tick begins it again.
     const double wanted = std::min(1.0, rig_->device().capabilities().force_max_n);
     EXPECT_TRUE(play_until([&] { return felt_.x() > 0.3 * wanted; }, along_x, 30s));
+    play_for(5ms, along_x); // what was said last may still be on its way
     EXPECT_TRUE(was_pushed_since(first));
     EXPECT_TRUE(subject().commands().back().motors_on);
     EXPECT_LE(felt_.x(), wanted);

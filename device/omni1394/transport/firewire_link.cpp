@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cerrno>
 #include <chrono>
 #include <cstddef>
 #include <cstring>
@@ -12,6 +12,7 @@
 #include <linux/firewire-constants.h>
 #include <poll.h>
 #include <spdlog/fmt/fmt.h>
+#include <tuple>
 #include <utility>
 
 namespace hapnet::device::omni1394 {

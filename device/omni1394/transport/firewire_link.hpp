@@ -20,6 +20,8 @@ public:
     /// `path` such as /dev/fw1. Another of these on the same node is refused.
     [[nodiscard]] static Opened<std::unique_ptr<Link>> open(const std::string& path);
     ~FirewireLink() override;
+    FirewireLink(const FirewireLink&) = delete;
+    FirewireLink& operator=(const FirewireLink&) = delete;
 
     [[nodiscard]] Opened<Channels> allocate() override;
     [[nodiscard]] Opened<std::size_t> read_register(std::uint64_t address,

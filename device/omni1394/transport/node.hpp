@@ -16,7 +16,7 @@ namespace hapnet::device::omni1394 {
 /// What the kernel says of a node: one of the events of <linux/firewire-cdev.h>, byte for byte.
 /// Big enough for a page of isochronous headers.
 struct alignas(8) Event {
-    std::array<std::byte, 4096 + 64> bytes;
+    std::array<std::byte, 4096 + 64> bytes{};
     std::size_t size = 0;
 
     /// FW_CDEV_EVENT_...; of what is too short for one, UINT32_MAX.
@@ -36,6 +36,8 @@ class Node {
 public:
     [[nodiscard]] static Opened<Node> open(const std::string& path);
     ~Node();
+    Node(const Node&) = delete;
+    Node& operator=(const Node&) = delete;
     Node(Node&& other) noexcept;
     Node& operator=(Node&& other) noexcept;
 

@@ -4,6 +4,7 @@
 
 #include "device/omni/geometry.hpp"
 #include "device/velocity_filter.hpp"
+#include "proto/base/math.hpp"
 #include "tests/support/device/ungoverned.hpp"
 
 #include <utility>
