@@ -37,7 +37,7 @@ public:
     [[nodiscard]] T as() const
     {
         static_assert(std::is_trivially_copyable_v<T>);
-        T value; // not by {}: the kernel's own end in arrays of no size
+        T value; // Clang takes {} for the end of a urb, an array of no length, ill
         std::memset(&value, 0, sizeof value);
         std::memcpy(&value, bytes().data(), std::min(sizeof(T), bytes().size()));
         return value;
