@@ -36,6 +36,13 @@ struct Sample {
     std::uint64_t sequence = 0; // grows with every word from the device: else this one is old
 };
 
+/// Whether there is a hand at the sample's place: an uncalibrated device, a stylus in its holder or
+/// a device at fault say nothing of one.
+[[nodiscard]] constexpr bool is_in_hand(const Sample& sample)
+{
+    return sample.calibrated && !sample.docked && sample.fault == Fault::none;
+}
+
 /// What a calibration needs next.
 enum class CalibrationStep : std::uint8_t {
     done,

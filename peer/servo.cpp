@@ -123,7 +123,8 @@ void Servo::turn(record::TickRow& row, base::TimePoint now)
         parts_.rig.governor().latch({device::Fault::timeout, device::Trip::loop});
     }
     const device::Sample& sample = parts_.rig.read(now);
-    const Tick tick = peer.tick(now, {sample.hip, sample.velocity, sample.gripping});
+    const Tick tick =
+        peer.tick(now, {sample.hip, sample.velocity, sample.gripping, is_in_hand(sample)});
     base::Force force;
     if (!parts_.watchdog.is_dying()) force = parts_.rig.apply(tick.force, tick.permitted, now);
     send();

@@ -49,8 +49,8 @@ public:
         // Its own end comes by the clock; another one's was a person's.
         if (row.phase == record::Phase::ended) peer_.leave(wire::ByeReason::interrupted);
         const device::Sample sample = said_in(row);
-        const peer::Tick tick =
-            peer_.tick(row.at(), {sample.hip, sample.velocity, sample.gripping});
+        const peer::Tick tick = peer_.tick(
+            row.at(), {sample.hip, sample.velocity, sample.gripping, is_in_hand(sample)});
         while (peer_.poll()) {}
         while (peer_.event()) {}
         const device::Wish wish{mount_.to_device(tick.force), tick.permitted};

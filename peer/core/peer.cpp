@@ -25,7 +25,7 @@ bool is_within(const glm::dvec3& v, double most)
 
 bool is_usable(const Hand& hand)
 {
-    return is_within(hand.hip.value, reach_max_m) &&
+    return hand.present && is_within(hand.hip.value, reach_max_m) &&
            is_within(hand.velocity.value, speed_max_m_per_s);
 }
 

@@ -20,6 +20,7 @@ struct Hand {
     base::Position hip;
     base::Velocity velocity;
     bool gripping = false;
+    bool present = true; // somebody holds the device, and its word is good
 };
 
 struct Settings {

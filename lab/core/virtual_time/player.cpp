@@ -56,7 +56,7 @@ void VirtualPlayer::turn(base::TimePoint now)
     turned = now;
     const base::TimePoint here = now + clock_ahead;
     hand = rig.read(here);
-    last = peer->tick(here, {hand.hip, hand.velocity, hand.gripping});
+    last = peer->tick(here, {hand.hip, hand.velocity, hand.gripping, is_in_hand(hand)});
     applied = rig.apply(last.force, last.permitted, here);
     while (const auto event = peer->event()) events.push_back(*event);
     const auto& session = peer->session();

@@ -184,6 +184,22 @@ TEST(PeerLedger, LosesNothingWhenMessagesAreLost)
     EXPECT_GE(later.caused_impulse_nns[0], said.caused_impulse_nns[0]);
 }
 
+TEST(PeerHand, ThatNobodyHoldsNeitherFeelsNorMovesAnything)
+{
+    Pair pair;
+    pair.run_until_started();
+    pair.hands[0] = pushing(0.003); // where an uncalibrated device may say that it is
+    pair.hands[0].present = false;
+    pair.run_for(100ms);
+    EXPECT_FALSE(pair.ticks[0].permitted);
+    EXPECT_EQ(pair.ticks[0].force, base::Force{});
+    EXPECT_EQ(pair.peers[0]->body().position, base::Position{});
+    EXPECT_FALSE(pair.state_sent_by(0)->touching);
+    pair.hands[0].present = true;
+    pair.run_for(100ms);
+    EXPECT_TRUE(pair.state_sent_by(0)->touching);
+}
+
 TEST(PeerHand, ThatIsNotUsableIsCountedAndNeitherFeelsNorMovesAnything)
 {
     for (const glm::dvec3& broken :
