@@ -196,7 +196,7 @@ TEST(PeerHand, ThatNobodyHoldsNeitherFeelsNorMovesAnything)
     EXPECT_EQ(pair.peers[0]->body().position, base::Position{});
     EXPECT_FALSE(pair.state_sent_by(0)->touching);
     pair.hands[0].present = true;
-    pair.run_for(100ms);
+    pair.run_for(5ms);
     EXPECT_TRUE(pair.state_sent_by(0)->touching);
 }
 
