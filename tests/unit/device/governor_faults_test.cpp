@@ -140,8 +140,8 @@ TEST(GovernorLatches, NothingForTheSilenceOfADeviceWithoutMotors)
 
 TEST(GovernorLatches, EveryFaultThatADeviceReports)
 {
-    for (const Fault fault : {Fault::communication, Fault::overheat,
-                              Fault::over_force, Fault::disconnected, Fault::internal}) {
+    for (const Fault fault : {Fault::communication, Fault::overheat, Fault::over_force,
+                              Fault::disconnected, Fault::internal}) {
         Governance governed = pushing();
         governed.sample.fault = fault;
         expect_latched(governed, {fault, Trip::device});
