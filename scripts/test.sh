@@ -12,10 +12,10 @@ Runs every test; --quick runs those of the release preset alone. Exits 0 when al
 1 when something failed."
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-presets=(release asan)
+sanitizers=yes
 for argument in "$@"; do
     case $argument in
-    --quick) presets=(release) ;;
+    --quick) sanitizers= ;;
     -h | --help) echo "$usage" && exit 0 ;;
     *) echo "test: unknown argument '$argument'"$'\n'"$usage" >&2 && exit 2 ;;
     esac
@@ -58,50 +58,60 @@ check_tidy() {
     cmake --preset tidy && cmake --build --preset tidy --parallel "$(nproc)"
 }
 
-# The tests of the sanitizers and those end to end leave processors idle: clang-tidy has those, at
-# the lowest priority there is.
-tidy=
-begin_tidy() {
-    echo "clang-tidy runs beside the tests that follow"
-    export -f check_tidy
-    chrt --idle 0 bash -euo pipefail -c check_tidy >"$logs/clang-tidy.log" 2>&1 &
-    tidy=$!
+build_asan() {
+    cmake --preset asan && cmake --build --preset asan --parallel "$(nproc)"
 }
 
-# Builds a preset and runs its tests but those end to end. Which kinds those are, the preset says.
-# The sanitizers' build is Clang's: so the tests also see whether another compiler gives other bits.
-run_preset() {
-    local preset=$1 is_built=
-    step "$preset configure" cmake --preset "$preset" &&
-        step "$preset build" cmake --build --preset "$preset" --parallel "$(nproc)" &&
-        is_built=yes
-    [[ $preset != asan ]] || begin_tidy
-    [[ -n $is_built ]] || return 1
-    step "$preset tests" ctest --preset "$preset" --parallel "$(nproc)" \
+# begin NAME FUNCTION: runs it beside what follows, at the lowest priority there is: tests wait for
+# much of their time.
+declare -A running=()
+begin() {
+    echo "$1: begins beside what follows"
+    export -f "${2?}"
+    chrt --idle 0 bash -euo pipefail -c "$2" >"$logs/$1.begun.log" 2>&1 &
+    running[$1]=$!
+}
+
+# finish NAME: waits for what begin() began, and is the step of it.
+finish() {
+    begun_exit=0
+    wait "${running[$1]}" || begun_exit=$?
+    step "$1" show_begun "$1"
+}
+show_begun() {
+    cat "$logs/$1.begun.log"
+    [[ $begun_exit == 0 ]]
+}
+
+# The emulated devices keep real time, and wait for most of it.
+test_release() {
+    step "release configure" cmake --preset release &&
+        step "release build" cmake --build --preset release --parallel "$(nproc)" || return
+    step "release tests" ctest --preset release --parallel "$(nproc)" \
         --label-exclude '^(e2e|conformance)$' || true
-    # Emulated devices keep real time, and wait for most of it.
-    step "$preset conformance" ctest --preset "$preset" --parallel $((3 * $(nproc))) \
-        --label-regex '^conformance$'
+    step "release conformance" ctest --preset release --parallel $((2 * $(nproc))) \
+        --label-regex '^conformance$' || true
+    [[ -z $sanitizers ]] || begin asan-build build_asan
+    step "release e2e" ctest --preset release --label-regex '^e2e$' || true
+}
+
+# Clang's build: so the tests also see whether another compiler gives other bits.
+test_asan() {
+    [[ -n ${running[asan-build]-} ]] || begin asan-build build_asan
+    finish asan-build || return
+    begin tidy check_tidy
+    step "asan tests" ctest --preset asan --parallel "$(nproc)" || true
+    finish tidy
 }
 
 step "format" check_format || true
 step "scripts" check_scripts || true
 step "pages" check_pages || true
-for preset in "${presets[@]}"; do run_preset "$preset" || true; done
-step "release e2e" ctest --preset release --label-regex '^e2e$' || true
-show_tidy() {
-    cat "$logs/clang-tidy.log"
-    [[ $tidy_exit == 0 ]]
-}
-if [[ -n $tidy ]]; then
-    echo "waiting for clang-tidy"
-    tidy_exit=0
-    wait "$tidy" || tidy_exit=$?
-    step "tidy" show_tidy || true
-fi
+test_release || true
+[[ -z $sanitizers ]] || test_asan || true
 
 printf '\n== what the tests say\n'
-for run in "${presets[@]/%/-tests}" "${presets[@]/%/-conformance}" release-e2e; do
+for run in release-tests release-conformance release-e2e ${sanitizers:+asan-tests}; do
     closing=$(sed -n '/% tests passed/,$p' "$logs/$run.log" 2>/dev/null || true)
     printf '%s: %s\n' "${run/-/ }" "${closing:-not run to the end}"
 done
