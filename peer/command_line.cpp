@@ -26,8 +26,8 @@ constexpr const char* self_test_description =
     "  calibrate  what the device needs from you, such as its stylus in its holder\n"
     "  force      a ramp to 0.2 N along x, only while you hold the primary button\n"
     "  cable      you pull the cable, and the loss has to be noticed\n"
-    "Keep a loose grip, clear of the arm's way. Exit codes: 0 nothing failed, 1 a step failed,\n"
-    "2 bad usage, 3 the device cannot be opened.";
+    "Keep a loose grip, clear of the arm's way. Exit codes: 0 nothing failed, 1 a step failed or\n"
+    "you broke the test off, 2 bad usage, 3 the device cannot be opened.";
 
 /// Parses a command of a few options; what it says instead of running, or nullopt.
 std::optional<base::Result<net::Answer>> parse(CLI::App& app, std::span<char*> words)

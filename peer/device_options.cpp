@@ -29,8 +29,8 @@ std::string device_help()
         names += backend.name;
     }
     if (names.empty()) return help;
-    return help + fmt::format("; of the\nreal ones {}, by serial or the first that is usable "
-                              "(hapnet-peer list-devices,\ndocs/HARDWARE.md): {}",
+    return help + fmt::format("; of the\nreal ones {}, by serial or the first that is\nusable "
+                              "(hapnet-peer list-devices, docs/HARDWARE.md): {}",
                               names, device::never_run);
 }
 

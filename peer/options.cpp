@@ -53,8 +53,9 @@ Other commands, each with a --help of its own:
   hapnet-peer self-test      tries a device step by step, through the governor
 
 Prints one line "ready ..." on stdout when its loop runs, and what happens on stderr.
-SIGINT or SIGTERM ends it with zero force and says goodbye to the other peer.
-Exit codes: 0 done, 1 the run failed, 2 bad usage, 3 the system refused (port in use, no route).)";
+SIGINT, SIGTERM or SIGHUP ends it with zero force and says goodbye to the other peer.
+Exit codes: 0 done, 1 the run failed, 2 bad usage, 3 the system refused (port in use, no route,
+no such device).)";
 
 constexpr double force_limit_max_n = 40.0; // more than any of the devices has
 

@@ -70,8 +70,8 @@ base::Result<DeviceName> parse_device_name(std::string_view text)
         known += fmt::format(", {0} or {0}:SERIAL", backend.name);
     }
     return base::fail(
-        fmt::format("'{}' is no device of this version: it has sim, replay:FILE{}; hapnet-peer "
-                    "list-devices shows what is there",
+        fmt::format("'{}' is no device of this version: it has sim, sim:joints, replay:FILE{}; "
+                    "hapnet-peer list-devices shows what is there",
                     text, known));
 }
 
