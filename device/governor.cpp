@@ -108,7 +108,7 @@ bool Governor::may_push(const Sample& sample, base::Duration gap)
     if (!latch_.is_closed()) return finding_ == Finding::usable;
     const bool is_well = finding_ == Finding::usable || finding_ == Finding::docked;
     if (!is_well) {
-        latch_.on_bad_sample();
+        latch_.on_bad_sample(sample);
     } else if (latch_.on_sample(sample, gap)) {
         ++counters_.resets;
     }

@@ -48,4 +48,11 @@ base::Force Rig::apply(const base::Force& wanted, bool permitted, base::TimePoin
     return force.force();
 }
 
+base::Force Rig::withhold(const base::Force& wanted, bool permitted, base::TimePoint now)
+{
+    const GovernedForce force = governor_.govern({mount_.to_device(wanted), permitted}, own_, now);
+    device_->apply({});
+    return force.force();
+}
+
 } // namespace hapnet::device

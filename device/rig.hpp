@@ -28,6 +28,9 @@ public:
     [[nodiscard]] const Sample& read(base::TimePoint now);
     /// Governs the wish and applies what is left of it; gives that, at the hand. Once per read().
     base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now);
+    /// The same, but the device is told zero: somebody has let go of it since read(), and what
+    /// follows from that place may be long untrue. The governor itself finds out in the next tick.
+    base::Force withhold(const base::Force& wanted, bool permitted, base::TimePoint now);
 
     [[nodiscard]] const Governor& governor() const { return governor_; }
     [[nodiscard]] Governor& governor() { return governor_; }

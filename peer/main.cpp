@@ -61,7 +61,7 @@ base::Result<Places> look_up(const Options& options)
     return places;
 }
 
-Settings settings_of(const Options& options)
+Settings settings_of(const Options& options, const device::Mount& mount)
 {
     Settings settings;
     settings.introduction.id = options.id;
@@ -71,17 +71,20 @@ Settings settings_of(const Options& options)
     settings.introduction.task = wire::TaskName::from_text(device::name_of(options.task)).value();
     settings.scene = options.scene;
     settings.algorithm = options.algorithm;
-    settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m;
+    // The scene's springs are as much stiffer at the hand as its dampers: by the scale squared.
+    settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m / (mount.scale * mount.scale);
     settings.length = options.duration;
     return settings;
 }
 
 std::optional<record::Writer> writer_for(const Options& options, std::string_view device,
-                                         const device::Rig& rig, std::uint32_t nonce)
+                                         const device::Rig& rig, const Settings& settings)
 {
     if (!options.record) return std::nullopt;
     nlohmann::json configuration = configuration_json(options, device);
-    configuration["nonce"] = nonce; // the session's number follows from it
+    // The session's number follows from it.
+    configuration["nonce"] = settings.introduction.nonce;
+    configuration["grip_damping_ns_per_m"] = settings.grip_damping_ns_per_m; // as in the scene
     const device::Mount& mount = rig.mount();
     const glm::dvec3& offset = mount.offset.value;
     configuration["mount"] = {{"offset_m", {offset.x, offset.y, offset.z}}, {"scale", mount.scale}};
@@ -115,10 +118,9 @@ base::Result<int> run(const Options& options)
                     mount};
     const std::string device = device::description(rig.device());
     if (options.device.is_real()) say(introduction(rig.device(), mount, options.task));
-    const Settings settings = settings_of(options);
+    const Settings settings = settings_of(options, mount);
     Journal journal;
-    Watcher watcher{journal, writer_for(options, device, rig, settings.introduction.nonce),
-                    options.id};
+    Watcher watcher{journal, writer_for(options, device, rig, settings), options.id};
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Peer peer{settings};

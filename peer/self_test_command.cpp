@@ -5,7 +5,10 @@
 #include "peer/commands.hpp"
 #include "peer/self_test/report.hpp"
 #include "peer/self_test/self_test.hpp"
+#include "peer/watchdog.hpp"
+#include "peer/zero_force.hpp"
 #include "proto/net/clock.hpp"
+#include "proto/net/crash_signal.hpp"
 #include "proto/net/real_time.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/stop_signal.hpp"
@@ -32,12 +35,17 @@ constexpr base::Duration prompts_shown_every = 50ms;
 constexpr int ticks_after_the_end = 60; // a governor's fade
 
 /// The test's loop, at the device's pace where it has one, and what another thread sees of it.
+/// Watched like that of a session: the self-test is what a device's first force comes from.
 class TestLoop {
 public:
-    TestLoop(SelfTest& test, device::Rig& rig) : test_{test}, rig_{rig} {}
+    TestLoop(SelfTest& test, device::Rig& rig, Watchdog& watchdog)
+        : test_{test}, rig_{rig}, watchdog_{watchdog}
+    {}
 
     void run()
     {
+        const net::CrashStack stack;
+        const ZeroForceAtTheEnd zero{rig_.device(), watchdog_};
         std::ignore = net::request_real_time(test_priority);
         if (rig_.device().capabilities().pacing == device::Pacing::device) {
             rig_.device().pace([this] { return turn(), !is_over(); });
@@ -54,17 +62,25 @@ public:
     [[nodiscard]] Prompt prompt() const { return prompt_.load(std::memory_order_relaxed); }
 
 private:
-    [[nodiscard]] bool is_over() const { return ticks_left_ == 0; }
+    [[nodiscard]] bool is_over() const { return ticks_left_ == 0 || watchdog_.is_dying(); }
 
     void turn()
     {
         const base::TimePoint now = net::monotonic_now();
+        watchdog_.beat(now);
+        const std::uint64_t halts_before = watchdog_.halts();
+        if (watchdog_.take_fault()) {
+            rig_.governor().latch({device::Fault::timeout, device::Trip::loop});
+        }
         const device::Sample& sample = rig_.read(now);
         self_test::Turn turn{.is_done = true};
         if (!is_ending_ && !stop_.load(std::memory_order_relaxed)) {
             turn = test_.on_tick({sample, rig_.calibration(), applied_}, now);
         }
-        applied_ = rig_.apply(turn.wanted, turn.permitted, now);
+        if (watchdog_.is_dying()) return;
+        applied_ = watchdog_.halts() == halts_before
+                       ? rig_.apply(turn.wanted, turn.permitted, now)
+                       : rig_.withhold(turn.wanted, turn.permitted, now);
         prompt_.store(turn.prompt, std::memory_order_relaxed);
         if (turn.is_done) is_ending_ = true;
         if (is_ending_) --ticks_left_;
@@ -72,6 +88,7 @@ private:
 
     SelfTest& test_;
     device::Rig& rig_;
+    Watchdog& watchdog_;
     base::Force applied_;
     bool is_ending_ = false;
     int ticks_left_ = ticks_after_the_end;
@@ -103,7 +120,9 @@ base::Result<int> run(const SelfTestCommand& command)
 {
     std::optional<net::ResultFile> file;
     if (command.json) file.emplace(*command.json);
-    net::StopSignal stop;
+    net::StopSignal stop; // before any thread
+    const net::CrashSignal crash;
+    const net::CrashStack stack;
     auto opened = open_chosen(command.device, device::Task::p1);
     if (!opened) {
         net::say("hapnet-peer",
@@ -118,7 +137,8 @@ base::Result<int> run(const SelfTestCommand& command)
     // In the device's own frame: nothing of a scene is felt here.
     device::Rig rig{*std::move(opened), device::GovernorLimits{}};
     net::say("hapnet-peer", device::description(rig.device()));
-    TestLoop loop{test, rig};
+    Watchdog watchdog{rig.device(), &crash};
+    TestLoop loop{test, rig, watchdog};
     accompany(loop, stop);
     test.stop();
     fmt::print("{}", self_test::report_text(device::description(rig.device()), test.outcomes()));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/servo.hpp"
 
+#include "peer/zero_force.hpp"
 #include "proto/net/clock.hpp"
 
 #include <algorithm>
@@ -10,8 +11,7 @@ namespace hapnet::peer {
 
 namespace {
 
-constexpr int servo_priority = 45; // above the emulator's, below the kernel's own threads
-constexpr int zero_force_repeats = 3;
+constexpr int servo_priority = 45;    // above the emulator's, below the kernel's own threads
 constexpr int receive_rounds_max = 8; // of up to 64 datagrams
 constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 
@@ -26,26 +26,6 @@ record::Phase phase_of(Phase phase, bool alone)
     }
     return record::Phase::ended;
 }
-
-/// On every way out of a scope zero force, repeated because a wire may lose one; and nobody is to
-/// be watched any more.
-class ZeroForceAtTheEnd {
-public:
-    ZeroForceAtTheEnd(device::Device& device, Watchdog& watchdog)
-        : device_{device}, watchdog_{watchdog}
-    {}
-    ~ZeroForceAtTheEnd()
-    {
-        for (int i = 0; i < zero_force_repeats; ++i) device_.apply({});
-        watchdog_.rest();
-    }
-    ZeroForceAtTheEnd(const ZeroForceAtTheEnd&) = delete;
-    ZeroForceAtTheEnd& operator=(const ZeroForceAtTheEnd&) = delete;
-
-private:
-    device::Device& device_;
-    Watchdog& watchdog_;
-};
 
 } // namespace
 
@@ -72,6 +52,18 @@ void Servo::follow_device()
     DeviceRhythm rhythm{parts_.tick};
     device.pace([this, &rhythm] { return cycle(rhythm); });
     if (failure_) std::rethrow_exception(failure_);
+    if (goes_on()) tell_governor_of_silence();
+}
+
+/// The device's own silence ended its rhythm. Else the governor would find that this loop stood
+/// still, and a person be told the wrong thing.
+void Servo::tell_governor_of_silence()
+{
+    device::Governor& governor = parts_.rig.governor();
+    const auto state = governor.state();
+    const bool pushes =
+        state == device::GovernorState::ramping || state == device::GovernorState::active;
+    if (pushes) governor.latch({device::Fault::timeout, device::Trip::silence});
 }
 
 /// Called by a device, perhaps out of a library that knows no exceptions.
@@ -118,6 +110,7 @@ void Servo::take_turn(const Beat& beat, base::TimePoint now)
 void Servo::turn(record::TickRow& row, base::TimePoint now)
 {
     Peer& peer = parts_.peer;
+    const std::uint64_t halts_before = parts_.watchdog.halts();
     receive(row.tick);
     if (parts_.watchdog.take_fault()) {
         parts_.rig.governor().latch({device::Fault::timeout, device::Trip::loop});
@@ -126,7 +119,11 @@ void Servo::turn(record::TickRow& row, base::TimePoint now)
     const Tick tick =
         peer.tick(now, {sample.hip, sample.velocity, sample.gripping, is_in_hand(sample)});
     base::Force force;
-    if (!parts_.watchdog.is_dying()) force = parts_.rig.apply(tick.force, tick.permitted, now);
+    if (parts_.watchdog.halts() != halts_before) {
+        force = parts_.rig.withhold(tick.force, tick.permitted, now);
+    } else if (!parts_.watchdog.is_dying()) {
+        force = parts_.rig.apply(tick.force, tick.permitted, now);
+    }
     send();
     while (const auto event = peer.event()) parts_.journal.put(Happening{*event, now});
     tell_of_device(now);

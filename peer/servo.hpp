@@ -64,6 +64,7 @@ public:
 
 private:
     void follow_device();
+    void tell_governor_of_silence();
     void go_at_own_pace();
     [[nodiscard]] bool goes_on() const;
     [[nodiscard]] bool cycle(DeviceRhythm& rhythm);

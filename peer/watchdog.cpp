@@ -55,8 +55,9 @@ base::TimePoint Watchdog::look(base::TimePoint now)
     const base::TimePoint last{base::Duration{beat}};
     const Alarm alarm = beat == resting ? Alarm::none : alarm_after(now - last);
     if (alarm != Alarm::none) {
+        // Counted first: who sees the count unchanged has not been forestalled yet.
+        if (alarm_ == Alarm::none) halts_.fetch_add(1, std::memory_order_acq_rel);
         device_.halt();
-        if (alarm_ == Alarm::none) halts_.fetch_add(1, std::memory_order_relaxed);
         if (alarm == Alarm::fault && alarm_ != Alarm::fault) {
             fault_.store(true, std::memory_order_release);
         }

@@ -44,8 +44,9 @@ public:
     /// The program is dying: no force may follow any more.
     [[nodiscard]] bool is_dying() const { return dying_.load(std::memory_order_acquire); }
 
-    /// Silences in which it had to let go of the device.
-    [[nodiscard]] std::uint64_t halts() const { return halts_.load(std::memory_order_relaxed); }
+    /// Silences in which it had to let go of the device. The loop's side, too: where this has
+    /// changed since the turn began, the turn's force is an old one.
+    [[nodiscard]] std::uint64_t halts() const { return halts_.load(std::memory_order_acquire); }
 
     static constexpr base::Duration halt_after{std::chrono::milliseconds{20}};
     static constexpr base::Duration fault_after{std::chrono::milliseconds{100}};

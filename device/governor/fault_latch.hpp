@@ -9,9 +9,10 @@
 
 namespace hapnet::device {
 
-/// Holds a fault until an operator acts: puts the stylus into its holder, or presses the primary
-/// button after it was at rest for a second. Never opens by itself, nor while the device is still
-/// at fault.
+/// Holds a fault until an operator acts: puts the stylus into its holder, where it then rests for
+/// 50 ms, or presses the primary button after it was at rest for a second. Never opens by itself,
+/// nor while the device is still at fault; but a stylus that was put there meanwhile counts, as for
+/// some faults that is the cure.
 class FaultLatch {
 public:
     [[nodiscard]] bool is_closed() const { return latched_.fault != Fault::none; }
@@ -24,23 +25,31 @@ public:
     /// A sample without fault, `passed` after the one before: whether the operator has just
     /// opened it.
     bool on_sample(const Sample& sample, base::Duration passed);
-    /// A sample that is at fault or old: what the operator did before counts no more.
-    void on_bad_sample() { seen_.reset(); }
+    /// A sample that is at fault or old: what the operator did before counts no more, but that the
+    /// stylus was out of its holder.
+    void on_bad_sample(const Sample& sample)
+    {
+        seen_.reset();
+        was_out_ = was_out_ || !sample.docked;
+    }
 
     /// Slower than this the stylus is at rest: a filtered count of an encoder and a tremor are.
     static constexpr double rest_speed_max_m_per_s = 0.05;
     static constexpr base::Duration rest_needed{std::chrono::seconds{1}};
+    /// A switch of the holder that says so for less may only have flickered.
+    static constexpr base::Duration dock_needed{std::chrono::milliseconds{50}};
 
 private:
     struct Seen {
-        bool docked = false;
         bool pressed = false;
         std::uint16_t presses = 0;
+        base::Duration docked{}; // without a break
         base::Duration rest{};
     };
 
     Latched latched_;
     std::optional<Seen> seen_;
+    bool was_out_ = false; // of its holder, at some time since the fault
 };
 
 } // namespace hapnet::device

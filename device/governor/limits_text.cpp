@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "device/governor/limits_text.hpp"
 
+#include "device/falcon/kinematics.hpp"
 #include "device/omni/geometry.hpp"
 #include "device/simulated/keys.hpp"
+#include "proto/base/ensure.hpp"
 #include "proto/base/reading.hpp"
 
 #include <array>
@@ -29,7 +31,8 @@ struct WrittenLimits {
     std::optional<double> speed_m_per_s;
     std::array<std::optional<double>, 3> low_m;
     std::array<std::optional<double>, 3> high_m;
-    std::array<std::optional<double>, 3> torque_nm;
+    std::array<std::optional<double>, 3> omni_nm;
+    std::array<std::optional<double>, 3> falcon_nm;
 };
 
 template <typename Keys, typename Written>
@@ -57,7 +60,8 @@ void list_limit_keys(Keys& keys, Written& written)
     };
     keys.group("workspace_min", list_axes(written.low_m, any_place));
     keys.group("workspace_max", list_axes(written.high_m, any_place));
-    keys.group("omni_torque_max", list_axes(written.torque_nm, any_torque_nm));
+    keys.group("omni_torque_max", list_axes(written.omni_nm, any_torque_nm));
+    keys.group("falcon_torque_max", list_axes(written.falcon_nm, any_torque_nm));
 }
 
 std::optional<double> unless_infinite(double value)
@@ -76,12 +80,16 @@ std::string print_limits(const GovernorLimits& limits)
                           .speed_m_per_s = unless_infinite(limits.speed_max_m_per_s),
                           .low_m = {},
                           .high_m = {},
-                          .torque_nm = {}};
+                          .omni_nm = {},
+                          .falcon_nm = {}};
+    const bool is_falcon = limits.joints && limits.joints->jacobian == falcon::jacobian;
+    base::ensure(is_falcon || !limits.joints || limits.joints->jacobian == omni::jacobian_at);
+    auto& torque_nm = is_falcon ? written.falcon_nm : written.omni_nm;
     for (const int axis : {0, 1, 2}) {
         const auto i = static_cast<std::size_t>(axis);
         written.low_m[i] = unless_infinite(limits.workspace_min.value[axis]);
         written.high_m[i] = unless_infinite(limits.workspace_max.value[axis]);
-        if (limits.joints) written.torque_nm[i] = limits.joints->torque_max_nm[axis];
+        if (limits.joints) torque_nm[i] = limits.joints->torque_max_nm[axis];
     }
     KeyPrinter keys;
     list_limit_keys(keys, std::as_const(written));
@@ -109,14 +117,17 @@ base::Result<GovernorLimits> parse_limits(std::string_view text, const std::stri
     limits.axes_out = static_cast<int>(written.axes);
     if (written.continuous_n) limits.force_continuous_n = *written.continuous_n;
     if (written.speed_m_per_s) limits.speed_max_m_per_s = *written.speed_m_per_s;
-    JointLimits joints{.jacobian = omni::jacobian_at, .torque_max_nm = glm::dvec3{0.0}};
+    const bool is_falcon = written.falcon_nm[0].has_value();
+    const auto& torque_nm = is_falcon ? written.falcon_nm : written.omni_nm;
+    JointLimits joints{.jacobian = is_falcon ? falcon::jacobian : omni::jacobian_at,
+                       .torque_max_nm = glm::dvec3{0.0}};
     for (const int axis : {0, 1, 2}) {
         const auto i = static_cast<std::size_t>(axis);
         if (written.low_m[i]) limits.workspace_min.value[axis] = *written.low_m[i];
         if (written.high_m[i]) limits.workspace_max.value[axis] = *written.high_m[i];
-        joints.torque_max_nm[axis] = written.torque_nm[i].value_or(0.0);
+        joints.torque_max_nm[axis] = torque_nm[i].value_or(0.0);
     }
-    if (written.torque_nm[0]) limits.joints = joints;
+    if (torque_nm[0]) limits.joints = joints;
     return limits;
 }
 

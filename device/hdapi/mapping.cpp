@@ -19,6 +19,11 @@ constexpr double omni_resolution_m = 0.000055;
 constexpr double omni_stiffness_n_per_m = 700.0;
 constexpr double omni_damping_ns_per_m = 5.0;
 
+// An axis of a workspace is between a centimetre and ten metres long: the scene's size follows from
+// it, and with that how stiff it is at the hand.
+constexpr double axis_min_mm = 10.0;
+constexpr double axis_max_mm = 10000.0;
+
 bool is_sensible(double value) { return std::isfinite(value) && value > 0.0; }
 double sensible(double value, double otherwise) { return is_sensible(value) ? value : otherwise; }
 
@@ -67,7 +72,8 @@ Capabilities capabilities_of(const Properties& properties)
         const auto i = static_cast<std::size_t>(axis);
         const double least = properties.workspace_mm[i];
         const double most = properties.workspace_mm[i + 3];
-        if (!std::isfinite(least) || !std::isfinite(most) || !(least < most)) continue;
+        const double length = most - least; // no number where one of them is none
+        if (!(length >= axis_min_mm && length <= axis_max_mm)) continue;
         can.workspace_min.value[axis] = 1e-3 * least;
         can.workspace_max.value[axis] = 1e-3 * most;
     }

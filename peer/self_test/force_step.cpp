@@ -39,10 +39,13 @@ void ForceStep::watch(const Feeling& feeling, bool is_held, base::TimePoint now)
 Turn ForceStep::on_tick(const Feeling& feeling, base::TimePoint now)
 {
     if (!start_) start_ = now;
-    const bool is_held = dead_man_ == DeadMan::simulated_hand || feeling.sample.gripping;
+    was_up_ = was_up_ || !feeling.sample.gripping;
+    const bool is_held =
+        dead_man_ == DeadMan::simulated_hand || (was_up_ && feeling.sample.gripping);
     watch(feeling, is_held, now);
     const bool is_in_vain = fault_ != device::Fault::none || now - *start_ >= patience;
     if (is_in_vain) return {.is_done = true};
+    if (!was_up_ && dead_man_ == DeadMan::person) return {.prompt = Prompt::release_button};
     if (!held_since_) return {.prompt = Prompt::hold_button};
     const base::Duration into = now - *held_since_;
     is_complete_ = into >= 2 * ramp + plateau;
@@ -60,6 +63,9 @@ Outcome ForceStep::outcome() const
         outcome.text = device::words_for(fault_);
     } else if (outlasted_release_) {
         outcome.text = "the force outlasted the release of the button: do not use this device";
+    } else if (!was_up_ && dead_man_ == DeadMan::person) {
+        outcome.text = "the button was down all the time: do not use this device, as letting go of "
+                       "it would stop nothing";
     } else if (!is_complete_) {
         outcome.verdict = Verdict::skipped;
         outcome.text = "the button was not held to the end of the ramp";

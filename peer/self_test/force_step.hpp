@@ -14,7 +14,9 @@ namespace hapnet::peer::self_test {
 enum class DeadMan : std::uint8_t { person, simulated_hand };
 
 /// A ramp to 0.2 N along x in 2 s, a second there, and down again, only while the primary button is
-/// held; the ramp begins again when it is held again.
+/// held; the ramp begins again when it is held again. A button that is down from the start on may
+/// be stuck, or read the wrong way round, and could not be let go of: it counts once it was seen
+/// up.
 class ForceStep {
 public:
     static constexpr double peak_n = 0.2;
@@ -34,6 +36,7 @@ private:
     [[nodiscard]] static double wanted_n(base::Duration into);
 
     DeadMan dead_man_;
+    bool was_up_ = false; // the button
     std::optional<base::TimePoint> start_;
     std::optional<base::TimePoint> held_since_;
     std::optional<base::TimePoint> released_at_;

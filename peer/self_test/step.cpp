@@ -23,6 +23,7 @@ std::string_view words_for(Prompt prompt)
     case Prompt::dock: return device::words_for(device::CalibrationStep::dock_stylus);
     case Prompt::sweep: return device::words_for(device::CalibrationStep::sweep_joints);
     case Prompt::undock: return "take the stylus out of its holder";
+    case Prompt::release_button: return "let go of the primary button first";
     case Prompt::hold_button:
         return "hold the stylus loosely, then press the primary button and keep it down: 0.2 N "
                "will push to the right; let go of the button to stop it";

@@ -22,6 +22,7 @@ enum class Prompt : std::uint8_t {
     dock,
     sweep,
     undock,
+    release_button,
     hold_button,
     keep_button, // the force comes
     pull_cable,

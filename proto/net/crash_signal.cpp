@@ -69,7 +69,10 @@ CrashSignal::CrashSignal() : dying_{make_counter()}, in_order_{make_counter()}
     action.sa_flags = SA_ONSTACK;
     sigemptyset(&action.sa_mask);
     for (std::size_t i = 0; i < signals.size(); ++i) {
-        sigaction(signals[i], &action, &for_the_handler.former[i]);
+        struct sigaction& former = for_the_handler.former[i];
+        sigaction(signals[i], &action, &former);
+        // Of what it was told to ignore, such as SIGQUIT in the background, a program does not die.
+        if (former.sa_handler == SIG_IGN) sigaction(signals[i], &former, nullptr);
     }
 }
 

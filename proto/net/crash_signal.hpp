@@ -12,10 +12,10 @@
 namespace hapnet::net {
 
 /// The signals by which a program comes to a sudden end (abort() and with it std::terminate() and a
-/// failed ensure(), a wild pointer, too much real time, ...) as something to wait for. The thread
-/// that dies is held for at most 20 ms, in which another one may leave the world in order; then
-/// the program dies as it would have without. Construct at most one, early. Nothing helps against
-/// SIGKILL.
+/// failed ensure(), a wild pointer, too much real time, a file beyond its limit, ...) as something
+/// to wait for. The thread that dies is held for at most 20 ms, in which another one may leave the
+/// world in order; then the program dies as it would have without. Construct at most one, early.
+/// Nothing helps against SIGKILL.
 class CrashSignal {
 public:
     CrashSignal();
@@ -29,8 +29,10 @@ public:
     void acknowledge() const;
 
     static constexpr base::Duration patience{std::chrono::milliseconds{20}};
-    static constexpr std::array signals{SIGABRT, SIGSEGV, SIGBUS,  SIGFPE,
-                                        SIGILL,  SIGSYS,  SIGQUIT, SIGXCPU};
+    // What a program dies of by itself, then what it dies of when it is sent by mistake.
+    static constexpr std::array signals{SIGABRT, SIGSEGV, SIGBUS,    SIGFPE,  SIGILL,  SIGSYS,
+                                        SIGTRAP, SIGXCPU, SIGXFSZ,   SIGQUIT, SIGUSR1, SIGUSR2,
+                                        SIGALRM, SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGSTKFLT};
 
 private:
     int dying_ = -1;

@@ -101,10 +101,12 @@ TEST(PeerExit, ByADeathOfTheServoEndsInZeroForceThatTheWatchdogGives)
 
 TEST(PeerExit, ByADeadlySignalFromElsewhereEndsInZeroForceAlthoughTheServoStillRuns)
 {
-    Push push{{}};
-    push.recorded.signal(SIGQUIT);
-    EXPECT_EQ(push.recorded.wait_end(), 128 + SIGQUIT);
-    EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+    for (const int signal : {SIGQUIT, SIGXFSZ, SIGUSR1}) {
+        Push push{{}};
+        push.recorded.signal(signal);
+        EXPECT_EQ(push.recorded.wait_end(), 128 + signal);
+        EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+    }
 }
 
 TEST(PeerTrouble, AHangInApplyIsEndedByTheWatchdogAndTheSessionGoesOn)
@@ -135,6 +137,35 @@ TEST(PeerTrouble, ALongHangInApplyIsAFaultThatAPersonIsToldOf)
     std::ignore = push.recorded.wait_end();
     EXPECT_LT(time_to_zero(push.recorded.told()), 20ms + patience);
     EXPECT_NE(push.messages().find("this program stood still for more than 100 ms"),
+              std::string::npos)
+        << push.messages();
+}
+
+TEST(PeerTrouble, ATurnInWhichTheWatchdogLetGoDoesNotEndInTheForceThatItBeganFor)
+{
+    Push push{{.trouble = Trouble::late_read}};
+    std::this_thread::sleep_for(500ms);
+    push.recorded.signal(SIGTERM);
+    std::ignore = push.recorded.wait_end();
+    const auto& told = push.recorded.told();
+    const auto halt =
+        std::find_if(told.begin(), told.end(), [](const Told& t) { return t.by_halt; });
+    ASSERT_NE(halt, told.end());
+    const auto next = std::find_if(halt, told.end(), [](const Told& t) { return !t.by_halt; });
+    ASSERT_NE(next, told.end());
+    EXPECT_TRUE(is_zero(*next)) << next->newtons << " N";
+    const auto again = std::find_if(next, told.end(), [](const Told& t) { return t.newtons > 0; });
+    EXPECT_NE(again, told.end()) << "it never ramped in again";
+}
+
+TEST(PeerTrouble, ADeviceThatGivesNoRhythmAnyMoreIsToBlameAndNotTheProgram)
+{
+    Push push{{.trouble = Trouble::mute, .pacing = device::Pacing::device}};
+    std::this_thread::sleep_for(500ms);
+    push.recorded.signal(SIGTERM);
+    std::ignore = push.recorded.wait_end();
+    EXPECT_LT(time_to_zero(push.recorded.told()), 20ms + patience);
+    EXPECT_NE(push.messages().find("zero force (timeout): the device answers no more"),
               std::string::npos)
         << push.messages();
 }

@@ -56,6 +56,9 @@ public:
     {
         device::Sample sample = omni_.read(now);
         if (pushes_ == pushes_before_trouble) trouble(sample);
+        if (pushes_ == pushes_before_trouble && play_.trouble == Trouble::late_read && !hung_) {
+            hang(60ms);
+        }
         return sample;
     }
     void apply(const device::GovernedForce& force) override
@@ -76,9 +79,11 @@ public:
     void pace(const std::function<bool()>& beat) override
     {
         base::TimePoint due = net::monotonic_now();
-        do {
+        while (play_.trouble != Trouble::mute || pushes_ < pushes_before_trouble) {
             net::sleep_until(due += 1ms);
-        } while (beat());
+            if (!beat()) return;
+        }
+        hang(110ms); // as every device's does that waits for a cycle in vain
     }
 
 private:
@@ -98,7 +103,9 @@ private:
         switch (play_.trouble) {
         case Trouble::none:
         case Trouble::hang:
-        case Trouble::long_hang: return;
+        case Trouble::long_hang:
+        case Trouble::late_read:
+        case Trouble::mute: return;
         case Trouble::device_lost:
             if (sample.fault == device::Fault::none) tell({.is_trouble = true});
             sample.fault = device::Fault::disconnected;

@@ -19,7 +19,9 @@ enum class Trouble : std::uint8_t {
     stack,       // of the servo's thread overflows: SIGSEGV
     hang,        // apply() does not return for 60 ms
     long_hang,   // ... for 200 ms
+    late_read,   // read() does not return for 60 ms
     device_lost, // the device says that it has been unplugged
+    mute,        // the device, which sets the rhythm, calls nobody any more
 };
 
 /// How the daemon is built, and what happens to it.

@@ -58,8 +58,8 @@ const Report& Seat::report()
 
 void Seat::command(const Command& command)
 {
+    commands_.put(command); // first: what was said before the halt must not come back for a cycle
     halted_.store(false, std::memory_order_release);
-    commands_.put(command);
 }
 
 template <typename Condition>

@@ -93,11 +93,11 @@ private:
             sample.hip.value[axis] = 0.1 * stream_.uniform(round / 200, draw) - 0.05;
             sample.velocity.value[axis] = 1.6 * stream_.uniform(round / 60, draw + 10) - 0.8;
             if (one_in(200, draw + 20)) sample.hip.value[axis] = 1e300;
-            if (one_in(200, draw + 50)) {
+            if (one_in(50, draw + 50)) {
                 sample.hip.value[axis] = std::numeric_limits<double>::quiet_NaN();
             }
         }
-        sample.docked = one_in(20, 61);
+        sample.docked = stream_.below(10, round / 120, 61) == 0; // long enough to count
         sample.calibrated = !one_in(20, 62);
         if (one_in(40, 63)) sample.fault = static_cast<Fault>(stream_.below(14, round, 64));
         sample.buttons = one_in(2, 65) ? 1 : 0;

@@ -260,7 +260,33 @@ TEST(GovernorRecovers, WhenTheStylusIsPutIntoItsHolder)
 {
     Governance governed = latched();
     governed.sample.docked = true;
+    EXPECT_EQ(governed.play(49, along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
     EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    governed.sample.docked = false;
+    expect_ramps_in(governed);
+}
+
+TEST(GovernorRecovers, NotByAHoldersSwitchThatFlickers)
+{
+    Governance governed = latched();
+    for (int i = 0; i < 400; ++i) {
+        governed.sample.docked = i % 40 != 0;
+        governed(along_x(1.0));
+    }
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+}
+
+TEST(GovernorRecovers, WhenTheStylusWasPutIntoItsHolderWhileTheDeviceWasStillAtFault)
+{
+    Governance governed = pushing();
+    governed.sample.fault = Fault::not_calibrated;
+    governed.play(100, along_x(1.0));
+    governed.sample.docked = true; // what this fault asks for
+    governed.play(50, along_x(1.0));
+    governed.sample.fault = Fault::none;
+    governed.play(51, along_x(1.0));
     EXPECT_EQ(governed.governor.state(), GovernorState::ready);
     governed.sample.docked = false;
     expect_ramps_in(governed);
@@ -279,7 +305,7 @@ TEST(GovernorRecovers, NotByAStylusThatLayInItsHolderAllTheTime)
     governed.play(100, along_x(1.0));
     EXPECT_EQ(governed.governor.state(), GovernorState::fault);
     governed.sample.docked = true;
-    governed(along_x(1.0));
+    governed.play(50, along_x(1.0));
     EXPECT_EQ(governed.governor.state(), GovernorState::ready);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/governor/limits_text.hpp"
 
+#include "device/falcon/kinematics.hpp"
 #include "device/omni/geometry.hpp"
 
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@ void expect_equal(const GovernorLimits& a, const GovernorLimits& b)
     ASSERT_EQ(a.joints.has_value(), b.joints.has_value());
     if (a.joints) {
         EXPECT_EQ(a.joints->torque_max_nm, b.joints->torque_max_nm);
+        EXPECT_EQ(a.joints->jacobian, b.joints->jacobian);
     }
 }
 
@@ -37,6 +39,8 @@ TEST(LimitsText, ReadsBackToTheSameBitsWhetherThereAreLimitsOrNone)
     all.workspace_min = {{-1.0 / 7.0, -0.06, 0.0}};
     all.workspace_max = {{1e-9 / 3.0, 0.06, 0.07}};
     all.joints = JointLimits{omni::jacobian_at, omni::torque_max_nm};
+    expect_equal(parse_limits(print_limits(all), "limits").value(), all);
+    all.joints = JointLimits{falcon::jacobian, glm::dvec3{0.4096}};
     expect_equal(parse_limits(print_limits(all), "limits").value(), all);
 }
 

@@ -75,6 +75,12 @@ TEST(HdapiMapping, SpeaksMetresAndDoubtsWhatIsNotSensible)
     EXPECT_DOUBLE_EQ(doubtful.force_max_n, 0.88);
     EXPECT_LT(doubtful.workspace_min.y(), doubtful.workspace_max.y());
     EXPECT_LT(doubtful.workspace_min.x(), doubtful.workspace_max.x());
+
+    // In metres: the scene would be magnified a thousand times, and a million times as stiff.
+    const Capabilities tiny =
+        capabilities_of({.workspace_mm = {-0.08, -0.06, -0.035, 0.08, 0.06, 0.035}});
+    EXPECT_DOUBLE_EQ(tiny.workspace_max.x(), 0.080);
+    EXPECT_DOUBLE_EQ(tiny.workspace_min.z(), -0.035);
 }
 
 TEST(HdapiStylus, SpeaksMetresAndGrowsItsSequenceWithTheCycles)

@@ -195,9 +195,23 @@ TEST(SelfTest, PushesOnlyWhileTheButtonIsHeldAndNeverWithMoreThanAFifthOfANewton
     EXPECT_EQ(force.outcome().verdict, Verdict::passed) << force.outcome().text;
 }
 
+TEST(SelfTest, NeverPushesWithAButtonThatWasNeverSeenUp)
+{
+    Played force{"force"};
+    force.feeling.sample.gripping = true;
+    force.play(30s);
+    EXPECT_EQ(force.turn.prompt, Prompt::release_button);
+    EXPECT_FALSE(force.turn.permitted);
+    EXPECT_EQ(force.most_n, 0.0);
+    force.play(31s);
+    EXPECT_EQ(force.outcome().verdict, Verdict::failed);
+    EXPECT_NE(force.outcome().text.find("down all the time"), std::string::npos);
+}
+
 TEST(SelfTest, FailsAForceThatOutlastsTheButton)
 {
     Played force{"force"};
+    force.play(1ms);
     force.feeling.sample.gripping = true;
     force.play(1s);
     force.ignores_forces = true; // it stays
@@ -213,6 +227,7 @@ TEST(SelfTest, FailsAForceThatDoesNotCome)
 {
     Played force{"force"};
     force.ignores_forces = true;
+    force.play(1ms);
     force.feeling.sample.gripping = true;
     force.play(10s);
     EXPECT_EQ(force.outcome().verdict, Verdict::failed);
@@ -221,6 +236,7 @@ TEST(SelfTest, FailsAForceThatDoesNotCome)
 TEST(SelfTest, StopsPushingAtAFault)
 {
     Played force{"force"};
+    force.play(1ms);
     force.feeling.sample.gripping = true;
     force.play(2s);
     force.feeling.sample.fault = device::Fault::timeout;
