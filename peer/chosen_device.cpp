@@ -38,7 +38,11 @@ base::Displacement default_offset(const device::Capabilities& capabilities, doub
 device::Opened<std::unique_ptr<device::Device>> open_chosen(const DeviceChoice& choice,
                                                             device::Task task)
 {
-    if (choice.replay) return std::make_unique<device::Replay>(*choice.replay, choice.name);
+    if (choice.replay) {
+        return std::make_unique<device::Replay>(
+            *choice.replay, choice.name,
+            choice.replay_loops ? device::AfterTheEnd::begins_again : device::AfterTheEnd::stays);
+    }
     if (choice.has_joints()) {
         return std::make_unique<device::JointOmni>(
             device::JointOmniSettings{.role = {.task = task, .person = choice.person}});

@@ -15,6 +15,7 @@ namespace hapnet::peer {
 namespace {
 
 constexpr double mount_scale_max = 20.0;
+constexpr double mount_scale_min = 0.05;
 constexpr double hid_force_max_n = 100.0;
 
 std::string device_help()
@@ -80,9 +81,9 @@ base::Result<double> parse_scale(const std::string& text)
     const char* end = text.data() + text.size();
     const auto [rest, trouble] = std::from_chars(text.data(), end, scale);
     const bool is_number = trouble == std::errc{} && rest == end;
-    if (is_number && scale > 0.0 && scale <= mount_scale_max) return scale;
-    return base::fail(fmt::format("'{}' is no scale: a number above 0, at most {:.0f}, such as 1.5",
-                                  text, mount_scale_max));
+    if (is_number && scale >= mount_scale_min && scale <= mount_scale_max) return scale;
+    return base::fail(fmt::format("'{}' is no scale: a number from {} to {}, such as 1.5", text,
+                                  mount_scale_min, mount_scale_max));
 }
 
 base::Result<double> parse_hid_force(const std::string& text)
@@ -107,6 +108,8 @@ void add_device_options(CLI::App& app, DeviceTexts& texts)
     add("--operator", texts.person,
         "Whose hand is simulated: relaxed, nominal (default), firm, lifelike, or a TOML file",
         "NAME|FILE");
+    app.add_flag("--replay-loop", texts.replay_loops,
+                 "replay:FILE begins again at its end, instead of staying there");
     add("--mount-offset", texts.mount_offset,
         "Where in the scene the zero of a device is (default for a real one: the centre of its\n"
         "workspace is where the paper's cube starts)",
@@ -154,8 +157,11 @@ void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts)
         taker.take(choice.options.hid_force_n, "--hid-force", parse_hid_force(*texts.hid_force));
     }
     constexpr std::string_view replay = "replay:";
+    taker.require(!texts.replay_loops || texts.device.starts_with(replay),
+                  "--replay-loop: only with --device replay:FILE");
     if (texts.device.starts_with(replay)) {
         taker.take(choice.replay, "--device", hand_trace_in(texts.device.substr(replay.size())));
+        choice.replay_loops = texts.replay_loops;
     } else if (!choice.is_simulated()) {
         const auto name = device::parse_device_name(texts.device);
         taker.require(name.has_value(),

@@ -18,6 +18,7 @@ namespace hapnet::peer {
 struct DeviceChoice {
     std::string name = "sim";
     std::optional<device::HandTrace> replay; // where it is replay:FILE
+    bool replay_loops = false;
     device::Operator person;                 // whose hand is simulated, where it is sim
     device::DeviceOptions options;           // where it is real
     std::optional<base::Displacement> mount_offset;
@@ -33,6 +34,7 @@ struct DeviceChoice {
 struct DeviceTexts {
     std::string device = "sim";
     std::string person = "nominal";
+    bool replay_loops = false;
     device::DeviceOptions options;
     std::optional<std::string> hid_force;
     std::optional<std::string> mount_offset;

@@ -5,6 +5,7 @@
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -16,7 +17,8 @@ constexpr double peak_n = 3.3; // the Omni's
 
 } // namespace
 
-Replay::Replay(HandTrace trace, std::string source) : trace_{std::move(trace)}
+Replay::Replay(HandTrace trace, std::string source, AfterTheEnd after)
+    : trace_{std::move(trace)}, after_{after}
 {
     base::ensure(!trace_.empty());
     identity_ = {.backend = "replay",
@@ -50,6 +52,10 @@ void Replay::on_cue(const Cue& cue) { start_ = cue.start; }
 
 HandMoment Replay::at(double seconds) const
 {
+    const double first = trace_.front().time_s;
+    const double last = trace_.back().time_s;
+    const bool again = after_ == AfterTheEnd::begins_again && seconds >= last && last > first;
+    if (again) seconds = first + std::fmod(seconds - first, last - first);
     const auto next =
         std::upper_bound(trace_.begin(), trace_.end(), seconds,
                          [](double t, const HandMoment& moment) { return t < moment.time_s; });

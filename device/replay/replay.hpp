@@ -6,19 +6,25 @@
 #include "device/replay/hand_trace.hpp"
 #include "device/velocity_filter.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
 namespace hapnet::device {
 
+/// What a hand does after the last moment of its trace.
+enum class AfterTheEnd : std::uint8_t {
+    stays,        // and lets go
+    begins_again, // with a jump, unless it ends where it began
+};
+
 /// A hand that goes a recorded way, whatever force it is given: evenly from one recorded moment to
 /// the next. The trace's time counts from the session's start; before its first moment the hand
-/// waits there, and after its last it stays there and lets go. The velocity is that of a device:
-/// the way's differences, low-passed at 30 Hz.
+/// waits there. The velocity is that of a device: the way's differences, low-passed at 30 Hz.
 class Replay final : public Device {
 public:
     /// At least one moment, in the order of time. `source` is for the description.
-    Replay(HandTrace trace, std::string source);
+    Replay(HandTrace trace, std::string source, AfterTheEnd after = AfterTheEnd::stays);
 
     [[nodiscard]] const Identity& identity() const override { return identity_; }
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
@@ -33,6 +39,7 @@ private:
     [[nodiscard]] HandMoment at(double seconds) const;
 
     HandTrace trace_;
+    AfterTheEnd after_;
     Identity identity_;
     Capabilities capabilities_;
     std::uint64_t reads_ = 0;

@@ -97,6 +97,18 @@ TEST(Replay, HasTheVelocityOfItsWay)
     EXPECT_NEAR(sample.velocity.x(), 0.1, 1e-6);
 }
 
+TEST(Replay, BeginsAgainAtItsEndWhenItIsTold)
+{
+    HandTrace trace{{2.0, {}, true}, {2.5, {{0.010, 0.0, 0.0}}, true}, {3.0, {}, true}};
+    Replay hand{std::move(trace), "loop.csv", AfterTheEnd::begins_again};
+    hand.on_cue({start, 27s, base::Seed{1}, 1, true});
+    EXPECT_EQ(hand.read(start + 1s).hip, base::Position{});
+    for (const auto round : {0s, 1s, 20s}) {
+        EXPECT_NEAR(hand.read(start + round + 2250ms).hip.x(), 0.005, 1e-12);
+        EXPECT_TRUE(hand.read(start + round + 2250ms).gripping);
+    }
+}
+
 TEST(Replay, SaysWhatItPlays)
 {
     EXPECT_EQ(description(three_moments()), "replay hand.csv: a recorded hand, 3 moments");
