@@ -154,7 +154,7 @@ TEST(PeerDevices, RefusesBadUsageNamingTheCure)
                   3,
                   {"--device hdapi", "/no/hd", "--hd-library"}},
              Case{{"--remote", free, "--mount-offset", "1mm,2mm"}, 2, {"0mm,20mm,-5mm"}},
-             Case{{"--remote", free, "--mount-scale", "-1"}, 2, {"above 0"}},
+             Case{{"--remote", free, "--mount-scale", "-1"}, 2, {"from 0.05 to 20"}},
              Case{{"--remote", free, "--hid-force", "0N"}, 2, {"--hid-force", "not 0"}},
          }) {
         const auto outcome = peer(c.words);
