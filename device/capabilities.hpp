@@ -41,11 +41,11 @@ struct JointLimits {
 struct Capabilities {
     base::Position workspace_min{{-0.08, -0.06, -0.035}};
     base::Position workspace_max{{0.08, 0.06, 0.035}};
-    double force_max_n = 0.0;        // peak, in any direction
-    double force_continuous_n = 0.0; // that its motors bear for ever
-    double stiffness_max_n_per_m = 0.0;
-    double damping_max_ns_per_m = 0.0;
-    double resolution_m = 0.0; // of positions
+    double force_max_n = 0.0;           // peak, in any direction
+    double force_continuous_n = 0.0;    // that its motors bear for ever
+    double stiffness_max_n_per_m = 0.0; // that stays stable: told, nothing holds a scene to it
+    double damping_max_ns_per_m = 0.0;  // likewise
+    double resolution_m = 0.0;          // of positions
     /// Faster than this no hand that holds it moves: 1 m/s is far above any task.
     double speed_max_m_per_s = std::numeric_limits<double>::infinity();
     int axes_in = 3;

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds, and runs every test: optimised with GCC; all but the programs'
-# with Clang under AddressSanitizer and UndefinedBehaviorSanitizer (for those: the workflow
-# asan-e2e); and through clang-tidy.
+# Installs what is missing, builds, and runs every test: optimised with GCC; all but those of
+# programs and emulated devices with Clang under AddressSanitizer and UndefinedBehaviorSanitizer
+# (for those: the workflow asan-e2e); and through clang-tidy.
 set -euo pipefail
 
 usage="usage: scripts/test.sh [--quick]
