@@ -19,8 +19,8 @@ struct DeviceChoice {
     std::string name = "sim";
     std::optional<device::HandTrace> replay; // where it is replay:FILE
     bool replay_loops = false;
-    device::Operator person;                 // whose hand is simulated, where it is sim
-    device::DeviceOptions options;           // where it is real
+    device::Operator person;       // whose hand is simulated, where it is sim
+    device::DeviceOptions options; // where it is real
     std::optional<base::Displacement> mount_offset;
     std::optional<double> mount_scale;
 
