@@ -58,7 +58,7 @@ struct Condition {
     const char* type;
     const char* help;
 };
-constexpr std::array conditions{
+constexpr std::array condition_options{
     Condition{"delay", "TIME", "Delay of every datagram (default 0)"},
     Condition{"jitter", "TIME",
               "Half width of a uniform offset, drawn for each datagram: 5ms is -5ms to +5ms\n"
@@ -86,7 +86,7 @@ struct Texts {
     Text b;
     Text profile;
     Text netem;
-    std::array<std::array<Text, conditions.size()>, prefixes.size()> by_way;
+    std::array<std::array<Text, condition_options.size()>, prefixes.size()> by_way;
     Text seed;
     Text replay;
     Text timing;
@@ -101,8 +101,8 @@ struct Texts {
 void add_conditions(CLI::App& app, Texts& texts)
 {
     for (std::size_t way = 0; way < prefixes.size(); ++way) {
-        for (std::size_t i = 0; i < conditions.size(); ++i) {
-            const auto& [name, type, help] = conditions[i];
+        for (std::size_t i = 0; i < condition_options.size(); ++i) {
+            const auto& [name, type, help] = condition_options[i];
             app.add_option(fmt::format("--{}{}", prefixes[way], name), texts.by_way[way][i], help)
                 ->type_name(type)
                 ->group(way == 0 ? "Conditions, both ways (--up.NAME, --down.NAME: one way)" : "");
@@ -244,10 +244,10 @@ net::CommandLine<Options> options_from(const Texts& texts)
     reader.read("--a", texts.a, options.a, parse_peer);
     reader.read("--b", texts.b, options.b, parse_peer);
     for (std::size_t way = 0; way < prefixes.size(); ++way) {
-        for (std::size_t i = 0; i < conditions.size(); ++i) {
+        for (std::size_t i = 0; i < condition_options.size(); ++i) {
             if (const Text& value = texts.by_way[way][i]) {
                 options.settings.push_back(
-                    {prefixes[way] + std::string{conditions[i].name}, *value});
+                    {prefixes[way] + std::string{condition_options[i].name}, *value});
             }
         }
     }

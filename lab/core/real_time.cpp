@@ -100,10 +100,10 @@ std::string number_text(std::optional<double> value, int decimals)
 }
 
 /// Mean, std and max, each after a comma.
-std::string cells_of(const std::optional<Spread>& mm)
+std::string cells_of(const std::optional<Spread>& spread)
 {
-    if (!mm) return ",,,";
-    return fmt::format(",{:.4f},{:.4f},{:.4f}", mm->mean, mm->std, mm->max);
+    if (!spread) return ",,,";
+    return fmt::format(",{:.4f},{:.4f},{:.4f}", spread->mean, spread->std, spread->max);
 }
 
 /// As a cell of CSV.
