@@ -59,10 +59,10 @@ function(hapnet_precompile name)
     target_precompile_headers(${name} REUSE_FROM hapnet_precompiled)
 endfunction()
 
-# hapnet_library(NAME SOURCES ... DEPENDS ...): one folder of the map.
+# hapnet_library(NAME SOURCES ... DEPENDS ...): one folder of the map, built where something needs it.
 function(hapnet_library name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
-    add_library(${name} STATIC ${arg_SOURCES})
+    add_library(${name} STATIC EXCLUDE_FROM_ALL ${arg_SOURCES})
     target_link_libraries(${name} PUBLIC hapnet_options ${arg_DEPENDS})
     hapnet_precompile(${name})
     set_property(GLOBAL APPEND PROPERTY HAPNET_LIBRARIES ${name})

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # Installs what is missing, builds, and runs every test: optimised with GCC; all but those of
-# programs and emulated devices with Clang under AddressSanitizer and UndefinedBehaviorSanitizer
-# (for those: the workflow asan-e2e); and through clang-tidy.
+# programs, their commands and emulated devices with Clang under AddressSanitizer and
+# UndefinedBehaviorSanitizer (for those: the workflow asan-e2e); and through clang-tidy.
 set -euo pipefail
 
 usage="usage: scripts/test.sh [--quick]
