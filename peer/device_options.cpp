@@ -29,15 +29,12 @@ std::string device_help()
         "sim: a simulated Omni in a simulated hand (default); sim:joints: with its joints,\n"
         "encoders, motors and inkwell; replay:FILE: a hand that goes the way in FILE, CSV with\n"
         "time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it";
-    std::string names;
+    help += fmt::format(";\nor a real one, by serial or the first that is usable; {}:",
+                        device::never_run);
     for (const device::Backend& backend : device::backends()) {
-        names += names.empty() ? "" : ", ";
-        names += backend.name;
+        help += fmt::format("\n  {:<9} {}", backend.name, backend.what);
     }
-    if (names.empty()) return help;
-    return help + fmt::format("; of the\nreal ones {}, by serial or the first that is\nusable "
-                              "(hapnet-peer list-devices, docs/HARDWARE.md): {}",
-                              names, device::never_run);
+    return help + "\n(hapnet-peer list-devices shows those that are there; docs/HARDWARE.md)";
 }
 
 /// What --help says of an option, and the form of its value.
