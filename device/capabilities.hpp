@@ -43,14 +43,15 @@ struct Capabilities {
     base::Position workspace_max{{0.08, 0.06, 0.035}};
     double force_max_n = 0.0;           // peak, in any direction
     double force_continuous_n = 0.0;    // that its motors bear for ever
-    double stiffness_max_n_per_m = 0.0; // that stays stable: told, nothing holds a scene to it
-    double damping_max_ns_per_m = 0.0;  // likewise
+    double stiffness_max_n_per_m = 0.0; // of a contact, that stays stable; 0: nobody has said
+    double damping_max_ns_per_m = 0.0;  // likewise: told, nothing holds a scene to it
     double resolution_m = 0.0;          // of positions
     /// Faster than this no hand that holds it moves: 1 m/s is far above any task.
     double speed_max_m_per_s = std::numeric_limits<double>::infinity();
     int axes_in = 3;
     int axes_out = 3; // the first so many; 0: it has no motors
     int buttons = 1;
+    bool has_holder = false; // for its stylus, and it knows when that rests there
     bool has_orientation = false;
     bool force_is_calibrated = true; // a newton is a newton
     Pacing pacing = Pacing::host;

@@ -96,6 +96,10 @@ public:
     /// The session's start became known, or changed.
     virtual void on_cue(const Cue& /*cue*/) {}
 
+    /// A fault was latched, or has ended. A person reads it off the screen, with what to do then; a
+    /// simulated hand does it.
+    virtual void on_fault(bool /*is_latched*/) {}
+
     /// Only where capabilities().pacing is Pacing::device: calls `beat` once for each cycle of the
     /// device, from one thread at a time; read() and apply() belong inside. Returns when `beat`
     /// says false, or when no cycle came for 100 ms; then the host may go on at its own pace.

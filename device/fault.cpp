@@ -4,6 +4,13 @@
 
 namespace hapnet::device {
 
+namespace {
+
+constexpr std::string_view driver_failed =
+    "the device's driver failed: unplug it, plug it in again, and start again";
+
+} // namespace
+
 std::string_view name_of(Fault fault)
 {
     switch (fault) {
@@ -43,13 +50,14 @@ std::string_view words_for(Fault fault)
         return "the device was not understood: check its cable, and use no hub";
     case Fault::timeout: return "the device answers no more: check its cable and power";
     case Fault::overheat: return "a motor of the device is hot: let it cool down";
-    case Fault::over_force: return "the device was asked for more force than it has";
-    case Fault::over_velocity: return "the stylus was moved too fast, or was let go under force";
+    case Fault::over_force:
+        return "the device was asked for more force than it has: a lower --force-limit helps";
+    case Fault::over_velocity: return "it was moved too fast, or was let go under force";
     case Fault::not_calibrated: return "the device has lost its calibration: calibrate it again";
     case Fault::disconnected: return "the device has gone: plug it in and start again";
-    case Fault::internal: return "the device's driver failed";
+    case Fault::internal: return driver_failed;
     }
-    return "the device's driver failed";
+    return driver_failed;
 }
 
 } // namespace hapnet::device

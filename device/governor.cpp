@@ -4,6 +4,7 @@
 
 #include "device/governor/joint_torque.hpp"
 #include "device/governor/workspace.hpp"
+#include "proto/base/ensure.hpp"
 
 #include <algorithm>
 
@@ -33,6 +34,12 @@ std::string_view name_of(GovernorState state)
     case GovernorState::fault: return "fault";
     }
     return "off";
+}
+
+Governor::Governor(const GovernorLimits& limits)
+    : limits_{limits}, heat_{limits.force_continuous_n, limits.heat_time}
+{
+    base::ensure(contradiction_in(limits).empty());
 }
 
 GovernorState Governor::state() const

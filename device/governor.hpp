@@ -69,9 +69,8 @@ enum class GovernorState : std::uint8_t {
 /// joints' motors have; the change per tick is limited. What is wrong with the device is latched.
 class Governor {
 public:
-    explicit Governor(const GovernorLimits& limits)
-        : limits_{limits}, heat_{limits.force_continuous_n, limits.heat_time}
-    {}
+    /// The limits are without contradiction.
+    explicit Governor(const GovernorLimits& limits);
 
     /// The force to apply now. Call once per tick, with what the device just said; `now` never runs
     /// backwards.

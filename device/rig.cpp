@@ -41,16 +41,27 @@ void Rig::count(std::uint64_t sequence_before)
     counters_.repeated_most = std::max(counters_.repeated_most, ++repeated_);
 }
 
-base::Force Rig::apply(const base::Force& wanted, bool permitted, base::TimePoint now)
+GovernedForce Rig::govern(const base::Force& wanted, bool permitted, base::TimePoint now)
 {
     const GovernedForce force = governor_.govern({mount_.to_device(wanted), permitted}, own_, now);
+    const bool is_at_fault = governor_.fault().fault != Fault::none;
+    if (is_at_fault != is_at_fault_) {
+        is_at_fault_ = is_at_fault;
+        device_->on_fault(is_at_fault);
+    }
+    return force;
+}
+
+base::Force Rig::apply(const base::Force& wanted, bool permitted, base::TimePoint now)
+{
+    const GovernedForce force = govern(wanted, permitted, now);
     device_->apply(force);
     return force.force();
 }
 
 base::Force Rig::withhold(const base::Force& wanted, bool permitted, base::TimePoint now)
 {
-    const GovernedForce force = governor_.govern({mount_.to_device(wanted), permitted}, own_, now);
+    const GovernedForce force = govern(wanted, permitted, now);
     device_->apply({});
     return force.force();
 }

@@ -42,6 +42,8 @@ public:
 
 private:
     void count(std::uint64_t sequence_before);
+    [[nodiscard]] GovernedForce govern(const base::Force& wanted, bool permitted,
+                                       base::TimePoint now);
 
     std::unique_ptr<Device> device_;
     Governor governor_;
@@ -49,6 +51,7 @@ private:
     CalibrationStep calibration_ = CalibrationStep::done;
     RigCounters counters_;
     std::uint64_t repeated_ = 0; // in a row
+    bool is_at_fault_ = false;   // as the device was told
     Sample own_;                 // the last one, as the device gave it
     Sample scene_;               // ... and in the scene
 };

@@ -21,6 +21,7 @@
 #include "proto/net/text_file.hpp"
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -83,22 +84,30 @@ public:
             if (adopted) tell(endpoints_line(relay_));
             if (control_) control_->serve(emulation, now, relay_.next_deadline());
             if (stop.reload_requested()) reload(now);
+            tell_of_files();
             status_.show(run_, now);
         }
         status_.clear();
     }
 
-    /// Writes the files and says how it went; gives the exit code.
+    /// Writes the files and says how it went; gives the exit code. Throws, after that, what kept
+    /// the recorder from its files.
     int finish()
     {
         net::leave_real_time();
-        recorder_.finish();
+        std::exception_ptr failure;
+        try {
+            recorder_.finish();
+        } catch (const std::system_error&) {
+            failure = std::current_exception();
+        }
         if (stats_) {
             stats_->commit(statistics_json(run_));
         } else if (run_.options.stats) {
             fmt::print("{}", statistics_json(run_));
         }
         net::tell(summary(run_));
+        if (failure) std::rethrow_exception(failure);
         const bool is_complete = recorder_.fates_lost() == 0 && recorder_.capture_lost() == 0;
         return is_complete ? 0 : net::exit_failed;
     }
@@ -150,6 +159,15 @@ private:
                          director_.generation()));
     }
 
+    /// Once, and while there is time to make room or to begin again.
+    void tell_of_files()
+    {
+        if (has_told_of_files_ || !recorder_.has_failed()) return;
+        has_told_of_files_ = true;
+        tell("what this run records cannot be written any more (is the disk full?): the run goes "
+             "on, but its files will be missing");
+    }
+
     void tell(const std::string& line) const
     {
         status_.clear();
@@ -164,6 +182,7 @@ private:
     std::optional<ControlServer> control_;
     std::optional<net::ResultFile> stats_;
     std::optional<base::TimePoint> end_;
+    bool has_told_of_files_ = false;
     Run run_;
     Status status_;
 };

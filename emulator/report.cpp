@@ -119,6 +119,7 @@ std::string in_words(const Moments& moments)
 std::string incomplete(const Recorder& recorder)
 {
     std::string text;
+    if (recorder.has_failed()) text += "NOT COMPLETE: a file of this run could not be written\n";
     if (const auto lost = recorder.fates_lost(); lost > 0) {
         text += fmt::format("NOT COMPLETE: the fates lack {} datagrams\n", lost);
     }

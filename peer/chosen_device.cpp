@@ -63,6 +63,22 @@ device::Mount mount_of(const DeviceChoice& choice, const device::Capabilities& c
     return mount;
 }
 
+std::string words_on_stiffness(const device::Capabilities& capabilities, const device::Mount& mount,
+                               double scene_stiffness_n_per_m)
+{
+    const double most = capabilities.stiffness_max_n_per_m;
+    const double at_the_hand = scene_stiffness_n_per_m * mount.scale * mount.scale;
+    if (capabilities.axes_out == 0 || most == 0.0 || at_the_hand <= most) return "";
+    return fmt::format(
+        "contacts of {:.0f} N/m in the scene, magnified {:.2f} times, are {:.0f} N/m at the hand, "
+        "and this device is said to render at most {:.0f} N/m without buzzing: they are felt at "
+        "no more than {:.0f} % of their force. For all of it: a --mount-scale of at most {:.2f}, "
+        "or a --scene "
+        "with softer contacts",
+        scene_stiffness_n_per_m, mount.scale, at_the_hand, most, 100.0 * most / at_the_hand,
+        std::floor(100.0 * std::sqrt(most / scene_stiffness_n_per_m)) / 100.0);
+}
+
 std::string_view parts_in(device::Task task)
 {
     switch (task) {

@@ -23,6 +23,12 @@ open_chosen(const DeviceChoice& choice, device::Task task);
 [[nodiscard]] device::Mount mount_of(const DeviceChoice& choice,
                                      const device::Capabilities& capabilities);
 
+/// What the contacts of a scene come to at the hand, and how much of them the device renders: both
+/// figures and the cure, where it is not all; "" where it is, or where there is no force.
+[[nodiscard]] std::string words_on_stiffness(const device::Capabilities& capabilities,
+                                             const device::Mount& mount,
+                                             double scene_stiffness_n_per_m);
+
 /// What the persons on either side do in a task: for who holds a real device.
 [[nodiscard]] std::string_view parts_in(device::Task task);
 

@@ -16,18 +16,23 @@ namespace {
 
 constexpr const char* list_devices_description =
     "Lists every haptic device that can be seen without taking hold of it; for one that cannot\n"
-    "be used, why and what to do. Exit code 0 also when there is none.";
+    "be used, why and what to do. The first column is what --device takes. Every backend of them\n"
+    "was never run on the physical device. Exit codes: 0 also when there is none, 2 bad usage.";
 constexpr const char* doctor_description =
     "Looks at what this machine grants to a 1 kHz loop and to haptic devices, and says what to\n"
-    "do where it could be better. Exit codes: 0 nothing is bad, 3 something is.";
+    "do where it could be better. Without a device only the loop matters: what it says of devices\n"
+    "is for those who have one (never run on the physical device). Exit codes: 0 nothing is bad,\n"
+    "2 bad usage, 3 something is bad.";
 constexpr const char* self_test_description =
     "Tries a device through the governor, step by step, and reports what it found:\n"
     "  read       10 s without force: the rate at which the device speaks, drawn as a histogram\n"
-    "  calibrate  what the device needs from you, such as its stylus in its holder\n"
-    "  force      a ramp to 0.2 N along x, only while you hold the primary button\n"
+    "  calibrate  what the device needs from you, such as its stylus in its holder, or its grip\n"
+    "             moved to every stop; it says so\n"
+    "  force      a ramp to 0.2 N to the right, only while you hold the primary button\n"
     "  cable      you pull the cable, and the loss has to be noticed\n"
-    "Keep a loose grip, clear of the arm's way. Exit codes: 0 nothing failed, 1 a step failed or\n"
-    "you broke the test off, 2 bad usage, 3 the device cannot be opened.";
+    "Keep a loose grip, clear of the arm's way. --device sim shows what it looks like, without a\n"
+    "device. Exit codes: 0 nothing failed, 1 a step failed, you broke the test off or the device\n"
+    "went, 2 bad usage, 3 the device cannot be opened.";
 
 /// Parses a command of a few options; what it says instead of running, or nullopt.
 std::optional<base::Result<net::Answer>> parse(CLI::App& app, std::span<char*> words)
@@ -53,11 +58,11 @@ net::CommandLine<Command> parse_list_devices(std::span<char*> words)
     CLI::App app{list_devices_description, "hapnet-peer list-devices"};
     DeviceTexts texts;
     ListDevicesCommand command;
-    add_backend_options(app, texts);
+    add_finding_options(app, texts);
     app.add_flag("--json", command.json, "Print one JSON object instead of a table");
     if (const auto said = parse(app, words)) return answer_of(*said);
     Taker taker;
-    take_device(command.device, taker, texts);
+    take_finding(command.options, taker, texts);
     if (taker.error()) return base::fail(*taker.error());
     return command;
 }
@@ -97,8 +102,9 @@ net::CommandLine<Command> parse_self_test(std::span<char*> words)
     taker.require(command.read_for >= std::chrono::milliseconds{100} &&
                       command.read_for <= std::chrono::minutes{10},
                   "--read-for: from 100ms to 10min");
+    taker.require(command.json != "-", "--json: '-' is not a file: the report needs one");
     taker.require(app.count("--device") > 0,
-                  "--device is required: hapnet-peer list-devices shows what there is; "
+                  "--device is required: hapnet-peer list-devices shows what there is, and "
                   "--device sim tries the test itself");
     take_device(command.device, taker, texts);
     if (taker.error()) return base::fail(*taker.error());

@@ -16,7 +16,7 @@ namespace hapnet::peer {
 
 /// `hapnet-peer list-devices [--json]`
 struct ListDevicesCommand {
-    DeviceChoice device;
+    device::DeviceOptions options;
     bool json = false;
 };
 

@@ -12,7 +12,7 @@ namespace hapnet::peer {
 
 base::Result<int> run(const ListDevicesCommand& command)
 {
-    const auto found = device::find_devices(command.device.options);
+    const auto found = device::find_devices(command.options);
     fmt::print("{}", command.json ? device_json(found) : device_table(found));
     return 0;
 }

@@ -8,19 +8,35 @@ namespace hapnet::peer {
 
 namespace {
 
-std::string_view way_back(const device::Latched& fault)
+std::string_view way_back(const DeviceNews& news)
 {
     using device::Fault;
-    const bool needs_a_restart = fault.fault == Fault::disconnected ||
-                                 fault.fault == Fault::not_found ||
-                                 fault.trip == device::Trip::nonsense;
+    const Fault fault = news.fault.fault;
+    const bool needs_a_restart = fault == Fault::disconnected || fault == Fault::not_found ||
+                                 news.fault.trip == device::Trip::nonsense;
     if (needs_a_restart) return "";
-    return "; to feel force again put the stylus into its holder, or hold it still for a second "
-           "and "
-           "press its button";
+    if (news.ways_back.by_simulated_hand) {
+        return "; the simulated hand holds still for a second, then presses the button";
+    }
+    if (news.ways_back.by_holder) {
+        return "; to feel force again put the stylus into its holder, or hold it still for a "
+               "second and press its button";
+    }
+    if (news.ways_back.by_button) {
+        return "; to feel force again hold it still for a second, then press its primary button";
+    }
+    return "; to feel force again start this program again, as the device has no button";
 }
 
 } // namespace
+
+WaysBack ways_back_of(const device::Device& device)
+{
+    const device::Capabilities& can = device.capabilities();
+    return {.by_holder = can.has_holder,
+            .by_button = can.buttons > 0,
+            .by_simulated_hand = device.identity().backend == "sim"};
+}
 
 std::string words_for(const DeviceNews& news)
 {
@@ -30,7 +46,7 @@ std::string words_for(const DeviceNews& news)
     }
     if (news.fault.fault == device::Fault::none) return "the device is well again: force ramps in";
     return fmt::format("zero force ({}): {}{}", device::name_of(news.fault.fault),
-                       device::what_happened(news.fault), way_back(news.fault));
+                       device::what_happened(news.fault), way_back(news));
 }
 
 std::string fault_at_the_end(const device::Governor& governor)
@@ -53,11 +69,15 @@ std::optional<DeviceNews> DeviceReporter::look(device::CalibrationStep calibrati
 {
     if (!(fault == told_.fault) && is_time(fault_told_, now)) {
         told_.fault = fault;
-        return DeviceNews{.fault = fault};
+        DeviceNews news = told_;
+        news.is_of_calibration = false;
+        return news;
     }
     if (calibration != told_.calibration && is_time(calibration_told_, now)) {
         told_.calibration = calibration;
-        return DeviceNews{.calibration = calibration, .is_of_calibration = true};
+        DeviceNews news = told_;
+        news.is_of_calibration = true;
+        return news;
     }
     return std::nullopt;
 }

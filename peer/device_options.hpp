@@ -30,12 +30,15 @@ struct DeviceChoice {
     [[nodiscard]] bool is_real() const { return !is_simulated() && !replay; }
 };
 
-/// The words of it on a command line.
+/// The words of it on a command line; nullopt or false where nothing is said.
 struct DeviceTexts {
     std::string device = "sim";
-    std::string person = "nominal";
+    std::optional<std::string> person;
     bool replay_loops = false;
-    device::DeviceOptions options;
+    std::optional<std::string> hd_library;
+    std::optional<std::string> falcon_firmware;
+    bool uncalibrated_force = false;
+    std::optional<std::string> omni_torque;
     std::optional<std::string> hid_force;
     std::optional<std::string> mount_offset;
     std::optional<std::string> mount_scale;
@@ -43,10 +46,13 @@ struct DeviceTexts {
 
 /// Adds --device and what belongs to it.
 void add_device_options(CLI::App& app, DeviceTexts& texts);
-/// Of these, what the backends of real devices ask for.
-void add_backend_options(CLI::App& app, DeviceTexts& texts);
+/// Of these, what matters to who only looks at the real devices that there are.
+void add_finding_options(CLI::App& app, DeviceTexts& texts);
 
-/// Reads them, and the files that they name.
+/// Reads them, and the files that they name: what is wrong with one is bad usage, found before a
+/// device is touched. So is an option of another device than the one that is chosen.
 void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts);
+/// Of these, what add_finding_options() added.
+void take_finding(device::DeviceOptions& options, Taker& taker, const DeviceTexts& texts);
 
 } // namespace hapnet::peer

@@ -61,8 +61,9 @@ base::Result<Places> look_up(const Options& options)
     return places;
 }
 
-Settings settings_of(const Options& options, const device::Mount& mount)
+Settings settings_of(const Options& options, const device::Rig& rig)
 {
+    const device::Mount& mount = rig.mount();
     Settings settings;
     settings.introduction.id = options.id;
     settings.introduction.nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U);
@@ -73,6 +74,11 @@ Settings settings_of(const Options& options, const device::Mount& mount)
     settings.algorithm = options.algorithm;
     // The scene's springs are as much stiffer at the hand as its dampers: by the scale squared.
     settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m / (mount.scale * mount.scale);
+    // A simulated hand cannot be hurt, and the experiments that it plays are told without that.
+    if (options.device.is_real()) {
+        settings.stiffness_max_n_per_m =
+            rig.device().capabilities().stiffness_max_n_per_m / (mount.scale * mount.scale);
+    }
     settings.length = options.duration;
     return settings;
 }
@@ -85,11 +91,21 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
     // The session's number follows from it.
     configuration["nonce"] = settings.introduction.nonce;
     configuration["grip_damping_ns_per_m"] = settings.grip_damping_ns_per_m; // as in the scene
+    configuration["stiffness_max_n_per_m"] = settings.stiffness_max_n_per_m; // likewise
     const device::Mount& mount = rig.mount();
     const glm::dvec3& offset = mount.offset.value;
     configuration["mount"] = {{"offset_m", {offset.x, offset.y, offset.z}}, {"scale", mount.scale}};
     configuration["governor_toml"] = device::print_limits(rig.governor().limits());
     return record::Writer{*options.record, configuration};
+}
+
+/// Tells whoever holds a real device what it is, and what of the scene it cannot do.
+void introduce(const Options& options, const device::Rig& rig)
+{
+    say(introduction(rig.device(), rig.mount(), options.task));
+    const std::string softer = words_on_stiffness(rig.device().capabilities(), rig.mount(),
+                                                  options.scene.hips.stiffness_n_per_m);
+    if (!softer.empty()) say(softer);
 }
 
 std::string ready_line(const Options& options, const net::UdpSocket& socket,
@@ -117,8 +133,8 @@ base::Result<int> run(const Options& options)
     device::Rig rig{*std::move(opened), device::GovernorLimits{.force_max_n = options.force_max_n},
                     mount};
     const std::string device = device::description(rig.device());
-    if (options.device.is_real()) say(introduction(rig.device(), mount, options.task));
-    const Settings settings = settings_of(options, mount);
+    if (options.device.is_real()) introduce(options, rig);
+    const Settings settings = settings_of(options, rig);
     Journal journal;
     Watcher watcher{journal, writer_for(options, device, rig, settings), options.id};
     std::optional<net::ResultFile> file;
@@ -129,7 +145,7 @@ base::Result<int> run(const Options& options)
 
     supervise(servo, watcher, stop, ready_line(options, socket, places->remote));
 
-    const Run run{options, peer, servo, journal, socket, device};
+    const Run run{options, peer, servo, journal, socket, device, !watcher.record_failure()};
     if (file) {
         file->commit(statistics_json(run));
     } else if (options.stats) {
@@ -145,6 +161,7 @@ base::Result<int> run(const Options& options)
         say(fault);
         return net::exit_failed;
     }
+    if (const auto failure = watcher.record_failure()) std::rethrow_exception(failure);
     return 0;
 }
 

@@ -24,7 +24,7 @@ constexpr const char* description =
     "other peer, directly or through hapnet-emulator.";
 
 constexpr const char* footer =
-    R"(Tasks of the simulated hands (docs/TASKS.md; the lower --id is L and pushes from the left):
+    R"(Tasks of the hands (docs/TASKS.md; the lower --id is L and pushes from the left):
   P1  L holds the cube and carries it along a prescribed path, R watches (the paper's Table 1)
   T1  by turns: L pushes the cube where the path rises, R where it falls
   T2  one holds, the other presses against it at 0.5, 1 and 2 Hz; then the other way round
@@ -43,9 +43,15 @@ Algorithms (docs/ALGORITHMS.md; the two peers may use different ones):
   sep             the same, with the other hand's force as it should be by now
 A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from.
 
-Examples, with hapnet-emulator listening on ports 7001 and 7002 of this machine:
+Examples, each line in a terminal of its own. Two simulated hands, nothing between them:
+  hapnet-peer --id 1 --listen 127.0.0.1:7101 --remote 127.0.0.1:7102 --task T3
+  hapnet-peer --id 2 --listen 127.0.0.1:7102 --remote 127.0.0.1:7101 --task T3
+With hapnet-emulator listening on ports 7001 and 7002 of this machine:
   hapnet-peer --id 1 --remote 127.0.0.1:7001 --task T3 --duration 20s --record a.rec
   hapnet-peer --id 2 --remote 127.0.0.1:7002 --task T3 --duration 20s --record b.rec
+With a device in your hand (never run on the physical device; docs/HARDWARE.md first), the three
+other commands below first, then with little force:
+  hapnet-peer --id 1 --remote 127.0.0.1:7001 --task T3 --device falcon --force-limit 500mN
 
 Other commands, each with a --help of its own:
   hapnet-peer list-devices   every haptic device that is seen, and what keeps one from being used
@@ -101,7 +107,7 @@ void add_options(CLI::App& app, Texts& texts)
         "The most that the hand is given (default 3.3N, an Omni's peak; never more than the\n"
         "device has); 0N: nothing is felt. See docs/GOVERNOR.md",
         "FORCE");
-    add("--task", texts.task, "What the simulated hands do (default P1)", "P1|T1|...|T6");
+    add("--task", texts.task, "What the hands do, simulated or yours (default P1)", "P1|T1|...|T6");
     add("--algorithm", texts.algorithm,
         "How the two cubes are kept together: base (default), dead-reckoning, sep, or a file of\n"
         "parameters in TOML",

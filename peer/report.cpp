@@ -119,10 +119,19 @@ json governor_json(const Run& run)
               {"repeated_most", device.repeated_most}}}};
 }
 
-bool is_valid(const LoopCounters& loop)
+/// Why the run is no measurement; "" when it is one.
+std::string_view why_not_valid(const Run& run)
 {
+    const LoopCounters& loop = run.servo.counters();
     const auto p99 = loop.late.quantile(0.99);
-    return p99 && *p99 <= late_budget && missed_share(loop) <= missed_share_budget;
+    const bool is_punctual =
+        p99 && *p99 <= late_budget && missed_share(loop) <= missed_share_budget;
+    if (!is_punctual) return "the loop was late";
+    // Also one that an operator has ended: meanwhile the hand did not play.
+    const device::GovernorCounters& c = run.servo.rig().governor().counters();
+    const std::uint64_t faults = c.device_faults + c.silence_faults + c.loop_faults +
+                                 c.speed_trips + c.jump_trips + c.nonsense_trips;
+    return faults > 0 ? "the device was at fault" : "";
 }
 
 } // namespace
@@ -162,11 +171,12 @@ std::string statistics_json(const Run& run)
     out["messages"] = messages_json(run);
     out["governor"] = governor_json(run);
     out["record_rows_lost"] = run.journal.lost();
+    out["record_whole"] = run.options.record ? json(run.is_record_whole) : json{};
     out["real_time"] = {{"fifo", run.servo.real_time().fifo},
                         {"locked_memory", run.servo.real_time().locked_memory}};
     out["refusal"] = nullptr;
     if (const auto reason = run.peer.refusal()) out["refusal"] = words_for(*reason);
-    out["valid"] = is_valid(run.servo.counters());
+    out["valid"] = why_not_valid(run).empty();
     return out.dump(2) + "\n";
 }
 
@@ -178,8 +188,16 @@ std::string summary(const Run& run)
     std::string text =
         fmt::format("hapnet-peer {}: {} ticks, {} missed", run.options.id, loop.ticks, loop.missed);
     if (p99) text += fmt::format(", 99 % at most {:.0f} us late", base::to_seconds(*p99) * 1e6);
-    text += fmt::format("; {} states sent, {} received{}\n", c.sent, c.states,
-                        is_valid(loop) ? "" : "; NOT VALID as a measurement: the loop was late");
+    text += fmt::format("; {} states sent, {} received", c.sent, c.states);
+    if (const auto why = why_not_valid(run); !why.empty()) {
+        text += fmt::format("; NOT VALID as a measurement: {}", why);
+    }
+    text += '\n';
+    if (!run.is_record_whole) {
+        text += fmt::format("hapnet-peer {}: NOT COMPLETE: the record could not be written to its "
+                            "end\n",
+                            run.options.id);
+    }
     if (const auto lost = run.journal.lost(); lost > 0) {
         text +=
             fmt::format("hapnet-peer {}: {} rows of the record were lost\n", run.options.id, lost);

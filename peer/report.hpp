@@ -18,6 +18,7 @@ struct Run {
     const Journal& journal;
     const net::UdpSocket& socket;
     std::string device;
+    bool is_record_whole = true;
 };
 
 /// The configuration of a peer as records and statistics carry it.

@@ -3,6 +3,7 @@
 #include "device/rig.hpp"
 #include "peer/chosen_device.hpp"
 #include "peer/commands.hpp"
+#include "peer/core/scene/description.hpp"
 #include "peer/self_test/report.hpp"
 #include "peer/self_test/self_test.hpp"
 #include "peer/watchdog.hpp"
@@ -114,6 +115,15 @@ void accompany(TestLoop& loop, net::StopSignal& stop)
     ended.get();
 }
 
+/// What a session with the paper's scene would say of its contacts.
+std::string stiffness_of_a_session(const DeviceChoice& choice,
+                                   const device::Capabilities& capabilities)
+{
+    if (!choice.is_real()) return "";
+    return words_on_stiffness(capabilities, mount_of(choice, capabilities),
+                              scene::paper_scene().hips.stiffness_n_per_m);
+}
+
 } // namespace
 
 base::Result<int> run(const SelfTestCommand& command)
@@ -130,6 +140,7 @@ base::Result<int> run(const SelfTestCommand& command)
         return net::exit_environment;
     }
     const auto& capabilities = (*opened)->capabilities();
+    const std::string softer = stiffness_of_a_session(command.device, capabilities);
     SelfTest test{{.capabilities = capabilities,
                    .is_real = command.device.is_real(),
                    .read_for = command.read_for,
@@ -137,14 +148,14 @@ base::Result<int> run(const SelfTestCommand& command)
     // In the device's own frame: nothing of a scene is felt here.
     device::Rig rig{*std::move(opened), device::GovernorLimits{}};
     net::say("hapnet-peer", device::description(rig.device()));
+    if (!softer.empty()) net::say("hapnet-peer", "in a session: " + softer);
     Watchdog watchdog{rig.device(), &crash};
     TestLoop loop{test, rig, watchdog};
     accompany(loop, stop);
     test.stop();
-    fmt::print("{}", self_test::report_text(device::description(rig.device()), test.outcomes()));
-    if (file) file->commit(self_test::report_json(rig.device(), test.outcomes()).dump(2) + "\n");
-    const bool is_broken_off = stop.requested();
-    return self_test::has_failed(test.outcomes()) || is_broken_off ? net::exit_failed : 0;
+    fmt::print("{}", self_test::report_text(rig.device(), test));
+    if (file) file->commit(self_test::report_json(rig.device(), test).dump(2) + "\n");
+    return self_test::has_passed(test) ? 0 : net::exit_failed;
 }
 
 } // namespace hapnet::peer

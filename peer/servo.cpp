@@ -29,7 +29,7 @@ record::Phase phase_of(Phase phase, bool alone)
 
 } // namespace
 
-Servo::Servo(const Parts& parts) : parts_{parts} {}
+Servo::Servo(const Parts& parts) : parts_{parts}, reporter_{ways_back_of(parts.rig.device())} {}
 
 void Servo::run()
 {

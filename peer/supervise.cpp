@@ -72,7 +72,7 @@ void supervise(Servo& servo, Watcher& watcher, net::StopSignal& stop, const std:
             watcher.show(net::monotonic_now());
         }
     } catch (...) {
-        servo.stop(); // such as a full disk: the hand comes first
+        servo.stop(); // whatever it is: the hand comes first
         thread.join();
         throw;
     }

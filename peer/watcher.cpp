@@ -80,7 +80,11 @@ void Watcher::drain()
 
 void Watcher::take(const record::Row& row)
 {
-    if (writer_) writer_->write(row);
+    try {
+        if (writer_) writer_->write(row);
+    } catch (const std::system_error& error) {
+        give_up_record(error);
+    }
     if (const auto* tick = std::get_if<record::TickRow>(&row)) {
         glance_.tick = *tick;
         if (tick->sent_sequence > 0) ++glance_.ticks_in_session;
@@ -90,6 +94,13 @@ void Watcher::take(const record::Row& row)
     } else {
         ++glance_.messages;
     }
+}
+
+void Watcher::give_up_record(const std::system_error& error)
+{
+    record_failure_ = std::current_exception();
+    writer_.reset();
+    say(fmt::format("{}: the record ends here, and the session goes on without it", error.what()));
 }
 
 void Watcher::tell(base::TimePoint at, std::string_view words)
@@ -130,7 +141,11 @@ void Watcher::show(base::TimePoint now)
 void Watcher::finish()
 {
     drain();
-    if (writer_) writer_->flush();
+    try {
+        if (writer_) writer_->flush();
+    } catch (const std::system_error& error) {
+        give_up_record(error);
+    }
     if (line_open_) net::tell("\n");
     line_open_ = false;
 }

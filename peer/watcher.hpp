@@ -5,7 +5,9 @@
 #include "peer/journal.hpp"
 #include "proto/record/writer.hpp"
 
+#include <exception>
 #include <optional>
+#include <system_error>
 
 namespace hapnet::peer {
 
@@ -25,20 +27,25 @@ public:
     /// `writer` may be empty.
     Watcher(Journal& journal, std::optional<record::Writer> writer, std::uint16_t peer_id);
 
-    /// Takes all that waits. Throws std::system_error when the record cannot be written.
+    /// Takes all that waits. When the record cannot be written any more (a full disk) it says so
+    /// once, and goes on without.
     void drain();
     /// Shows where things stand, if it is time to.
     void show(base::TimePoint now);
     /// After the servo has ended: takes the rest, closes the record, ends the line.
     void finish();
+    /// What kept the record from being written to its end; null: nothing.
+    [[nodiscard]] std::exception_ptr record_failure() const { return record_failure_; }
 
 private:
     void take(const record::Row& row);
+    void give_up_record(const std::system_error& error);
     void tell(base::TimePoint at, std::string_view words);
     void say(std::string_view text);
 
     Journal& journal_;
     std::optional<record::Writer> writer_;
+    std::exception_ptr record_failure_;
     std::uint16_t peer_id_;
     bool is_terminal_;
     bool line_open_ = false;

@@ -25,21 +25,23 @@ hid::Options hid_options(const DeviceOptions& options)
 const std::vector<Backend>& backends()
 {
     static const std::vector<Backend> all{
-        {"omni1394", [](const DeviceOptions&) { return omni1394::find_omnis(); },
+        {"omni1394", "PHANToM Omni with FireWire",
+         [](const DeviceOptions&) { return omni1394::find_omnis(); },
          [](const std::string& serial, const DeviceOptions& options) {
              return omni1394::open_omni(serial, {.profile = options.omni_torque,
                                                  .uncalibrated_force = options.uncalibrated_force});
          }},
-        {"hdapi",
+        {"hdapi", "Touch, Omni and Premium through their vendor's libHD",
          [](const DeviceOptions& options) { return hdapi::find_hdapis(options.hd_library); },
          [](const std::string& name, const DeviceOptions& options) {
              return hdapi::open_hdapi(name, options.hd_library);
          }},
-        {"falcon", [](const DeviceOptions&) { return falcon::find_falcons(); },
+        {"falcon", "Novint Falcon", [](const DeviceOptions&) { return falcon::find_falcons(); },
          [](const std::string& serial, const DeviceOptions& options) {
              return falcon::open_falcon(serial, options.falcon_firmware);
          }},
-        {"hid", [](const DeviceOptions& options) { return hid::find_hids(hid_options(options)); },
+        {"hid", "USB force feedback, SpaceMouse",
+         [](const DeviceOptions& options) { return hid::find_hids(hid_options(options)); },
          [](const std::string& serial, const DeviceOptions& options) {
              return hid::open_hid(serial, hid_options(options));
          }},

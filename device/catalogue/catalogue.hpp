@@ -25,6 +25,7 @@ struct DeviceOptions {
 /// A kind of real device, and the way to its devices.
 struct Backend {
     std::string_view name; // as in --device NAME:SERIAL
+    std::string_view what; // it is for
     /// All that can be seen of it without taking hold of one.
     std::vector<Found> (*find)(const DeviceOptions& options);
     /// The one with this serial; "": the first that is usable.

@@ -12,7 +12,42 @@ namespace {
 
 constexpr double continuous_share_unsaid = 0.25;
 
+bool is_positive(double value) { return value > 0.0; } // no NaN is
+bool is_positive(base::Duration value) { return value > base::Duration{0}; }
+
+bool has_workspace(const GovernorLimits& limits)
+{
+    for (const int axis : {0, 1, 2}) {
+        if (!(limits.workspace_min.value[axis] < limits.workspace_max.value[axis])) return false;
+    }
+    return true;
+}
+
 } // namespace
+
+std::string_view contradiction_in(const GovernorLimits& limits)
+{
+    const bool has_lengths = is_positive(limits.fade_out) && is_positive(limits.ramp_in) &&
+                             is_positive(limits.tick) && is_positive(limits.heat_time);
+    if (!has_lengths) return "fade_out, ramp_in, tick and heat_time have to be longer than nothing";
+    const bool has_sizes = is_positive(limits.slew_max_n_per_s) &&
+                           is_positive(limits.slew_ramping_n_per_s) &&
+                           is_positive(limits.speed_max_m_per_s);
+    if (!has_sizes) return "slew_max, slew_ramping and speed_max have to be more than zero";
+    if (!(limits.force_max_n >= 0.0) || !(limits.force_continuous_n >= 0.0)) {
+        return "force_max and force_continuous cannot be negative";
+    }
+    if (limits.force_continuous_n == 0.0 && limits.force_max_n > 0.0) {
+        return "force_continuous is zero, but force_max is not: motors that bear no force for ever "
+               "bear none at all";
+    }
+    if (limits.stall_max <= limits.tick) {
+        return "stall_max has to be longer than tick, or every tick is a stall";
+    }
+    if (limits.fault_after < limits.stall_max) return "fault_after cannot be before stall_max";
+    if (!has_workspace(limits)) return "workspace_min has to be below workspace_max on every axis";
+    return "";
+}
 
 GovernorLimits limits_for(const Capabilities& capabilities, const GovernorLimits& limits)
 {

@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <optional>
+#include <string_view>
 
 namespace hapnet::device {
 
@@ -35,6 +36,11 @@ struct GovernorLimits {
     base::Position workspace_max{glm::dvec3{std::numeric_limits<double>::infinity()}};
     std::optional<JointLimits> joints{};
 };
+
+/// Why no governor can keep to these, for a person: a rule would never act, or always, or divide by
+/// nothing. "" when one can. A peak below the continuous force is no contradiction, but a person
+/// who wants it softer than the motors could.
+[[nodiscard]] std::string_view contradiction_in(const GovernorLimits& limits);
 
 /// The limits that hold for this device: of each the stricter. A device that does not say what its
 /// motors bear for ever is taken to bear a quarter of its peak, as the Omni does (0.88 of 3.3 N).

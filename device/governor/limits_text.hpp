@@ -14,8 +14,9 @@ namespace hapnet::device {
 [[nodiscard]] std::string print_limits(const GovernorLimits& limits);
 
 /// Reads what print_limits() wrote, to the same bits. `source` names the text in errors, which
-/// begin with "SOURCE:LINE:COLUMN: ". Limits of joints are those of the PHANToM
-/// Omni's arm or of the Falcon's: of no other there is a Jacobian.
+/// begin with "SOURCE:LINE:COLUMN: ", or with "SOURCE: " where two keys contradict each other. What
+/// would make a rule meaningless is refused, such as a ramp of no length. Limits of joints are
+/// those of the PHANToM Omni's arm or of the Falcon's: of no other there is a Jacobian.
 [[nodiscard]] base::Result<GovernorLimits> parse_limits(std::string_view text,
                                                         const std::string& source);
 

@@ -25,8 +25,7 @@ std::string_view what_happened(const Latched& latched)
         return "this program stood still for more than 100 ms: end what keeps the machine busy, or "
                "give it real-time priority";
     case Trip::jump:
-        return "the stylus was suddenly elsewhere: check the cable, and calibrate again if the "
-               "positions are off";
+        return "its position jumped: check the cable, and calibrate again if the positions are off";
     case Trip::nonsense:
         return "the device reports positions that are no numbers: check its cable, and start again";
     case Trip::none:

@@ -88,6 +88,7 @@ Capabilities capabilities_of(const Properties& properties)
     can.rate_hz = properties.update_rate_hz > 0 ? properties.update_rate_hz : 1000.0;
     can.resolution_m = omni_resolution_m;
     can.buttons = 2;
+    can.has_holder = (properties.calibration_styles & calibration::style_inkwell) != 0;
     can.pacing = Pacing::device;
     return can;
 }

@@ -45,6 +45,7 @@ Capabilities capabilities_of(const Drive& drive)
     can.resolution_m = omni::radians_per_count * omni::link_m;
     can.speed_max_m_per_s = 1.0;
     can.buttons = 2;
+    can.has_holder = true;
     can.pacing = Pacing::device;
     drive.describe(can);
     return can;

@@ -49,14 +49,16 @@ void KeyReader::value(std::string_view key, double& target, const Plain& range)
     target = read;
 }
 
-void KeyReader::value(std::string_view key, base::Duration& target, base::Duration most)
+void KeyReader::value(std::string_view key, base::Duration& target, const Times& range)
 {
     const base::Node* node = table_.find(key);
     if (node == nullptr) return;
     base::Duration read = target;
     base::read_value(*node, read, table_.reading());
-    if (read < base::Duration{0} || read > most) {
-        return complain_of_range(*node, "0s", base::to_text(most), table_.reading());
+    if (!table_.reading().is_good()) return;
+    if (read < range.least || read > range.most) {
+        return complain_of_range(*node, base::to_text(range.least), base::to_text(range.most),
+                                 table_.reading());
     }
     target = read;
 }
@@ -78,6 +80,11 @@ void KeyPrinter::value(std::string_view key, double value, const Range& range)
 }
 
 void KeyPrinter::value(std::string_view key, double value, const Plain& /*range*/)
+{
+    line(key, base::value_text(value));
+}
+
+void KeyPrinter::value(std::string_view key, base::Duration value, const Times& /*range*/)
 {
     line(key, base::value_text(value));
 }

@@ -30,6 +30,12 @@ struct Plain {
     double most;
 };
 
+/// What a time may be, both ends included.
+struct Times {
+    base::Duration least;
+    base::Duration most;
+};
+
 /// Reads those keys that are there; the others keep their values.
 class KeyReader {
 public:
@@ -37,7 +43,11 @@ public:
 
     void value(std::string_view key, double& target, const Range& range);
     void value(std::string_view key, double& target, const Plain& range);
-    void value(std::string_view key, base::Duration& target, base::Duration most);
+    void value(std::string_view key, base::Duration& target, const Times& range);
+    void value(std::string_view key, base::Duration& target, base::Duration most)
+    {
+        value(key, target, Times{base::Duration{0}, most});
+    }
     void value(std::string_view key, base::Probability& target);
     template <typename T, typename Limit>
     void value(std::string_view key, std::optional<T>& target, const Limit& limit)
@@ -73,6 +83,7 @@ public:
 
     void value(std::string_view key, double value, const Range& range);
     void value(std::string_view key, double value, const Plain& range);
+    void value(std::string_view key, base::Duration value, const Times& range);
     void value(std::string_view key, base::Duration value, base::Duration most);
     void value(std::string_view key, base::Probability value);
     template <typename T, typename Limit>

@@ -43,6 +43,7 @@ public:
     void apply(const GovernedForce& force) override;
     void halt() noexcept override { halted_.store(true, std::memory_order_relaxed); }
     void on_cue(const Cue& cue) override;
+    void on_fault(bool is_latched) override { person_.on_fault(is_latched); }
 
     /// read() goes on in one exact step, unless it comes later than this after the last.
     static constexpr base::Duration step_max{std::chrono::milliseconds{2}};

@@ -4,12 +4,19 @@
 
 #include "device/simulated/minimum_jerk.hpp"
 
+#include <chrono>
+
 namespace hapnet::device {
 
 namespace {
 
 // The hand takes this long from its rest to its part.
 constexpr double approach_s = 0.8;
+
+// A governor wants a second of rest before a press: half a second more, to come to rest.
+constexpr base::Duration rest_before_press{std::chrono::milliseconds{1500}};
+constexpr base::Duration press_length{std::chrono::milliseconds{100}};
+constexpr base::Duration press_every{std::chrono::seconds{2}};
 
 } // namespace
 
@@ -23,7 +30,48 @@ void Person::on_cue(const Cue& cue, const glm::dvec3& rest)
     rest_ = rest;
 }
 
+void Person::on_fault(bool is_latched)
+{
+    if (is_latched) {
+        pause_ = Pause{};
+    } else if (pause_) {
+        pause_->is_over = true;
+    }
+}
+
 Person::Aim Person::aim(base::TimePoint now)
+{
+    Aim aim = aim_of_part(now);
+    if (pause_ && part_) aim = paused(aim, now);
+    meant_ = aim.intention.target;
+    return aim;
+}
+
+Person::Aim Person::paused(const Aim& aim, base::TimePoint now)
+{
+    if (pause_->is_over) {
+        if (!pause_->left) pause_->left = now;
+        if (!pause_->since) pause_->place = meant_;
+        const double u = base::to_seconds(now - *pause_->left) / approach_s;
+        if (u >= 1.0) {
+            pause_.reset();
+            return aim;
+        }
+        Aim back = aim;
+        const base::Position& stayed = pause_->place;
+        back.intention.target = stayed + minimum_jerk(u) * (aim.intention.target - stayed);
+        return back;
+    }
+    if (!pause_->since) {
+        pause_->since = now;
+        pause_->place = meant_;
+    }
+    const base::Duration into = (now - *pause_->since) % press_every;
+    const bool presses = into >= rest_before_press && into < rest_before_press + press_length;
+    return {.intention = {.target = pause_->place, .gripping = presses}};
+}
+
+Person::Aim Person::aim_of_part(base::TimePoint now)
 {
     if (!part_) return {.intention = {.target = {rest_}}};
     if (!cued_at_) cued_at_ = now;

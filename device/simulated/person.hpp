@@ -20,7 +20,9 @@ struct Role {
 };
 
 /// A simulated person who plays a part of a task: what the hand means to do at a time, and how it
-/// answers what it feels. Not a human being: a script, a wavering will and reflexes. P1 is a
+/// answers what it feels. At a fault of the device the hand stays where it is, without pressing,
+/// and presses the primary button every two seconds until the fault is over; then it goes back to
+/// its part. Not a human being: a script, a wavering will and reflexes. P1 is a
 /// prescribed path: there the hand neither wavers nor reacts.
 class Person {
 public:
@@ -28,6 +30,9 @@ public:
 
     /// From `rest`, where the hand is.
     void on_cue(const Cue& cue, const glm::dvec3& rest);
+
+    /// A fault of the device was latched, or has ended.
+    void on_fault(bool is_latched);
 
     /// What the hand means to do, and by how much its force is off.
     struct Aim {
@@ -54,6 +59,16 @@ public:
     [[nodiscard]] const HandImpedance& hand() const { return role_.person.hand; }
 
 private:
+    /// From a fault to the return to its part.
+    struct Pause {
+        bool is_over = false;
+        base::Position place{};                 // where the hand stays
+        std::optional<base::TimePoint> since{}; // nullopt: with the next aim()
+        std::optional<base::TimePoint> left{};  // after it was over
+    };
+    [[nodiscard]] Aim aim_of_part(base::TimePoint now);
+    [[nodiscard]] Aim paused(const Aim& aim, base::TimePoint now);
+
     struct Part {
         Script script;
         HandNoise noise;
@@ -66,6 +81,8 @@ private:
     std::optional<Part> part_;
     std::optional<base::TimePoint> cued_at_;
     glm::dvec3 rest_{0.0, 0.0, 0.035}; // where the hand was before its cue
+    std::optional<Pause> pause_;
+    base::Position meant_{{0.0, 0.0, 0.035}}; // the last target
 };
 
 } // namespace hapnet::device

@@ -42,6 +42,12 @@ public:
         return is_there ? found->get<double>() : 0.0;
     }
 
+    /// As number(), of what older records have not.
+    double number_if_any(const char* key, double otherwise)
+    {
+        return json_.contains(key) ? number(key) : otherwise;
+    }
+
     std::string text(const char* key)
     {
         const auto found = json_.find(key);
@@ -98,6 +104,7 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     settings.introduction.seed = read.whole<std::uint64_t>("seed");
     settings.tick = base::Duration{read.whole<std::uint64_t>("tick_ns", 1'000'000'000)};
     settings.grip_damping_ns_per_m = read.number("grip_damping_ns_per_m");
+    settings.stiffness_max_n_per_m = read.number_if_any("stiffness_max_n_per_m", 0.0);
     const double seconds = read.number("duration_s");
     const std::string task = read.text("task");
     const std::string scene_text = read.text("scene_toml");
@@ -114,6 +121,9 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     }
     if (!(seconds > 0.0 && seconds < seconds_max && settings.grip_damping_ns_per_m >= 0.0)) {
         return base::fail("config \"duration_s\" or \"grip_damping_ns_per_m\" is out of range");
+    }
+    if (!(settings.stiffness_max_n_per_m >= 0.0)) {
+        return base::fail("config \"stiffness_max_n_per_m\" is negative");
     }
     settings.length = base::Duration{std::llround(seconds * 1e9)};
     auto scene = scene::parse_scene(scene_text, "scene_toml");

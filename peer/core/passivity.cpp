@@ -14,6 +14,14 @@ double damping_for_passivity(const VirtualWall& wall, double tick_s)
     return wall.stiffness_n_per_m * tick_s / 2.0 + std::abs(wall.damping_ns_per_m);
 }
 
+double share_within(double stiffness_max_n_per_m, const VirtualWall& wall)
+{
+    base::ensure(stiffness_max_n_per_m >= 0.0);
+    const bool is_stable =
+        stiffness_max_n_per_m == 0.0 || wall.stiffness_n_per_m <= stiffness_max_n_per_m;
+    return is_stable ? 1.0 : stiffness_max_n_per_m / wall.stiffness_n_per_m;
+}
+
 double passive_share(const VirtualWall& wall, double tick_s, double port_damping_ns_per_m)
 {
     base::ensure(port_damping_ns_per_m >= 0.0);

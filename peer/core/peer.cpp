@@ -53,8 +53,10 @@ std::optional<FingerFriction> friction_of(const Settings& settings)
 double rendered_share(const Settings& settings)
 {
     const scene::HipDescription& hips = settings.scene.hips;
-    return passive_share({hips.stiffness_n_per_m, hips.damping_ns_per_m},
-                         base::to_seconds(settings.tick), settings.grip_damping_ns_per_m);
+    const VirtualWall wall{hips.stiffness_n_per_m, hips.damping_ns_per_m};
+    return std::min(
+        share_within(settings.stiffness_max_n_per_m, wall),
+        passive_share(wall, base::to_seconds(settings.tick), settings.grip_damping_ns_per_m));
 }
 
 } // namespace

@@ -32,6 +32,8 @@ struct Settings {
     /// a stylus, and an assumption: fingertips were measured at 4 to 7.4 N s/m (A. Z. Hajian,
     /// R. D. Howe: Identification of the mechanical impedance at the human finger tip, 1997).
     double grip_damping_ns_per_m = 4.0;
+    /// Of contacts that the device renders without buzzing, in the scene; 0: nobody has said.
+    double stiffness_max_n_per_m = 0.0;
     Staleness staleness;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration length{std::chrono::seconds{30}}; // of the session, from its start

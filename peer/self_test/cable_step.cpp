@@ -12,6 +12,7 @@ Turn CableStep::on_tick(const Feeling& feeling, base::TimePoint now)
     if (!heard_ || feeling.sample.sequence != sequence_) heard_ = now;
     sequence_ = feeling.sample.sequence;
     fault_ = feeling.sample.fault;
+    was_well_ = was_well_ || fault_ == device::Fault::none;
     silent_for_ = now - *heard_;
     const bool is_over = fault_ != device::Fault::none || now - *start_ >= patience;
     return {.is_done = is_over, .prompt = Prompt::pull_cable};
@@ -21,6 +22,12 @@ Outcome CableStep::outcome() const
 {
     Outcome outcome{.step = "cable", .verdict = Verdict::skipped, .text = "no cable was pulled"};
     if (fault_ == device::Fault::none) return outcome;
+    if (!was_well_) {
+        outcome.verdict = Verdict::failed;
+        outcome.text = fmt::format("the device was at fault before its cable could be pulled: {}",
+                                   device::words_for(fault_));
+        return outcome;
+    }
     const double noticed_ms = 1e3 * base::to_seconds(silent_for_);
     const bool is_loss = fault_ == device::Fault::disconnected ||
                          fault_ == device::Fault::timeout || fault_ == device::Fault::communication;

@@ -23,6 +23,7 @@ private:
     std::optional<base::TimePoint> heard_;
     std::uint64_t sequence_ = 0;
     base::Duration silent_for_{};
+    bool was_well_ = false; // in this step: a loss before it is none that was tried
     device::Fault fault_ = device::Fault::none;
 };
 

@@ -37,7 +37,7 @@ Outcome CalibrateStep::outcome() const
 {
     Outcome outcome{.step = "calibrate", .verdict = Verdict::passed, .text = {}};
     outcome.figures = {{"took_s", base::to_seconds(took_)}};
-    outcome.text = "the device is calibrated, and its stylus in a hand";
+    outcome.text = "the device is calibrated, and in a hand";
     if (prompt_ == Prompt::nothing) return outcome;
     outcome.verdict = Verdict::failed;
     outcome.text = fmt::format("not done after {:.0f} s; last it was: {}", base::to_seconds(took_),

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "device/device.hpp"
-#include "peer/self_test/step.hpp"
+#include "peer/self_test/self_test.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,11 +12,10 @@
 namespace hapnet::peer::self_test {
 
 /// For a person.
-[[nodiscard]] std::string report_text(const std::string& device,
-                                      const std::vector<Outcome>& outcomes);
+[[nodiscard]] std::string report_text(const device::Device& device, const SelfTest& test);
 /// What docs/HARDWARE.md asks a person to send.
-[[nodiscard]] nlohmann::json report_json(const device::Device& device,
-                                         const std::vector<Outcome>& outcomes);
-[[nodiscard]] bool has_failed(const std::vector<Outcome>& outcomes);
+[[nodiscard]] nlohmann::json report_json(const device::Device& device, const SelfTest& test);
+/// The test came to its end, and no step failed.
+[[nodiscard]] bool has_passed(const SelfTest& test);
 
 } // namespace hapnet::peer::self_test

@@ -47,12 +47,19 @@ SelfTest::SelfTest(const Plan& plan)
 Turn SelfTest::on_tick(const Feeling& feeling, base::TimePoint now)
 {
     if (at_ == steps_.size()) return {.is_done = true};
-    Turn turn =
-        std::visit([&](auto& step) { return step.on_tick(feeling, now); }, steps_[at_].step);
-    if (!turn.is_done) return turn;
-    outcomes_.push_back(
-        std::visit([](const auto& step) { return step.outcome(); }, steps_[at_].step));
+    auto& step = steps_[at_].step;
+    Turn turn = std::visit([&](auto& one) { return one.on_tick(feeling, now); }, step);
+    const bool is_lost = feeling.sample.fault == device::Fault::disconnected &&
+                         !std::holds_alternative<CableStep>(step);
+    if (!turn.is_done && !is_lost) return turn;
+    outcomes_.push_back(std::visit([](const auto& one) { return one.outcome(); }, step));
     ++at_;
+    if (is_lost) {
+        outcomes_.back().verdict = Verdict::failed;
+        outcomes_.back().text = device::words_for(device::Fault::disconnected);
+        skip_rest("the device has gone");
+        return {.is_done = true};
+    }
     skip_to_next();
     return {.is_done = at_ == steps_.size()};
 }
@@ -65,10 +72,13 @@ void SelfTest::skip_to_next()
     }
 }
 
-void SelfTest::stop()
+void SelfTest::skip_rest(std::string_view why)
 {
     for (; at_ < steps_.size(); ++at_) {
-        outcomes_.push_back({steps_[at_].name, Verdict::skipped, "the test was broken off"});
+        const bool is_left_out = !steps_[at_].why_not.empty();
+        is_cut_short_ = is_cut_short_ || !is_left_out;
+        outcomes_.push_back({steps_[at_].name, Verdict::skipped,
+                             is_left_out ? steps_[at_].why_not : std::string{why}});
     }
 }
 

@@ -34,7 +34,10 @@ public:
     /// Of the steps that are over, or were left out; after the end of all.
     [[nodiscard]] const std::vector<Outcome>& outcomes() const { return outcomes_; }
     /// The test is broken off: what is under way and what would come is skipped.
-    void stop();
+    void stop() { skip_rest("the test was broken off"); }
+    /// Every step was gone through or left out beforehand: nobody broke the test off, and the
+    /// device was there to the end.
+    [[nodiscard]] bool is_finished() const { return at_ == steps_.size() && !is_cut_short_; }
 
 private:
     using Step = std::variant<ReadStep, CalibrateStep, ForceStep, CableStep>;
@@ -45,9 +48,11 @@ private:
     };
 
     void skip_to_next();
+    void skip_rest(std::string_view why);
 
     std::vector<Planned> steps_;
     std::size_t at_ = 0;
+    bool is_cut_short_ = false;
     std::vector<Outcome> outcomes_;
 };
 

@@ -18,15 +18,15 @@ std::string_view words_for(Prompt prompt)
 {
     switch (prompt) {
     case Prompt::nothing: return "";
-    case Prompt::hold_still: return "reading, without force: move the stylus a little";
+    case Prompt::hold_still: return "reading, without force: move it a little";
     case Prompt::wait: return device::words_for(device::CalibrationStep::busy);
     case Prompt::dock: return device::words_for(device::CalibrationStep::dock_stylus);
     case Prompt::sweep: return device::words_for(device::CalibrationStep::sweep_joints);
     case Prompt::undock: return "take the stylus out of its holder";
     case Prompt::release_button: return "let go of the primary button first";
     case Prompt::hold_button:
-        return "hold the stylus loosely, then press the primary button and keep it down: 0.2 N "
-               "will push to the right; let go of the button to stop it";
+        return "hold it loosely, then press the primary button and keep it down: 0.2 N will push "
+               "to the right; let go of the button to stop it";
     case Prompt::keep_button: return "0.2 N to the right: keep the button down, or let go to stop";
     case Prompt::pull_cable: return "pull the device's cable, now";
     }

@@ -68,6 +68,21 @@ std::vector<std::string> rows_of(const std::string& fates, std::string_view dire
 
 } // namespace
 
+TEST(EmulatorRecords, OnAFullDiskAreMissedOnceAndInTheSummaryAndTheRunGoesOn)
+{
+    const auto outcome = run("hapnet-emulator",
+                             {"--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0", "--pcap",
+                              "/dev/full", "--duration", "1s", "--stats", "-"},
+                             10s);
+    EXPECT_EQ(outcome.exit, 3) << outcome.err;
+    EXPECT_NE(outcome.out.find("\"valid\""), std::string::npos); // its statistics all the same
+    for (const char* said : {"cannot be written any more", "NOT COMPLETE", "No space left"}) {
+        const auto at = outcome.err.find(said);
+        EXPECT_NE(at, std::string::npos) << said << "\n" << outcome.err;
+        EXPECT_EQ(outcome.err.find(said, at + 1), std::string::npos) << said;
+    }
+}
+
 TEST(EmulatorRecords, FatesThatAreEqualForEqualSeedsAndCanBeReplayed)
 {
     const TemporaryFolder folder;

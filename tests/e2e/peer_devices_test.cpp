@@ -104,6 +104,9 @@ TEST(PeerDevices, TestsTheSimulatedDeviceWithoutAPerson)
                               "passed   force", "skipped  cable"});
     const auto report = json::parse(text_of(folder.file("report.json")));
     EXPECT_EQ(report["failed"], false);
+    EXPECT_EQ(report["finished"], true);
+    EXPECT_EQ(report["passed"], true);
+    EXPECT_EQ(report["device"]["capabilities"]["stiffness_max_n_per_m"], 700.0);
     EXPECT_GT(step_of(report, "read")["rate_hz"], 200.0);
     EXPECT_NEAR(step_of(report, "force")["force_max_n"], 0.2, 1e-9);
 }
@@ -121,6 +124,9 @@ TEST(PeerDevices, TestsADeviceThatPacesTheLoopAndPromptsItsPerson)
     const auto report = json::parse(text_of(folder.file("report.json")));
     EXPECT_EQ(step_of(report, "read")["verdict"], "passed") << report;
     EXPECT_EQ(step_of(report, "force")["text"], "the test was broken off");
+    EXPECT_EQ(report["finished"], false);
+    EXPECT_EQ(report["passed"], false);
+    expect_said(test.out(), {"NOT FINISHED"});
 }
 
 TEST(PeerDevices, LeavesStepsOut)
@@ -156,6 +162,12 @@ TEST(PeerDevices, RefusesBadUsageNamingTheCure)
              Case{{"--remote", free, "--mount-offset", "1mm,2mm"}, 2, {"0mm,20mm,-5mm"}},
              Case{{"--remote", free, "--mount-scale", "-1"}, 2, {"from 0.05 to 20"}},
              Case{{"--remote", free, "--hid-force", "0N"}, 2, {"--hid-force", "not 0"}},
+             Case{{"--remote", free, "--device", "hid:1", "--omni-torque", "/no.toml"},
+                  2,
+                  {"--omni-torque", "/no.toml"}},
+             Case{{"self-test", "--device", "hid:1", "--enable-uncalibrated-force"},
+                  2,
+                  {"--enable-uncalibrated-force", "omni1394", "--device hid:1"}},
          }) {
         const auto outcome = peer(c.words);
         EXPECT_EQ(outcome.exit, c.exit) << c.words.back() << "\n" << outcome.err;

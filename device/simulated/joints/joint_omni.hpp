@@ -35,6 +35,7 @@ public:
     void apply(const GovernedForce& force) override;
     void halt() noexcept override { halted_.store(true, std::memory_order_relaxed); }
     void on_cue(const Cue& cue) override;
+    void on_fault(bool is_latched) override { person_.on_fault(is_latched); }
 
     /// By a script instead of the person: the hand goes there, evenly in a second, and stays.
     void lead_to(const base::Position& place);

@@ -51,5 +51,90 @@ TEST(LimitsText, NamesTheLineOfWhatItDoesNotKnow)
     EXPECT_TRUE(read.error().message.starts_with("limits:2:")) << read.error().message;
 }
 
+/// What is said to a line besides limits that are good, or "" where it is taken.
+std::string refusal_of_limits(const std::string& line)
+{
+    const auto read = parse_limits("force_max = \"3N\"\n" + line + "\n", "limits");
+    return read ? "" : read.error().message;
+}
+
+TEST(LimitsText, RefusesWhatWouldMakeARuleMeaninglessAndSaysWhatIsPossible)
+{
+    struct Case {
+        std::string key;
+        std::string least;
+        std::string most;
+        std::vector<std::string> beyond;
+    };
+    for (const Case& c : {
+             Case{"slew_max", "100N/s", "40000N/s", {"0N/s", "99N/s", "-1N/s", "40001N/s"}},
+             Case{"slew_ramping", "1N/s", "40000N/s", {"0N/s", "40001N/s"}},
+             Case{"fade_out", "1ms", "1s", {"0s", "999us", "1001ms"}},
+             Case{"ramp_in", "100ms", "60s", {"0s", "99ms", "61s"}},
+             Case{"tick", "100us", "10ms", {"0s", "99us", "11ms"}},
+             Case{"stall_max", "2ms", "100ms", {"0s", "1ms", "101ms", "1h"}},
+             Case{"fault_after", "20ms", "1s", {"0s", "1ms", "1001ms"}},
+             Case{"heat_time", "1s", "600s", {"0s", "999ms", "601s"}},
+             Case{"force_continuous", "1mN", "1000N", {"-1N", "1001N"}},
+             Case{"speed_max", "1mm/s", "1000m/s", {"0m/s", "-1m/s", "1001m/s"}},
+         }) {
+        const auto line = [&](const std::string& value) { return c.key + " = \"" + value + "\""; };
+        EXPECT_EQ(refusal_of_limits(line(c.least)), "");
+        EXPECT_EQ(refusal_of_limits(line(c.most)), "");
+        for (const std::string& value : c.beyond) {
+            const std::string said = refusal_of_limits(line(value));
+            EXPECT_TRUE(said.starts_with("limits:2:")) << line(value) << " -> " << said;
+        }
+        for (const std::string value : {"nan", "inf", "1", "infs", "nanN", "infN/s"}) {
+            EXPECT_NE(refusal_of_limits(c.key + " = " + value), "") << c.key << ' ' << value;
+            EXPECT_NE(refusal_of_limits(line(value)), "") << c.key << ' ' << value;
+        }
+    }
+    EXPECT_NE(refusal_of_limits("ramp_in = \"0s\"").find("100ms to 60s"), std::string::npos);
+}
+
+TEST(LimitsText, TakesNoForceAtAllAndAPeakBelowTheContinuousForce)
+{
+    EXPECT_TRUE(parse_limits("force_max = \"0N\"\nforce_continuous = \"0N\"\n", "l").has_value());
+    EXPECT_EQ(refusal_of_limits("force_continuous = \"4N\""), "");
+    for (const char* peak : {"-1N", "41N", "infN", "nanN"}) {
+        EXPECT_FALSE(parse_limits(std::string{"force_max = \""} + peak + "\"\n", "l")) << peak;
+    }
+}
+
+TEST(LimitsText, RefusesWhatContradictsItself)
+{
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"force_continuous = \"0N\"", "force_continuous is zero"},
+        {"tick = \"5ms\"\nstall_max = \"5ms\"", "stall_max has to be longer than tick"},
+        {"fault_after = \"19ms\"", "fault_after cannot be before stall_max"},
+        {"workspace_min.x = \"1mm\"\nworkspace_max.x = \"1mm\"", "workspace_min"},
+        {"workspace_min.x = \"11m\"", "-10m to 10m"},
+        {"axes_out = 1.5", "axes_out is a whole number"},
+        {"axes_out = 4.0", "3"},
+        {"axes_out = -1.0", "3"},
+        {"omni_torque_max.x = \"1N\"", "all of x, y and z"},
+        {"falcon_torque_max.y = \"1N\"", "all of x, y and z"},
+        {"omni_torque_max = { x = \"0N\", y = \"1N\", z = \"1N\" }", "100N"},
+        {"omni_torque_max.x = \"1N\"\nfalcon_torque_max.x = \"1N\"", "but one arm"}};
+    for (const auto& [line, said] : cases) {
+        const std::string refusal = refusal_of_limits(line);
+        EXPECT_TRUE(refusal.starts_with("limits:")) << line << " -> " << refusal;
+        EXPECT_NE(refusal.find(said), std::string::npos) << line << " -> " << refusal;
+    }
+}
+
+TEST(GovernorLimits, OfEveryKindOfDeviceAreWithoutContradiction)
+{
+    EXPECT_EQ(contradiction_in({}), "");
+    EXPECT_EQ(contradiction_in(limits_for({.axes_out = 0}, {})), "");
+    EXPECT_EQ(contradiction_in(limits_for({.force_max_n = 8.0}, {.force_max_n = 0.0})), "");
+    EXPECT_NE(contradiction_in({.force_max_n = -1.0}), "");
+    EXPECT_NE(contradiction_in({.fade_out = base::Duration{0}}), "");
+    EXPECT_NE(contradiction_in({.heat_time = base::Duration{0}}), "");
+    EXPECT_NE(contradiction_in({.slew_ramping_n_per_s = 0.0}), "");
+    EXPECT_NE(contradiction_in({.speed_max_m_per_s = 0.0}), "");
+}
+
 } // namespace
 } // namespace hapnet::device

@@ -62,7 +62,7 @@ TEST(Operator, IsRefusedWithFileAndLine)
     EXPECT_EQ(complaint("mass = \"0g\""),
               "hand.toml:1:8: \"0g\" is out of range: 20g to 10kg is possible here");
     EXPECT_EQ(complaint("will.delay = \"2s\""),
-              "hand.toml:1:14: \"2s\" is out of range: 0s to 1s is possible here");
+              "hand.toml:1:14: \"2s\" is out of range: 0ms to 1s is possible here");
     EXPECT_EQ(complaint("preset = \"fierce\"").substr(0, 15), "hand.toml:1:10:");
 }
 

@@ -69,6 +69,8 @@ TEST(HdapiMapping, SpeaksMetresAndDoubtsWhatIsNotSensible)
     EXPECT_DOUBLE_EQ(can.damping_max_ns_per_m, 4.0);
     EXPECT_DOUBLE_EQ(can.speed_max_m_per_s, 0.8);
     EXPECT_EQ(can.pacing, Pacing::device);
+    EXPECT_FALSE(can.has_holder);
+    EXPECT_TRUE(capabilities_of({.calibration_styles = calibration::style_inkwell}).has_holder);
 
     const Capabilities doubtful =
         capabilities_of({.workspace_mm = {nan, 5, 0, 1, -5, 0}, .force_max_n = nan});

@@ -34,7 +34,15 @@ nlohmann::json config_of(const peer::Settings& settings)
 /// Two hands squeeze the cube and sway; side 0 keeps a record as its daemon does.
 class RecordedPair {
 public:
-    RecordedPair() { record_.config = config_of(peer::settings_of(0)); }
+    /// The contact has 500 N/m, and its device renders so much; 0: all of it.
+    explicit RecordedPair(double stiffness_max_n_per_m = 0.0)
+    {
+        peer::Settings settings = peer::settings_of(0);
+        settings.stiffness_max_n_per_m = stiffness_max_n_per_m;
+        pair_.start(0, settings);
+        record_.config = config_of(settings);
+        record_.config["stiffness_max_n_per_m"] = stiffness_max_n_per_m;
+    }
 
     record::Record play(int ticks)
     {
@@ -105,6 +113,19 @@ TEST(ReplayOfARecord, GivesTheForcesThatWereRecorded)
     EXPECT_GT(strongest(*replayed), 0.5);
 }
 
+TEST(ReplayOfARecord, RendersContactsAsSoftlyAsTheDeviceDidAndFullyWhereTheRecordIsOlder)
+{
+    record::Record record = RecordedPair{250.0}.play(4000);
+    const auto replayed = replay(record, std::nullopt);
+    ASSERT_TRUE(replayed.has_value()) << replayed.error().message;
+    EXPECT_EQ(replayed->contact_difference_max_n, 0.0);
+    EXPECT_EQ(replayed->device_difference_max_n, 0.0);
+    record.config.erase("stiffness_max_n_per_m");
+    EXPECT_GT(replay(record, std::nullopt).value().contact_difference_max_n, 0.5);
+    record.config["stiffness_max_n_per_m"] = -1.0;
+    EXPECT_FALSE(replay(record, std::nullopt).has_value());
+}
+
 TEST(ReplayOfARecord, NoticesAMessageThatWasNotTheRecordedOne)
 {
     record::Record record = RecordedPair{}.play(4000);
@@ -142,6 +163,7 @@ TEST(ReplayOfARecord, NamesTheKeyThatTheConfigurationLacks)
     const record::Record whole = RecordedPair{}.play(10);
     for (const auto& [key, value] : whole.config.items()) {
         record::Record record = whole;
+        if (key == "stiffness_max_n_per_m") continue; // which older records have not
         record.config.erase(key);
         const auto replayed = replay(record, std::nullopt);
         ASSERT_FALSE(replayed.has_value()) << key;

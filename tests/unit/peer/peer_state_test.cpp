@@ -102,6 +102,30 @@ TEST(PeerForce, IsNoMoreThanTheGripLetsBeRenderedSafely)
     }
 }
 
+TEST(PeerForce, IsNoStifferThanTheDeviceIsSaidToRenderStably)
+{
+    struct Case {
+        double stiffness_max;
+        double grip_damping;
+        double share;
+    };
+    for (const Case& c : {Case{0.0, 20.0, 1.0}, Case{20'000.0, 20.0, 1.0},
+                          Case{5'000.0, 20.0, 0.25}, Case{5'000.0, 1.0, 1.0 / 12.0}}) {
+        Pair pair;
+        Settings settings = settings_of(0);
+        settings.scene.hips.stiffness_n_per_m = 20'000.0; // needs a grip of 12 N s/m
+        settings.grip_damping_ns_per_m = c.grip_damping;
+        settings.stiffness_max_n_per_m = c.stiffness_max;
+        pair.start(0, settings);
+        pair.run_until_started();
+        pair.hands[0] = pushing(0.0001);
+        pair.step();
+        const double on_body = pair.ticks[0].touched.on_body.x();
+        EXPECT_GT(on_body, 0.5);
+        EXPECT_NEAR(pair.ticks[0].force.x(), -on_body * c.share, 1e-12);
+    }
+}
+
 TEST(PeerState, LeavesTheBodyOutASecondAfterItsLastStirAndThenRepeatsItEvery64th)
 {
     Pair pair;

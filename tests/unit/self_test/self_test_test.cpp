@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "peer/self_test/report.hpp"
 #include "peer/self_test/self_test.hpp"
 
 #include <chrono>
@@ -271,6 +272,54 @@ TEST(SelfTest, SeesACableBeingPulledAndHowLongThatTook)
     EXPECT_TRUE(cable.turn.is_done);
     EXPECT_EQ(cable.outcome().verdict, Verdict::passed);
     EXPECT_DOUBLE_EQ(figure(cable.outcome(), "noticed_after_ms"), 22.0);
+}
+
+TEST(SelfTest, CallsNoCablePulledThatWasLostBefore)
+{
+    Played cable{"cable"};
+    cable.feeling.sample.fault = device::Fault::timeout;
+    cable.play(1ms);
+    EXPECT_TRUE(cable.turn.is_done);
+    EXPECT_EQ(cable.outcome().verdict, Verdict::failed) << cable.outcome().text;
+}
+
+TEST(SelfTest, IsOverAndNotPassedWhenTheDeviceGoesInTheMiddle)
+{
+    for (const base::Duration lost_after : {0ms, 500ms, 1500ms}) { // while it reads, and pushes
+        SelfTest test{{.capabilities = an_omni(), .read_for = 1s, .skip = {"calibrate"}}};
+        Feeling feeling;
+        Turn turn;
+        base::Duration t{};
+        for (; t < 3s && !turn.is_done; t += 1ms) {
+            feeling.sample.sequence += 1;
+            if (t >= lost_after) feeling.sample.fault = device::Fault::disconnected;
+            turn = test.on_tick(feeling, start + t);
+        }
+        EXPECT_LE(t, lost_after + 1ms);
+        EXPECT_FALSE(turn.permitted);
+        EXPECT_FALSE(test.is_finished());
+        EXPECT_FALSE(has_passed(test));
+        const std::size_t failed = lost_after < 1s ? 0 : 2;
+        ASSERT_EQ(test.outcomes().size(), 4U);
+        EXPECT_EQ(test.outcomes()[failed].verdict, Verdict::failed);
+        EXPECT_EQ(test.outcomes()[1].text, "left out by --skip");
+        EXPECT_EQ(test.outcomes()[3].text, "the device has gone");
+    }
+}
+
+TEST(SelfTest, IsNotPassedWhenItWasBrokenOff)
+{
+    SelfTest broken_off{{.capabilities = an_omni(), .is_real = false, .read_for = 1s}};
+    EXPECT_FALSE(broken_off.on_tick({}, start).is_done);
+    broken_off.stop();
+    EXPECT_FALSE(broken_off.is_finished());
+    EXPECT_FALSE(has_passed(broken_off));
+
+    SelfTest whole{{.capabilities = an_omni(), .is_real = false, .skip = all_but("calibrate")}};
+    EXPECT_TRUE(whole.on_tick({}, start).is_done);
+    whole.stop(); // too late
+    EXPECT_TRUE(whole.is_finished());
+    EXPECT_TRUE(has_passed(whole));
 }
 
 TEST(SelfTest, LeavesTheCableOfASimulatedDeviceAloneAndWhatIsSkippedToo)

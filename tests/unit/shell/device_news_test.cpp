@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "peer/device_news.hpp"
 
+#include "device/replay/replay.hpp"
+#include "device/simulated/joints/joint_omni.hpp"
+
 #include <chrono>
 #include <gtest/gtest.h>
 
@@ -17,9 +20,11 @@ using device::Trip;
 constexpr base::TimePoint noon{12h};
 constexpr Latched cable{Fault::communication, Trip::device};
 
+constexpr WaysBack an_omni{.by_holder = true};
+
 TEST(DeviceReporter, SaysNothingOfADeviceThatIsWell)
 {
-    DeviceReporter reporter;
+    DeviceReporter reporter{an_omni};
     for (int ms = 0; ms < 5000; ++ms) {
         EXPECT_FALSE(reporter.look(CalibrationStep::done, {}, noon + ms * 1ms));
     }
@@ -27,7 +32,7 @@ TEST(DeviceReporter, SaysNothingOfADeviceThatIsWell)
 
 TEST(DeviceReporter, TellsAFaultAtOnceAndOnceAndItsEnd)
 {
-    DeviceReporter reporter;
+    DeviceReporter reporter{an_omni};
     const auto fault = reporter.look(CalibrationStep::done, cable, noon);
     ASSERT_TRUE(fault);
     EXPECT_EQ(words_for(*fault),
@@ -42,7 +47,7 @@ TEST(DeviceReporter, TellsAFaultAtOnceAndOnceAndItsEnd)
 
 TEST(DeviceReporter, TellsNoMoreThanOnceASecondOfWhatComesAndGoesAndThenHowItIs)
 {
-    DeviceReporter reporter;
+    DeviceReporter reporter{an_omni};
     int told = 0;
     for (int ms = 0; ms < 10'000; ++ms) {
         const bool flickers = ms % 2 == 0;
@@ -59,7 +64,7 @@ TEST(DeviceReporter, TellsNoMoreThanOnceASecondOfWhatComesAndGoesAndThenHowItIs)
 
 TEST(DeviceReporter, TellsThePersonWhatACalibrationNeeds)
 {
-    DeviceReporter reporter;
+    DeviceReporter reporter{an_omni};
     const auto dock = reporter.look(CalibrationStep::dock_stylus, {}, noon);
     ASSERT_TRUE(dock);
     EXPECT_EQ(words_for(*dock), device::words_for(CalibrationStep::dock_stylus));
@@ -77,6 +82,41 @@ TEST(DeviceNews, PromiseNoWayBackWhereThereIsNone)
     }
     const auto trip = words_for(DeviceNews{.fault = {Fault::over_velocity, Trip::speed}});
     EXPECT_NE(trip.find("button"), std::string::npos);
+}
+
+TEST(WaysBack, AreThoseOfTheDevice)
+{
+    const device::JointOmni omni{{}};
+    EXPECT_TRUE(ways_back_of(omni).by_holder);
+    EXPECT_TRUE(ways_back_of(omni).by_button);
+    EXPECT_TRUE(ways_back_of(omni).by_simulated_hand);
+    const device::Replay replay{{device::HandMoment{}}, "a file"};
+    EXPECT_FALSE(ways_back_of(replay).by_holder);
+    EXPECT_FALSE(ways_back_of(replay).by_simulated_hand);
+}
+
+TEST(DeviceNews, AskForNothingThatTheDeviceHasNot)
+{
+    const auto said = [](const WaysBack& ways_back) {
+        DeviceReporter reporter{ways_back};
+        return words_for(*reporter.look(CalibrationStep::done, cable, noon));
+    };
+    for (const auto& [ways_back, cure] :
+         {std::pair{WaysBack{}, "hold it still for a second, then press its primary button"},
+          std::pair{WaysBack{.by_button = false},
+                    "start this program again, as the device has no button"},
+          std::pair{WaysBack{.by_simulated_hand = true},
+                    "the simulated hand holds still for a second, then presses the button"}}) {
+        EXPECT_TRUE(said(ways_back).ends_with(cure)) << said(ways_back);
+        for (const char* part : {"stylus", "holder"}) {
+            EXPECT_EQ(said(ways_back).find(part), std::string::npos) << said(ways_back);
+        }
+    }
+    for (const Fault fault : {Fault::over_velocity, Fault::timeout, Fault::overheat}) {
+        for (const Trip trip : {Trip::device, Trip::jump, Trip::loop, Trip::speed}) {
+            EXPECT_EQ(device::what_happened({fault, trip}).find("stylus"), std::string::npos);
+        }
+    }
 }
 
 TEST(FaultAtTheEnd, IsOneThatNobodyHasEnded)

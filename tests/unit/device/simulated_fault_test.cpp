@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What a simulated person does when a fault is latched.
+#include "device/rig.hpp"
+#include "device/simulated/omni.hpp"
+
+#include <chrono>
+#include <gtest/gtest.h>
+
+namespace hapnet::device {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr base::TimePoint session{1h};
+constexpr Latched stall{Fault::timeout, Trip::loop};
+
+/// A session of a simulated person, without a scene: at 1 kHz, with a force that may be felt.
+class Played {
+public:
+    explicit Played(std::unique_ptr<Device> device) : rig_{std::move(device), GovernorLimits{}}
+    {
+        rig_.device().on_cue({session, 30s, base::Seed{7}, 1, true});
+    }
+
+    void play(base::Duration length)
+    {
+        for (const base::TimePoint end = now_ + length; now_ < end; now_ += 1ms) {
+            const base::Position before = sample.hip;
+            sample = rig_.read(now_);
+            step_most_m = std::max(step_most_m, base::norm(sample.hip - before));
+            if (sample.gripping) ++ticks_pressed;
+            std::ignore = rig_.apply({{0.1, 0.0, 0.0}}, true, now_);
+        }
+    }
+    [[nodiscard]] Governor& governor() { return rig_.governor(); }
+
+    Sample sample;
+    double step_most_m = 0.0;
+    int ticks_pressed = 0;
+
+private:
+    Rig rig_;
+    base::TimePoint now_ = session;
+};
+
+std::unique_ptr<Device> an_omni(Task task)
+{
+    return std::make_unique<SimulatedOmni>(Performer{.task = task});
+}
+
+/// One whose motors are hot for some time.
+class HotOmni final : public Device {
+public:
+    HotOmni(base::TimePoint from, base::TimePoint to) : from_{from}, to_{to} {}
+
+    [[nodiscard]] const Identity& identity() const override { return omni_->identity(); }
+    [[nodiscard]] const Capabilities& capabilities() const override
+    {
+        return omni_->capabilities();
+    }
+    [[nodiscard]] Sample read(base::TimePoint now) override
+    {
+        Sample sample = omni_->read(now);
+        if (now >= from_ && now < to_) sample.fault = Fault::overheat;
+        return sample;
+    }
+    void apply(const GovernedForce& force) override { omni_->apply(force); }
+    void halt() noexcept override { omni_->halt(); }
+    void on_cue(const Cue& cue) override { omni_->on_cue(cue); }
+    void on_fault(bool is_latched) override { omni_->on_fault(is_latched); }
+
+private:
+    std::unique_ptr<Device> omni_ = an_omni(Task::t3);
+    base::TimePoint from_;
+    base::TimePoint to_;
+};
+
+TEST(SimulatedPerson, EndsAFaultLikeAPersonWouldAndGoesBackToItsPart)
+{
+    for (const Task task : {Task::t3, Task::t6}) {
+        Played played{an_omni(task)};
+        Played undisturbed{an_omni(task)};
+        played.play(5s);
+        undisturbed.play(5s);
+        ASSERT_EQ(played.governor().state(), GovernorState::active);
+        played.governor().latch(stall);
+        played.play(1400ms);
+        EXPECT_EQ(played.governor().state(), GovernorState::fault);
+        EXPECT_EQ(played.ticks_pressed, 0);
+        const base::Position rest = played.sample.hip;
+        played.play(50ms);
+        EXPECT_EQ(played.sample.hip, rest); // it holds still
+        played.play(150ms);
+        EXPECT_EQ(played.governor().counters().resets, 1U);
+        EXPECT_EQ(played.governor().fault().fault, Fault::none);
+        played.step_most_m = 0.0;
+        played.play(2s);
+        EXPECT_LT(played.step_most_m, 1e-3); // 1 m/s: no jump on its way back
+        EXPECT_EQ(played.governor().state(), GovernorState::active);
+        undisturbed.play(3600ms);
+        EXPECT_LT(base::norm(played.sample.hip - undisturbed.sample.hip), 2e-3);
+        EXPECT_LE(played.ticks_pressed, 2);
+    }
+}
+
+TEST(SimulatedPerson, LetsGoOfTheButtonThatItHoldsToPressItAgain)
+{
+    Played played{an_omni(Task::p1)};
+    played.play(5s);
+    ASSERT_TRUE(played.sample.gripping);
+    played.governor().latch(stall);
+    played.play(1s);
+    EXPECT_FALSE(played.sample.gripping);
+    played.play(3s);
+    EXPECT_EQ(played.governor().counters().resets, 1U);
+    EXPECT_TRUE(played.sample.gripping);
+    EXPECT_EQ(played.governor().state(), GovernorState::active);
+}
+
+TEST(SimulatedPerson, PressesAgainAsLongAsTheDeviceIsStillAtFault)
+{
+    Played played{std::make_unique<HotOmni>(session + 6s, session + 11s)};
+    played.play(10s);
+    EXPECT_EQ(played.governor().state(), GovernorState::fault);
+    EXPECT_EQ(played.governor().fault().fault, Fault::overheat);
+    EXPECT_EQ(played.governor().counters().resets, 0U);
+    EXPECT_EQ(played.ticks_pressed, 200); // twice, in vain
+    played.play(7s);
+    EXPECT_EQ(played.governor().counters().resets, 1U);
+    EXPECT_EQ(played.governor().state(), GovernorState::active);
+}
+
+TEST(SimulatedPerson, DoesNothingOfTheKindBeforeItsCue)
+{
+    SimulatedOmni omni{Performer{.task = Task::t3}};
+    omni.on_fault(true);
+    for (int ms = 0; ms < 5000; ++ms) EXPECT_FALSE(omni.read(session + ms * 1ms).gripping);
+}
+
+} // namespace
+} // namespace hapnet::device
