@@ -47,11 +47,13 @@ Fault fault_of(unsigned int code)
     }
 }
 
-CalibrationStep calibration_step(unsigned int status)
+CalibrationStep calibration_step(unsigned int status, int style)
 {
     switch (status) {
     case calibration::done: return CalibrationStep::done;
-    case calibration::needs_update: return CalibrationStep::busy;
+    case calibration::needs_update:
+        return style == calibration::style_inkwell ? CalibrationStep::dock_stylus
+                                                   : CalibrationStep::busy;
     case calibration::needs_person: return CalibrationStep::dock_stylus;
     default: return CalibrationStep::failed;
     }

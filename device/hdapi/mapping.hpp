@@ -14,8 +14,9 @@ namespace hapnet::device::hdapi {
 /// What one of the library's error codes means.
 [[nodiscard]] Fault fault_of(unsigned int code);
 
-/// What the library's word on its calibration asks for.
-[[nodiscard]] CalibrationStep calibration_step(unsigned int status);
+/// What the library's word on its calibration asks for, with this style. A Touch has been seen to
+/// need an update from its start on, wherever its stylus was: only the inkwell ends that.
+[[nodiscard]] CalibrationStep calibration_step(unsigned int status, int style);
 
 /// With which of the styles that a device has it is calibrated: inkwell before automatic before
 /// encoder reset, as the first needs no care of the person's.

@@ -40,7 +40,8 @@ public:
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
     [[nodiscard]] CalibrationStep calibrate(base::TimePoint /*now*/) override
     {
-        return calibration_step(opening_.seat->report().calibration);
+        return calibration_step(opening_.seat->report().calibration,
+                                preferred_style(opening_.properties.calibration_styles));
     }
     [[nodiscard]] Sample read(base::TimePoint now) override
     {

@@ -112,6 +112,7 @@ void Scheduler::give_back(const Opening& opening)
 Opened<bool> Scheduler::start()
 {
     if (open_.empty()) return true;
+    for (const Opening& opening : open_) opening.seat->on_start();
     callback_ = functions_.schedule_asynchronous(&Scheduler::serve_all, this, priority_max);
     functions_.set_scheduler_rate(rate_hz);
     std::ignore = first_error(functions_); // a device that knows other rates keeps its own
@@ -138,8 +139,26 @@ void Scheduler::stop()
 
 unsigned int Scheduler::serve_all(void* self)
 {
-    for (const Opening& opening : static_cast<Scheduler*>(self)->open_) opening.seat->serve();
+    const auto* scheduler = static_cast<Scheduler*>(self);
+    for (const Opening& opening : scheduler->open_) opening.seat->serve();
+    scheduler->hand_out_errors();
     return callback_continue;
+}
+
+void Scheduler::hand_out_errors() const
+{
+    for (int i = 0; i < errors_max; ++i) {
+        const ErrorInfo latest = functions_.get_error();
+        if (latest.code == error::none) return;
+        const auto is_named = [&](const Opening& one) {
+            return one.seat->handle() == latest.handle;
+        };
+        const bool is_of_all = std::none_of(open_.begin(), open_.end(), is_named);
+        // The first that came is taken off last, and stays: the others follow from it.
+        for (const Opening& one : open_) {
+            if (is_of_all || is_named(one)) one.seat->note(latest.code);
+        }
+    }
 }
 
 Opened<Scheduler*> scheduler_of(const std::string& file)

@@ -43,12 +43,13 @@ TEST(HdapiMapping, KnowsEveryErrorOfTheInterface)
     for (const auto& [code, fault] : all) EXPECT_EQ(fault_of(code), fault) << std::hex << code;
 }
 
-TEST(HdapiMapping, AsksForTheInkwellOnlyWhenAPersonIsNeeded)
+TEST(HdapiMapping, AsksForTheInkwellWhereOnlyAPersonCanHelp)
 {
-    EXPECT_EQ(calibration_step(0x5000), CalibrationStep::done);
-    EXPECT_EQ(calibration_step(0x5001), CalibrationStep::busy);
-    EXPECT_EQ(calibration_step(0x5002), CalibrationStep::dock_stylus);
-    EXPECT_EQ(calibration_step(0), CalibrationStep::failed);
+    EXPECT_EQ(calibration_step(0x5000, 4), CalibrationStep::done);
+    EXPECT_EQ(calibration_step(0x5001, 4), CalibrationStep::dock_stylus);
+    EXPECT_EQ(calibration_step(0x5001, 2), CalibrationStep::busy);
+    EXPECT_EQ(calibration_step(0x5002, 4), CalibrationStep::dock_stylus);
+    EXPECT_EQ(calibration_step(0, 4), CalibrationStep::failed);
     EXPECT_EQ(preferred_style(7), 4);
     EXPECT_EQ(preferred_style(3), 2);
     EXPECT_EQ(preferred_style(1), 1);
