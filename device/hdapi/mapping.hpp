@@ -6,6 +6,7 @@
 #include "device/device.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -37,6 +38,11 @@ struct Properties {
 /// The same in ours. Where the library says nothing sensible, an Omni's data sheet does; but no
 /// more force than an Omni bears for ever.
 [[nodiscard]] Capabilities capabilities_of(const Properties& properties);
+
+inline constexpr std::size_t text_bytes_max = 200;
+/// A text of the library's as it may be shown and stored: "" for null, at most text_bytes_max
+/// characters, and in place of every one that is not printable ASCII a question mark.
+[[nodiscard]] std::string text_of(const char* text);
 
 /// What a person is to do about a device that does not open. `name` is as in the vendor's
 /// configuration, "" for the default one; `said` is the library's own text for `code`.

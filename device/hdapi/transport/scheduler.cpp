@@ -16,8 +16,6 @@ namespace {
 
 constexpr unsigned long rate_hz = 1000;
 
-std::string text_or_nothing(const char* text) { return text == nullptr ? "" : text; }
-
 Properties properties_of_current(const Functions& functions)
 {
     Properties it;
@@ -73,14 +71,14 @@ Opened<Opening> Scheduler::open_one(const std::string& name)
     if (handle == no_device || error.code != error::none) {
         const Fault fault =
             fault_of(error.code) == Fault::in_use ? Fault::in_use : Fault::not_found;
-        const std::string said = text_or_nothing(functions_.get_error_string(error.code));
+        const std::string said = text_of(functions_.get_error_string(error.code));
         return trouble(fault, words_for_refusal(name, error.code, said), error.code);
     }
     functions_.make_current_device(handle);
     Opening opening{.seat = nullptr,
                     .name = name,
-                    .model = text_or_nothing(functions_.get_string(parameter::model)),
-                    .serial = text_or_nothing(functions_.get_string(parameter::serial)),
+                    .model = text_of(functions_.get_string(parameter::model)),
+                    .serial = text_of(functions_.get_string(parameter::serial)),
                     .properties = properties_of_current(functions_)};
     functions_.disable(capability::force_output);  // until a governor asks for force
     functions_.enable(capability::force_clamping); // the library's own limit, behind ours
@@ -123,8 +121,7 @@ Opened<bool> Scheduler::start()
     return trouble(Fault::internal,
                    fmt::format("libHD cannot start its scheduler (error 0x{:x}: {}): end other "
                                "programs that use the device, and plug it in again",
-                               error.code,
-                               text_or_nothing(functions_.get_error_string(error.code))),
+                               error.code, text_of(functions_.get_error_string(error.code))),
                    error.code);
 }
 

@@ -77,11 +77,23 @@ TEST(HdapiMapping, SpeaksMetresAndDoubtsWhatIsNotSensible)
     EXPECT_LT(doubtful.workspace_min.y(), doubtful.workspace_max.y());
     EXPECT_LT(doubtful.workspace_min.x(), doubtful.workspace_max.x());
 
+    // More than zero and finite, but not once they are in metres.
+    EXPECT_DOUBLE_EQ(capabilities_of({.velocity_limit_mm_per_s = 5e-324}).speed_max_m_per_s, 1.0);
+    EXPECT_DOUBLE_EQ(capabilities_of({.stiffness_max_n_per_mm = 1e306}).stiffness_max_n_per_m, 700);
+
     // In metres: the scene would be magnified a thousand times, and a million times as stiff.
     const Capabilities tiny =
         capabilities_of({.workspace_mm = {-0.08, -0.06, -0.035, 0.08, 0.06, 0.035}});
     EXPECT_DOUBLE_EQ(tiny.workspace_max.x(), 0.080);
     EXPECT_DOUBLE_EQ(tiny.workspace_min.z(), -0.035);
+}
+
+TEST(HdapiMapping, ShowsNoTextOfTheLibraryThatATerminalOrJsonCannotBear)
+{
+    EXPECT_EQ(text_of(nullptr), "");
+    EXPECT_EQ(text_of("PHANToM Omni"), "PHANToM Omni");
+    EXPECT_EQ(text_of("Touch\xe9\x1b[2J\n"), "Touch??[2J?");
+    EXPECT_EQ(text_of(std::string(1000, 'x').c_str()).size(), text_bytes_max);
 }
 
 TEST(HdapiStylus, SpeaksMetresAndGrowsItsSequenceWithTheCycles)
