@@ -137,6 +137,10 @@ base::Result<int> run(const SelfTestCommand& command)
     // In the device's own frame: nothing of a scene is felt here.
     device::Rig rig{*std::move(opened), device::GovernorLimits{}};
     net::say("hapnet-peer", device::description(rig.device()));
+    // A simulated person takes the stylus out of its inkwell at the cue, and has no part to play.
+    if (command.device.is_simulated()) {
+        rig.device().on_cue({.start = net::monotonic_now(), .hands_on = {}, .seed = base::Seed{}});
+    }
     Watchdog watchdog{rig.device(), &crash};
     TestLoop loop{test, rig, watchdog};
     accompany(loop, stop);
