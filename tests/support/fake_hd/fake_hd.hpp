@@ -30,6 +30,12 @@ struct FakeHdMisuse {
     std::uint64_t initialised_while_running;
 };
 
+/// For who cannot call the functions below, being another process: where this variable of the
+/// environment names a file, each frame adds a line "DEVICE X Y Z MOTORS" to it, in newtons and 0
+/// or 1, and each stylus begins in its inkwell and is taken out of it, to the middle of the
+/// workspace, when it has been calibrated there for 100 frames.
+inline constexpr const char* fake_hd_log_variable = "HAPNET_FAKE_HD_LOG";
+
 extern "C" {
 /// As it was when it was loaded; only while no device is open.
 void fakehd_reset();
