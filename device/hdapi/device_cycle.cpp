@@ -48,11 +48,13 @@ void DeviceCycle::end(const Command& command, bool is_new)
     silent_frames_ = on ? 0 : silent_frames_ + 1;
 }
 
-/// In every cycle, as public drivers have it (phantom_omni, Geomagic_Touch_ROS_Drivers).
+/// In every cycle, as public drivers have it (phantom_omni, Geomagic_Touch_ROS_Drivers). But an
+/// encoder reset takes for its origin wherever the arm is, and only a person knows where that is.
 void DeviceCycle::calibrate()
 {
     report_.calibration = functions_->check_calibration();
-    if (report_.calibration == calibration::needs_update) {
+    const bool needs_update = report_.calibration == calibration::needs_update;
+    if (needs_update && style_ != calibration::style_encoder_reset) {
         functions_->update_calibration(static_cast<unsigned int>(style_));
     }
 }

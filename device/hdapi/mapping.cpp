@@ -52,8 +52,9 @@ Fault fault_of(unsigned int code)
 
 CalibrationStep calibration_step(unsigned int status, int style)
 {
+    if (status == calibration::done) return CalibrationStep::done;
+    if (style == calibration::style_encoder_reset) return CalibrationStep::failed;
     switch (status) {
-    case calibration::done: return CalibrationStep::done;
     case calibration::needs_update:
         return style == calibration::style_inkwell ? CalibrationStep::dock_stylus
                                                    : CalibrationStep::busy;

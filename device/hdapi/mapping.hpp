@@ -16,11 +16,12 @@ namespace hapnet::device::hdapi {
 [[nodiscard]] Fault fault_of(unsigned int code);
 
 /// What the library's word on its calibration asks for, with this style. A Touch has been seen to
-/// need an update from its start on, wherever its stylus was: only the inkwell ends that.
+/// need an update from its start on, wherever its stylus was: only the inkwell ends that. Encoders
+/// are not reset from here: that failed.
 [[nodiscard]] CalibrationStep calibration_step(unsigned int status, int style);
 
 /// With which of the styles that a device has it is calibrated: inkwell before automatic before
-/// encoder reset, as the first needs no care of the person's.
+/// encoder reset, as the first needs no care of the person's. Where it has none: the last.
 [[nodiscard]] int preferred_style(int styles);
 
 /// What the library says a device can do, in its own units.

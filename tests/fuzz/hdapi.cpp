@@ -89,15 +89,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     base::ensure(style == calibration::style_inkwell || style == calibration::style_automatic ||
                  style == calibration::style_encoder_reset);
 
-    Stylus stylus{size % 2 == 0};
+    Stylus stylus{style};
     base::TimePoint now{std::chrono::hours{1}};
+    std::uint64_t seen = 0;
     while (!bytes.empty()) {
         now += std::chrono::milliseconds{1};
         const Report report = report_from(bytes);
         const device::Sample& sample = stylus.read(report, now);
         base::ensure(base::is_finite(sample.hip) && base::is_finite(sample.velocity));
         base::ensure(sample.sequence >= report.cycle);
-        std::ignore = calibration_step(report.calibration, style);
+        if (report.cycle <= seen) continue;
+        seen = report.cycle;
+        base::ensure(sample.calibrated == (report.calibration == calibration::done));
     }
     return 0;
 }

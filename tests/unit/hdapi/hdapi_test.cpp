@@ -50,6 +50,7 @@ TEST(HdapiMapping, AsksForTheInkwellWhereOnlyAPersonCanHelp)
     EXPECT_EQ(calibration_step(0x5001, 2), CalibrationStep::busy);
     EXPECT_EQ(calibration_step(0x5002, 4), CalibrationStep::dock_stylus);
     EXPECT_EQ(calibration_step(0, 4), CalibrationStep::failed);
+    EXPECT_EQ(calibration_step(0x5001, 1), CalibrationStep::failed);
     EXPECT_EQ(preferred_style(7), 4);
     EXPECT_EQ(preferred_style(3), 2);
     EXPECT_EQ(preferred_style(1), 1);
@@ -98,7 +99,7 @@ TEST(HdapiMapping, ShowsNoTextOfTheLibraryThatATerminalOrJsonCannotBear)
 
 TEST(HdapiStylus, SpeaksMetresAndGrowsItsSequenceWithTheCycles)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     const Sample sample = stylus.read(report_of(7), start);
     EXPECT_EQ(sample.hip.value, 1e-3 * glm::dvec3(10.0, -20.0, 30.0));
     EXPECT_EQ(sample.velocity.value, 1e-3 * glm::dvec3(100.0, 0.0, -5.0));
@@ -111,18 +112,29 @@ TEST(HdapiStylus, IsDockedOnlyWhereThereIsAnInkwell)
 {
     Report report = report_of(1);
     report.inkwell_switch = false;
-    EXPECT_TRUE(Stylus{true}.read(report, start).docked);
-    EXPECT_FALSE(Stylus{false}.read(report, start).docked);
+    EXPECT_TRUE(Stylus{calibration::style_inkwell}.read(report, start).docked);
+    EXPECT_FALSE(Stylus{calibration::style_automatic}.read(report, start).docked);
 }
 
 TEST(HdapiStylus, IsNotCalibratedBeforeItsFirstWord)
 {
-    EXPECT_FALSE(Stylus{true}.read(Report{}, start).calibrated);
+    EXPECT_FALSE(Stylus{calibration::style_inkwell}.read(Report{}, start).calibrated);
+}
+
+TEST(HdapiStylus, IsAtFaultWhereOnlyAnEncoderResetWouldCalibrateIt)
+{
+    Stylus stylus{calibration::style_encoder_reset};
+    Report report = report_of(1);
+    EXPECT_EQ(stylus.read(report, start).fault, Fault::none); // it has been done elsewhere
+    report.cycle = 2;
+    report.calibration = calibration::needs_update;
+    EXPECT_EQ(stylus.read(report, start + 1ms).fault, Fault::not_calibrated);
+    EXPECT_FALSE(stylus.read(report, start + 1ms).calibrated);
 }
 
 TEST(HdapiStylus, TimesOutAfterTwentyMillisecondsOfSilenceAndNotANanosecondEarlier)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     const Report report = report_of(1);
     EXPECT_EQ(stylus.read(report, start).fault, Fault::none);
     EXPECT_EQ(stylus.read(report, start + 20ms).fault, Fault::none);
@@ -132,7 +144,7 @@ TEST(HdapiStylus, TimesOutAfterTwentyMillisecondsOfSilenceAndNotANanosecondEarli
 
 TEST(HdapiStylus, KeepsTheLastPlaceThatIsFiniteAndSaysThatTheNewOneIsNot)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     std::ignore = stylus.read(report_of(1), start);
     Report report = report_of(2);
     report.position_mm[1] = nan;
@@ -143,7 +155,7 @@ TEST(HdapiStylus, KeepsTheLastPlaceThatIsFiniteAndSaysThatTheNewOneIsNot)
 
 TEST(HdapiStylus, TellsAnErrorOnceEvenIfItReadsLate)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     Report report = report_of(30);
     report.error = error::warm_motors;
     report.error_cycle = 12;
@@ -154,7 +166,7 @@ TEST(HdapiStylus, TellsAnErrorOnceEvenIfItReadsLate)
 
 TEST(HdapiStylus, TakesALineThatFailsForAHundredCyclesForADeviceThatHasGone)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     Report report = report_of(99);
     report.error = error::communication;
     report.error_cycle = 99;
