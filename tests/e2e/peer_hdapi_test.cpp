@@ -97,10 +97,9 @@ TEST_F(BehindLibHd, LeavesTheMotorsOffWhenItIsToldToEndInTheMiddleOfAPush)
 TEST_F(BehindLibHd, LeavesTheMotorsOffWhenItDiesInTheMiddleOfAPush)
 {
     ASSERT_NO_FATAL_FAILURE(wait_for_a_push());
-    for (const FakeHdCommand& frame : last_after(SIGABRT, 128 + SIGABRT)) {
-        EXPECT_EQ(size_of(frame), 0.0);
-        EXPECT_FALSE(frame.motors_on);
-    }
+    const FakeHdCommand last = last_after(SIGABRT, 128 + SIGABRT).back();
+    EXPECT_EQ(size_of(last), 0.0);
+    EXPECT_FALSE(last.motors_on);
     right_->stop();
 }
 

@@ -49,6 +49,14 @@ protected:
         }
         return false;
     }
+    /// All frames of the first device, once there are more than so many; what there are after 5 s.
+    [[nodiscard]] std::vector<FakeHdCommand> frames_beyond(std::size_t count) const
+    {
+        for (int i = 0; i < 5000 && fake_.commands(0).size() <= count; ++i) {
+            pass(std::chrono::milliseconds{1});
+        }
+        return fake_.commands(0);
+    }
     static void pass(base::Duration duration) { net::sleep_until(net::monotonic_now() + duration); }
 
     Fake fake_;
