@@ -149,6 +149,10 @@ base::Result<int> run(const SelfTestCommand& command)
     device::Rig rig{*std::move(opened), device::GovernorLimits{}};
     net::say("hapnet-peer", device::description(rig.device()));
     if (!softer.empty()) net::say("hapnet-peer", "in a session: " + softer);
+    // A simulated person takes the stylus out of its inkwell at the cue, and has no part to play.
+    if (command.device.is_simulated()) {
+        rig.device().on_cue({.start = net::monotonic_now(), .hands_on = {}, .seed = base::Seed{}});
+    }
     Watchdog watchdog{rig.device(), &crash};
     TestLoop loop{test, rig, watchdog};
     accompany(loop, stop);

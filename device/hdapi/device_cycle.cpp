@@ -4,14 +4,9 @@
 
 #include "device/hdapi/mapping.hpp"
 
+#include <utility>
+
 namespace hapnet::device::hdapi {
-
-namespace {
-
-constexpr std::uint64_t calibration_checked_every = 50; // cycles
-constexpr int errors_max = 64;                          // a stack that refills itself is left alone
-
-} // namespace
 
 ErrorInfo first_error(const Functions& functions)
 {
@@ -26,8 +21,10 @@ ErrorInfo first_error(const Functions& functions)
 
 const Report& DeviceCycle::begin()
 {
+    settle_errors();
     functions_->make_current_device(handle_);
-    if (report_.cycle % calibration_checked_every == 0) calibrate();
+    calibrate();
+    if (!motors_on_) switch_motors(false);
     functions_->begin_frame(handle_);
     unsigned char inkwell_switch = 0;
     functions_->get_integers(parameter::buttons, &report_.buttons);
@@ -42,19 +39,22 @@ const Report& DeviceCycle::begin()
 void DeviceCycle::end(const Command& command, bool is_new)
 {
     stale_cycles_ = is_new ? 0 : stale_cycles_ + 1;
-    const bool on = command.motors_on && stale_cycles_ < stale_after_cycles;
+    const bool on = command.motors_on && stale_cycles_ < stale_after_cycles &&
+                    report_.calibration == calibration::done;
     const std::array<double, 3> force = on ? command.force_n : std::array<double, 3>{};
     switch_motors(on);
     functions_->set_doubles(parameter::force, force.data());
     functions_->end_frame(handle_);
     silent_frames_ = on ? 0 : silent_frames_ + 1;
-    take_errors();
 }
 
+/// In every cycle, as public drivers have it (phantom_omni, Geomagic_Touch_ROS_Drivers). But an
+/// encoder reset takes for its origin wherever the arm is, and only a person knows where that is.
 void DeviceCycle::calibrate()
 {
     report_.calibration = functions_->check_calibration();
-    if (report_.calibration == calibration::needs_update) {
+    const bool needs_update = report_.calibration == calibration::needs_update;
+    if (needs_update && style_ != calibration::style_encoder_reset) {
         functions_->update_calibration(static_cast<unsigned int>(style_));
     }
 }
@@ -66,13 +66,13 @@ void DeviceCycle::switch_motors(bool on)
     (on ? functions_->enable : functions_->disable)(capability::force_output);
 }
 
-void DeviceCycle::take_errors()
+void DeviceCycle::settle_errors()
 {
-    const ErrorInfo happened = first_error(*functions_);
-    const bool is_of_the_line = fault_of(happened.code) == Fault::communication;
+    const unsigned int happened = std::exchange(happened_, error::none);
+    const bool is_of_the_line = fault_of(happened) == Fault::communication;
     report_.failures_in_a_row = is_of_the_line ? report_.failures_in_a_row + 1 : 0;
-    if (happened.code == error::none) return;
-    report_.error = happened.code;
+    if (happened == error::none) return;
+    report_.error = happened;
     report_.error_cycle = report_.cycle;
 }
 

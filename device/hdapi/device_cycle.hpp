@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace hapnet::device::hdapi {
 
@@ -23,7 +24,7 @@ struct Report {
     int buttons = 0;
     bool inkwell_switch = false;
     unsigned int calibration = calibration::needs_update;
-    unsigned int error = error::none;    // the latest one
+    unsigned int error = error::none;    // the latest one of this device
     std::uint64_t error_cycle = 0;       // ... and when it came
     std::uint64_t failures_in_a_row = 0; // cycles up to this one, all with an error of the line
 };
@@ -36,11 +37,17 @@ public:
         : functions_{&functions}, handle_{handle}, style_{style}
     {}
 
-    /// Goes on with the calibration, opens the frame, and reads.
+    /// The scheduler is about to start, which by the vendor's reference switches the motors on.
+    void on_start() { motors_on_.reset(); }
+    /// Goes on with the calibration, opens the frame, and reads. The motors are off in the first
+    /// frame after a start.
     const Report& begin();
-    /// Sets the force and closes the frame. A command that is `is_new` no more for 20 cycles is not
-    /// repeated: who gave it has stopped.
+    /// Sets the force and closes the frame. No force while the library says that the device is not
+    /// calibrated, nor by a command that is `is_new` no more for 20 cycles: who gave it has
+    /// stopped.
     void end(const Command& command, bool is_new);
+    /// An error of this device, after end(). Of several in one cycle the last call counts.
+    void note(unsigned int code) { happened_ = code; }
 
     [[nodiscard]] Handle handle() const { return handle_; }
     /// Frames in a row that told the device zero force with its motors off.
@@ -51,16 +58,20 @@ public:
 private:
     void calibrate();
     void switch_motors(bool on);
-    void take_errors();
+    void settle_errors();
 
     const Functions* functions_;
     Handle handle_;
     int style_;
     Report report_;
+    unsigned int happened_ = error::none; // in the cycle that has ended
     std::uint64_t stale_cycles_ = 0;
     std::uint64_t silent_frames_ = 0;
-    bool motors_on_ = false;
+    std::optional<bool> motors_on_; // nullopt: the library has it its own way
 };
+
+/// So many errors of a cycle are looked at: a stack that refills itself is left alone.
+inline constexpr int errors_max = 64;
 
 /// Takes the errors off the library's stack: the first that came, as the others follow from it.
 [[nodiscard]] ErrorInfo first_error(const Functions& functions);

@@ -5,7 +5,6 @@
 #include "device/hdapi/library.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device::hdapi {
@@ -24,7 +23,11 @@ constexpr double omni_damping_ns_per_m = 5.0;
 constexpr double axis_min_mm = 10.0;
 constexpr double axis_max_mm = 10000.0;
 
-bool is_sensible(double value) { return std::isfinite(value) && value > 0.0; }
+// No figure of a haptic device is as small or as large as these, in the library's units.
+constexpr double figure_min = 1e-6;
+constexpr double figure_max = 1e6;
+
+bool is_sensible(double value) { return value > figure_min && value < figure_max; }
 double sensible(double value, double otherwise) { return is_sensible(value) ? value : otherwise; }
 
 } // namespace
@@ -47,11 +50,14 @@ Fault fault_of(unsigned int code)
     }
 }
 
-CalibrationStep calibration_step(unsigned int status)
+CalibrationStep calibration_step(unsigned int status, int style)
 {
+    if (status == calibration::done) return CalibrationStep::done;
+    if (style == calibration::style_encoder_reset) return CalibrationStep::failed;
     switch (status) {
-    case calibration::done: return CalibrationStep::done;
-    case calibration::needs_update: return CalibrationStep::busy;
+    case calibration::needs_update:
+        return style == calibration::style_inkwell ? CalibrationStep::dock_stylus
+                                                   : CalibrationStep::busy;
     case calibration::needs_person: return CalibrationStep::dock_stylus;
     default: return CalibrationStep::failed;
     }
@@ -85,12 +91,21 @@ Capabilities capabilities_of(const Properties& properties)
     can.damping_max_ns_per_m =
         1e3 * sensible(properties.damping_max_ns_per_mm, 1e-3 * omni_damping_ns_per_m);
     can.speed_max_m_per_s = 1e-3 * sensible(properties.velocity_limit_mm_per_s, 1000.0);
-    can.rate_hz = properties.update_rate_hz > 0 ? properties.update_rate_hz : 1000.0;
+    can.rate_hz = sensible(properties.update_rate_hz, 1000.0);
     can.resolution_m = omni_resolution_m;
     can.buttons = 2;
     can.has_holder = (properties.calibration_styles & calibration::style_inkwell) != 0;
     can.pacing = Pacing::device;
     return can;
+}
+
+std::string text_of(const char* text)
+{
+    std::string shown;
+    for (; text != nullptr && *text != '\0' && shown.size() < text_bytes_max; ++text) {
+        shown += *text >= ' ' && *text <= '~' ? *text : '?';
+    }
+    return shown;
 }
 
 std::string words_for_refusal(const std::string& name, unsigned int code, const std::string& said)

@@ -6,6 +6,7 @@
 #include "device/device.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -14,11 +15,13 @@ namespace hapnet::device::hdapi {
 /// What one of the library's error codes means.
 [[nodiscard]] Fault fault_of(unsigned int code);
 
-/// What the library's word on its calibration asks for.
-[[nodiscard]] CalibrationStep calibration_step(unsigned int status);
+/// What the library's word on its calibration asks for, with this style. A Touch has been seen to
+/// need an update from its start on, wherever its stylus was: only the inkwell ends that. Encoders
+/// are not reset from here: that failed.
+[[nodiscard]] CalibrationStep calibration_step(unsigned int status, int style);
 
 /// With which of the styles that a device has it is calibrated: inkwell before automatic before
-/// encoder reset, as the first needs no care of the person's.
+/// encoder reset, as the first needs no care of the person's. Where it has none: the last.
 [[nodiscard]] int preferred_style(int styles);
 
 /// What the library says a device can do, in its own units.
@@ -36,6 +39,11 @@ struct Properties {
 /// The same in ours. Where the library says nothing sensible, an Omni's data sheet does; but no
 /// more force than an Omni bears for ever.
 [[nodiscard]] Capabilities capabilities_of(const Properties& properties);
+
+inline constexpr std::size_t text_bytes_max = 200;
+/// A text of the library's as it may be shown and stored: "" for null, at most text_bytes_max
+/// characters, and in place of every one that is not printable ASCII a question mark.
+[[nodiscard]] std::string text_of(const char* text);
 
 /// What a person is to do about a device that does not open. `name` is as in the vendor's
 /// configuration, "" for the default one; `said` is the library's own text for `code`.

@@ -33,11 +33,11 @@ void Stylus::take(const Report& report, base::TimePoint now)
     sample_.calibrated = report.calibration == calibration::done;
     // Open as long as the stylus rests in it, as H3D's HAPI reads it; others read it the other way
     // round, and so seen a stylus in the hand would feel nothing.
-    sample_.docked = has_inkwell_ && !report.inkwell_switch;
+    sample_.docked = style_ == calibration::style_inkwell && !report.inkwell_switch;
     buttons_.update(static_cast<std::uint8_t>(static_cast<unsigned int>(report.buttons) & 0xffU),
                     now);
     buttons_.tell(sample_);
-    sample_.fault = fault_of_line(report);
+    sample_.fault = fault_of_report(report);
     const glm::dvec3 position = in_metres(report.position_mm);
     const glm::dvec3 velocity = in_metres(report.velocity_mm_per_s);
     if (!base::is_finite(position) || !base::is_finite(velocity)) {
@@ -48,12 +48,15 @@ void Stylus::take(const Report& report, base::TimePoint now)
     sample_.velocity.value = velocity;
 }
 
-Fault Stylus::fault_of_line(const Report& report)
+Fault Stylus::fault_of_report(const Report& report)
 {
     if (report.failures_in_a_row >= gone_after_cycles) return Fault::disconnected;
-    if (report.error_cycle <= errors_seen_) return Fault::none;
-    errors_seen_ = report.error_cycle;
-    return fault_of(report.error);
+    if (report.error_cycle > errors_seen_) {
+        errors_seen_ = report.error_cycle;
+        return fault_of(report.error);
+    }
+    const auto step = calibration_step(report.calibration, style_);
+    return step == CalibrationStep::failed ? Fault::not_calibrated : Fault::none;
 }
 
 } // namespace hapnet::device::hdapi

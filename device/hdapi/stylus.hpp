@@ -14,8 +14,8 @@ namespace hapnet::device::hdapi {
 /// What the library's reports say of the stylus, and what their absence does.
 class Stylus {
 public:
-    /// Of a device that has a holder with a switch, or not.
-    explicit Stylus(bool has_inkwell) : has_inkwell_{has_inkwell} { sample_.calibrated = false; }
+    /// Of a device that is calibrated in this style.
+    explicit Stylus(int style) : style_{style} { sample_.calibrated = false; }
 
     /// The stylus at `now` by the newest report there is, which may be an old one.
     [[nodiscard]] const Sample& read(const Report& report, base::TimePoint now);
@@ -26,9 +26,9 @@ public:
 
 private:
     void take(const Report& report, base::TimePoint now);
-    [[nodiscard]] Fault fault_of_line(const Report& report);
+    [[nodiscard]] Fault fault_of_report(const Report& report);
 
-    bool has_inkwell_;
+    int style_;
     Sample sample_;
     Buttons buttons_;
     std::uint64_t errors_seen_ = 0; // the cycle of the latest one

@@ -28,11 +28,7 @@ void Tracker::on_word(const Word& word, base::TimePoint now)
 {
     heard_at_ = now;
     heard_nonsense_ = false;
-    if (is_jump(word)) {
-        lost_ = true;
-        zero_.reset();
-        resting_since_.reset();
-    }
+    if (is_jump(word)) lose();
     counts_ = word.counts;
     follow_dock(word, now);
     buttons_.update(word.buttons, now);
@@ -41,12 +37,16 @@ void Tracker::on_word(const Word& word, base::TimePoint now)
     ++sample_.sequence;
     if (!zero_) return;
     const Joints joints = joints_at(word.counts, *zero_);
-    if (!is_reachable(joints, slack_radians)) {
-        lost_ = true;
-        return zero_.reset();
-    }
+    if (!is_reachable(joints, slack_radians)) return lose();
     sample_.hip = position_of(joints);
     has_moved_ = true;
+}
+
+void Tracker::lose()
+{
+    lost_ = true;
+    zero_.reset();
+    resting_since_.reset();
 }
 
 bool Tracker::is_jump(const Word& word) const
@@ -64,7 +64,6 @@ void Tracker::follow_dock(const Word& word, base::TimePoint now)
     }
     if (now - *resting_since_ < rest) return;
     lost_ = false;
-    broken_ = false;
     if (zero_ && farthest(word.counts, counts_at(in_inkwell_, *zero_)) <= resting_counts) return;
     zero_ = zero_from(word.counts, in_inkwell_);
     velocity_ = VelocityFilter{30.0}; // that it is somewhere else now is no motion
@@ -88,14 +87,13 @@ Fault Tracker::fault_at(base::TimePoint now) const
     if (now - *heard_at_ >= silence_max) {
         return heard_nonsense_ ? Fault::communication : Fault::timeout;
     }
-    if (broken_) return Fault::communication;
     return lost_ ? Fault::not_calibrated : Fault::none;
 }
 
 CalibrationStep Tracker::calibration() const
 {
     if (gone_) return CalibrationStep::failed;
-    if (zero_ && !broken_) return CalibrationStep::done;
+    if (zero_) return CalibrationStep::done;
     return resting_since_ ? CalibrationStep::busy : CalibrationStep::dock_stylus;
 }
 

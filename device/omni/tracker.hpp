@@ -22,9 +22,9 @@ struct Word {
 };
 
 /// What the words of an Omni come to: where the stylus is, and what is wrong. Its encoders mean
-/// nothing until the stylus has rested in its inkwell for 50 ms; and nothing again after they have
-/// jumped farther than a hand moves, or to where the mechanism cannot be, until it rests there
-/// again.
+/// nothing until the stylus has rested in its inkwell for 50 ms; and nothing again after a break,
+/// or after they have jumped farther than a hand moves or to where the mechanism cannot be, until
+/// it rests there again.
 class Tracker {
 public:
     explicit Tracker(const Joints& in_inkwell = inkwell_pose) : in_inkwell_{in_inkwell} {}
@@ -33,8 +33,9 @@ public:
     void on_word(const Word& word, base::TimePoint now);
     /// It spoke and was not understood.
     void on_nonsense() { heard_nonsense_ = true; }
-    /// Something happened after which the person is to dock the stylus before anything else.
-    void on_break() { broken_ = true; }
+    /// Something happened in which the encoders may have begun to count anew, and the arm may have
+    /// moved meanwhile: that counts look as if they went on proves nothing.
+    void on_break() { lose(); }
     /// It has gone, for good.
     void on_gone() { gone_ = true; }
 
@@ -52,6 +53,7 @@ public:
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
 
 private:
+    void lose();
     void follow_dock(const Word& word, base::TimePoint now);
     [[nodiscard]] bool is_jump(const Word& word) const;
     [[nodiscard]] Fault fault_at(base::TimePoint now) const;
@@ -63,7 +65,6 @@ private:
     std::optional<base::TimePoint> resting_since_;
     Counts resting_at_{0};
     bool lost_ = false; // its calibration
-    bool broken_ = false;
     bool gone_ = false;
     bool heard_nonsense_ = false; // since the last word
     bool has_moved_ = false;      // since the last at()

@@ -111,6 +111,14 @@ TEST(PeerDevices, TestsTheSimulatedDeviceWithoutAPerson)
     EXPECT_NEAR(step_of(report, "force")["force_max_n"], 0.2, 1e-9);
 }
 
+TEST(PeerDevices, TestsTheSimulatedJointsWhosePersonTakesTheStylusOutOfItsInkwell)
+{
+    const auto outcome = peer({"self-test", "--device", "sim:joints", "--skip", "read", "--skip",
+                               "force"}); // its other steps are those of sim
+    EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
+    expect_said(outcome.out, {"passed   calibrate"});
+}
+
 TEST(PeerDevices, TestsADeviceThatPacesTheLoopAndPromptsItsPerson)
 {
     const TemporaryFolder folder;

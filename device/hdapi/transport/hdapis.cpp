@@ -30,7 +30,8 @@ public:
                                          opening_.serial.empty() ? "" : " ", opening_.serial),
                     .note = std::string{never_run}},
           capabilities_{capabilities_of(opening_.properties)},
-          stylus_{(opening_.properties.calibration_styles & calibration::style_inkwell) != 0}
+          style_{preferred_style(opening_.properties.calibration_styles)},
+          stylus_{style_}
     {}
     ~LibraryDevice() override { scheduler_.close(opening_); }
     LibraryDevice(const LibraryDevice&) = delete;
@@ -40,7 +41,7 @@ public:
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
     [[nodiscard]] CalibrationStep calibrate(base::TimePoint /*now*/) override
     {
-        return calibration_step(opening_.seat->report().calibration);
+        return calibration_step(opening_.seat->report().calibration, style_);
     }
     [[nodiscard]] Sample read(base::TimePoint now) override
     {
@@ -59,6 +60,7 @@ private:
     Opening opening_;
     Identity identity_;
     Capabilities capabilities_;
+    int style_;
     Stylus stylus_;
 };
 

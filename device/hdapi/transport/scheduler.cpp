@@ -16,8 +16,6 @@ namespace {
 
 constexpr unsigned long rate_hz = 1000;
 
-std::string text_or_nothing(const char* text) { return text == nullptr ? "" : text; }
-
 Properties properties_of_current(const Functions& functions)
 {
     Properties it;
@@ -73,14 +71,14 @@ Opened<Opening> Scheduler::open_one(const std::string& name)
     if (handle == no_device || error.code != error::none) {
         const Fault fault =
             fault_of(error.code) == Fault::in_use ? Fault::in_use : Fault::not_found;
-        const std::string said = text_or_nothing(functions_.get_error_string(error.code));
+        const std::string said = text_of(functions_.get_error_string(error.code));
         return trouble(fault, words_for_refusal(name, error.code, said), error.code);
     }
     functions_.make_current_device(handle);
     Opening opening{.seat = nullptr,
                     .name = name,
-                    .model = text_or_nothing(functions_.get_string(parameter::model)),
-                    .serial = text_or_nothing(functions_.get_string(parameter::serial)),
+                    .model = text_of(functions_.get_string(parameter::model)),
+                    .serial = text_of(functions_.get_string(parameter::serial)),
                     .properties = properties_of_current(functions_)};
     functions_.disable(capability::force_output);  // until a governor asks for force
     functions_.enable(capability::force_clamping); // the library's own limit, behind ours
@@ -112,6 +110,7 @@ void Scheduler::give_back(const Opening& opening)
 Opened<bool> Scheduler::start()
 {
     if (open_.empty()) return true;
+    for (const Opening& opening : open_) opening.seat->on_start();
     callback_ = functions_.schedule_asynchronous(&Scheduler::serve_all, this, priority_max);
     functions_.set_scheduler_rate(rate_hz);
     std::ignore = first_error(functions_); // a device that knows other rates keeps its own
@@ -122,8 +121,7 @@ Opened<bool> Scheduler::start()
     return trouble(Fault::internal,
                    fmt::format("libHD cannot start its scheduler (error 0x{:x}: {}): end other "
                                "programs that use the device, and plug it in again",
-                               error.code,
-                               text_or_nothing(functions_.get_error_string(error.code))),
+                               error.code, text_of(functions_.get_error_string(error.code))),
                    error.code);
 }
 
@@ -138,8 +136,26 @@ void Scheduler::stop()
 
 unsigned int Scheduler::serve_all(void* self)
 {
-    for (const Opening& opening : static_cast<Scheduler*>(self)->open_) opening.seat->serve();
+    const auto* scheduler = static_cast<Scheduler*>(self);
+    for (const Opening& opening : scheduler->open_) opening.seat->serve();
+    scheduler->hand_out_errors();
     return callback_continue;
+}
+
+void Scheduler::hand_out_errors() const
+{
+    for (int i = 0; i < errors_max; ++i) {
+        const ErrorInfo latest = functions_.get_error();
+        if (latest.code == error::none) return;
+        const auto is_named = [&](const Opening& one) {
+            return one.seat->handle() == latest.handle;
+        };
+        const bool is_of_all = std::none_of(open_.begin(), open_.end(), is_named);
+        // The first that came is taken off last, and stays: the others follow from it.
+        for (const Opening& one : open_) {
+            if (is_of_all || is_named(one)) one.seat->note(latest.code);
+        }
+    }
 }
 
 Opened<Scheduler*> scheduler_of(const std::string& file)

@@ -40,6 +40,8 @@ private:
     [[nodiscard]] Opened<bool> start();
     void stop();
     static unsigned int serve_all(void* self);
+    /// Each error of the cycle to the device that it names, to all where it names none of them.
+    void hand_out_errors() const;
 
     Functions functions_;
     std::mutex mutex_;

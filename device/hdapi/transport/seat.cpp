@@ -3,22 +3,22 @@
 #include "device/hdapi/transport/seat.hpp"
 
 #include <chrono>
-#include <utility>
 
 namespace hapnet::device::hdapi {
 
 namespace {
 
 constexpr std::uint64_t silent_frames_wanted = 3;
-constexpr std::chrono::milliseconds look_every{20};
-constexpr int looks_without_a_cycle_max = 5; // 100 ms
+constexpr std::chrono::milliseconds no_cycle_max{100};
+// Half a cycle at 1 kHz: a beat takes some 20 us.
+constexpr std::chrono::microseconds beat_max{500};
 
 } // namespace
 
 void Seat::serve()
 {
     reports_.put(cycle_.begin());
-    run_beat();
+    call_for_a_beat();
     const bool is_new = commands_.take();
     const bool is_quiet =
         halted_.load(std::memory_order_acquire) || closing_.load(std::memory_order_acquire);
@@ -31,23 +31,16 @@ void Seat::serve()
     changed_.notify_all();
 }
 
-void Seat::run_beat()
+/// Its force is that of this very frame if it comes in time, else that of a later one. A beat that
+/// is not over yet is not waited for again: whatever it hangs in, the library's thread goes on, and
+/// with it the frames that take the force away.
+void Seat::call_for_a_beat()
 {
-    auto expected = Beat::waiting;
-    if (!beat_state_.compare_exchange_strong(expected, Beat::running)) return;
-    bool goes_on = false;
-    try {
-        goes_on = (*beat_)();
-    } catch (...) {
-        failure_ = std::current_exception(); // it must not cross the library
-    }
-    if (goes_on) {
-        beat_state_.store(Beat::waiting);
-        return;
-    }
-    const std::lock_guard lock{mutex_};
-    beat_state_.store(Beat::ended);
+    std::unique_lock lock{mutex_};
+    if (beat_ != Beat::awaited) return;
+    beat_ = Beat::due;
     changed_.notify_all();
+    changed_.wait_for(lock, beat_max, [this] { return beat_ != Beat::due; });
 }
 
 const Report& Seat::report()
@@ -62,40 +55,31 @@ void Seat::command(const Command& command)
     halted_.store(false, std::memory_order_release);
 }
 
-template <typename Condition>
-void Seat::wait_while_cycles_come(std::unique_lock<std::mutex>& lock, Condition is_over)
-{
-    int looks_in_vain = 0;
-    std::uint64_t before = cycles_.load(std::memory_order_acquire);
-    while (!changed_.wait_for(lock, look_every, is_over)) {
-        const std::uint64_t cycles = cycles_.load(std::memory_order_acquire);
-        looks_in_vain = cycles == before ? looks_in_vain + 1 : 0;
-        before = cycles;
-        if (looks_in_vain >= looks_without_a_cycle_max) return;
-    }
-}
-
 void Seat::pace(const std::function<bool()>& beat)
 {
-    beat_ = &beat;
-    beat_state_.store(Beat::waiting);
     std::unique_lock lock{mutex_};
-    const auto has_ended = [this] { return beat_state_.load() == Beat::ended; };
-    while (!has_ended()) {
-        wait_while_cycles_come(lock, has_ended);
-        auto expected = Beat::waiting;
-        // A beat under way ends by itself.
-        if (beat_state_.compare_exchange_strong(expected, Beat::none)) return;
+    for (bool goes_on = true; goes_on;) {
+        beat_ = Beat::awaited;
+        changed_.wait_for(lock, no_cycle_max, [this] { return beat_ == Beat::due; });
+        if (beat_ != Beat::due) break;
+        lock.unlock();
+        goes_on = beat(); // throws: then it stays due, and nobody waits for it twice
+        lock.lock();
+        beat_ = Beat::none;
+        changed_.notify_all();
     }
-    beat_state_.store(Beat::none);
-    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    beat_ = Beat::none;
 }
 
 void Seat::fall_silent()
 {
     std::unique_lock lock{mutex_};
     closing_.store(true, std::memory_order_release);
-    wait_while_cycles_come(lock, [this] { return is_silent_; });
+    std::uint64_t before = 0;
+    do {
+        before = cycles_.load(std::memory_order_acquire);
+        if (changed_.wait_for(lock, no_cycle_max, [this] { return is_silent_; })) return;
+    } while (cycles_.load(std::memory_order_acquire) != before);
 }
 
 } // namespace hapnet::device::hdapi

@@ -7,39 +7,48 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <exception>
 #include <functional>
 #include <mutex>
 
 namespace hapnet::device::hdapi {
 
-/// One device's place in the scheduler: what its callback and the device's own thread share.
+/// One device's place in the scheduler: what its callback and the device's own thread share. The
+/// loop runs on the device's own thread, never inside the callback: there it could hang, and with
+/// it the only way to zero force.
 class Seat {
 public:
     explicit Seat(const DeviceCycle& cycle) : cycle_{cycle} {}
 
+    /// While the scheduler stands still.
+    void on_start() { cycle_.on_start(); }
+
     // The scheduler's thread.
     void serve();
+    void note(unsigned int error) { cycle_.note(error); }
 
     // The device's thread.
     /// The newest report.
     [[nodiscard]] const Report& report();
     void command(const Command& command);
-    /// As Device::pace().
+    /// As Device::pace(); the beats come on the calling thread.
     void pace(const std::function<bool()>& beat);
-    /// Zero force from now on; returns when at least three frames have carried it, or 200 ms on.
+    /// Zero force from now on; returns when at least three frames have carried it, or no cycle came
+    /// for 100 ms.
     void fall_silent();
     [[nodiscard]] Handle handle() const { return cycle_.handle(); }
 
     // Any thread.
+    /// Zero force from the next cycle of the library on.
     void halt() noexcept { halted_.store(true, std::memory_order_release); }
 
 private:
-    enum class Beat : std::uint8_t { none, waiting, running, ended };
+    enum class Beat : std::uint8_t {
+        none,
+        awaited, // the next cycle calls for one
+        due,     // called for, and not over
+    };
 
-    void run_beat();
-    template <typename Condition>
-    void wait_while_cycles_come(std::unique_lock<std::mutex>& lock, Condition is_over);
+    void call_for_a_beat();
 
     DeviceCycle cycle_;
     Latest<Report> reports_;
@@ -47,11 +56,9 @@ private:
     std::atomic<bool> halted_{false};
     std::atomic<bool> closing_{false};
     std::atomic<std::uint64_t> cycles_{0};
-    std::atomic<Beat> beat_state_{Beat::none};
-    const std::function<bool()>* beat_ = nullptr; // while beat_state_ is not none
-    std::exception_ptr failure_;
-    bool is_silent_ = false; // guarded by mutex_
-    std::mutex mutex_;
+    std::mutex mutex_; // of the two below
+    Beat beat_ = Beat::none;
+    bool is_silent_ = false;
     std::condition_variable changed_;
 };
 

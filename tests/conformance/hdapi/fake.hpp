@@ -30,6 +30,10 @@ public:
     {
         find<void(std::size_t, std::uint64_t)>("fakehd_fail_frame")(device, n);
     }
+    void complain(std::size_t device, unsigned int code) const
+    {
+        find<void(std::size_t, unsigned int)>("fakehd_complain")(device, code);
+    }
     [[nodiscard]] std::vector<FakeHdCommand> commands(std::size_t device) const
     {
         auto* copy = find<std::size_t(std::size_t, std::size_t, FakeHdCommand*, std::size_t)>(

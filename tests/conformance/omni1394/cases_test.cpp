@@ -203,7 +203,8 @@ TEST_F(OverTheBus, IsLeftAtZeroByABusResetFromTheNextTickOnUntilItIsDocked)
     ASSERT_TRUE(heard().back()->motors_on);
     omni.reset_bus();
     play_for(5ms, {0.5, 0.0, 0.0}); // one tick, and what was on its way
-    EXPECT_EQ(sample.fault, Fault::communication);
+    EXPECT_EQ(sample.fault, Fault::not_calibrated);
+    EXPECT_FALSE(sample.calibrated);
     expect_zeros();
     omni.with_omni([](FakeOmni& fake) { fake.lead_to(omni::position_of(omni::inkwell_pose)); });
     play_for(1200ms);

@@ -111,7 +111,7 @@ void hdEndFrame(Handle handle)
         if (!device->clamps) it.complain(error::force_too_large, handle);
         force = device->clamps ? (force_max_n / size) * force : glm::dvec3{0.0};
     }
-    device->commands.push_back({{force.x, force.y, force.z}, device->force_output});
+    note(handle, {{force.x, force.y, force.z}, device->force_output});
     move_tip(*device, device->force_output ? force : glm::dvec3{0.0});
 }
 
@@ -241,6 +241,8 @@ void hdStartScheduler()
     Library& it = library();
     if (it.running.exchange(true)) return;
     const std::lock_guard lock{it.mutex};
+    // As the vendor's reference can be read: forces are enabled with the scheduler.
+    for (FakeDevice& device : it.devices) device.force_output = true;
     it.scheduler = std::thread{run_scheduler};
 }
 

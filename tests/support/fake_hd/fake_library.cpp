@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/fake_hd/fake_library.hpp"
 
+#include <cstdlib>
 #include <ctime>
 
 namespace hapnet::device::hdapi {
@@ -9,6 +10,7 @@ namespace hapnet::device::hdapi {
 namespace {
 
 constexpr long period_ns = 1'000'000;
+constexpr std::size_t frames_in_inkwell = 100;
 
 timespec later(timespec time)
 {
@@ -20,13 +22,35 @@ timespec later(timespec time)
     return time;
 }
 
+Library* new_library()
+{
+    auto* it = new Library;
+    const char* file = std::getenv(fake_hd_log_variable);
+    if (file == nullptr) return it;
+    it->log.open(file);
+    for (FakeDevice& device : it->devices) device.docked = true;
+    return it;
+}
+
 } // namespace
 
 Library& library()
 {
     // Never destroyed: like the real one it may be in use when the process ends.
-    static Library& it = *new Library;
+    static Library& it = *new_library();
     return it;
+}
+
+void note(Handle handle, const FakeHdCommand& command)
+{
+    Library& it = library();
+    FakeDevice& device = it.devices.at(handle);
+    device.commands.push_back(command);
+    if (!it.log.is_open()) return;
+    const auto& force = command.force_n;
+    it.log << handle << ' ' << force[0] << ' ' << force[1] << ' ' << force[2] << ' '
+           << command.motors_on << std::endl; // out of the process before the next frame
+    if (device.calibrated && device.commands.size() > frames_in_inkwell) device.docked = false;
 }
 
 void run_scheduler()

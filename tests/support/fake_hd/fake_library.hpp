@@ -7,6 +7,7 @@
 
 #include <array>
 #include <atomic>
+#include <fstream>
 #include <glm/vec3.hpp>
 #include <mutex>
 #include <thread>
@@ -42,6 +43,7 @@ struct Library {
     Callback callback = nullptr;
     void* data = nullptr;
     FakeHdMisuse misuse{};
+    std::ofstream log; // open: see fake_hd_log_variable
     std::atomic<bool> stalled{false};
     std::atomic<bool> running{false};
     std::thread scheduler;
@@ -57,6 +59,9 @@ struct Library {
 
 /// The one state of the library, as the real one has it.
 [[nodiscard]] Library& library();
+
+/// A command has reached the device.
+void note(Handle handle, const FakeHdCommand& command);
 
 /// Calls the callback once a millisecond while the library runs: on the scheduler's thread.
 void run_scheduler();

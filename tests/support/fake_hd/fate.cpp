@@ -26,6 +26,7 @@ void fakehd_set(std::size_t index, FakeHdFate fate, bool on)
     FakeDevice& device = it.devices.at(index);
     switch (fate) {
     case FakeHdFate::docked: device.docked = on; break;
+    case FakeHdFate::calibrated: device.calibrated = on; break;
     case FakeHdFate::pressed: device.pressed = on; break;
     case FakeHdFate::unplugged: device.unplugged = on; break;
     case FakeHdFate::garbled: device.garbled = on; break;
@@ -39,6 +40,13 @@ void fakehd_fail_frame(std::size_t index, std::uint64_t n)
     Library& it = library();
     const std::lock_guard lock{it.mutex};
     it.devices.at(index).failing_frame = n;
+}
+
+void fakehd_complain(std::size_t index, unsigned int code)
+{
+    Library& it = library();
+    const std::lock_guard lock{it.mutex};
+    it.complain(code, index < it.devices.size() ? static_cast<Handle>(index) : no_device);
 }
 
 std::size_t fakehd_commands(std::size_t index, std::size_t first, FakeHdCommand* to,

@@ -43,12 +43,14 @@ TEST(HdapiMapping, KnowsEveryErrorOfTheInterface)
     for (const auto& [code, fault] : all) EXPECT_EQ(fault_of(code), fault) << std::hex << code;
 }
 
-TEST(HdapiMapping, AsksForTheInkwellOnlyWhenAPersonIsNeeded)
+TEST(HdapiMapping, AsksForTheInkwellWhereOnlyAPersonCanHelp)
 {
-    EXPECT_EQ(calibration_step(0x5000), CalibrationStep::done);
-    EXPECT_EQ(calibration_step(0x5001), CalibrationStep::busy);
-    EXPECT_EQ(calibration_step(0x5002), CalibrationStep::dock_stylus);
-    EXPECT_EQ(calibration_step(0), CalibrationStep::failed);
+    EXPECT_EQ(calibration_step(0x5000, 4), CalibrationStep::done);
+    EXPECT_EQ(calibration_step(0x5001, 4), CalibrationStep::dock_stylus);
+    EXPECT_EQ(calibration_step(0x5001, 2), CalibrationStep::busy);
+    EXPECT_EQ(calibration_step(0x5002, 4), CalibrationStep::dock_stylus);
+    EXPECT_EQ(calibration_step(0, 4), CalibrationStep::failed);
+    EXPECT_EQ(calibration_step(0x5001, 1), CalibrationStep::failed);
     EXPECT_EQ(preferred_style(7), 4);
     EXPECT_EQ(preferred_style(3), 2);
     EXPECT_EQ(preferred_style(1), 1);
@@ -78,6 +80,10 @@ TEST(HdapiMapping, SpeaksMetresAndDoubtsWhatIsNotSensible)
     EXPECT_LT(doubtful.workspace_min.y(), doubtful.workspace_max.y());
     EXPECT_LT(doubtful.workspace_min.x(), doubtful.workspace_max.x());
 
+    // More than zero and finite, but not once they are in metres.
+    EXPECT_DOUBLE_EQ(capabilities_of({.velocity_limit_mm_per_s = 5e-324}).speed_max_m_per_s, 1.0);
+    EXPECT_DOUBLE_EQ(capabilities_of({.stiffness_max_n_per_mm = 1e306}).stiffness_max_n_per_m, 700);
+
     // In metres: the scene would be magnified a thousand times, and a million times as stiff.
     const Capabilities tiny =
         capabilities_of({.workspace_mm = {-0.08, -0.06, -0.035, 0.08, 0.06, 0.035}});
@@ -85,9 +91,17 @@ TEST(HdapiMapping, SpeaksMetresAndDoubtsWhatIsNotSensible)
     EXPECT_DOUBLE_EQ(tiny.workspace_min.z(), -0.035);
 }
 
+TEST(HdapiMapping, ShowsNoTextOfTheLibraryThatATerminalOrJsonCannotBear)
+{
+    EXPECT_EQ(text_of(nullptr), "");
+    EXPECT_EQ(text_of("PHANToM Omni"), "PHANToM Omni");
+    EXPECT_EQ(text_of("Touch\xe9\x1b[2J\n"), "Touch??[2J?");
+    EXPECT_EQ(text_of(std::string(1000, 'x').c_str()).size(), text_bytes_max);
+}
+
 TEST(HdapiStylus, SpeaksMetresAndGrowsItsSequenceWithTheCycles)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     const Sample sample = stylus.read(report_of(7), start);
     EXPECT_EQ(sample.hip.value, 1e-3 * glm::dvec3(10.0, -20.0, 30.0));
     EXPECT_EQ(sample.velocity.value, 1e-3 * glm::dvec3(100.0, 0.0, -5.0));
@@ -100,18 +114,29 @@ TEST(HdapiStylus, IsDockedOnlyWhereThereIsAnInkwell)
 {
     Report report = report_of(1);
     report.inkwell_switch = false;
-    EXPECT_TRUE(Stylus{true}.read(report, start).docked);
-    EXPECT_FALSE(Stylus{false}.read(report, start).docked);
+    EXPECT_TRUE(Stylus{calibration::style_inkwell}.read(report, start).docked);
+    EXPECT_FALSE(Stylus{calibration::style_automatic}.read(report, start).docked);
 }
 
 TEST(HdapiStylus, IsNotCalibratedBeforeItsFirstWord)
 {
-    EXPECT_FALSE(Stylus{true}.read(Report{}, start).calibrated);
+    EXPECT_FALSE(Stylus{calibration::style_inkwell}.read(Report{}, start).calibrated);
+}
+
+TEST(HdapiStylus, IsAtFaultWhereOnlyAnEncoderResetWouldCalibrateIt)
+{
+    Stylus stylus{calibration::style_encoder_reset};
+    Report report = report_of(1);
+    EXPECT_EQ(stylus.read(report, start).fault, Fault::none); // it has been done elsewhere
+    report.cycle = 2;
+    report.calibration = calibration::needs_update;
+    EXPECT_EQ(stylus.read(report, start + 1ms).fault, Fault::not_calibrated);
+    EXPECT_FALSE(stylus.read(report, start + 1ms).calibrated);
 }
 
 TEST(HdapiStylus, TimesOutAfterTwentyMillisecondsOfSilenceAndNotANanosecondEarlier)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     const Report report = report_of(1);
     EXPECT_EQ(stylus.read(report, start).fault, Fault::none);
     EXPECT_EQ(stylus.read(report, start + 20ms).fault, Fault::none);
@@ -121,7 +146,7 @@ TEST(HdapiStylus, TimesOutAfterTwentyMillisecondsOfSilenceAndNotANanosecondEarli
 
 TEST(HdapiStylus, KeepsTheLastPlaceThatIsFiniteAndSaysThatTheNewOneIsNot)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     std::ignore = stylus.read(report_of(1), start);
     Report report = report_of(2);
     report.position_mm[1] = nan;
@@ -132,7 +157,7 @@ TEST(HdapiStylus, KeepsTheLastPlaceThatIsFiniteAndSaysThatTheNewOneIsNot)
 
 TEST(HdapiStylus, TellsAnErrorOnceEvenIfItReadsLate)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     Report report = report_of(30);
     report.error = error::warm_motors;
     report.error_cycle = 12;
@@ -143,7 +168,7 @@ TEST(HdapiStylus, TellsAnErrorOnceEvenIfItReadsLate)
 
 TEST(HdapiStylus, TakesALineThatFailsForAHundredCyclesForADeviceThatHasGone)
 {
-    Stylus stylus{true};
+    Stylus stylus{calibration::style_inkwell};
     Report report = report_of(99);
     report.error = error::communication;
     report.error_cycle = 99;

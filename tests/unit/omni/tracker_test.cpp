@@ -131,15 +131,19 @@ TEST(OmniTracker, LosesItsCalibrationWhereTheMechanismCannotBe)
     EXPECT_TRUE(lost);
 }
 
-TEST(OmniTracker, KeepsAFaultAfterABreakUntilTheStylusIsDocked)
+TEST(OmniTracker, TrustsNoPlaceAfterABreakUntilTheStylusHasRestedInItsInkwellSince)
 {
     Teller omni;
     omni.dock();
     omni.say(undocked, false);
     omni.tracker.on_break();
-    EXPECT_EQ(omni.say(undocked, false).fault, Fault::communication);
+    EXPECT_FALSE(omni.say(undocked, false).calibrated); // though the counts go on as they were
+    EXPECT_EQ(omni.tracker.at(omni.now).fault, Fault::not_calibrated);
     EXPECT_EQ(omni.tracker.calibration(), CalibrationStep::dock_stylus);
     omni.dock();
+    omni.tracker.on_break(); // while it rests there, too
+    for (int ms = 0; ms < 50; ++ms) EXPECT_FALSE(omni.say(in_inkwell, true).calibrated);
+    EXPECT_TRUE(omni.say(in_inkwell, true).calibrated);
     EXPECT_EQ(omni.tracker.at(omni.now).fault, Fault::none);
 }
 

@@ -144,10 +144,10 @@ TEST(Omni1394, SendsZeroWithTheMotorsOffFromEveryFaultOn)
         EXPECT_EQ(omni.last().motors, glm::ivec3{0}) << name_of(fault);
         EXPECT_FALSE(omni.last().motors_on);
     };
-    zero_after([](OnABus& omni) { omni.bus.resets = 1; }, Fault::communication);
+    zero_after([](OnABus& omni) { omni.bus.resets = 1; }, Fault::not_calibrated);
     zero_after([](OnABus& omni) { omni.bus.omni.garble(true); }, Fault::communication);
     zero_after([](OnABus& omni) { omni.bus.omni.jump({0, 300, 0}); }, Fault::not_calibrated);
-    zero_after([](OnABus& omni) { omni.bus.omni.skip(1U << 30U); }, Fault::communication);
+    zero_after([](OnABus& omni) { omni.bus.omni.skip(1U << 30U); }, Fault::not_calibrated);
 }
 
 TEST(Omni1394, SendsZeroToADeviceThatIsSilentAndOnce20MillisecondsHavePassed)
@@ -167,13 +167,17 @@ TEST(Omni1394, SendsZeroToADeviceThatIsSilentAndOnce20MillisecondsHavePassed)
     EXPECT_EQ(omni.last().motors, glm::ivec3{0});
 }
 
-TEST(Omni1394, KeepsABusResetForAFaultUntilTheStylusIsDocked)
+TEST(Omni1394, IsNotCalibratedAfterABusResetAndFlashesForItsStylusUntilThatIsDocked)
 {
     OnABus omni;
     omni.take_out();
     omni.bus.resets = 1;
     omni.play_for(500ms, {0.5, 0.0, 0.0});
-    EXPECT_EQ(omni.sample.fault, Fault::communication);
+    EXPECT_EQ(omni.sample.fault, Fault::not_calibrated);
+    EXPECT_FALSE(omni.sample.calibrated);
+    EXPECT_EQ(omni.device->calibrate(omni.now), CalibrationStep::dock_stylus);
+    EXPECT_TRUE(omni.last().dock_light_flashes_fast);
+    EXPECT_FALSE(omni.last().dock_light_flashes); // both: a steady light
     omni.bus.omni.lead_to(omni::position_of(omni::inkwell_pose));
     omni.play_for(1500ms);
     EXPECT_TRUE(omni.sample.docked);
