@@ -17,6 +17,8 @@ namespace {
 constexpr double mount_scale_max = 20.0;
 constexpr double mount_scale_min = 0.05;
 constexpr double hid_force_max_n = 100.0;
+constexpr double hid_travel_min_m = 0.01;
+constexpr double hid_travel_max_m = 5.0;
 
 std::string device_help()
 {
@@ -96,6 +98,16 @@ base::Result<double> parse_hid_force(const std::string& text)
     return force;
 }
 
+base::Result<double> parse_hid_travel(const std::string& text)
+{
+    auto travel = base::parse_quantity(text, base::length_kind);
+    if (travel && !(*travel >= hid_travel_min_m && *travel <= hid_travel_max_m)) {
+        return base::fail(fmt::format("'{}' is out of range: from {:.0f}mm to {:.0f}m", text,
+                                      1e3 * hid_travel_min_m, hid_travel_max_m));
+    }
+    return travel;
+}
+
 } // namespace
 
 void add_device_options(CLI::App& app, DeviceTexts& texts)
@@ -140,6 +152,11 @@ void add_backend_options(CLI::App& app, DeviceTexts& texts)
         "way,\n"
         "as --hid-force=-5N (default: no force)",
         "FORCE");
+    add("--hid-travel", texts.hid_travel,
+        "hid: how far the grip goes from stop to stop of an axis, measured: places, speeds and "
+        "the\n"
+        "limits for them go by it (default: 160mm)",
+        "LENGTH");
 }
 
 void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts)
@@ -155,6 +172,10 @@ void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts)
     }
     if (texts.hid_force) {
         taker.take(choice.options.hid_force_n, "--hid-force", parse_hid_force(*texts.hid_force));
+    }
+    if (texts.hid_travel) {
+        taker.take(choice.options.hid_travel_m, "--hid-travel",
+                   parse_hid_travel(*texts.hid_travel));
     }
     constexpr std::string_view replay = "replay:";
     taker.require(!texts.replay_loops || texts.device.starts_with(replay),

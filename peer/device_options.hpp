@@ -37,6 +37,7 @@ struct DeviceTexts {
     bool replay_loops = false;
     device::DeviceOptions options;
     std::optional<std::string> hid_force;
+    std::optional<std::string> hid_travel;
     std::optional<std::string> mount_offset;
     std::optional<std::string> mount_scale;
 };

@@ -156,6 +156,7 @@ TEST(PeerDevices, RefusesBadUsageNamingTheCure)
              Case{{"--remote", free, "--mount-offset", "1mm,2mm"}, 2, {"0mm,20mm,-5mm"}},
              Case{{"--remote", free, "--mount-scale", "-1"}, 2, {"from 0.05 to 20"}},
              Case{{"--remote", free, "--hid-force", "0N"}, 2, {"--hid-force", "not 0"}},
+             Case{{"--remote", free, "--hid-travel", "9m"}, 2, {"--hid-travel", "10mm to 5m"}},
          }) {
         const auto outcome = peer(c.words);
         EXPECT_EQ(outcome.exit, c.exit) << c.words.back() << "\n" << outcome.err;

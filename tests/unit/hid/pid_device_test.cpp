@@ -66,6 +66,16 @@ TEST_F(Pid, HasTwoAxesInAndOutOnceItsFullScaleIsKnownAndNeverMoreForceThanTheCap
     EXPECT_EQ(can.resolution_m, 0.16 / 65534.0);
 }
 
+TEST_F(Pid, GoesAsFarAsItIsSaidToReach)
+{
+    open({.reach_m = 0.5});
+    EXPECT_EQ(device_->capabilities().workspace_max.x(), 0.5);
+    EXPECT_EQ(device_->capabilities().workspace_min.y(), -0.5);
+    line_.waiting.push_back(
+        hid_double::bytes_of({1, 0, 0, 0xff, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(tick({}, false).hip.x(), 0.5);
+}
+
 TEST_F(Pid, IsOnlyReadWithoutItAndToldNothingAtAll)
 {
     open({});
