@@ -263,6 +263,26 @@ TEST_F(Falcon, IsToldZeroLastWhenItLosesItsHomingAndWhenItTalksNonsense)
     EXPECT_EQ(commands().back().lights, device::falcon::Lights::red);
 }
 
+TEST_F(Falcon, IsHaltedAgainWhereAForceHasOvertakenTheFirstHalt)
+{
+    auto falcon = open_homed();
+    ASSERT_TRUE(falcon);
+    const std::uint64_t before = play(*falcon, 20ms, a_push).sequence;
+    while (falcon->read(net::monotonic_now()).sequence == before) {} // it may be told something now
+    // The loop hangs between two of its lines, twice, and calls nothing meanwhile.
+    for (int i = 0; i < 5; ++i) {
+        falcon->halt();
+        net::sleep_until(net::monotonic_now() + 2ms);
+        EXPECT_EQ(commands().back().motors, Counts{});
+    }
+    falcon->apply(a_push);
+    net::sleep_until(net::monotonic_now() + 2ms);
+    EXPECT_NE(commands().back().motors, Counts{});
+    falcon->halt();
+    net::sleep_until(net::monotonic_now() + 2ms);
+    EXPECT_EQ(commands().back().motors, Counts{});
+}
+
 TEST_F(Falcon, IsHeardFromAtLeast200TimesASecond)
 {
     // Emulated: it says nothing of a real one's rate. The best of some stretches, as what else runs
