@@ -102,6 +102,13 @@ bool has_force(const fs::path& report_descriptor)
     return descriptor && device::hid::is_force_device(*descriptor);
 }
 
+std::string rule_for(std::uint16_t vendor, std::uint16_t product)
+{
+    return fmt::format(R"(SUBSYSTEM=="hidraw", ATTRS{{idVendor}}=="{:04x}", )"
+                       R"(ATTRS{{idProduct}}=="{:04x}", TAG+="uaccess")",
+                       vendor, product);
+}
+
 /// "HID_ID=0003:00001209:0000FFB0"
 void find_hid(const fs::path& root, std::vector<Node>& nodes)
 {
@@ -118,10 +125,7 @@ void find_hid(const fs::path& root, std::vector<Node>& nodes)
             nodes.push_back(node_at(root, id->name, path));
         } else if (has_force(entry / "device/report_descriptor")) {
             Node node = node_at(root, "HID force-feedback device", path);
-            node.rule = fmt::format(
-                R"(SUBSYSTEM=="hidraw", ATTRS{{idVendor}}=="{:04x}", ATTRS{{idProduct}}=="{:04x}", )"
-                R"(TAG+="uaccess")",
-                vendor, product);
+            node.rule = rule_for(vendor, product);
             nodes.push_back(std::move(node));
         }
     }
