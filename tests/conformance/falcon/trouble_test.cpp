@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -280,6 +281,28 @@ TEST_F(Falcon, IsHaltedAgainWhereAForceHasOvertakenTheFirstHalt)
     EXPECT_NE(commands().back().motors, Counts{});
     falcon->halt();
     net::sleep_until(net::monotonic_now() + 2ms);
+    EXPECT_EQ(commands().back().motors, Counts{});
+}
+
+TEST_F(Falcon, GoesOnUnderTheHaltsOfAnotherThreadUntilTheLastOne)
+{
+    auto falcon = open_homed();
+    ASSERT_TRUE(falcon);
+    const std::uint64_t before = play(*falcon, 20ms, a_push).sequence;
+    std::atomic<bool> ends{false};
+    std::thread watchdog{[&] {
+        while (!ends) {
+            falcon->halt();
+            net::sleep_until(net::monotonic_now() + 1ms);
+        }
+    }};
+    const std::uint64_t after = play(*falcon, 300ms, a_push).sequence;
+    ends = true;
+    watchdog.join();
+    EXPECT_GT(after, before + 10); // of some 200; the machine may be busy
+    EXPECT_NE(play(*falcon, 20ms, a_push).fault, Fault::disconnected);
+    falcon->halt();
+    net::sleep_until(net::monotonic_now() + 5ms);
     EXPECT_EQ(commands().back().motors, Counts{});
 }
 
