@@ -22,6 +22,8 @@ constexpr double hid_force_max_n = 100.0;
 // Its loader takes 14 000 bytes a second: more would load for longer than a minute.
 constexpr std::size_t falcon_firmware_max_bytes = 1U << 20;
 constexpr std::string_view replay_prefix = "replay:";
+constexpr double hid_travel_min_m = 0.01;
+constexpr double hid_travel_max_m = 5.0;
 
 std::string device_help()
 {
@@ -126,6 +128,16 @@ base::Result<double> parse_hid_force(const std::string& text)
     return force;
 }
 
+base::Result<double> parse_hid_travel(const std::string& text)
+{
+    auto travel = base::parse_quantity(text, base::length_kind);
+    if (travel && !(*travel >= hid_travel_min_m && *travel <= hid_travel_max_m)) {
+        return base::fail(fmt::format("'{}' is out of range: from {:.0f}mm to {:.0f}m", text,
+                                      1e3 * hid_travel_min_m, hid_travel_max_m));
+    }
+    return travel;
+}
+
 /// One that is not for every device.
 struct Belonging {
     const char* option;
@@ -145,6 +157,7 @@ void refuse_options_of_others(Taker& taker, const DeviceTexts& texts)
         Belonging{"--enable-uncalibrated-force", texts.uncalibrated_force, "omni1394"},
         Belonging{"--omni-torque", texts.omni_torque.has_value(), "omni1394"},
         Belonging{"--hid-force", texts.hid_force.has_value(), "hid"},
+        Belonging{"--hid-travel", texts.hid_travel.has_value(), "hid"},
     };
     const std::string_view chosen =
         std::string_view{texts.device}.substr(0, texts.device.find(':'));
@@ -204,6 +217,11 @@ void add_device_options(CLI::App& app, DeviceTexts& texts)
     add("--omni-torque", texts.omni_torque,
         "omni1394: what its motors were measured to give per count (docs/HARDWARE.md)", "FILE");
     add_hid_force(app, texts);
+    add("--hid-travel", texts.hid_travel,
+        "hid: how far the grip goes from stop to stop of an axis, measured: places, speeds and "
+        "the\n"
+        "limits for them go by it (default: 160mm)",
+        "LENGTH");
 }
 
 void add_finding_options(CLI::App& app, DeviceTexts& texts)
@@ -242,6 +260,10 @@ void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts)
     if (texts.omni_torque) {
         taker.take(choice.options.omni_torque, "--omni-torque",
                    omni_profile_at(*texts.omni_torque));
+    }
+    if (texts.hid_travel) {
+        taker.take(choice.options.hid_travel_m, "--hid-travel",
+                   parse_hid_travel(*texts.hid_travel));
     }
     if (texts.device.starts_with(replay_prefix)) {
         taker.take(choice.replay, "--device",

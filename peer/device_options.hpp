@@ -40,6 +40,7 @@ struct DeviceTexts {
     bool uncalibrated_force = false;
     std::optional<std::string> omni_torque;
     std::optional<std::string> hid_force;
+    std::optional<std::string> hid_travel;
     std::optional<std::string> mount_offset;
     std::optional<std::string> mount_scale;
 };

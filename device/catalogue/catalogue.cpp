@@ -17,7 +17,7 @@ namespace {
 
 hid::Options hid_options(const DeviceOptions& options)
 {
-    return {.force_full_n = options.hid_force_n};
+    return {.force_full_n = options.hid_force_n, .reach_m = 0.5 * options.hid_travel_m};
 }
 
 } // namespace

@@ -20,6 +20,7 @@ struct DeviceOptions {
     std::string omni_torque{};           // omni1394: measured torque per count; "": none
     bool uncalibrated_force = false;     // omni1394: force without such a table, at most a quarter
     std::optional<double> hid_force_n{}; // hid: of full scale at the grip; without: no force
+    double hid_travel_m = 0.16;          // hid: of the grip, from stop to stop of an axis
 };
 
 /// A kind of real device, and the way to its devices.

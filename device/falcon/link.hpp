@@ -29,8 +29,8 @@ public:
     /// Whether the device has been unplugged; it does not come back.
     [[nodiscard]] virtual bool is_gone() const noexcept = 0;
 
-    /// Sends behind whatever is on its way; from any thread. Nothing when the last one that was
-    /// sent so has not left yet.
+    /// Sends behind whatever is on its way; from any thread. Nothing while the last one that was
+    /// sent so has still not left: then ask again.
     virtual void interrupt(const Packet& packet) noexcept = 0;
 
     /// Sends, and waits at most 50 ms until it has left.

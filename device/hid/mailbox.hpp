@@ -11,11 +11,10 @@ namespace hapnet::device::hid {
 
 /// What came of the orders so far: each counts on and begins again at 0.
 struct Progress {
-    std::uint32_t sent = 0;     // reports that the device took
-    std::uint32_t refused = 0;  // ... and that it did not
-    std::uint32_t answered = 0; // questions
-    bool is_busy = false;       // there is still something to send
-    bool is_gone = false;       // the device
+    std::uint32_t sent = 0;    // reports that the device took
+    std::uint32_t refused = 0; // ... and that it did not
+    bool is_busy = false;      // there is still something to send
+    bool is_gone = false;      // the device
 };
 
 /// Where whoever drives a device leaves the newest order, and the one who sends it takes it. Any
@@ -38,7 +37,6 @@ public:
 
     void count_sent() { ++sent_; }
     void count_refused() { ++refused_; }
-    void count_answered() { ++answered_; }
     void say_gone() { is_gone_ = true; }
     void say_done(const Order& order) { done_ = packed(order); }
 
@@ -46,7 +44,6 @@ public:
     {
         return {.sent = sent_,
                 .refused = refused_,
-                .answered = answered_,
                 .is_busy = order_.load() != done_.load(),
                 .is_gone = is_gone_};
     }
@@ -56,7 +53,6 @@ private:
     std::atomic<std::uint64_t> done_{0};
     std::atomic<std::uint32_t> sent_{0};
     std::atomic<std::uint32_t> refused_{0};
-    std::atomic<std::uint32_t> answered_{0};
     std::atomic<bool> is_gone_{false};
 };
 

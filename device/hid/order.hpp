@@ -16,7 +16,7 @@ struct Order {
     bool motors_on = false;
     bool is_last = false;    // give the effects' places back, too
     std::uint8_t stops = 0;  // counts the demands to stop, each of which is said anew
-    std::uint8_t probes = 0; // counts the questions whether the device lives
+    std::uint8_t probes = 0; // counts the wishes to hear whether a resting device lives
     std::uint8_t number = 0; // counts the orders with the motors on
 
     friend bool operator==(const Order&, const Order&) = default;

@@ -137,23 +137,23 @@ void PidDevice::on_report(std::span<const std::byte> report)
 void PidDevice::watch(base::Duration passed)
 {
     const Progress before = std::exchange(progress_, parts_.outbox->mailbox().progress());
-    if (progress_.answered != before.answered) {
+    const bool moved = progress_.sent != before.sent;
+    if (moved && silent_ >= probe_after) {
         ++sample_.sequence;
         silent_ = {};
     }
-    const bool moved = progress_.sent != before.sent || progress_.answered != before.answered;
     unmoved_ = moved || !progress_.is_busy ? base::Duration{0} : unmoved_ + passed;
     if (moved) is_refusing_ = false;
     if (progress_.refused != before.refused) is_refusing_ = true;
     is_gone_ = is_gone_ || progress_.is_gone;
-    if (parts_.answers_questions) ask(passed);
+    probe(passed);
 }
 
-void PidDevice::ask(base::Duration passed)
+void PidDevice::probe(base::Duration passed)
 {
-    since_asked_ += passed;
-    if (silent_ < question_after || since_asked_ < question_after) return;
-    since_asked_ = {};
+    since_probed_ += passed;
+    if (silent_ < probe_after || since_probed_ < probe_after) return;
+    since_probed_ = {};
     parts_.outbox->mailbox().update([](Order& order) { ++order.probes; });
     parts_.outbox->wake();
 }
@@ -162,7 +162,7 @@ Fault PidDevice::fault() const
 {
     if (is_gone_) return Fault::disconnected;
     if (unmoved_ >= silence_max) return Fault::timeout;
-    if (parts_.answers_questions && silent_ >= silence_max) return Fault::timeout;
+    if (parts_.outbox && silent_ >= silence_max) return Fault::timeout;
     if (is_garbled_ || is_refusing_) return Fault::communication;
     return Fault::none;
 }

@@ -22,7 +22,6 @@ struct PidParts {
     Options options{};
     std::unique_ptr<Wire> wire{};     // to read from
     std::unique_ptr<Outbox> outbox{}; // none: no force
-    bool answers_questions = false;
 };
 
 /// A joystick or wheel base with force feedback by USB HID PID, as a device of one or two degrees
@@ -30,9 +29,10 @@ struct PidParts {
 /// user is up, as on a screen. Places are uncalibrated shares of the reach, forces uncalibrated
 /// shares of full scale.
 ///
-/// Many such devices say nothing while nothing moves. Silence is therefore no fault as long as the
-/// device answers questions, of which it is asked one after 8 ms of silence; a device that answers
-/// none, or that is only read, may be silent.
+/// Many such devices say nothing while nothing moves. So after 8 ms of silence a report that the
+/// device takes counts as its word that it is where it was: under force it is sent some in each
+/// tick, at rest it is told then that its actuators are disabled. A device that neither speaks nor
+/// takes reports is silent; one that is only read may be.
 ///
 /// When this program is killed the device lets go by itself 100 ms later, if it keeps to the
 /// duration of its effects: nothing else stops it then but its power switch.
@@ -50,7 +50,7 @@ public:
     void halt() noexcept override;
 
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
-    static constexpr base::Duration question_after{std::chrono::milliseconds{8}};
+    static constexpr base::Duration probe_after{std::chrono::milliseconds{8}};
     /// A pause between two reads counts as no more: it was the host's.
     static constexpr base::Duration pause_max{std::chrono::milliseconds{5}};
     static constexpr int reports_per_read_max = 64; // the kernel keeps as many
@@ -60,7 +60,7 @@ private:
     void drain();
     void on_report(std::span<const std::byte> report);
     void watch(base::Duration passed);
-    void ask(base::Duration passed);
+    void probe(base::Duration passed);
     [[nodiscard]] Fault fault() const;
 
     PidParts parts_;
@@ -72,7 +72,7 @@ private:
     Progress progress_{};
     base::Duration silent_{};  // since its last word
     base::Duration unmoved_{}; // since it last took something, while there is something to take
-    base::Duration since_asked_{};
+    base::Duration since_probed_{};
     std::uint8_t buttons_down_ = 0;
     bool was_garbled_ = false; // the last report
     bool is_garbled_ = false;  // a report since the last read

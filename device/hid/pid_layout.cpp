@@ -170,16 +170,6 @@ void find_loading(Search& search, ForceLayout& layout)
     layout.block_load.place = search.place();
 }
 
-std::optional<ReportPlace> find_pool(const Descriptor& descriptor)
-{
-    for (const Field& field : descriptor.fields) {
-        if (field.kind != ReportKind::feature || !lies_in(field, usage::pool_report)) continue;
-        const std::size_t bytes = descriptor.bytes_of(ReportKind::feature, field.report_id);
-        if (bytes < report_bytes_max) return ReportPlace{field.report_id, bytes};
-    }
-    return std::nullopt;
-}
-
 bool plays_on(const Descriptor& descriptor, Usage axis)
 {
     return std::any_of(descriptor.fields.begin(), descriptor.fields.end(), [&](const Field& field) {
@@ -224,7 +214,6 @@ base::Result<ForceLayout> find_force(const Descriptor& descriptor)
     layout.set_effect = find_set_effect(search);
     find_playing(search, layout);
     find_loading(search, layout);
-    layout.pool = find_pool(descriptor);
     if (!search.missing().empty()) return base::fail(search.missing());
     if (layout.set_constant_force.magnitude.logical_min >= 0) {
         return base::fail("its constant forces have no sign");

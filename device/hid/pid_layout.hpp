@@ -76,7 +76,6 @@ struct ForceLayout {
         Field block{};
     };
     std::optional<BlockFree> block_free{};
-    std::optional<ReportPlace> pool{}; // feature; asked to hear whether the device lives
 };
 
 /// Reports that a full-speed interrupt pipe takes in one go are no longer than this, ID included.

@@ -78,10 +78,6 @@ public:
             clean_up(prepared);
             return refused(moved, "an effect");
         }
-        if (layout_.pool) {
-            Report answer{*layout_.pool};
-            prepared.answers_questions = wire_.get_feature(answer.all()) == Moved::yes;
-        }
         return prepared;
     }
 

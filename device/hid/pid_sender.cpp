@@ -14,7 +14,7 @@ PidSender::PidSender(const ForceLayout& layout, std::span<const std::uint32_t> b
     base::ensure(!blocks.empty() && blocks.size() <= 2);
 }
 
-std::optional<Work> PidSender::next(const Order& order)
+std::optional<Report> PidSender::next(const Order& order)
 {
     const bool is_new_stop =
         !order.motors_on && (planned_for_.motors_on || order.stops != planned_for_.stops);
@@ -23,15 +23,12 @@ std::optional<Work> PidSender::next(const Order& order)
         order.motors_on && (!planned_for_.motors_on || order.stops != planned_for_.stops ||
                             (is_done && order.number != planned_for_.number));
     if (is_new_stop || is_new_push) plan(order);
-    const bool asks = order.probes != planned_for_.probes;
-    if (asks && (order.motors_on || steps_done_ == steps_planned_)) {
-        planned_for_.probes = order.probes;
-        if (layout_.pool) return Work{Report{*layout_.pool}, true};
-    }
     while (steps_done_ < steps_planned_) {
-        if (const auto report = report_for(steps_[steps_done_++], order)) return Work{*report};
+        if (const auto report = report_for(steps_[steps_done_++], order)) return report;
     }
-    return std::nullopt;
+    const bool probes = !order.motors_on && order.probes != planned_for_.probes;
+    planned_for_.probes = order.probes;
+    return probes ? report_for(Step::disable, order) : std::nullopt;
 }
 
 void PidSender::plan(const Order& order)
@@ -43,9 +40,7 @@ void PidSender::plan(const Order& order)
     } else {
         plan_stop(order);
     }
-    const std::uint8_t probes = planned_for_.probes;
-    planned_for_ = order;
-    planned_for_.probes = probes;
+    planned_for_ = order; // what it says shows whether the device lives, too
 }
 
 void PidSender::plan_push(const Order& order)

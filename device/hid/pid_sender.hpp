@@ -15,12 +15,6 @@
 
 namespace hapnet::device::hid {
 
-/// A report to write, or a feature to ask for, whose answer only shows that the device lives.
-struct Work {
-    Report report{};
-    bool is_question = false;
-};
-
 /// Turns orders into reports, one after the other, as fast as the device takes them; what an order
 /// says last counts, however many were missed.
 ///
@@ -31,14 +25,18 @@ struct Work {
 /// every millisecond at most, and so hears of each axis 450 times a second.
 ///
 /// To stop, it says three times over: stop all effects, disable the actuators, no force on any
-/// axis. Then it is silent.
+/// axis. Then it is silent, but for an order that wants to hear whether the device lives: then it
+/// says once more that the actuators are disabled.
+///
+/// It only ever writes: a question (GET_REPORT) that a device leaves open holds the kernel up for
+/// 5 s, and with it every stop behind it.
 class PidSender {
 public:
     /// `blocks`: the places of the effects, an axis each.
     PidSender(const ForceLayout& layout, std::span<const std::uint32_t> blocks);
 
-    /// What to move next, for this order; nullopt: all is said.
-    [[nodiscard]] std::optional<Work> next(const Order& order);
+    /// What to say next, for this order; nullopt: all is said.
+    [[nodiscard]] std::optional<Report> next(const Order& order);
 
     static constexpr int ticks_per_start = 10;
     static constexpr int stops_said = 3;

@@ -28,7 +28,6 @@ inline constexpr Usage effect_start = 0x000f'0079;
 inline constexpr Usage effect_stop = 0x000f'007b;
 inline constexpr Usage loop_count = 0x000f'007c;
 inline constexpr Usage device_gain = 0x000f'007e;
-inline constexpr Usage pool_report = 0x000f'007f;
 inline constexpr Usage block_load_report = 0x000f'0089;
 inline constexpr Usage load_success = 0x000f'008c;
 inline constexpr Usage load_full = 0x000f'008d;

@@ -38,7 +38,8 @@ public:
     // does: the kernel gives up after 5 s.
     [[nodiscard]] virtual Moved write(std::span<const std::byte> report) = 0;
     [[nodiscard]] virtual Moved set_feature(std::span<const std::byte> report) = 0;
-    /// Asks for the report whose ID stands first, into the same bytes.
+    /// Asks for the report whose ID stands first, into the same bytes: only while a device is
+    /// opened, as a question that it leaves open holds up all that would stop it.
     [[nodiscard]] virtual Moved get_feature(std::span<std::byte> report) = 0;
 };
 

@@ -97,6 +97,14 @@ Finding on_rules(const Facts& facts)
     return {"udev rules", Level::warning, text, std::string{udev_cure()}};
 }
 
+std::string cure_for(const Node& node)
+{
+    if (node.rule.empty()) return std::string{udev_cure()};
+    return fmt::format("echo '{}' | sudo tee -a /etc/udev/rules.d/61-my-device.rules && "
+                       "sudo udevadm control --reload && sudo udevadm trigger",
+                       node.rule);
+}
+
 void judge_nodes(const Facts& facts, std::vector<Finding>& findings)
 {
     for (const Node& node : facts.nodes) {
@@ -108,7 +116,7 @@ void judge_nodes(const Facts& facts, std::vector<Finding>& findings)
             findings.push_back(
                 {"device", Level::bad,
                  fmt::format("no permission to open {}, the {}", node.path, node.device),
-                 fmt::format("{}   # then plug it in again", udev_cure())});
+                 fmt::format("{}   # then plug it in again", cure_for(node))});
         }
     }
     if (facts.nodes.empty()) {

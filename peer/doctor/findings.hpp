@@ -41,6 +41,7 @@ struct Node {
     std::string device; // such as "Novint Falcon"
     std::string path;   // such as /dev/bus/usb/001/002
     bool is_accessible = false;
+    std::string rule{}; // a udev rule of its own that it needs; "": ours will do
 };
 
 /// What the system was found to be.

@@ -4,16 +4,18 @@
 
 #include "device/hdapi/transport/configuration.hpp"
 #include "device/hdapi/transport/shared_library.hpp"
+#include "device/hid/pid_layout.hpp"
+#include "device/usb_ids.hpp"
 #include "proto/base/histogram.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/real_time.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <sys/prctl.h>
 #include <thread>
@@ -28,18 +30,6 @@ using namespace std::chrono_literals;
 
 constexpr int servo_priority = 45; // as the loop asks for it
 constexpr int wake_ups = 300;
-
-struct KnownDevice {
-    std::string_view vendor; // hexadecimal, small letters
-    std::string_view product_first;
-    std::string_view product_last;
-    std::string_view name;
-};
-constexpr std::array usb_devices{KnownDevice{"0403", "cb48", "cb48", "Novint Falcon"}};
-constexpr std::array hid_devices{KnownDevice{"1209", "ffb0", "ffb0", "OpenFFBoard"},
-                                 KnownDevice{"046d", "c603", "c62b", "SpaceMouse"},
-                                 KnownDevice{"256f", "c62e", "c652", "SpaceMouse"},
-                                 KnownDevice{"2988", "0304", "0304", "Touch"}};
 
 /// Its whole text, without the line's end; nullopt when it cannot be read.
 std::optional<std::string> text_in(const fs::path& file)
@@ -68,17 +58,9 @@ std::vector<fs::path> entries_of(const fs::path& folder)
     return entries;
 }
 
-template <std::size_t count>
-std::string_view name_among(const std::array<KnownDevice, count>& known, const std::string& vendor,
-                            const std::string& product)
+std::uint16_t number_of(const std::string& hexadecimal)
 {
-    for (const KnownDevice& one : known) {
-        // By compare(): Clang 14 cannot order these with this library.
-        const bool is_it = vendor == one.vendor && product.compare(one.product_first) >= 0 &&
-                           product.compare(one.product_last) <= 0;
-        if (is_it) return one.name;
-    }
-    return "";
+    return static_cast<std::uint16_t>(std::strtoul(hexadecimal.c_str(), nullptr, 16));
 }
 
 Node node_at(const fs::path& root, std::string_view device, const std::string& path)
@@ -90,14 +72,14 @@ Node node_at(const fs::path& root, std::string_view device, const std::string& p
 void find_usb(const fs::path& root, std::vector<Node>& nodes)
 {
     for (const fs::path& entry : entries_of(root / "sys/bus/usb/devices")) {
-        const auto name =
-            name_among(usb_devices, word_in(entry / "idVendor"), word_in(entry / "idProduct"));
-        if (name.empty()) continue;
+        const auto* const id = device::find_usb_id(number_of(word_in(entry / "idVendor")),
+                                                   number_of(word_in(entry / "idProduct")));
+        if (id == nullptr || id->node != device::UsbNode::usb) continue;
         const auto number = [&](const char* file) {
             return fmt::format("{:0>3}", word_in(entry / file));
         };
         nodes.push_back(node_at(
-            root, name, fmt::format("/dev/bus/usb/{}/{}", number("busnum"), number("devnum"))));
+            root, id->name, fmt::format("/dev/bus/usb/{}/{}", number("busnum"), number("devnum"))));
     }
 }
 
@@ -111,20 +93,41 @@ void find_firewire(const fs::path& root, std::vector<Node>& nodes)
     }
 }
 
+/// Whether what it says of itself has force feedback (USB HID PID) in it.
+bool has_force(const fs::path& report_descriptor)
+{
+    const auto text = text_in(report_descriptor);
+    if (!text) return false;
+    const auto descriptor = device::hid::parse_descriptor(std::as_bytes(std::span{*text}));
+    return descriptor && device::hid::is_force_device(*descriptor);
+}
+
+std::string rule_for(std::uint16_t vendor, std::uint16_t product)
+{
+    return fmt::format(R"(SUBSYSTEM=="hidraw", ATTRS{{idVendor}}=="{:04x}", )"
+                       R"(ATTRS{{idProduct}}=="{:04x}", TAG+="uaccess")",
+                       vendor, product);
+}
+
 /// "HID_ID=0003:00001209:0000FFB0"
 void find_hid(const fs::path& root, std::vector<Node>& nodes)
 {
     for (const fs::path& entry : entries_of(root / "sys/class/hidraw")) {
-        std::string text = text_in(entry / "device/uevent").value_or("");
+        const std::string text = text_in(entry / "device/uevent").value_or("");
         const auto at = text.find("HID_ID=");
         constexpr std::size_t length = 28; // of "HID_ID=bbbb:vvvvvvvv:pppppppp"
         if (at == std::string::npos || text.size() < at + length + 1) continue;
-        std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-            return c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c;
-        });
-        const auto name = name_among(hid_devices, text.substr(at + 16, 4), text.substr(at + 25, 4));
-        if (name.empty()) continue;
-        nodes.push_back(node_at(root, name, "/dev/" + entry.filename().string()));
+        const std::uint16_t vendor = number_of(text.substr(at + 16, 4));
+        const std::uint16_t product = number_of(text.substr(at + 25, 4));
+        const std::string path = "/dev/" + entry.filename().string();
+        const auto* const id = device::find_usb_id(vendor, product);
+        if (id != nullptr && id->node == device::UsbNode::hidraw) {
+            nodes.push_back(node_at(root, id->name, path));
+        } else if (has_force(entry / "device/report_descriptor")) {
+            Node node = node_at(root, "HID force-feedback device", path);
+            node.rule = rule_for(vendor, product);
+            nodes.push_back(std::move(node));
+        }
     }
 }
 

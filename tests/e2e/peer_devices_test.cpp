@@ -176,6 +176,7 @@ TEST(PeerDevices, RefusesBadUsageNamingTheCure)
              Case{{"self-test", "--device", "hid:1", "--enable-uncalibrated-force"},
                   2,
                   {"--enable-uncalibrated-force", "omni1394", "--device hid:1"}},
+             Case{{"--remote", free, "--hid-travel", "9m"}, 2, {"--hid-travel", "10mm to 5m"}},
          }) {
         const auto outcome = peer(c.words);
         EXPECT_EQ(outcome.exit, c.exit) << c.words.back() << "\n" << outcome.err;

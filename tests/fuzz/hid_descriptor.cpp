@@ -22,10 +22,10 @@ void speak(const ForceLayout& layout)
     PidSender sender{layout, blocks};
     Order order{.levels = {32767, -32767}, .motors_on = true, .probes = 1, .number = 1};
     int reports = 0;
-    while (const auto work = sender.next(order)) ensure(work->report.size > 0 && ++reports < 100);
+    while (const auto report = sender.next(order)) ensure(report->size > 0 && ++reports < 100);
     order.motors_on = false;
     order.is_last = true;
-    while (const auto work = sender.next(order)) ensure(work->report.size > 0 && ++reports < 100);
+    while (const auto report = sender.next(order)) ensure(report->size > 0 && ++reports < 100);
     for (const Axis axis : {Axis::right, Axis::away}) {
         ensure(set_effect_report(layout, 1, axis).size > 0);
     }

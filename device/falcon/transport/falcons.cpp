@@ -5,6 +5,7 @@
 #include "device/falcon/falcon.hpp"
 #include "device/falcon/startup.hpp"
 #include "device/falcon/transport/usb_link.hpp"
+#include "device/usb_ids.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +20,6 @@ namespace hapnet::device::falcon {
 
 namespace {
 
-constexpr std::uint16_t ftdi_vendor = 0x0403;
-constexpr std::uint16_t falcon_product = 0xcb48;
 constexpr std::uint8_t vendor_request = LIBUSB_REQUEST_TYPE_VENDOR; // to the device
 constexpr unsigned transfer_max_ms = 1000;
 
@@ -71,7 +70,8 @@ std::vector<UsbDevice> falcons_of(libusb_context* context)
     for (decltype(libusb_get_device_list(context, &list)) i = 0; i < count; ++i) {
         libusb_device_descriptor descriptor{};
         if (libusb_get_device_descriptor(list[i], &descriptor) != LIBUSB_SUCCESS) continue;
-        if (descriptor.idVendor != ftdi_vendor || descriptor.idProduct != falcon_product) continue;
+        const UsbId* const id = find_usb_id(descriptor.idVendor, descriptor.idProduct);
+        if (id == nullptr || id->kind != UsbKind::falcon) continue;
         falcons.emplace_back(libusb_ref_device(list[i]));
     }
     if (count >= 0) libusb_free_device_list(list, 1);

@@ -44,7 +44,7 @@ UsbLink::UsbLink(ClaimedUsb usb)
 UsbLink::~UsbLink()
 {
     closes_ = true;
-    if (listens_) libusb_cancel_transfer(in_.get());
+    if (ear_ == Ear::listens) libusb_cancel_transfer(in_.get());
     if (sends_) libusb_cancel_transfer(out_.get());
     if (interrupts_) libusb_cancel_transfer(urgent_.get());
     for (int i = 0; i < close_rounds && !is_idle(); ++i) handle_events(brief_wait_ms);
@@ -55,7 +55,7 @@ UsbLink::~UsbLink()
     std::ignore = urgent_.release();
 }
 
-bool UsbLink::is_idle() const noexcept { return !listens_ && !sends_ && !interrupts_; }
+bool UsbLink::is_idle() const noexcept { return ear_ != Ear::listens && !sends_ && !interrupts_; }
 
 bool UsbLink::submit(libusb_transfer* transfer) noexcept
 {
@@ -67,15 +67,19 @@ bool UsbLink::submit(libusb_transfer* transfer) noexcept
 
 void UsbLink::listen() noexcept
 {
-    if (!listens_ && !closes_) listens_ = submit(in_.get());
+    if (ear_ != Ear::idle || closes_) return;
+    ear_ = Ear::listens; // first: what it hears may be noted before submit() returns
+    if (!submit(in_.get())) ear_ = Ear::idle;
 }
 
 bool UsbLink::send(const Packet& packet) noexcept
 {
     if (sends_) return false;
     put(packet, out_buffer_);
-    sends_ = submit(out_.get());
-    return sends_;
+    sends_ = true; // first, as above
+    if (submit(out_.get())) return true;
+    sends_ = false;
+    return false;
 }
 
 void UsbLink::send_now(const Packet& packet) noexcept
@@ -87,6 +91,8 @@ void UsbLink::send_now(const Packet& packet) noexcept
 
 void UsbLink::interrupt(const Packet& packet) noexcept
 {
+    // The one before may have left long since, without anyone who has looked.
+    if (interrupts_) handle_events(0);
     if (interrupts_.exchange(true)) return;
     put(packet, urgent_buffer_);
     if (!submit(urgent_.get())) interrupts_ = false;
@@ -95,12 +101,14 @@ void UsbLink::interrupt(const Packet& packet) noexcept
 std::span<const std::byte> UsbLink::receive(Wait wait) noexcept
 {
     inbox_size_ = 0;
-    listen(); // where it could not before
+    collect();
     handle_events(0);
+    collect();
     // The first wait may end with no more than our own packet having left: then one more.
     for (int round = 0; round < 2 && wait == Wait::briefly && inbox_size_ == 0; ++round) {
         const bool was_sending = sends_;
         handle_events(brief_wait_ms);
+        collect();
         if (!was_sending || sends_) break;
     }
     return std::span{inbox_}.first(inbox_size_);
@@ -112,26 +120,25 @@ void UsbLink::handle_events(int milliseconds_max) noexcept
     libusb_handle_events_timeout_completed(usb_.context.get(), &most, nullptr);
 }
 
-void UsbLink::take(const libusb_transfer& transfer) noexcept
+/// Takes what has been heard, and goes on listening.
+void UsbLink::collect() noexcept
 {
-    const auto size = static_cast<std::size_t>(transfer.actual_length);
-    if (size <= ftdi_status_bytes) return;
-    const auto bytes = std::as_bytes(std::span{transfer.buffer, size}).subspan(ftdi_status_bytes);
-    // Full only when nobody has listened for long; then the oldest are the best to keep, as the
-    // next packet is found behind the gap.
-    const std::size_t count = std::min(bytes.size(), inbox_.size() - inbox_size_);
-    std::copy_n(bytes.begin(), count, std::span{inbox_}.subspan(inbox_size_).begin());
-    inbox_size_ += count;
+    if (ear_ == Ear::has_heard) {
+        const auto size = static_cast<std::size_t>(in_->actual_length);
+        const auto bytes = std::as_bytes(std::span{in_buffer_}).first(size);
+        const auto theirs = bytes.subspan(std::min(ftdi_status_bytes, size));
+        std::copy(theirs.begin(), theirs.end(), std::span{inbox_}.subspan(inbox_size_).begin());
+        inbox_size_ += theirs.size();
+        ear_ = Ear::idle;
+    }
+    listen();
 }
 
 void UsbLink::on_in(libusb_transfer* transfer)
 {
     auto& link = *static_cast<UsbLink*>(transfer->user_data);
-    link.listens_ = false;
     if (transfer->status == LIBUSB_TRANSFER_NO_DEVICE) link.is_gone_ = true;
-    if (transfer->status != LIBUSB_TRANSFER_COMPLETED) return; // receive() tries again
-    link.take(*transfer);
-    link.listen();
+    link.ear_ = transfer->status == LIBUSB_TRANSFER_COMPLETED ? Ear::has_heard : Ear::idle;
 }
 
 void UsbLink::on_out(libusb_transfer* transfer)

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <libusb.h>
 #include <memory>
 
@@ -35,7 +36,8 @@ struct ClaimedUsb {
 };
 
 /// Packets over libusb: one transfer each way at most is under way, and one more for interrupt().
-/// The library's events are handled in the calls, there is no thread.
+/// The library's events are handled in the calls, there is no thread of its own: those of
+/// interrupt() may be another's, so what a transfer came to is only noted when it ends.
 class UsbLink final : public Link {
 public:
     explicit UsbLink(ClaimedUsb usb);
@@ -56,13 +58,16 @@ private:
     using Transfer = std::unique_ptr<libusb_transfer, Free>;
     using Buffer = std::array<unsigned char, usb_packet_bytes>;
 
+    /// Of the transfer that listens.
+    enum class Ear : std::uint8_t { idle, listens, has_heard };
+
     static void on_in(libusb_transfer* transfer);
     static void on_out(libusb_transfer* transfer);
     static void on_urgent(libusb_transfer* transfer);
 
     [[nodiscard]] bool submit(libusb_transfer* transfer) noexcept;
     void listen() noexcept;
-    void take(const libusb_transfer& transfer) noexcept;
+    void collect() noexcept;
     void handle_events(int milliseconds_max) noexcept;
     [[nodiscard]] bool is_idle() const noexcept;
 
@@ -73,10 +78,10 @@ private:
     Buffer in_buffer_{};
     Buffer out_buffer_{};
     Buffer urgent_buffer_{};
-    std::array<std::byte, 1024> inbox_{};
+    std::array<std::byte, 4 * usb_packet_bytes> inbox_{}; // receive() collects so often at most
     std::size_t inbox_size_ = 0;
-    bool listens_ = false;
-    bool sends_ = false;
+    std::atomic<Ear> ear_{Ear::idle};
+    std::atomic<bool> sends_{false};
     bool closes_ = false;
     std::atomic<bool> is_gone_{false};
     std::atomic<bool> interrupts_{false};

@@ -69,7 +69,6 @@ Opened<std::unique_ptr<Device>> open_pid(const Seen& seen, const Options& option
         if (!wire) return tl::unexpected{wire.error()};
         const auto prepared = prepare(**wire, *seen.force, seen.input->axes.size());
         if (!prepared) return tl::unexpected{prepared.error()};
-        parts.answers_questions = prepared->answers_questions;
         parts.outbox = std::make_unique<SenderThread>(*std::move(wire),
                                                       PidSender{*seen.force, prepared->blocks});
     }

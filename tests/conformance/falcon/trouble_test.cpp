@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -261,6 +262,48 @@ TEST_F(Falcon, IsToldZeroLastWhenItLosesItsHomingAndWhenItTalksNonsense)
         emulated_.usb.with_model([&] { emulated_.falcon.garble(false); });
     }
     EXPECT_EQ(commands().back().lights, device::falcon::Lights::red);
+}
+
+TEST_F(Falcon, IsHaltedAgainWhereAForceHasOvertakenTheFirstHalt)
+{
+    auto falcon = open_homed();
+    ASSERT_TRUE(falcon);
+    const std::uint64_t before = play(*falcon, 20ms, a_push).sequence;
+    while (falcon->read(net::monotonic_now()).sequence == before) {} // it may be told something now
+    // The loop hangs between two of its lines, twice, and calls nothing meanwhile.
+    for (int i = 0; i < 5; ++i) {
+        falcon->halt();
+        net::sleep_until(net::monotonic_now() + 2ms);
+        EXPECT_EQ(commands().back().motors, Counts{});
+    }
+    falcon->apply(a_push);
+    net::sleep_until(net::monotonic_now() + 2ms);
+    EXPECT_NE(commands().back().motors, Counts{});
+    falcon->halt();
+    net::sleep_until(net::monotonic_now() + 2ms);
+    EXPECT_EQ(commands().back().motors, Counts{});
+}
+
+TEST_F(Falcon, GoesOnUnderTheHaltsOfAnotherThreadUntilTheLastOne)
+{
+    auto falcon = open_homed();
+    ASSERT_TRUE(falcon);
+    const std::uint64_t before = play(*falcon, 20ms, a_push).sequence;
+    std::atomic<bool> ends{false};
+    std::thread watchdog{[&] {
+        while (!ends) {
+            falcon->halt();
+            net::sleep_until(net::monotonic_now() + 1ms);
+        }
+    }};
+    const std::uint64_t after = play(*falcon, 300ms, a_push).sequence;
+    ends = true;
+    watchdog.join();
+    EXPECT_GT(after, before + 10); // of some 200; the machine may be busy
+    EXPECT_NE(play(*falcon, 20ms, a_push).fault, Fault::disconnected);
+    falcon->halt();
+    net::sleep_until(net::monotonic_now() + 5ms);
+    EXPECT_EQ(commands().back().motors, Counts{});
 }
 
 TEST_F(Falcon, IsHeardFromAtLeast200TimesASecond)

@@ -220,17 +220,22 @@ TEST_F(Hid, PulledOutInTheMiddleOfAWriteIsGone)
     EXPECT_TRUE(wait_until([&] { return tick(*device, right).fault == Fault::disconnected; }));
 }
 
-TEST_F(Hid, ThatSaysNothingWhileNothingMovesIsAskedWhetherItLives)
+TEST_F(Hid, ThatSaysNothingWhileNothingMovesIsNoSilentOneAtRestAndUnderForce)
 {
     auto device = open();
     ASSERT_TRUE(device);
     tick(*device, {});
-    std::uint64_t sequence = 0;
-    EXPECT_TRUE(wait_until([&] {
-        now_ += 1ms;
-        sequence = device->read(now_).sequence;
-        return sequence > 20;
-    }));
+    for (const base::Force& force : {base::Force{}, right}) {
+        const std::uint64_t before = device->read(now_).sequence;
+        EXPECT_TRUE(wait_until([&] {
+            now_ += 1ms;
+            const device::Sample sample = device->read(now_);
+            device->apply(ungoverned(force));
+            EXPECT_EQ(sample.fault, Fault::none);
+            return sample.sequence > before + 10;
+        }));
+    }
+    EXPECT_TRUE(pushes());
 }
 
 /// The device says where it is, that is read, and both forces of the answer arrive.

@@ -117,7 +117,6 @@ std::optional<std::vector<std::byte>> FakePid::feature(std::uint8_t id) const
 {
     const auto free = static_cast<unsigned>(places_ - places_taken());
     if (id == ids_.block_load()) return bytes_of({id, loaded_[0], loaded_[1], free, 0});
-    if (id == ids_.pool()) return bytes_of({id, static_cast<unsigned>(places_), 0, 40, 0});
     return std::nullopt;
 }
 

@@ -24,7 +24,8 @@ struct Push {
 
 /// The double of a PID device: a joystick of two axes whose grip is a mass that a hand holds as by
 /// a spring. Reads and writes the bytes of pid_descriptor() by their places, on its own. It keeps
-/// to the durations of effects. Knows no clock: pass() tells it the time.
+/// to the durations of effects. It refuses to tell of its Pool, as some do that list one. Knows no
+/// clock: pass() tells it the time.
 class FakePid {
 public:
     explicit FakePid(ReportIds ids = {}) : ids_{ids} {}

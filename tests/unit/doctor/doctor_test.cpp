@@ -152,15 +152,26 @@ TEST_F(FakeRoot, FindsDevicesAndWhetherTheyMayBeOpened)
     put("dev/hidraw3", "");
     put("sys/class/hidraw/hidraw4/device/uevent", "HID_ID=0003:0000046D:0000C077\n"); // a mouse
     put("sys/class/hidraw/hidraw5/device/uevent", "HID_ID=00");
-    const auto nodes = facts().nodes;
-    ASSERT_EQ(nodes.size(), 3U);
+    // Not in the rules, but with a Set Effect report in what it says of itself.
+    put("sys/class/hidraw/hidraw6/device/uevent", "HID_ID=0003:0000EB03:00002402\n");
+    put("sys/class/hidraw/hidraw6/device/report_descriptor", "\x05\x0f\x09\x21\xa1\x02\xc0");
+    const Facts found = facts();
+    const auto& nodes = found.nodes;
+    ASSERT_EQ(nodes.size(), 4U);
     EXPECT_EQ(nodes[0].device, "Novint Falcon");
     EXPECT_EQ(nodes[0].path, "/dev/bus/usb/001/007");
     EXPECT_TRUE(nodes[0].is_accessible);
     EXPECT_EQ(nodes[1].path, "/dev/fw1");
     EXPECT_FALSE(nodes[1].is_accessible); // there is no such node
-    EXPECT_EQ(nodes[2].device, "SpaceMouse");
+    EXPECT_EQ(nodes[2].device, "SpaceMouse Wireless (receiver)");
     EXPECT_EQ(nodes[2].path, "/dev/hidraw3");
+    EXPECT_EQ(nodes[3].path, "/dev/hidraw6");
+    const auto findings = judge(found);
+    EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& one) {
+        return one.cure.find(
+                   R"(ATTRS{idVendor}=="eb03", ATTRS{idProduct}=="2402", TAG+="uaccess")") !=
+               std::string::npos;
+    }));
 }
 
 TEST_F(FakeRoot, ReadsWhatTheKernelTells)

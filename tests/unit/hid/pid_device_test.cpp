@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "device/governor.hpp"
 #include "device/hid/pid_device.hpp"
 #include "device/hid/pid_opening.hpp"
 #include "tests/support/allocations.hpp"
@@ -30,7 +31,6 @@ protected:
             const ForceLayout layout = find_force(descriptor).value();
             MemoryWire wire{line_};
             const Prepared prepared = prepare(wire, layout, 2).value();
-            parts.answers_questions = prepared.answers_questions;
             parts.outbox =
                 std::make_unique<MemoryOutbox>(line_, PidSender{layout, prepared.blocks});
         }
@@ -64,6 +64,16 @@ TEST_F(Pid, HasTwoAxesInAndOutOnceItsFullScaleIsKnownAndNeverMoreForceThanTheCap
     EXPECT_EQ(can.workspace_max.x(), 0.08);
     EXPECT_EQ(can.workspace_max.z(), 0.0);
     EXPECT_EQ(can.resolution_m, 0.16 / 65534.0);
+}
+
+TEST_F(Pid, GoesAsFarAsItIsSaidToReach)
+{
+    open({.reach_m = 0.5});
+    EXPECT_EQ(device_->capabilities().workspace_max.x(), 0.5);
+    EXPECT_EQ(device_->capabilities().workspace_min.y(), -0.5);
+    line_.waiting.push_back(
+        hid_double::bytes_of({1, 0, 0, 0xff, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(tick({}, false).hip.x(), 0.5);
 }
 
 TEST_F(Pid, IsOnlyReadWithoutItAndToldNothingAtAll)
@@ -152,17 +162,51 @@ TEST_F(Pid, IsLeftWithoutForceThreeTimesOverAndWithoutOurEffects)
     EXPECT_EQ(line_.pid.places_taken(), 0U);
 }
 
-TEST_F(Pid, ThatIsSilentBecauseNothingMovesIsAskedAndNotAtFault)
+TEST_F(Pid, ThatIsSilentBecauseNothingMovesIsNotAtFaultAtRestNorUnderForce)
 {
     open({.force_full_n = 8.0});
+    const std::size_t questions = line_.questions;
+    Governor governor{limits_for(device_->capabilities(), {})};
     tick();
-    Sample sample;
-    for (int i = 0; i < 200; ++i) {
-        sample = tick({}, false);
-        ASSERT_EQ(sample.fault, Fault::none) << i;
-    }
-    EXPECT_GT(sample.sequence, 10U);
-    EXPECT_GE(line_.questions, 20U);
+    const auto play_silent = [&](bool permitted) {
+        for (int i = 0; i < 2000; ++i) {
+            now_ += 1ms;
+            line_.pid.pass(0.001);
+            const Sample sample = device_->read(now_);
+            ASSERT_EQ(sample.fault, Fault::none) << i;
+            device_->apply(governor.govern({{{1.0, 0.0, 0.0}}, permitted}, sample, now_));
+        }
+    };
+    play_silent(false);
+    EXPECT_EQ(governor.state(), GovernorState::ready);
+    EXPECT_FALSE(line_.pid.push().motors_on);
+    play_silent(true);
+    EXPECT_EQ(governor.state(), GovernorState::active);
+    EXPECT_NEAR(line_.pid.push().force_n[0], 1.0, 8.0 / 32767);
+    EXPECT_EQ(governor.counters().silent, 0U);
+    EXPECT_EQ(line_.questions, questions); // one left open would hold up what stops it
+}
+
+TEST_F(Pid, ThatSpeaksIsNotToldThatItRests)
+{
+    open({.force_full_n = 8.0});
+    const std::size_t before = line_.pid.pushes().size();
+    for (int i = 0; i < 100; ++i) tick();
+    EXPECT_EQ(line_.pid.pushes().size(), before);
+    for (int i = 0; i < 100; ++i) tick({}, false);
+    // In the 8th tick, and in each 9th after it, as the tick that sees it taken is a new beginning.
+    EXPECT_EQ(line_.pid.pushes().size(), before + 11);
+}
+
+TEST_F(Pid, ThatRestsAndThenTakesNothingIsAtFaultAfterTwentyMilliseconds)
+{
+    open({.force_full_n = 8.0});
+    for (int i = 0; i < 100; ++i) tick({}, i == 0);
+    line_.is_stuck = true;
+    int until = 0;
+    while (tick({}, false).fault == Fault::none && until < 100) ++until;
+    EXPECT_LE(until, 20);
+    EXPECT_EQ(tick({}, false).fault, Fault::timeout);
 }
 
 TEST_F(Pid, ThatTakesNothingIsAtFaultAfterTwentyMilliseconds)

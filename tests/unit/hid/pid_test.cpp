@@ -108,7 +108,7 @@ TEST(PidLayout, NamesWhatAConstantForceWouldNeed)
     EXPECT_EQ(what_is_missing({0x16, 0x01, 0x80, 0x26, 0xff, 0x7f, 0x75, 0x10, 0x95, 0x01},
                               {0x16, 0x00, 0x00, 0x26, 0xff, 0x7f, 0x75, 0x10, 0x95, 0x01}),
               "its constant forces have no sign");
-    EXPECT_EQ(what_is_missing({0x09, 0x7f}, {0x09, 0x02}), "nothing"); // it is only never asked
+    EXPECT_EQ(what_is_missing({0x09, 0x7f}, {0x09, 0x02}), "nothing"); // a Pool is not needed
 }
 
 TEST(PidLayout, LeavesOutAnAxisYThatNoEffectPlaysOnAsThatOfAPedal)
@@ -159,7 +159,6 @@ TEST(PidOpening, LeavesTwoEffectsWithoutForceAndTheActuatorsDisabled)
     const auto prepared = prepare(wire, layout_of({}), 2);
     ASSERT_TRUE(prepared.has_value()) << prepared.error().message;
     EXPECT_EQ(prepared->blocks, (std::vector<std::uint32_t>{1, 2}));
-    EXPECT_TRUE(prepared->answers_questions);
     EXPECT_EQ(line.pid.gain(), 255);
     EXPECT_EQ(line.pid.starts(), 0U);
     EXPECT_FALSE(line.pid.push().motors_on);
@@ -214,7 +213,7 @@ protected:
     std::vector<std::vector<std::byte>> said(const Order& order)
     {
         std::vector<std::vector<std::byte>> reports;
-        while (const auto work = sender_.next(order)) reports.push_back(bytes(work->report));
+        while (const auto report = sender_.next(order)) reports.push_back(bytes(*report));
         return reports;
     }
 
@@ -267,7 +266,7 @@ TEST_F(Sender, DropsAPushInTheMiddleOfItForAStop)
     const Order push{.levels = {99, 99}, .motors_on = true, .number = 1};
     ASSERT_TRUE(sender_.next(push).has_value());
     ASSERT_TRUE(sender_.next(push).has_value());
-    EXPECT_EQ(bytes(sender_.next({})->report), stop_all_);
+    EXPECT_EQ(bytes(sender_.next({}).value()), stop_all_);
 }
 
 TEST_F(Sender, EnablesAgainAfterAHaltThatTheNextForceOvertook)
@@ -286,13 +285,13 @@ TEST_F(Sender, GivesThePlacesBackAtTheEnd)
     EXPECT_EQ(reports[13], bytes_of({0x0b, 2}));
 }
 
-TEST_F(Sender, AsksForThePoolAndAStopGoesFirst)
+TEST_F(Sender, SaysToADeviceAtRestThatItRestsWhereSomebodyWantsToHearThatItLives)
 {
-    const auto question = sender_.next({.probes = 1});
-    ASSERT_TRUE(question && question->is_question);
-    EXPECT_EQ(bytes(question->report), bytes_of({0x13, 0, 0, 0, 0}));
+    EXPECT_EQ(said({.probes = 1}), std::vector(1, disable_));
+    EXPECT_TRUE(said({.probes = 1}).empty());
     said({.motors_on = true, .probes = 1, .number = 1});
-    EXPECT_EQ(bytes(sender_.next({.probes = 2})->report), stop_all_);
+    EXPECT_TRUE(said({.motors_on = true, .probes = 2, .number = 1}).empty()); // each tick shows it
+    EXPECT_EQ(said({.probes = 3}).size(), 12U);                               // and so does a stop
 }
 
 TEST(Order, IsTheSameAfterItsWayThroughOneWord)
