@@ -58,8 +58,7 @@ TEST(ReplayOfATroubledSession, GivesTheForcesBeforeTheFaultAtItAndAfterIt)
 
 TEST(ReplayOfATroubledSession, GivesTheForcesAfterAnOperatorHasEndedAFault)
 {
-    const bool by_watchdog[] = {true, false};
-    for (const bool watchdog : by_watchdog) {
+    for (const bool watchdog : {true, false}) {
         RecordedPair pair{[=](int tick, device::Sample& sample, device::Governor& governor) {
             if (tick == 2300 && watchdog) {
                 governor.latch({Fault::timeout, device::Trip::loop});
