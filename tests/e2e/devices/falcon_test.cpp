@@ -154,6 +154,7 @@ TEST_F(TwoFalcons, OneFeelsNothing300MillisecondsAfterTheOtherWasKilled)
     // 50 ms to fade, and 25 ms for a late tick and its packet on a busy machine.
     EXPECT_LE(right_.last_push() - killed, 330ms);
     EXPECT_GE(right_.last_push() - killed, -50ms); // it was pushed until then
+    EXPECT_TRUE(b_.says("the other peer has been silent for 300 ms: force faded to zero"));
     b_.stop();
     expect_left_at_zero(right_);
     expect_the_same_forces_again(a_.record()); // as far as it was written
