@@ -81,7 +81,7 @@ CLI::App* add_replay(CLI::App& app, ReplayCommand& replay)
         "replay",
         "Play one recorded peer again in virtual time, with the messages it received and\n"
         "the hand it had, and compare the forces. Exit code 1: they are not the recorded\n"
-        "ones");
+        "ones. A record that was cut off is played as far as it goes, and that is said");
     command->add_option("RECORD", replay.record, "record of one peer")->required();
     command
         ->add_option("--algorithm", replay.algorithm,

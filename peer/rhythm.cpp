@@ -27,7 +27,9 @@ std::optional<Beat> DeviceRhythm::at(base::TimePoint now)
     const base::TimePoint due = *due_ + behind * tick_;
     const base::Duration off = now - due;
     due_ = due + tick_ + off / 32;
-    return Beat{due, std::max(off, base::Duration{0}), static_cast<std::uint32_t>(behind)};
+    // One that comes early is due when it comes: due and late give the turn's time, exactly.
+    return Beat{std::min(due, now), std::max(off, base::Duration{0}),
+                static_cast<std::uint32_t>(behind)};
 }
 
 } // namespace hapnet::peer

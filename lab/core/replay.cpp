@@ -104,10 +104,15 @@ std::optional<std::string> gap_in(const record::Record& record)
     if (record.ticks.empty()) return "it holds no tick";
     std::uint64_t expected = 0;
     for (const record::TickRow& row : record.ticks) {
-        if (row.tick != expected) {
+        if (row.tick < expected) {
+            return fmt::format("its tick {} stands where tick {} should: the file is damaged",
+                               row.tick, expected);
+        }
+        if (row.tick > expected) {
             return fmt::format("its ticks {} to {} are missing, which its recorder could not write "
-                               "in time: what came after them cannot be played again",
-                               expected, row.tick == 0 ? 0 : row.tick - 1);
+                               "in time, or which were damaged: what came after them cannot be "
+                               "played again",
+                               expected, row.tick - 1);
         }
         ++expected;
     }
@@ -144,6 +149,7 @@ base::Result<Replayed> replay(const record::Record& record,
         if (differs && !replayed.differs_from) replayed.differs_from = row.tick;
     }
     replayed.messages = revival.messages();
+    replayed.is_complete = record.ticks.back().phase == record::Phase::ended;
     return replayed;
 }
 
@@ -157,6 +163,7 @@ nlohmann::json to_json(const Replayed& replayed)
                        {"device_difference_max_n", finite(replayed.device_difference_max_n)},
                        {"tolerance_n", tolerance_n},
                        {"differs_from_tick", nullptr},
+                       {"complete", replayed.is_complete},
                        {"reproduced", !replayed.differs_from}};
     if (replayed.differs_from) out["differs_from_tick"] = *replayed.differs_from;
     return out;
@@ -169,6 +176,10 @@ std::string to_table(const Replayed& replayed)
                     "difference  contact force {:.3g} N, device force {:.3g} N at most\n",
                     replayed.ticks.size(), replayed.messages, replayed.algorithm,
                     replayed.contact_difference_max_n, replayed.device_difference_max_n);
+    if (!replayed.is_complete) {
+        text += "incomplete  the record stops before the session's end: its writer was killed, its "
+                "disk was full, or it was cut off\n";
+    }
     if (!replayed.differs_from) return text + "verdict     the recorded forces, again\n";
     return text + fmt::format("verdict     {} from tick {} on\n",
                               replayed.is_the_recorded_one

@@ -35,6 +35,7 @@ struct Replayed {
     double contact_difference_max_n = 0.0;     // between recorded and replayed, over all ticks
     double device_difference_max_n = 0.0;      // likewise
     std::optional<std::uint64_t> differs_from; // the first tick with more than `tolerance_n`
+    bool is_complete = false; // its last tick is one of the session's end: nothing is cut off
 };
 
 /// Rounding that a printed and read-again description of a session may leave.
@@ -44,7 +45,8 @@ inline constexpr double tolerance_n = 1e-9;
 /// ticks that took them, and the recorded hand moves as it did, whatever force it is given. With
 /// another algorithm than the recorded one: what that would have made of the same messages; the
 /// hand did not know of it. The error says what in the record stands in the way: ticks that are
-/// missing, or a configuration that is incomplete.
+/// missing or out of order, or a configuration that is incomplete. Rows have no checksum: that
+/// these forces come out again is the check of all that forces follow from, and of the forces.
 [[nodiscard]] base::Result<Replayed> replay(const record::Record& record,
                                             const std::optional<peer::Algorithm>& instead);
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
@@ -73,6 +74,9 @@ template <typename Options>
         return code.value_or(exit_usage);
     } catch (const std::system_error& error) {
         say(program, explained(error));
+        return exit_environment;
+    } catch (const std::bad_alloc&) {
+        say(program, "out of memory: this machine has too little for what was asked");
         return exit_environment;
     } catch (const std::exception& error) {
         say(program, error.what());

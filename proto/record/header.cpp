@@ -61,6 +61,14 @@ base::Result<nlohmann::json> parse_header(std::string_view line)
 {
     const auto header = nlohmann::json::parse(line, nullptr, false);
     const auto ours = layout();
+    const bool is_record =
+        header.is_object() && header.value("format", nlohmann::json{}) == ours["format"];
+    const auto found = is_record ? header.value("version", nlohmann::json{}) : nlohmann::json{};
+    if (found.is_number_integer() && found != version) {
+        return base::fail(fmt::format("it is of version {}, and this program reads version {}: use "
+                                      "the hapnet-lab of the release that wrote it",
+                                      found.dump(), version));
+    }
     for (const char* key : {"format", "version", "row_bytes", "byte_order"}) {
         if (!header.is_object() || !header.contains(key) || header[key] != ours[key]) {
             return base::fail(
@@ -68,7 +76,7 @@ base::Result<nlohmann::json> parse_header(std::string_view line)
         }
     }
     if (!header.contains("schema") || header["schema"] != ours["schema"]) {
-        return base::fail("its schema is not that of version 2");
+        return base::fail(fmt::format("its schema is not that of version {}", version));
     }
     if (!header.contains("config") || !header["config"].is_object()) {
         return base::fail("expected an object \"config\" in its header");

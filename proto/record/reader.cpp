@@ -49,7 +49,8 @@ base::Result<Record> read(const std::string& path)
 
     auto config = parse_header(read_header_line(file));
     if (!config) {
-        return base::fail(fmt::format("{} is not a record: {}", path, config.error().message));
+        return base::fail(
+            fmt::format("{} is not a record that can be read: {}", path, config.error().message));
     }
     Record record{
         .config = std::move(*config), .ticks{}, .messages{}, .sessions{}, .ticks_before_session{}};

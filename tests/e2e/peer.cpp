@@ -106,6 +106,19 @@ std::vector<Tick> ticks_of(const std::string& record)
     return ticks;
 }
 
+nlohmann::json expect_the_same_forces_again(const std::string& record)
+{
+    const Outcome replayed = run("hapnet-lab", {"replay", record, "--json"}, 30s);
+    EXPECT_EQ(replayed.exit, 0) << replayed.err;
+    auto json = nlohmann::json::parse(replayed.out, nullptr, /*exceptions*/ false);
+    EXPECT_TRUE(json.is_object()) << replayed.out;
+    if (!json.is_object()) return nlohmann::json::object();
+    EXPECT_LE(json["contact_difference_max_n"], 1e-9);
+    EXPECT_LE(json["device_difference_max_n"], 1e-9);
+    EXPECT_GT(json["messages"], 100);
+    return json;
+}
+
 nlohmann::json analysis_of(const std::string& record_a, const std::string& record_b)
 {
     const Outcome analysed = run("hapnet-lab", {"analyse", record_a, record_b, "--json"}, 30s);

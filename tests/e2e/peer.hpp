@@ -61,6 +61,10 @@ struct Tick {
 /// The ticks of a record, by `hapnet-lab export`.
 [[nodiscard]] std::vector<Tick> ticks_of(const std::string& record);
 
+/// Lives a record through again by `hapnet-lab replay`: expects the forces that were recorded, to
+/// 1e-9 N. What it says with --json.
+nlohmann::json expect_the_same_forces_again(const std::string& record);
+
 /// What `hapnet-lab analyse --json` says of two records.
 [[nodiscard]] nlohmann::json analysis_of(const std::string& record_a, const std::string& record_b);
 

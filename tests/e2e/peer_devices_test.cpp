@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -196,6 +197,25 @@ TEST(PeerDevices, TellsThePersonWithARealDeviceWhereItIsMountedAndTheirPart)
     expect_said(session.err(), {"never run on the physical device", "magnified 1.00 times",
                                 "Task T3 is yours to play", "carry it slowly"});
     EXPECT_TRUE(json::parse(session.out().substr(session.out().find('{')))["operator"].is_null());
+}
+
+TEST(PeerDevices, ThatPaceTheLoopLeaveARecordWhoseForcesCanBeLivedThroughAgain)
+{
+    setenv("HAPNET_FAKE_HD_PERSON", "1", 1); // takes the stylus out of its inkwell
+    const std::string place = free_place();
+    Peer simulated{2, free_place(), place, {"--task", "T3", "--duration", "6s"}};
+    Peer paced{1,
+               place,
+               simulated.listen(),
+               {"--task", "T3", "--duration", "6s", "--device", "hdapi", "--hd-library",
+                HAPNET_FAKE_HD, "--mount-offset", "-30mm,0mm,0mm", "--mount-scale", "1.3"}};
+    unsetenv("HAPNET_FAKE_HD_PERSON");
+    paced.expect_end();
+    simulated.expect_end();
+    expect_the_same_forces_again(paced.record());
+    double most_n = 0.0;
+    for (const Tick& tick : ticks_of(paced.record())) most_n = std::max(most_n, tick.force_n);
+    EXPECT_GT(most_n, 0.1);
 }
 
 } // namespace hapnet::e2e

@@ -170,16 +170,26 @@ TEST(PeerTrouble, ADeviceThatGivesNoRhythmAnyMoreIsToBlameAndNotTheProgram)
         << push.messages();
 }
 
-TEST(PeerTrouble, ALostDeviceIsToldZeroAtOnceAndAPersonWhatToDo)
+TEST(PeerTrouble, OfItsDeviceIsAnsweredByZeroAtOnceAndAPersonIsToldWhatToDo)
 {
-    Push push{{.trouble = Trouble::device_lost}};
-    std::this_thread::sleep_for(300ms);
-    push.recorded.signal(SIGTERM);
-    std::ignore = push.recorded.wait_end();
-    EXPECT_LT(time_to_zero(push.recorded.told()), patience);
-    EXPECT_NE(push.messages().find("zero force (disconnected): the device has gone: plug it in"),
-              std::string::npos)
-        << push.messages();
+    struct Case {
+        Trouble trouble;
+        std::string_view said;
+    };
+    for (const Case& c : {
+             Case{Trouble::device_lost,
+                  "zero force (disconnected): the device has gone: plug it in and start again"},
+             Case{Trouble::nonsense, "zero force (communication): the device reports positions "
+                                     "that are no numbers: check its cable, and start again"},
+             Case{Trouble::docked, ""}, // that is no fault: it lies where it belongs
+         }) {
+        Push push{{.trouble = c.trouble}};
+        std::this_thread::sleep_for(300ms);
+        push.recorded.signal(SIGTERM);
+        std::ignore = push.recorded.wait_end();
+        EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+        EXPECT_NE(push.messages().find(c.said), std::string::npos) << push.messages();
+    }
 }
 
 } // namespace hapnet::e2e

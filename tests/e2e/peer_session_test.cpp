@@ -16,18 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Lives a recorded session through again: the same forces, to the tolerance of the program.
-void expect_the_same_forces_again(const std::string& record)
-{
-    const Outcome replayed = run("hapnet-lab", {"replay", record, "--json"}, 30s);
-    EXPECT_EQ(replayed.exit, 0) << replayed.err;
-    const auto json = nlohmann::json::parse(replayed.out, nullptr, /*exceptions*/ false);
-    ASSERT_TRUE(json.is_object()) << replayed.out;
-    EXPECT_LE(json["contact_difference_max_n"].get<double>(), 1e-9);
-    EXPECT_LE(json["device_difference_max_n"].get<double>(), 1e-9);
-    EXPECT_GT(json["messages"].get<int>(), 100);
-}
-
 /// A session from start to end; the analysis of its two records.
 nlohmann::json played(Emulator& emulator, const std::vector<std::string>& options)
 {

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <limits>
 #include <stdexcept>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -40,10 +41,6 @@ public:
         : play_{play}, pipe_{pipe}, capabilities_{omni_.capabilities()}
     {
         capabilities_.pacing = play.pacing;
-    }
-    ~RecordingOmni() override
-    {
-        for (int i = 0; i < 3; ++i) tell({}); // as every device's destructor does
     }
     [[nodiscard]] const device::Identity& identity() const override { return omni_.identity(); }
     [[nodiscard]] const device::Capabilities& capabilities() const override
@@ -98,7 +95,12 @@ private:
         tell({.is_trouble = true});
         net::sleep_until(net::monotonic_now() + duration);
     }
-    void trouble(device::Sample& sample) const
+    void begin_trouble()
+    {
+        if (!is_troubled_) tell({.is_trouble = true});
+        is_troubled_ = true;
+    }
+    void trouble(device::Sample& sample)
     {
         switch (play_.trouble) {
         case Trouble::none:
@@ -107,8 +109,16 @@ private:
         case Trouble::late_read:
         case Trouble::mute: return;
         case Trouble::device_lost:
-            if (sample.fault == device::Fault::none) tell({.is_trouble = true});
+            begin_trouble();
             sample.fault = device::Fault::disconnected;
+            return;
+        case Trouble::nonsense:
+            begin_trouble();
+            sample.hip.value.y = std::numeric_limits<double>::quiet_NaN();
+            return;
+        case Trouble::docked:
+            begin_trouble();
+            sample.docked = true;
             return;
         case Trouble::exception:
             tell({.is_trouble = true});
@@ -134,6 +144,7 @@ private:
     device::Capabilities capabilities_;
     int pushes_ = 0;
     bool hung_ = false;
+    bool is_troubled_ = false;
 };
 
 /// What hapnet-peer does, with this device.

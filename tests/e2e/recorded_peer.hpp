@@ -21,6 +21,8 @@ enum class Trouble : std::uint8_t {
     long_hang,   // ... for 200 ms
     late_read,   // read() does not return for 60 ms
     device_lost, // the device says that it has been unplugged
+    nonsense,    // ... that it is at a place that is no number
+    docked,      // ... that its stylus lies in its holder
     mute,        // the device, which sets the rhythm, calls nobody any more
 };
 

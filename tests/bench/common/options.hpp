@@ -10,6 +10,7 @@
 #include <span>
 #include <spdlog/fmt/fmt.h>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hapnet::bench {
@@ -20,20 +21,28 @@ struct Options {
     std::map<std::string, std::string> files;
 };
 
-/// Reads a command line of --quick, --help and the named options that each take a file.
-[[nodiscard]] inline net::CommandLine<Options>
-parse(std::span<char*> words, const std::vector<std::string>& known, const std::string& usage)
+/// What a bench is called, what it says to --help, and its options that take a file each.
+struct Bench {
+    std::string_view program;
+    std::string_view usage;
+    std::vector<std::string> files;
+};
+
+/// Reads a command line of --quick, --help and the bench's options.
+[[nodiscard]] inline net::CommandLine<Options> parse(std::span<char*> words, const Bench& bench)
 {
     Options options;
     for (std::size_t i = 1; i < words.size(); ++i) {
         const std::string word = words[i];
-        if (word == "--help") return net::Answer{usage};
+        if (word == "--help") return net::Answer{std::string{bench.usage}};
         if (word == "--quick") {
             options.quick = true;
             continue;
         }
-        if (std::find(known.begin(), known.end(), word) == known.end() || i + 1 == words.size()) {
-            return base::fail(fmt::format("'{}' is not understood\n{}", word, usage));
+        const bool is_known =
+            std::find(bench.files.begin(), bench.files.end(), word) != bench.files.end();
+        if (!is_known || i + 1 == words.size()) {
+            return base::fail(fmt::format("'{}' is not understood\n{}", word, bench.usage));
         }
         options.files[word] = words[++i];
     }
@@ -59,5 +68,12 @@ public:
 private:
     std::map<std::string, net::ResultFile> files_;
 };
+
+/// The program of a bench: the exit code of `measure`, which takes Options.
+template <typename Measure>
+[[nodiscard]] int main_of(const Bench& bench, std::span<char*> words, Measure measure)
+{
+    return net::run_program(bench.program, parse(words, bench), measure);
+}
 
 } // namespace hapnet::bench

@@ -15,11 +15,6 @@ constexpr std::string_view usage =
     "place, the contact, the governor with the torques of the joints. Beside it the same turn\n"
     "without governor and kinematics. --json: the rows. --quick ends within seconds.\n";
 
-net::CommandLine<Options> parse_words(std::span<char*> words)
-{
-    return parse(words, {"--json"}, std::string{usage});
-}
-
 base::Result<int> measure(const Options& options)
 {
     Files files{options};
@@ -41,6 +36,6 @@ base::Result<int> measure(const Options& options)
 int main(int argc, char** argv)
 {
     namespace bench = hapnet::bench;
-    const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
-    return hapnet::net::run_program(bench::program, bench::parse_words(words), bench::measure);
+    return bench::main_of({bench::program, bench::usage, {"--json"}},
+                          {argv, static_cast<std::size_t>(argc)}, bench::measure);
 }

@@ -19,11 +19,6 @@ constexpr std::string_view usage =
     "0.25 ms, for hands in 1 to 100 steps, and for 1 to 20 seeds. --json: the rows; --csv and\n"
     "--plot: error against run time. --quick ends within a minute.\n";
 
-net::CommandLine<Options> parse_words(std::span<char*> words)
-{
-    return parse(words, {"--json", "--csv", "--plot"}, std::string{usage});
-}
-
 base::Result<int> measure(const Options& options)
 {
     Files files{options};
@@ -51,6 +46,6 @@ base::Result<int> measure(const Options& options)
 int main(int argc, char** argv)
 {
     namespace bench = hapnet::bench;
-    const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
-    return hapnet::net::run_program(bench::program, bench::parse_words(words), bench::measure);
+    return bench::main_of({bench::program, bench::usage, {"--json", "--csv", "--plot"}},
+                          {argv, static_cast<std::size_t>(argc)}, bench::measure);
 }

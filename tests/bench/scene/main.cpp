@@ -25,11 +25,6 @@ constexpr std::string_view usage =
 
 constexpr int spin_words = 5;
 
-net::CommandLine<Options> parse_words(std::span<char*> words)
-{
-    return parse(words, {"--json", "--markdown", "--csv", "--plot"}, std::string{usage});
-}
-
 void append(std::vector<Row>& rows, std::vector<Row> more)
 {
     rows.insert(rows.end(), more.begin(), more.end());
@@ -85,5 +80,7 @@ int main(int argc, char** argv)
         const bool is_locked = std::string_view{argv[3]} == "locked";
         return bench::spin(argv[2], is_locked, std::atoi(argv[4])) ? 0 : hapnet::net::exit_usage;
     }
-    return hapnet::net::run_program(bench::program, bench::parse_words(words), bench::measure);
+    return bench::main_of(
+        {bench::program, bench::usage, {"--json", "--markdown", "--csv", "--plot"}}, words,
+        bench::measure);
 }

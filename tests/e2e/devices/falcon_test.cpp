@@ -139,6 +139,7 @@ TEST_F(TwoFalcons, FeelEachOtherThroughTheCubeAndAreLeftAtZero)
 
     for (Peer* peer : {&a_, &b_}) {
         EXPECT_EQ(peer->statistics()["messages"]["malformed"], 0);
+        expect_the_same_forces_again(peer->record());
     }
 }
 
@@ -153,8 +154,11 @@ TEST_F(TwoFalcons, OneFeelsNothing300MillisecondsAfterTheOtherWasKilled)
     // 50 ms to fade, and 25 ms for a late tick and its packet on a busy machine.
     EXPECT_LE(right_.last_push() - killed, 330ms);
     EXPECT_GE(right_.last_push() - killed, -50ms); // it was pushed until then
+    EXPECT_TRUE(b_.says("the other peer has been silent for 300 ms: force faded to zero"));
     b_.stop();
     expect_left_at_zero(right_);
+    expect_the_same_forces_again(a_.record()); // as far as it was written
+    expect_the_same_forces_again(b_.record());
 }
 
 TEST_F(TwoFalcons, OneThatIsToldToEndLeavesItsMotorsAtZero)
@@ -178,6 +182,39 @@ TEST_F(TwoFalcons, OneThatIsUnpluggedSaysSoAndTheOtherFeelsNothingOfIt)
     EXPECT_EQ(a_.process().wait_exit(5s), 1) << a_.process().err();
     b_.stop();
     expect_left_at_zero(right_);
+    expect_the_same_forces_again(a_.record()); // the fault too
+}
+
+/// What a daemon says that cannot have its Falcon; the Falcon is told no torque.
+void expect_refused(Held& held, const std::vector<std::string>& words)
+{
+    const Outcome outcome = run("hapnet-peer", {"--remote", free_place(), "--device", "falcon"});
+    EXPECT_EQ(outcome.exit, 3) << outcome.err;
+    for (const std::string& word : words) {
+        EXPECT_NE(outcome.err.find(word), std::string::npos) << word << "\n" << outcome.err;
+    }
+    for (const auto& command : held.commands()) EXPECT_EQ(command.motors, Counts{});
+}
+
+TEST(FalconAtTheStart, WithoutFirmwareEndsTheDaemonWithTheCureAndIsToldNothing)
+{
+    umockdev::Testbed testbed;
+    Held held{testbed, "FALC0001", 2};
+    held.usb.with_model([&] { held.falcon.lose_firmware(); });
+    expect_refused(held, {"--device falcon: ", "--falcon-firmware FILE"});
+}
+
+TEST(FalconAtTheStart, ThatAnotherDaemonHasEndsTheSecondOneWithTheCureAndTheFirstGoesOn)
+{
+    umockdev::Testbed testbed;
+    Held held{testbed, "FALC0001", 2};
+    Peer first{1, free_place(), free_place(), {"--device", "falcon"}};
+    expect_refused(held, {"--device falcon: ", "another program uses", "end that one first"});
+    const std::size_t before = held.commands().size();
+    std::this_thread::sleep_for(100ms);
+    EXPECT_GT(held.commands().size(), before);
+    first.stop();
+    expect_left_at_zero(held);
 }
 
 } // namespace

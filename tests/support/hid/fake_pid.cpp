@@ -160,7 +160,8 @@ void FakePid::pass(double seconds)
         now_s_ += step;
         const Push now = push();
         for (const std::size_t axis : {0U, 1U}) {
-            const double force_n = now.force_n.at(axis) - stiffness_n_per_m * at_m_.at(axis) -
+            const double force_n = now.force_n.at(axis) +
+                                   stiffness_n_per_m * (wanted_m_.at(axis) - at_m_.at(axis)) -
                                    damping_ns_per_m * speed_.at(axis);
             speed_.at(axis) += step * force_n / mass_kg;
             at_m_.at(axis) = std::clamp(at_m_.at(axis) + step * speed_.at(axis), -reach_m, reach_m);

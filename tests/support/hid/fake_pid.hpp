@@ -45,6 +45,8 @@ public:
     [[nodiscard]] std::vector<std::byte> input_report() const;
 
     void press(bool down) { button_ = down; }
+    /// The hand wants the grip so far to the right, metres.
+    void want(double right_m) { wanted_m_ = {right_m, 0.0}; }
     /// So many places for effects; 40 at first.
     void limit_places(std::size_t places) { places_ = places; }
     void refuse_effects() { refuses_ = true; }
@@ -87,6 +89,7 @@ private:
     std::uint8_t gain_ = 0;
     bool button_ = false;
     double now_s_ = 0.0;
+    std::array<double, 2> wanted_m_{};
     std::array<double, 2> at_m_{};
     std::array<double, 2> speed_{};
     std::vector<Push> pushes_;

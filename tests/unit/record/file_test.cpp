@@ -125,9 +125,9 @@ TEST(RecordFile, SaysThatAFileOfAnotherKindIsNoRecordAndWhatWasExpected)
         file.fill(content);
         const auto record = read(file.text());
         ASSERT_FALSE(record) << content;
-        EXPECT_EQ(record.error().message, file.text() +
-                                              " is not a record: expected a JSON line with "
-                                              "\"format\":\"hapnet-record\"");
+        EXPECT_EQ(record.error().message,
+                  file.text() + " is not a record that can be read: expected a JSON line with "
+                                "\"format\":\"hapnet-record\"");
     }
 }
 
@@ -194,7 +194,8 @@ TEST(RecordHeader, RefusesAnotherVersionRowSizeOrSchema)
     auto other = ours;
     other["version"] = 1;
     EXPECT_EQ(parse_header(other.dump()).error().message,
-              "expected a JSON line with \"version\":2");
+              "it is of version 1, and this program reads version 2: use the hapnet-lab of the "
+              "release that wrote it");
     other = ours;
     other["row_bytes"] = 200;
     EXPECT_EQ(parse_header(other.dump()).error().message,

@@ -7,6 +7,9 @@
 
 #include <chrono>
 #include <gtest/gtest.h>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace hapnet::peer {
 namespace {
@@ -72,6 +75,37 @@ TEST(DeviceReporter, TellsThePersonWhatACalibrationNeeds)
     const auto done = reporter.look(CalibrationStep::done, {}, noon + 1s);
     ASSERT_TRUE(done);
     EXPECT_EQ(words_for(*done), "the device is calibrated");
+}
+
+TEST(DeviceNews, TellOfEveryFaultWhatHelps)
+{
+    struct Case {
+        Latched fault;
+        std::string_view cure;
+    };
+    for (const Case& c : std::vector<Case>{
+             {{Fault::disconnected, Trip::device}, "plug it in and start again"},
+             {{Fault::timeout, Trip::silence}, "check its cable and power"},
+             {{Fault::timeout, Trip::loop}, "end what keeps the machine busy"},
+             {{Fault::communication, Trip::nonsense}, "check its cable, and start again"},
+             {{Fault::communication, Trip::device}, "check its cable, and use no hub"},
+             {{Fault::over_velocity, Trip::jump}, "check the cable, and calibrate again"},
+             {{Fault::over_velocity, Trip::speed}, "hold it still for a second"},
+             {{Fault::not_calibrated, Trip::device}, "calibrate it again"},
+             {{Fault::overheat, Trip::device}, "let it cool down"},
+         }) {
+        const std::string said = words_for(DeviceNews{.fault = c.fault});
+        EXPECT_NE(said.find(c.cure), std::string::npos) << said;
+    }
+    for (const auto& [fault, cure] : std::vector<std::pair<Fault, std::string_view>>{
+             {Fault::permission, "install the udev rules"},
+             {Fault::in_use, "end that one first"},
+             {Fault::firmware_missing, "give it as a file"},
+             {Fault::library_missing, "install it"},
+             {Fault::not_found, "hapnet-peer list-devices"},
+         }) {
+        EXPECT_NE(device::words_for(fault).find(cure), std::string_view::npos) << cure;
+    }
 }
 
 TEST(DeviceNews, PromiseNoWayBackWhereThereIsNone)

@@ -95,6 +95,8 @@ TEST(DeviceRhythm, CallsJitterLate)
         const auto late = cycle % 32 == 31 ? 300us : 0us;
         const auto beat = rhythm.at(began + cycle * 1ms + late);
         ASSERT_TRUE(beat);
+        // Also of a turn before its time, as all after a late one are for a while.
+        EXPECT_EQ(beat->due + beat->late, began + cycle * 1ms + late);
         latest = std::max(latest, beat->late);
     }
     EXPECT_GT(latest, 280us);

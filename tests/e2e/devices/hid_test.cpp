@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// A daemon with a force-feedback joystick plays with a simulated hand. The joystick is emulated:
+// what is real is the daemons, hidapi, and the network.
+#include "proto/net/clock.hpp"
+#include "tests/conformance/hid/emulated.hpp"
+#include "tests/e2e/peer.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A joystick on the bus of a testbed, and the hand that holds it; both live in real time.
+class HeldJoystick {
+public:
+    HeldJoystick()
+    {
+        life_ = std::thread{[this] {
+            base::TimePoint last = net::monotonic_now();
+            while (!over_) {
+                std::this_thread::sleep_for(1ms);
+                const base::TimePoint now = net::monotonic_now();
+                const double step_m = speed_m_per_s * base::to_seconds(now - last);
+                aim_m_ += std::clamp(wanted_m_ - aim_m_, -step_m, step_m);
+                pid_.with([&](hid_double::FakePid& pid) { pid.want(aim_m_); });
+                pid_.pass(now - last);
+                last = now;
+            }
+        }};
+    }
+    ~HeldJoystick()
+    {
+        over_ = true;
+        life_.join();
+    }
+    HeldJoystick(const HeldJoystick&) = delete;
+    HeldJoystick& operator=(const HeldJoystick&) = delete;
+
+    /// Goes there slowly: a jump would be a fault.
+    void want(double right_m) { wanted_m_ = right_m; }
+    void press(bool down)
+    {
+        pid_.with([&](hid_double::FakePid& pid) { pid.press(down); });
+    }
+    [[nodiscard]] double push_n() // to the right
+    {
+        return pid_.with([](const hid_double::FakePid& pid) { return pid.push().force_n[0]; });
+    }
+    [[nodiscard]] std::vector<hid_double::Push> pushes()
+    {
+        return pid_.with([](const hid_double::FakePid& pid) { return pid.pushes(); });
+    }
+    void unplug() { pid_.hidraw().unplug(); }
+
+private:
+    static constexpr double speed_m_per_s = 0.1;
+
+    umockdev::Testbed testbed_;
+    conformance::EmulatedPid pid_{testbed_};
+    std::atomic<double> wanted_m_{-0.05}; // left of the cube
+    double aim_m_ = 0.0;
+    std::atomic<bool> over_{false};
+    std::thread life_;
+};
+
+/// The joystick's hand comes from the left, the simulated one from the right. Its own 160 mm are
+/// not magnified: it touches the cube from 25 mm left of the middle on.
+class JoystickSession : public ::testing::Test {
+protected:
+    void press_together()
+    {
+        ASSERT_TRUE(a_.says("session started"));
+        std::this_thread::sleep_for(1s);
+        joystick_.want(-0.015);
+        // On a machine that is too busy its governor may have closed: then it does what that says.
+        for (int i = 0; i < 4 && !is_felt_within(4s); ++i) {
+            for (const bool down : {true, false}) {
+                joystick_.press(down);
+                std::this_thread::sleep_for(200ms);
+            }
+        }
+        ASSERT_TRUE(is_felt_within(1s)) << joystick_.push_n() << " N\n" << a_.process().err();
+        std::this_thread::sleep_for(500ms);
+    }
+
+    bool is_felt_within(base::Duration most)
+    {
+        const auto end = net::monotonic_now() + most;
+        while (joystick_.push_n() > -0.2 && net::monotonic_now() < end) {
+            std::this_thread::sleep_for(5ms);
+        }
+        return joystick_.push_n() <= -0.2;
+    }
+
+    HeldJoystick joystick_;
+    std::string place_ = free_place();
+    Peer b_{2, free_place(), place_, {"--task", "T3", "--duration", "60s"}};
+    Peer a_{1,
+            place_,
+            b_.listen(),
+            {"--device", "hid:FFB0001", "--hid-force", "8N", "--force-limit", "500mN", "--task",
+             "T3", "--duration", "60s"}};
+};
+
+TEST_F(JoystickSession, EndsAtZeroAndItsForcesCanBeLivedThroughAgain)
+{
+    ASSERT_NO_FATAL_FAILURE(press_together());
+    a_.stop();
+    b_.stop();
+    const auto pushes = joystick_.pushes();
+    ASSERT_GE(pushes.size(), 3U);
+    EXPECT_TRUE(std::all_of(pushes.end() - 3, pushes.end(),
+                            [](const hid_double::Push& push) { return push.is_zero(); }));
+    expect_the_same_forces_again(a_.record());
+    expect_the_same_forces_again(b_.record());
+}
+
+TEST_F(JoystickSession, ThatLosesItsDeviceSaysSoAndCanBeLivedThroughAgainWithItsFault)
+{
+    ASSERT_NO_FATAL_FAILURE(press_together());
+    joystick_.unplug();
+    EXPECT_TRUE(a_.says("the device has gone"));
+    a_.process().signal(SIGTERM);
+    EXPECT_EQ(a_.process().wait_exit(5s), 1) << a_.process().err();
+    b_.stop();
+    expect_the_same_forces_again(a_.record());
+}
+
+} // namespace
+
+} // namespace hapnet::e2e
