@@ -3,6 +3,7 @@
 // What a person does before a session with a real device: look, ask, try.
 #include "tests/e2e/peer.hpp"
 #include "tests/e2e/process.hpp"
+#include "tests/support/fake_hd/fake_hd.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -201,7 +202,8 @@ TEST(PeerDevices, TellsThePersonWithARealDeviceWhereItIsMountedAndTheirPart)
 
 TEST(PeerDevices, ThatPaceTheLoopLeaveARecordWhoseForcesCanBeLivedThroughAgain)
 {
-    setenv("HAPNET_FAKE_HD_PERSON", "1", 1); // takes the stylus out of its inkwell
+    // So a person takes the stylus out of its inkwell.
+    setenv(device::hdapi::fake_hd_log_variable, "/dev/null", 1);
     const std::string place = free_place();
     Peer simulated{2, free_place(), place, {"--task", "T3", "--duration", "6s"}};
     Peer paced{1,
@@ -209,7 +211,7 @@ TEST(PeerDevices, ThatPaceTheLoopLeaveARecordWhoseForcesCanBeLivedThroughAgain)
                simulated.listen(),
                {"--task", "T3", "--duration", "6s", "--device", "hdapi", "--hd-library",
                 HAPNET_FAKE_HD, "--mount-offset", "-30mm,0mm,0mm", "--mount-scale", "1.3"}};
-    unsetenv("HAPNET_FAKE_HD_PERSON");
+    unsetenv(device::hdapi::fake_hd_log_variable);
     paced.expect_end();
     simulated.expect_end();
     expect_the_same_forces_again(paced.record());

@@ -15,11 +15,6 @@ constexpr std::string_view usage =
     "Error against cost for ticks of 4 to 0.25 ms, of Hapnet's scene, Bullet and ODE. Without\n"
     "--csv the table goes to stdout.\n";
 
-net::CommandLine<Options> parse_words(std::span<char*> words)
-{
-    return parse(words, {"--csv", "--plot"}, std::string{usage});
-}
-
 base::Result<int> measure(const Options& options)
 {
     Files files{options};
@@ -40,5 +35,6 @@ int main(int argc, char** argv)
 {
     namespace bench = hapnet::bench;
     const std::span<char*> words{argv, static_cast<std::size_t>(argc)};
-    return hapnet::net::run_program(bench::program, bench::parse_words(words), bench::measure);
+    return bench::main_of({bench::program, bench::usage, {"--csv", "--plot"}}, words,
+                          bench::measure);
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <string_view>
@@ -61,8 +60,6 @@ Handle hdInitDevice(const char* name)
         return no_device;
     }
     it.devices[index].is_open = true;
-    it.devices[index].has_person = std::getenv(person_variable) != nullptr;
-    if (it.devices[index].has_person) it.devices[index].docked = true;
     it.current = index;
     return index;
 }
@@ -114,7 +111,6 @@ void hdEndFrame(Handle handle)
         if (!device->clamps) it.complain(error::force_too_large, handle);
         force = device->clamps ? (force_max_n / size) * force : glm::dvec3{0.0};
     }
-    if (device->has_person && device->commands.size() == frames_in_inkwell) device->docked = false;
     note(handle, {{force.x, force.y, force.z}, device->force_output});
     move_tip(*device, device->force_output ? force : glm::dvec3{0.0});
 }

@@ -20,7 +20,6 @@ inline constexpr std::array names{"Default Device", "Left"};
 struct FakeDevice {
     bool is_open = false;
     bool in_frame = false;
-    bool has_person = false;
     bool docked = false;
     bool calibrated = false;
     bool pressed = false;
@@ -57,11 +56,6 @@ struct Library {
     }
     void complain(unsigned int code, Handle handle) { errors.push_back({code, 0, handle}); }
 };
-
-/// Where this stands in the environment of a program, a person is with each device: its stylus is
-/// in the inkwell at first, and is taken out after so many frames.
-inline constexpr const char* person_variable = "HAPNET_FAKE_HD_PERSON";
-inline constexpr std::size_t frames_in_inkwell = 300;
 
 /// The one state of the library, as the real one has it.
 [[nodiscard]] Library& library();
