@@ -157,7 +157,7 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
     peer::Watchdog watchdog{rig.device(), &crash};
     peer::Servo servo{{peer, rig, socket, net::resolve(net::parse_host_port(asked.remote).value()),
                        journal, watchdog, 1}};
-    peer::supervise(servo, watcher, stop, "");
+    peer::supervise({servo, watcher, stop}, "");
     return 0;
 }
 
