@@ -74,6 +74,7 @@ TEST_F(Talk, MakesAllSettingsOfARequestOrNone)
 TEST_F(Talk, NamesWhatItRefuses)
 {
     EXPECT_NE(refused({{"command", "shwo"}}).find("show, set"), std::string::npos);
+    EXPECT_NE(refused({{"command", "stop"}}).find("SIGTERM"), std::string::npos);
     EXPECT_NE(refused({{"command", "show"}, {"x", 1}}).find("\"x\""), std::string::npos);
     EXPECT_NE(refused({{"comand", "show"}}).find("\"command\" is missing"), std::string::npos);
     EXPECT_NE(refused({{"command", 1}}).find("text"), std::string::npos);
