@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/emulate.hpp"
 
-#include "emulator/control_server.hpp"
+#include "emulator/control/reply.hpp"
 #include "emulator/core/director.hpp"
 #include "emulator/options.hpp"
 #include "emulator/pacer.hpp"
@@ -13,6 +13,7 @@
 #include "emulator/report.hpp"
 #include "emulator/scenario.hpp"
 #include "emulator/status.hpp"
+#include "proto/control/server.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/real_time.hpp"
@@ -72,6 +73,7 @@ public:
                                      stop.descriptor()};
         if (control_) descriptors.push_back(control_->descriptor());
         Emulation emulation = controlled();
+        const control::Subject subject = subject_of(emulation);
         Pacer pacer{run_.options.timing, start_};
         auto now = start_;
         while (!stop.requested() && !base::is_due(end_, now)) {
@@ -82,7 +84,7 @@ public:
             relay_.release(now);
             run_.elapsed = now - start_;
             if (adopted) tell(endpoints_line(relay_));
-            if (control_) control_->serve(emulation, now, relay_.next_deadline());
+            if (control_) control_->serve(subject, now, relay_.next_deadline());
             if (stop.reload_requested()) reload(now);
             tell_of_files();
             status_.show(run_, now);
@@ -179,7 +181,7 @@ private:
     Recorder recorder_;
     Director director_;
     Relay relay_;
-    std::optional<ControlServer> control_;
+    std::optional<control::Server> control_;
     std::optional<net::ResultFile> stats_;
     std::optional<base::TimePoint> end_;
     bool has_told_of_files_ = false;

@@ -6,6 +6,7 @@
 #include "peer/commands.hpp"
 #include "peer/core/sync/text.hpp"
 #include "peer/options.hpp"
+#include "peer/reception.hpp"
 #include "peer/report.hpp"
 #include "peer/servo.hpp"
 #include "peer/supervise.hpp"
@@ -124,6 +125,8 @@ base::Result<int> run(const Options& options)
     const net::CrashSignal crash;
     const net::CrashStack stack;
     net::UdpSocket socket{places->listen};
+    std::optional<control::Server> server; // before the device is touched
+    if (options.control) server.emplace(*options.control, Reception::limits);
     auto opened = open_chosen(options.device, options.task);
     if (!opened) {
         say(fmt::format("--device {}: {}", options.device.name, opened.error().message));
@@ -143,13 +146,22 @@ base::Result<int> run(const Options& options)
     Watchdog watchdog{rig.device(), &crash};
     Servo servo{{peer, rig, socket, places->remote, journal, watchdog, options.id}};
 
-    supervise(servo, watcher, stop, ready_line(options, socket, places->remote));
+    std::optional<Reception> reception;
+    if (server) {
+        reception.emplace(Reception::Parts{*server, servo, options, journal, watcher, device,
+                                           ways_back_of(rig.device())});
+    }
 
-    const Run run{options, peer, servo, journal, socket, device, !watcher.record_failure()};
+    supervise({servo, watcher, stop, reception ? &*reception : nullptr},
+              ready_line(options, socket, places->remote));
+
+    const Standing standing = servo.standing();
+    const Run run{options, standing, journal, device, !watcher.record_failure()};
+    const std::string statistics = statistics_json(run).dump(2) + "\n";
     if (file) {
-        file->commit(statistics_json(run));
+        file->commit(statistics);
     } else if (options.stats) {
-        fmt::print("{}", statistics_json(run));
+        fmt::print("{}", statistics);
     }
     net::tell(summary(run));
     if (const auto reason = peer.refusal()) {

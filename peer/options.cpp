@@ -59,7 +59,8 @@ Other commands, each with a --help of its own:
   hapnet-peer self-test      tries a device step by step, through the governor
 
 Prints one line "ready ..." on stdout when its loop runs, and what happens on stderr.
-SIGINT, SIGTERM or SIGHUP ends it with zero force and says goodbye to the other peer.
+SIGINT, SIGTERM, SIGHUP or hapnet-ctl SOCKET stop ends it with zero force and says goodbye to the
+other peer.
 Exit codes: 0 done, 1 the run failed, 2 bad usage, 3 the system refused (port in use, no route,
 no such device).)";
 
@@ -82,6 +83,7 @@ struct Texts {
     bool insecure = false;
     std::optional<std::string> record;
     std::optional<std::string> stats;
+    std::optional<std::string> control;
 };
 
 void add_options(CLI::App& app, Texts& texts)
@@ -122,6 +124,10 @@ void add_options(CLI::App& app, Texts& texts)
     app.add_flag("--insecure", texts.insecure, "Allow a session without a key over a real network");
     add("--record", texts.record, "Write every tick and message to FILE (see hapnet-lab)", "FILE");
     add("--stats", texts.stats, "Write statistics to FILE at the end; - is stdout", "FILE");
+    add("--control", texts.control,
+        "Listen there for hapnet-ctl, which may ask how the session goes and stop it, and change\n"
+        "nothing: hapnet-ctl SOCKET show|stats|watch|wait|stop",
+        "SOCKET");
 }
 
 /// A damping that leaves something to be felt.
@@ -195,6 +201,7 @@ net::CommandLine<Options> options_from(const Texts& texts)
     options.insecure = texts.insecure;
     options.record = texts.record;
     options.stats = texts.stats;
+    options.control = texts.control;
     return options;
 }
 

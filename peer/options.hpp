@@ -34,7 +34,8 @@ struct Options {
     base::Duration duration{std::chrono::seconds{30}};
     bool insecure = false;
     std::optional<std::string> record;
-    std::optional<std::string> stats; // a file, or "-" for stdout
+    std::optional<std::string> stats;   // a file, or "-" for stdout
+    std::optional<std::string> control; // where its socket is to be
 };
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be

@@ -47,7 +47,7 @@ json tick_json(const LoopCounters& loop)
 
 json messages_json(const Run& run)
 {
-    const Counters& c = run.peer.counters();
+    const Counters& c = run.standing.messages;
     return {{"states_sent", c.sent},
             {"states_received", c.states},
             {"outdated", c.outdated},
@@ -57,16 +57,16 @@ json messages_json(const Run& run)
             {"malformed", c.malformed},
             {"other_version", c.other_version},
             {"implausible", c.implausible},
-            {"strangers", run.servo.counters().strangers},
-            {"overflowed", run.socket.overflowed()},
-            {"send_failed", run.servo.counters().send_failures}};
+            {"strangers", run.standing.loop.strangers},
+            {"overflowed", run.standing.overflowed},
+            {"send_failed", run.standing.loop.send_failures}};
 }
 
 json session_json(const Run& run)
 {
-    const auto& session = run.peer.session();
+    const auto& session = run.standing.session;
     if (!session) return nullptr;
-    const auto clock = run.peer.clock();
+    const auto& clock = run.standing.clock;
     json out{{"number", session->number},
              {"seed", session->seed},
              {"role", session->is_left ? "L" : "R"},
@@ -82,14 +82,14 @@ json session_json(const Run& run)
 
 json governor_json(const Run& run)
 {
-    const device::Governor& governor = run.servo.rig().governor();
-    const device::GovernorCounters& c = governor.counters();
-    const device::RigCounters& device = run.servo.rig().counters();
-    return {{"state", device::name_of(governor.state())},
-            {"fault", device::name_of(governor.fault().fault)},
-            {"tripped_by", device::name_of(governor.fault().trip)},
-            {"force_limit_n", governor.limits().force_max_n},
-            {"motor_heat", governor.heat()},
+    const Standing& standing = run.standing;
+    const device::GovernorCounters& c = standing.governor;
+    const device::RigCounters& device = standing.device;
+    return {{"state", device::name_of(standing.governor_state)},
+            {"fault", device::name_of(standing.fault.fault)},
+            {"tripped_by", device::name_of(standing.fault.trip)},
+            {"force_limit_n", standing.force_limit_n},
+            {"motor_heat", standing.motor_heat},
             {"not_finite", c.not_finite},
             {"clamped", c.clamped},
             {"heat_limited", c.heat_limited},
@@ -111,8 +111,8 @@ json governor_json(const Run& run)
               {"jump", c.jump_trips},
               {"nonsense", c.nonsense_trips}}},
             {"resets", c.resets},
-            {"watchdog_halts", run.servo.watchdog().halts()},
-            {"unusable_samples", run.peer.counters().unusable_hand},
+            {"watchdog_halts", run.standing.watchdog_halts},
+            {"unusable_samples", run.standing.messages.unusable_hand},
             {"device",
              {{"reads", device.reads},
               {"repeated", device.repeated},
@@ -122,13 +122,13 @@ json governor_json(const Run& run)
 /// Why the run is no measurement; "" when it is one.
 std::string_view why_not_valid(const Run& run)
 {
-    const LoopCounters& loop = run.servo.counters();
+    const LoopCounters& loop = run.standing.loop;
     const auto p99 = loop.late.quantile(0.99);
     const bool is_punctual =
         p99 && *p99 <= late_budget && missed_share(loop) <= missed_share_budget;
     if (!is_punctual) return "the loop was late";
     // Also one that an operator has ended: meanwhile the hand did not play.
-    const device::GovernorCounters& c = run.servo.rig().governor().counters();
+    const device::GovernorCounters& c = run.standing.governor;
     const std::uint64_t faults = c.device_faults + c.silence_faults + c.loop_faults +
                                  c.speed_trips + c.jump_trips + c.nonsense_trips;
     return faults > 0 ? "the device was at fault" : "";
@@ -162,28 +162,28 @@ json configuration_json(const Options& options, std::string_view device)
             {"started_unix_s", net::wall_clock_seconds()}};
 }
 
-std::string statistics_json(const Run& run)
+json statistics_json(const Run& run)
 {
     json out = configuration_json(run.options, run.device);
     out.erase("started_unix_s");
     out["session"] = session_json(run);
-    out["tick"] = tick_json(run.servo.counters());
+    out["tick"] = tick_json(run.standing.loop);
     out["messages"] = messages_json(run);
     out["governor"] = governor_json(run);
     out["record_rows_lost"] = run.journal.lost();
     out["record_whole"] = run.options.record ? json(run.is_record_whole) : json{};
-    out["real_time"] = {{"fifo", run.servo.real_time().fifo},
-                        {"locked_memory", run.servo.real_time().locked_memory}};
+    out["real_time"] = {{"fifo", run.standing.real_time.fifo},
+                        {"locked_memory", run.standing.real_time.locked_memory}};
     out["refusal"] = nullptr;
-    if (const auto reason = run.peer.refusal()) out["refusal"] = words_for(*reason);
+    if (const auto reason = run.standing.refusal) out["refusal"] = words_for(*reason);
     out["valid"] = why_not_valid(run).empty();
-    return out.dump(2) + "\n";
+    return out;
 }
 
 std::string summary(const Run& run)
 {
-    const LoopCounters& loop = run.servo.counters();
-    const Counters& c = run.peer.counters();
+    const LoopCounters& loop = run.standing.loop;
+    const Counters& c = run.standing.messages;
     const auto p99 = loop.late.quantile(0.99);
     std::string text =
         fmt::format("hapnet-peer {}: {} ticks, {} missed", run.options.id, loop.ticks, loop.missed);

@@ -2,21 +2,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/device_news.hpp"
+#include "peer/journal.hpp"
 #include "peer/options.hpp"
-#include "peer/servo.hpp"
+#include "peer/standing.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace hapnet::peer {
 
-/// All that a report is made from, after the loop has ended.
+/// All that a report is made from.
 struct Run {
     const Options& options;
-    const Peer& peer;
-    const Servo& servo;
+    const Standing& standing;
     const Journal& journal;
-    const net::UdpSocket& socket;
     std::string device;
     bool is_record_whole = true;
 };
@@ -24,8 +24,12 @@ struct Run {
 /// The configuration of a peer as records and statistics carry it.
 [[nodiscard]] nlohmann::json configuration_json(const Options& options, std::string_view device);
 
-/// What --stats writes: one JSON object.
-[[nodiscard]] std::string statistics_json(const Run& run);
+/// What --stats writes at the end, and clients of the control socket are told meanwhile.
+[[nodiscard]] nlohmann::json statistics_json(const Run& run);
+
+/// Where the peer is in its life, for clients of the control socket: what it was told, its state,
+/// and what there is to say of that to a person.
+[[nodiscard]] nlohmann::ordered_json show_json(const Run& run, const WaysBack& ways_back);
 
 /// A few lines for a person.
 [[nodiscard]] std::string summary(const Run& run);

@@ -104,6 +104,12 @@ void Servo::take_turn(const Beat& beat, base::TimePoint now)
     if (stop_.load(std::memory_order_relaxed)) parts_.peer.leave(wire::ByeReason::interrupted);
     turn(row, now);
     parts_.journal.put(row);
+    phase_ = row.phase;
+    is_remote_heard_ = row.remote_fresh;
+    force_ = row.device;
+    if (!first_turn_) first_turn_ = now;
+    last_turn_ = now;
+    standing_.give_if_asked([this](Standing& standing) { describe(standing); });
     running_.store(true, std::memory_order_release);
 }
 
@@ -150,6 +156,38 @@ void Servo::turn(record::TickRow& row, base::TimePoint now)
     row.presses = sample.presses;
     row.sample_sequence = static_cast<std::uint16_t>(sample.sequence);
     row.governor = static_cast<std::uint8_t>(parts_.rig.governor().state());
+}
+
+Standing Servo::standing() const
+{
+    Standing standing;
+    describe(standing);
+    return standing;
+}
+
+void Servo::describe(Standing& standing) const
+{
+    const device::Governor& governor = parts_.rig.governor();
+    standing.at = last_turn_;
+    standing.elapsed = last_turn_ - first_turn_.value_or(last_turn_);
+    standing.phase = phase_;
+    standing.is_remote_heard = is_remote_heard_;
+    standing.force = force_;
+    standing.loop = counters_;
+    standing.messages = parts_.peer.counters();
+    standing.session = parts_.peer.session();
+    standing.clock = parts_.peer.clock();
+    standing.refusal = parts_.peer.refusal();
+    standing.calibration = parts_.rig.calibration();
+    standing.governor_state = governor.state();
+    standing.fault = governor.fault();
+    standing.governor = governor.counters();
+    standing.force_limit_n = governor.limits().force_max_n;
+    standing.motor_heat = governor.heat();
+    standing.device = parts_.rig.counters();
+    standing.watchdog_halts = parts_.watchdog.halts();
+    standing.overflowed = parts_.socket.overflowed();
+    standing.real_time = real_time_;
 }
 
 void Servo::tell_of_device(base::TimePoint now)

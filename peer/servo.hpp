@@ -4,10 +4,11 @@
 
 #include "device/rig.hpp"
 #include "peer/core/peer.hpp"
+#include "peer/handover.hpp"
 #include "peer/journal.hpp"
 #include "peer/rhythm.hpp"
+#include "peer/standing.hpp"
 #include "peer/watchdog.hpp"
-#include "proto/base/histogram.hpp"
 #include "proto/net/real_time.hpp"
 #include "proto/net/udp_socket.hpp"
 
@@ -15,15 +16,6 @@
 #include <exception>
 
 namespace hapnet::peer {
-
-/// How punctual the loop was.
-struct LoopCounters {
-    std::uint64_t ticks = 0;
-    std::uint64_t missed = 0; // ticks skipped because the one before ended too late
-    base::DurationHistogram late;
-    std::uint64_t strangers = 0;     // datagrams from elsewhere than the remote
-    std::uint64_t send_failures = 0; // the remote's host may be down: not an end
-};
 
 /// The 1 kHz loop: device, scene, governor, device, network, in this order. It goes at its own
 /// pace, waking by absolute time; or, where a device sets the rhythm, at that one's, on the thread
@@ -56,11 +48,14 @@ public:
     /// From another thread: whether run() has returned.
     [[nodiscard]] bool is_done() const { return done_.load(std::memory_order_acquire); }
 
-    /// After run().
-    [[nodiscard]] const LoopCounters& counters() const { return counters_; }
-    [[nodiscard]] const device::Rig& rig() const { return parts_.rig; }
-    [[nodiscard]] const Watchdog& watchdog() const { return parts_.watchdog; }
+    /// From one other thread: asks how it stands after its next tick, and takes what came of that.
+    void ask_standing() { standing_.ask(); }
+    [[nodiscard]] bool take_standing(Standing& into) { return standing_.take(into); }
+
+    /// From another thread: what was granted, once is_running().
     [[nodiscard]] net::RealTime real_time() const { return real_time_; }
+    /// After run(): how it stands in the end.
+    [[nodiscard]] Standing standing() const;
 
 private:
     void follow_device();
@@ -74,11 +69,18 @@ private:
     void receive(std::uint64_t tick);
     void send();
     void note_session(base::TimePoint now);
+    void describe(Standing& standing) const;
 
     Parts parts_;
     DeviceReporter reporter_;
     std::exception_ptr failure_; // of a turn that a device's own thread took
     LoopCounters counters_;
+    record::Phase phase_ = record::Phase::waiting; // of the last turn
+    bool is_remote_heard_ = false;                 // in the last turn
+    base::Force force_;                            // told in the last turn
+    std::optional<base::TimePoint> first_turn_;
+    base::TimePoint last_turn_;
+    Handover<Standing> standing_;
     net::RealTime real_time_;
     std::optional<record::SessionRow> noted_;
     std::optional<base::TimePoint> noted_at_;

@@ -48,8 +48,10 @@ private:
 
 } // namespace
 
-void supervise(Servo& servo, Watcher& watcher, net::StopSignal& stop, const std::string& ready)
+void supervise(const Supervised& supervised, const std::string& ready)
 {
+    const auto& [servo, watcher, stop, reception] = supervised;
+    const base::Duration every = reception != nullptr ? Reception::every : drain_every;
     ServoThread thread{servo};
     bool is_announced = false;
     try {
@@ -58,7 +60,7 @@ void supervise(Servo& servo, Watcher& watcher, net::StopSignal& stop, const std:
             const std::array descriptors{stop.descriptor()};
             // Once a stop is asked for, the descriptor may stay readable: then only sleep.
             net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
-                               now + drain_every);
+                               now + every);
             if (stop.requested()) servo.stop();
             if (!is_announced && servo.is_running()) {
                 fmt::print("{}", ready);
@@ -68,6 +70,7 @@ void supervise(Servo& servo, Watcher& watcher, net::StopSignal& stop, const std:
                     net::say("hapnet-peer", shortage);
                 }
             }
+            if (reception != nullptr) reception->serve(net::monotonic_now());
             watcher.drain();
             watcher.show(net::monotonic_now());
         }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/reception.hpp"
 #include "peer/servo.hpp"
 #include "peer/watcher.hpp"
 #include "proto/net/stop_signal.hpp"
@@ -10,9 +11,18 @@
 
 namespace hapnet::peer {
 
+/// A servo, and who looks after it.
+struct Supervised {
+    Servo& servo;
+    Watcher& watcher;
+    net::StopSignal& stop;
+    Reception* reception = nullptr; // null: there is no control socket
+};
+
 /// Runs the servo on a thread of its own and watches it from this one until it has ended; SIGINT,
-/// SIGTERM and SIGHUP end it. Prints `ready` when its first tick has run. What the servo throws
-/// comes out of here, when the device has been told zero force.
-void supervise(Servo& servo, Watcher& watcher, net::StopSignal& stop, const std::string& ready);
+/// SIGTERM and SIGHUP end it, and clients of the control socket may. Prints `ready` when its first
+/// tick has run. What the servo throws comes out of here, when the device has been told zero
+/// force.
+void supervise(const Supervised& supervised, const std::string& ready);
 
 } // namespace hapnet::peer

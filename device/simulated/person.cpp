@@ -50,8 +50,10 @@ Person::Aim Person::aim(base::TimePoint now)
 Person::Aim Person::paused(const Aim& aim, base::TimePoint now)
 {
     if (pause_->is_over) {
-        if (!pause_->left) pause_->left = now;
-        if (!pause_->since) pause_->place = meant_;
+        if (!pause_->left) {
+            pause_->left = now;
+            if (!pause_->since) pause_->place = meant_; // it was over before the hand knew of it
+        }
         const double u = base::to_seconds(now - *pause_->left) / approach_s;
         if (u >= 1.0) {
             pause_.reset();

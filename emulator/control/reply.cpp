@@ -5,6 +5,7 @@
 #include "emulator/control/settings.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "proto/base/ensure.hpp"
+#include "proto/control/core/reply.hpp"
 
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -14,15 +15,9 @@ namespace hapnet::emulator {
 
 namespace {
 
+using control::line_of;
+using control::refusal;
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t error_bytes_max = 2000;
-
-/// On one line; what is no UTF-8 is replaced, so that every text can be printed.
-std::string line_of(const Json& json)
-{
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 Json settings_json(const Director::Override& one)
 {
@@ -63,20 +58,6 @@ std::string effect_of(const Command& command, Emulation& emulation, base::TimePo
 }
 
 } // namespace
-
-std::string refusal(std::string_view error)
-{
-    std::string text{error.substr(0, error_bytes_max)};
-    if (text.size() < error.size()) text += "...";
-    return line_of(Json{{"ok", false}, {"error", text}});
-}
-
-std::string busy_refusal()
-{
-    return line_of(Json{{"ok", false},
-                        {"busy", true},
-                        {"error", "too many clients are connected; try again when one has gone"}});
-}
 
 base::Result<void> carry_out(const Command& command, Emulation& emulation, base::TimePoint now)
 {
@@ -154,20 +135,32 @@ nlohmann::ordered_json statistics_of(const Emulation& emulation)
     return json;
 }
 
-std::string statistics_reply(const Emulation& emulation)
+control::Answer answer_to(std::string_view line, Emulation& emulation, base::TimePoint now)
 {
-    Json reply{{"ok", true}};
-    reply.update(statistics_of(emulation));
-    return line_of(reply);
+    const auto request = parse_request(line);
+    if (!request) return refusal(request.error().message);
+    if (const auto* one = std::get_if<ShowRequest>(&*request)) return reply_to(*one, emulation);
+    if (const auto* set = std::get_if<SetRequest>(&*request)) {
+        return reply_to(*set, emulation, now);
+    }
+    if (const auto* apply = std::get_if<ApplyRequest>(&*request)) {
+        return reply_to(*apply, emulation, now);
+    }
+    if (const auto* diff = std::get_if<DiffRequest>(&*request)) return reply_to(*diff, emulation);
+    if (const auto* reset = std::get_if<ResetRequest>(&*request)) {
+        return reply_to(*reset, emulation, now);
+    }
+    if (const auto* wait = std::get_if<WaitRequest>(&*request)) return *wait;
+    if (const auto* watch = std::get_if<WatchRequest>(&*request)) return *watch;
+    return control::statistics_reply(statistics_of(emulation));
 }
 
-std::string wait_reply(const Condition& until, bool is_met, const Emulation& emulation)
+control::Subject subject_of(Emulation& emulation)
 {
-    return line_of(Json{{"ok", true},
-                        {"until", to_text(until)},
-                        {"met", is_met},
-                        {"generation", emulation.director.generation()},
-                        {"elapsed_s", base::to_seconds(emulation.director.elapsed())}});
+    return {[&emulation](std::string_view line, base::TimePoint now) {
+                return answer_to(line, emulation, now);
+            },
+            [&emulation] { return statistics_of(emulation); }};
 }
 
 } // namespace hapnet::emulator

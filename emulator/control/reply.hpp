@@ -5,6 +5,7 @@
 #include "emulator/control/emulation.hpp"
 #include "emulator/control/request.hpp"
 #include "proto/base/time.hpp"
+#include "proto/control/core/conversation.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,12 +14,6 @@
 namespace hapnet::emulator {
 
 // The lines that answer requests, each a JSON object without a newline.
-
-/// {"ok":false,"error":"..."}; what is too long to be read is cut.
-[[nodiscard]] std::string refusal(std::string_view error);
-
-/// The same, to one client too many: {"ok":false,"busy":true,"error":"..."}.
-[[nodiscard]] std::string busy_refusal();
 
 [[nodiscard]] std::string reply_to(const ShowRequest& request, const Emulation& emulation);
 [[nodiscard]] std::string reply_to(const SetRequest& request, Emulation& emulation,
@@ -29,15 +24,15 @@ namespace hapnet::emulator {
 [[nodiscard]] std::string reply_to(const ResetRequest& request, Emulation& emulation,
                                    base::TimePoint now);
 
-/// The answer to stats, and each line of a watch.
-[[nodiscard]] std::string statistics_reply(const Emulation& emulation);
-
-/// The answer to wait.
-[[nodiscard]] std::string wait_reply(const Condition& until, bool is_met,
-                                     const Emulation& emulation);
-
 /// The emulator's statistics with "generation" and "elapsed_s".
 [[nodiscard]] nlohmann::ordered_json statistics_of(const Emulation& emulation);
+
+/// What becomes of a request.
+[[nodiscard]] control::Answer answer_to(std::string_view line, Emulation& emulation,
+                                        base::TimePoint now);
+
+/// The emulator as its clients see it; it outlives this.
+[[nodiscard]] control::Subject subject_of(Emulation& emulation);
 
 /// Does what is asked, and hands the conditions on when they have changed.
 [[nodiscard]] base::Result<void> carry_out(const Command& command, Emulation& emulation,

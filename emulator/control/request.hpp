@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/control/condition.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
+#include "proto/control/core/request.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -41,19 +40,11 @@ struct DiffRequest {
 };
 struct ResetRequest {};
 struct StatsRequest {};
-struct WaitRequest {
-    Condition until;
-    std::optional<base::Duration> timeout;
-};
-struct WatchRequest {
-    base::Duration every = std::chrono::milliseconds{500};
-};
+using control::WaitRequest;
+using control::WatchRequest;
 
 using Request = std::variant<ShowRequest, SetRequest, ApplyRequest, DiffRequest, ResetRequest,
                              StatsRequest, WaitRequest, WatchRequest>;
-
-/// How deep a request may be nested; an honest one needs 2.
-inline constexpr std::size_t nesting_max = 16;
 
 /// How many settings one request may make.
 inline constexpr std::size_t settings_max = 64;

@@ -214,7 +214,7 @@ TEST_F(Controlled, SaysWhatIsWrongWithACommand)
     const auto help = run("hapnet-ctl", {"--help"});
     EXPECT_EQ(help.exit, 0);
     for (const char* word : {"show", "set", "apply", "diff", "reset", "stats", "watch", "wait",
-                             "Examples", "Exit codes", "SOCKET"}) {
+                             "stop", "Examples", "Exit codes", "SOCKET"}) {
         EXPECT_NE(help.out.find(word), std::string::npos) << word;
     }
 }

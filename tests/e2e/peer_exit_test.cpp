@@ -79,6 +79,19 @@ TEST(PeerExit, ByASignalThatAsksForItEndsInZeroForceAndExitCode0)
     }
 }
 
+TEST(PeerExit, ByAStopOverTheControlSocketEndsInZeroForceAndExitCode0)
+{
+    const TemporaryFolder folder;
+    for (const auto pacing : {device::Pacing::host, device::Pacing::device}) {
+        Push push{{.pacing = pacing, .control = folder.file("peer.sock")}};
+        const Outcome asked = run("hapnet-ctl", {folder.file("peer.sock"), "stop"});
+        EXPECT_EQ(asked.exit, 0) << asked.err;
+        EXPECT_EQ(push.recorded.wait_end(), 0) << push.messages();
+        EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+        EXPECT_TRUE(folder.names().empty()) << "the socket has gone with the peer";
+    }
+}
+
 TEST(PeerExit, ByAnExceptionInTheServoEndsInZeroForceAndAMessage)
 {
     for (const auto pacing : {device::Pacing::host, device::Pacing::device}) {

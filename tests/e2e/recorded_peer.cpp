@@ -168,7 +168,15 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
     peer::Watchdog watchdog{rig.device(), &crash};
     peer::Servo servo{{peer, rig, socket, net::resolve(net::parse_host_port(asked.remote).value()),
                        journal, watchdog, 1}};
-    peer::supervise(servo, watcher, stop, "");
+    const peer::Options unused;
+    std::optional<control::Server> server;
+    std::optional<peer::Reception> reception;
+    if (!asked.control.empty()) {
+        server.emplace(asked.control, peer::Reception::limits);
+        reception.emplace(
+            peer::Reception::Parts{*server, servo, unused, journal, watcher, "recorded"});
+    }
+    peer::supervise({servo, watcher, stop, reception ? &*reception : nullptr}, "");
     return 0;
 }
 

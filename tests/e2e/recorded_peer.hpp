@@ -33,6 +33,7 @@ struct RecordedPlay {
     std::string listen{};
     std::string remote{};
     std::string messages{}; // the file that its stderr goes to
+    std::string control{};  // where its control socket is to be; empty: it has none
 };
 
 /// One thing that the device was told: bytes as they go through a pipe.

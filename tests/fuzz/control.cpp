@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     conversation.on_bytes(text);
     conversation.on_end();
     std::string said;
-    while (conversation.advance(fake.emulation, start)) said += said_by(conversation, start);
+    while (conversation.advance(fake.subject, start)) said += said_by(conversation, start);
     std::istringstream lines{said};
     for (std::string line; std::getline(lines, line);) {
         const auto reply = nlohmann::json::parse(line, nullptr, false);

@@ -14,12 +14,12 @@
 
 namespace hapnet::emulator {
 
-/// The control socket of an emulator, from the outside: lines out, lines in.
+/// The control socket of a program, from the outside: lines out, lines in.
 class Connection {
 public:
     enum class State : std::uint8_t {
         good,
-        closed,  // the emulator has ended, or broken off
+        closed,  // the program has ended, or broken off
         late,    // no answer in time
         stopped, // a signal came
     };

@@ -32,16 +32,16 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view program = "hapnet-ctl";
 
-/// How long the emulator may take for an answer; it takes milliseconds.
+/// How long an answer may take; it takes milliseconds.
 constexpr base::Duration answer_max = 10s;
 
 std::string_view cure_of(int error)
 {
     switch (error) {
     case ENOENT:
-    case ECONNREFUSED: return "start the emulator with --control and this path";
-    case EACCES: return "only the user who started the emulator may control it";
-    default: return "is this the emulator's --control?";
+    case ECONNREFUSED: return "start the emulator or the peer with --control and this path";
+    case EACCES: return "only the user who started the program may control it";
+    default: return "is this the --control of an emulator or a peer?";
     }
 }
 
@@ -94,7 +94,8 @@ int print(const std::string& line, const CtlOptions& options, WatchPrinter& watc
 {
     const auto reply = Json::parse(line, nullptr, /*allow_exceptions*/ false);
     if (!reply.is_object()) {
-        net::say(program, fmt::format("{} does not speak the emulator's protocol", options.socket));
+        net::say(program,
+                 fmt::format("{} does not speak hapnet's control protocol", options.socket));
         return net::exit_environment;
     }
     const int code = code_of(reply);
@@ -127,10 +128,10 @@ int trouble(Connection::State state, const CtlOptions& options)
     case Connection::State::good: return 0;
     case Connection::State::stopped: return options.command == "watch" ? 0 : net::exit_failed;
     case Connection::State::closed:
-        net::say(program, "the emulator has ended, or broken the connection off");
+        net::say(program, "the program has ended, or broken the connection off");
         return net::exit_failed;
     case Connection::State::late:
-        net::say(program, "the emulator does not answer");
+        net::say(program, "the program does not answer");
         return net::exit_failed;
     }
     return net::exit_failed;

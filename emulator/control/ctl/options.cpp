@@ -17,15 +17,17 @@ namespace hapnet::emulator {
 namespace {
 
 constexpr const char* description =
-    "Changes a running hapnet-emulator and asks it how it is. SOCKET is what the emulator was\n"
-    "given as --control. Every change takes effect between two datagrams; the answer says from\n"
-    "which datagram of each direction on it holds.";
+    "Asks a running hapnet-emulator or hapnet-peer how it is; changes an emulator, and stops a\n"
+    "peer. SOCKET is what that program was given as --control. Every change takes effect between\n"
+    "two datagrams; the answer says from which datagram of each direction on it holds.";
 
 constexpr const char* footer =
     R"(Keys are those of a profile: up.delay holds from A to B, down.delay from B to A, both.delay
 both ways. Units are mandatory: ns us ms s min for times, % for shares. A setting holds until the
 profile's timeline says something about the same key; with --for it ends by itself, so that
 nothing bad stays behind when nobody comes back.
+
+A peer knows show, stats, watch, wait and stop. Nothing of it is changed while it runs.
 
 Examples:
   hapnet-ctl /tmp/emulator.sock show
@@ -36,9 +38,12 @@ Examples:
   hapnet-ctl /tmp/emulator.sock apply now.toml
   hapnet-ctl /tmp/emulator.sock wait --until 'up.received>1000' --timeout 10s
   hapnet-ctl /tmp/emulator.sock stats
+  hapnet-ctl /tmp/peer.sock wait --until 'messages.states_received>0'
+  hapnet-ctl /tmp/peer.sock show
+  hapnet-ctl /tmp/peer.sock stop
 
-Exit codes: 0 done, 1 the condition was not met in time or the emulator went away, 2 bad usage or
-refused by the emulator, 3 no emulator answers on the socket.)";
+Exit codes: 0 done, 1 the condition was not met in time or the program went away, 2 bad usage or
+refused by the program, 3 no program answers on the socket.)";
 
 struct Texts {
     std::string socket;
@@ -58,23 +63,26 @@ void add_commands(CLI::App& app, Texts& texts)
         command->set_help_flag("-h,--help", "Print this and exit");
         return command;
     };
-    add("show", "Print the conditions that hold and the rest of the timeline, as a profile");
-    auto* set = add("set", "Change settings: set KEY VALUE [KEY VALUE ...] [--for 30s]");
+    add("show", "Emulator: print the conditions that hold and the rest of the timeline, as a\n"
+                "profile. Peer: print what it was told, and where it is in its life");
+    auto* set = add("set", "Emulator: change settings: set KEY VALUE [KEY VALUE ...] [--for 30s]");
     set->add_option("settings", texts.settings, "Keys and values in turn")->type_name("KEY VALUE");
     set->add_option("--for", texts.lasting, "Only for so long; then holds what held without it")
         ->type_name("TIME");
     for (auto* command :
-         {add("apply", "Replace the profile by that of a file; its timeline counts from now"),
-          add("diff", "Print what apply would change")}) {
+         {add("apply",
+              "Emulator: replace the profile by that of a file; its timeline counts from now"),
+          add("diff", "Emulator: print what apply would change")}) {
         command->add_option("file", texts.file, "A profile; - is stdin")
             ->type_name("FILE")
             ->required();
     }
-    add("reset", "Go back to what the emulator was started with");
-    add("stats", "Print the statistics, as --stats of the emulator writes them");
+    add("reset", "Emulator: go back to what it was started with");
+    add("stats", "Print the statistics, as --stats of the program writes them");
     auto* watch = add("watch", "Print the main figures again and again, until Ctrl-C");
     watch->add_option("--every", texts.every, "The interval, at least 50ms (default 500ms)")
         ->type_name("TIME");
+    add("stop", "Peer: end the session with zero force, as SIGTERM does; statistics are written");
     auto* wait = add("wait", "Wait until a condition holds: wait --until 'up.received>1000'");
     wait->add_option("--until", texts.until, "A key of stats, one of < <= == != >= >, and a number")
         ->type_name("CONDITION")
@@ -152,10 +160,10 @@ net::CommandLine<CtlOptions> parse_ctl_options(std::span<char*> words)
                          "Print version, commit and compiler, and exit");
     app.require_subcommand(1);
     Texts texts;
-    app.add_option("socket", texts.socket, "The emulator's --control")
+    app.add_option("socket", texts.socket, "The program's --control")
         ->type_name("SOCKET")
         ->required();
-    app.add_flag("--json", texts.as_json, "Print the emulator's answer as it is, for programs");
+    app.add_flag("--json", texts.as_json, "Print the answer as it is, for programs");
     add_commands(app, texts);
     try {
         app.parse(static_cast<int>(words.size()), words.data());

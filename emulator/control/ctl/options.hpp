@@ -13,7 +13,8 @@
 
 namespace hapnet::emulator {
 
-/// What the command line of hapnet-ctl asks for. The emulator judges most of it.
+/// What the command line of hapnet-ctl asks for. The program behind the socket judges most of
+/// it.
 struct CtlOptions {
     std::string socket;
     std::string command; // "show", "set", ...

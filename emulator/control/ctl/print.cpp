@@ -47,8 +47,28 @@ std::uint64_t total_of(const Json& dropped)
     return total;
 }
 
+bool is_of_a_peer(const Json& reply) { return at(reply, "/program") == "hapnet-peer"; }
+
+std::string shown_peer(const Json& reply)
+{
+    std::string text = fmt::format("hapnet-peer {}: {} ({}), {} s since its start\n",
+                                   text_at(reply, "/peer_id"), text_at(reply, "/says"),
+                                   text_at(reply, "/state"), text_at(reply, "/elapsed_s"));
+    text += fmt::format("task {}, scene {}, algorithm {}, seed {}, {} s, at most {} N\n",
+                        text_at(reply, "/task"), text_at(reply, "/scene"),
+                        text_at(reply, "/algorithm"), text_at(reply, "/seed"),
+                        text_at(reply, "/duration_s"), text_at(reply, "/force_limit_n"));
+    if (at(reply, "/session").is_object()) {
+        text += fmt::format("session {} as {}, at {} s\n", text_at(reply, "/session/number"),
+                            text_at(reply, "/session/role"), text_at(reply, "/session/at_s"));
+    }
+    return text + fmt::format("device {}, governor {}, force {} N\n", text_at(reply, "/device"),
+                              text_at(reply, "/governor"), text_at(reply, "/force_n"));
+}
+
 std::string shown(const Json& reply)
 {
+    if (is_of_a_peer(reply)) return shown_peer(reply);
     std::string text = fmt::format("# generation {}, {} s since the start, timeline at {} s",
                                    text_at(reply, "/generation"), text_at(reply, "/elapsed_s"),
                                    text_at(reply, "/timeline/position_s"));
@@ -94,6 +114,7 @@ std::string in_words(const std::string& command, const Json& reply)
         statistics.erase("ok");
         return statistics.dump(2) + "\n";
     }
+    if (command == "stop") return "it ends with zero force\n";
     if (command == "wait") {
         return fmt::format("{}: {} after {} s\n", text_at(reply, "/until"),
                            at(reply, "/met") == true ? "met" : "not met",
@@ -107,18 +128,18 @@ std::string in_words(const std::string& command, const Json& reply)
 
 std::string WatchPrinter::next(const Json& reply)
 {
-    std::string text = is_terminal_ ? table(reply) : line(reply);
+    const bool has_table = is_terminal_ && !is_of_a_peer(reply);
+    std::string text = has_table ? table(reply) : line(reply);
     last_ = reply;
     return text;
 }
 
-std::string WatchPrinter::rate(const char* direction, const Json& statistics) const
+std::string WatchPrinter::rate(const std::string& pointer, const Json& statistics) const
 {
-    const auto received = fmt::format("/{}/received", direction);
     const double time =
         number_at(statistics, "/elapsed_s") - (last_ ? number_at(*last_, "/elapsed_s") : 0.0);
     const double count =
-        number_at(statistics, received) - (last_ ? number_at(*last_, received) : 0.0);
+        number_at(statistics, pointer) - (last_ ? number_at(*last_, pointer) : 0.0);
     return time > 0.0 ? fmt::format("{:.0f}", count / time) : "-";
 }
 
@@ -133,19 +154,33 @@ std::string WatchPrinter::table(const Json& statistics) const
                         "received", "delivered", "dropped", "in flight", "p50 us", "p99 us");
     for (const char* direction : {"up", "down"}) {
         const std::string place = fmt::format("/{}", direction);
-        text += fmt::format("{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\x1b[K\n", direction,
-                            rate(direction, statistics), text_at(statistics, place + "/received"),
-                            text_at(statistics, place + "/delivered"),
-                            total_of(at(statistics, place + "/dropped")),
-                            text_at(statistics, place + "/in_flight"),
-                            text_at(statistics, place + "/lateness_us/p50"),
-                            text_at(statistics, place + "/lateness_us/p99"));
+        text += fmt::format(
+            "{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\x1b[K\n", direction,
+            rate(place + "/received", statistics), text_at(statistics, place + "/received"),
+            text_at(statistics, place + "/delivered"), total_of(at(statistics, place + "/dropped")),
+            text_at(statistics, place + "/in_flight"),
+            text_at(statistics, place + "/lateness_us/p50"),
+            text_at(statistics, place + "/lateness_us/p99"));
     }
     return text;
 }
 
+std::string WatchPrinter::line_of_peer(const Json& statistics) const
+{
+    return fmt::format(
+        "elapsed_s={} ticks={} missed={} late_p99_us={} sent={} received={} "
+        "received_per_s={} governor={} fault={}\n",
+        text_at(statistics, "/elapsed_s"), text_at(statistics, "/tick/count"),
+        text_at(statistics, "/tick/missed"), text_at(statistics, "/tick/late_us/p99"),
+        text_at(statistics, "/messages/states_sent"),
+        text_at(statistics, "/messages/states_received"),
+        rate("/messages/states_received", statistics), text_at(statistics, "/governor/state"),
+        text_at(statistics, "/governor/fault"));
+}
+
 std::string WatchPrinter::line(const Json& statistics) const
 {
+    if (is_of_a_peer(statistics)) return line_of_peer(statistics);
     std::string text = fmt::format("elapsed_s={} generation={}", text_at(statistics, "/elapsed_s"),
                                    text_at(statistics, "/generation"));
     for (const char* direction : {"up", "down"}) {
@@ -153,9 +188,9 @@ std::string WatchPrinter::line(const Json& statistics) const
         text += fmt::format(
             " {0}.per_s={1} {0}.received={2} {0}.delivered={3} {0}.dropped={4}"
             " {0}.in_flight={5} {0}.p99_us={6}",
-            direction, rate(direction, statistics), text_at(statistics, place + "/received"),
-            text_at(statistics, place + "/delivered"), total_of(at(statistics, place + "/dropped")),
-            text_at(statistics, place + "/in_flight"),
+            direction, rate(place + "/received", statistics),
+            text_at(statistics, place + "/received"), text_at(statistics, place + "/delivered"),
+            total_of(at(statistics, place + "/dropped")), text_at(statistics, place + "/in_flight"),
             text_at(statistics, place + "/lateness_us/p99"));
     }
     return text + "\n";

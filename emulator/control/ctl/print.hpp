@@ -8,8 +8,8 @@
 
 namespace hapnet::emulator {
 
-// The emulator's answers for a person. A key that an emulator of another version does not send is
-// shown as "-".
+// The answers of an emulator, or of a peer, for a person. A key that a program of another version
+// does not send is shown as "-".
 
 /// The answer to `command`, except those to watch.
 [[nodiscard]] std::string in_words(const std::string& command, const nlohmann::ordered_json& reply);
@@ -24,10 +24,11 @@ public:
     [[nodiscard]] std::string next(const nlohmann::ordered_json& reply);
 
 private:
-    [[nodiscard]] std::string rate(const char* direction,
+    [[nodiscard]] std::string rate(const std::string& pointer,
                                    const nlohmann::ordered_json& statistics) const;
     [[nodiscard]] std::string table(const nlohmann::ordered_json& statistics) const;
     [[nodiscard]] std::string line(const nlohmann::ordered_json& statistics) const;
+    [[nodiscard]] std::string line_of_peer(const nlohmann::ordered_json& statistics) const;
 
     bool is_terminal_;
     std::optional<nlohmann::ordered_json> last_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // Whatever a client sends, and however it is cut into pieces.
-#include "emulator/control/conversation.hpp"
+#include "proto/control/core/conversation.hpp"
 
 #include "proto/base/random.hpp"
 #include "tests/unit/control/emulation_fake.hpp"

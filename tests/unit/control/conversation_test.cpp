@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/control/conversation.hpp"
+#include "proto/control/core/conversation.hpp"
 
 #include "tests/unit/control/emulation_fake.hpp"
 
@@ -74,6 +74,7 @@ TEST_F(Talk, MakesAllSettingsOfARequestOrNone)
 TEST_F(Talk, NamesWhatItRefuses)
 {
     EXPECT_NE(refused({{"command", "shwo"}}).find("show, set"), std::string::npos);
+    EXPECT_NE(refused({{"command", "stop"}}).find("SIGTERM"), std::string::npos);
     EXPECT_NE(refused({{"command", "show"}, {"x", 1}}).find("\"x\""), std::string::npos);
     EXPECT_NE(refused({{"comand", "show"}}).find("\"command\" is missing"), std::string::npos);
     EXPECT_NE(refused({{"command", 1}}).find("text"), std::string::npos);
@@ -162,8 +163,8 @@ TEST_F(Talk, AnswersAWaitOnceItsConditionHolds)
     const auto look = conversation.next_deadline();
     ASSERT_TRUE(look);
     fake.statistics["up"]["received"] = 1001;
-    EXPECT_FALSE(conversation.advance(fake.emulation, *look - 1ns));
-    EXPECT_TRUE(conversation.advance(fake.emulation, *look));
+    EXPECT_FALSE(conversation.advance(fake.subject, *look - 1ns));
+    EXPECT_TRUE(conversation.advance(fake.subject, *look));
     const auto reply = json::parse(said_by(conversation, *look));
     EXPECT_EQ(reply["ok"], true);
     EXPECT_EQ(reply["met"], true);
@@ -175,7 +176,7 @@ TEST_F(Talk, AnswersAWaitWhoseTimeIsOver)
     const json wait{{"command", "wait"}, {"until", "up.lateness_us.p50<1"}, {"timeout", "1234us"}};
     EXPECT_EQ(said_to(conversation, wait.dump() + "\n", fake, start), "");
     EXPECT_EQ(conversation.next_deadline(), start + 1234us);
-    EXPECT_TRUE(conversation.advance(fake.emulation, start + 1234us));
+    EXPECT_TRUE(conversation.advance(fake.subject, start + 1234us));
     EXPECT_EQ(json::parse(said_by(conversation, start))["met"], false);
 }
 
@@ -212,7 +213,7 @@ TEST_F(Talk, WatchesUntilTheNextRequest)
     const auto first = said_to(conversation, "{\"command\":\"watch\"}\n", fake, start);
     EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 1);
     EXPECT_EQ(conversation.next_deadline(), start + 500ms);
-    conversation.advance(fake.emulation, start + 500ms);
+    conversation.advance(fake.subject, start + 500ms);
     EXPECT_TRUE(json::parse(said_by(conversation, start))["up"].is_object());
     EXPECT_TRUE(ask({{"command", "show"}}).contains("profile"));
     EXPECT_EQ(conversation.next_deadline(), std::nullopt);
@@ -221,7 +222,7 @@ TEST_F(Talk, WatchesUntilTheNextRequest)
 TEST_F(Talk, SkipsLinesOfAWatchThatItsReaderHasNoTimeFor)
 {
     conversation.on_bytes("{\"command\":\"watch\",\"every\":\"50ms\"}\n");
-    for (int i = 0; i < 1000; ++i) conversation.advance(fake.emulation, start + i * 50ms);
+    for (int i = 0; i < 1000; ++i) conversation.advance(fake.subject, start + i * 50ms);
     const auto said = said_by(conversation, start);
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
 }
@@ -240,7 +241,7 @@ TEST_F(Talk, AnswersNothingMoreWhileItsRepliesAreNotRead)
     std::string many;
     for (int i = 0; i < 10'000; ++i) many += "{\"command\":\"show\"}\n";
     conversation.on_bytes(many);
-    while (conversation.advance(fake.emulation, start)) {}
+    while (conversation.advance(fake.subject, start)) {}
     EXPECT_LT(conversation.output().size(), Conversation::unread_bytes_max + 1000);
     EXPECT_FALSE(conversation.is_stuck(start + Conversation::patience - 1ns));
     EXPECT_TRUE(conversation.is_stuck(start + Conversation::patience));
@@ -252,7 +253,7 @@ TEST_F(Talk, AnswersWhatWasAskedBeforeTheClientEnded)
     conversation.on_bytes("{\"command\":\"show\"}\n{\"command\":\"stats\"}");
     conversation.on_end();
     EXPECT_FALSE(conversation.is_over());
-    while (conversation.advance(fake.emulation, start)) {}
+    while (conversation.advance(fake.subject, start)) {}
     EXPECT_TRUE(conversation.is_over());
     const auto said = said_by(conversation, start);
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2);
@@ -262,9 +263,9 @@ TEST_F(Talk, DoesWhatAClientAskedThatHasGone)
 {
     conversation.on_bytes("{\"command\":\"wait\",\"until\":\"elapsed_s>9\"}\n" +
                           set({{"up.delay", "1ms"}}).dump() + "\n");
-    conversation.advance(fake.emulation, start);
+    conversation.advance(fake.subject, start);
     conversation.on_gone();
-    while (conversation.advance(fake.emulation, start)) {}
+    while (conversation.advance(fake.subject, start)) {}
     EXPECT_TRUE(fake.enacted);
     EXPECT_TRUE(conversation.is_over());
     EXPECT_EQ(conversation.output(), "");

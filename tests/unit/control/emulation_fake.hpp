@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/control/conversation.hpp"
 #include "emulator/control/emulation.hpp"
+#include "emulator/control/reply.hpp"
 #include "emulator/core/director.hpp"
 #include "emulator/core/profile/text.hpp"
+#include "proto/control/core/conversation.hpp"
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,8 @@
 #include <string_view>
 
 namespace hapnet::emulator {
+
+using control::Conversation;
 
 /// An emulator that is only what its control sees of it.
 struct EmulationFake {
@@ -36,6 +39,7 @@ struct EmulationFake {
     Emulation emulation{director, [this](const Path& path, base::TimePoint) { enacted = path; },
                         [this] { return next; }, [this] { return statistics.dump(2); },
                         [](const std::string& name, const std::string&) { return no_files(name); }};
+    control::Subject subject = subject_of(emulation);
 };
 
 /// Takes what the conversation has to say.
@@ -52,7 +56,7 @@ inline std::string said_to(Conversation& conversation, std::string_view text, Em
 {
     conversation.on_bytes(text);
     std::string said;
-    while (conversation.advance(fake.emulation, now)) said += said_by(conversation, now);
+    while (conversation.advance(fake.subject, now)) said += said_by(conversation, now);
     return said + said_by(conversation, now);
 }
 

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/control/conversation.hpp"
-#include "emulator/control/emulation.hpp"
 #include "proto/base/time.hpp"
+#include "proto/control/core/conversation.hpp"
 #include "proto/net/unix_socket.hpp"
 #include "proto/net/wait_set.hpp"
 
@@ -12,17 +11,25 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 
-namespace hapnet::emulator {
+namespace hapnet::control {
 
-/// The control socket and those who are connected to it. Moves bytes between them and their
-/// Conversations, a little at a time, so that the relay is not kept from what is due.
-class ControlServer {
+/// A control socket and those who are connected to it. Moves bytes between them and their
+/// Conversations, a little at a time, so that whoever serves it is not kept from what is due.
+class Server {
 public:
     static constexpr std::size_t clients_max = 16;
 
+    /// What its clients may cost whoever serves them.
+    struct Limits {
+        std::size_t line_bytes = Conversation::line_bytes_max;
+        int answers = 1; // in one serve()
+    };
+
     /// Throws std::system_error when the socket cannot be made.
-    explicit ControlServer(std::string path);
+    explicit Server(std::string path) : Server{std::move(path), Limits{}} {}
+    Server(std::string path, const Limits& limits);
 
     /// Readable when there is something to do.
     [[nodiscard]] int descriptor() const { return wait_set_.descriptor(); }
@@ -30,9 +37,9 @@ public:
     /// When serve() is to be called again although descriptor() is not readable.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
-    /// Does a little of what there is to do: at most one request is answered. Puts it off, for a
-    /// while, when the next datagram is due to leave before it would be done.
-    void serve(Emulation& emulation, base::TimePoint now,
+    /// Does a little of what there is to do: no more is answered than the limits say. Puts it off,
+    /// for a while, when the next datagram is due to leave before it would be done.
+    void serve(const Subject& subject, base::TimePoint now,
                std::optional<base::TimePoint> next_departure);
 
 private:
@@ -45,11 +52,12 @@ private:
     void attend(const net::Ready& ready);
     void admit();
     static void take(Client& client);
-    void answer_one(Emulation& emulation, base::TimePoint now);
+    void answer_one(const Subject& subject, base::TimePoint now);
     static void send(Client& client, base::TimePoint now);
     void want(Client& client, std::size_t place);
 
     net::UnixListener listener_;
+    Limits limits_;
     net::WaitSet wait_set_;
     std::array<std::optional<Client>, clients_max> clients_;
     std::size_t turn_ = 0;  // whose request is looked at first
@@ -57,4 +65,4 @@ private:
     base::TimePoint last_served_{};
 };
 
-} // namespace hapnet::emulator
+} // namespace hapnet::control

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/control/condition.hpp"
+#include "proto/control/core/condition.hpp"
 
 #include "proto/base/ensure.hpp"
 
@@ -12,7 +12,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::control {
 
 namespace {
 
@@ -142,4 +142,4 @@ base::Result<bool> is_met(const Condition& condition, const Json& statistics)
     return holds(number, condition.comparison, condition.number);
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::control

@@ -2,29 +2,42 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/control/emulation.hpp"
-#include "emulator/control/request.hpp"
 #include "proto/base/time.hpp"
-
+#include "proto/control/core/request.hpp"
 #include <chrono>
 #include <cstddef>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 
-namespace hapnet::emulator {
+namespace hapnet::control {
 
-/// One client of the control socket: lines of JSON in, lines of JSON out, one reply to each
-/// request in the order of the requests; PROTOCOL.md describes them. Does no I/O and reads no
-/// clock. Bounded: it takes no more input than room() says, and answers nothing more while the
-/// client leaves too much unread.
+/// What becomes of a request: the line that answers it, without its newline, or what it waits for.
+using Answer = std::variant<std::string, WaitRequest, WatchRequest>;
+
+/// The program that is asked, as its clients see it. Called from the thread that serves them.
+struct Subject {
+    std::function<Answer(std::string_view line, base::TimePoint now)> answer;
+    /// An object; what waits looks at it, and what watches is sent it.
+    std::function<nlohmann::ordered_json()> statistics;
+};
+
+/// One client of a control socket: lines of JSON in, lines of JSON out, one reply to each request
+/// in the order of the requests. Does no I/O and reads no clock. Bounded: it takes no more input
+/// than room() says, and answers nothing more while the client leaves too much unread.
 class Conversation {
 public:
+    /// For whole profiles.
     static constexpr std::size_t line_bytes_max = std::size_t{1} << 20;
     static constexpr std::size_t unread_bytes_max = std::size_t{256} << 10;
     /// A client that takes nothing of what it is sent for so long is given up.
     static constexpr base::Duration patience = std::chrono::seconds{10};
+
+    /// A line of more than `line_max` bytes is refused, and the client heard no more.
+    explicit Conversation(std::size_t line_max = line_bytes_max) : line_max_{line_max} {}
 
     /// How many bytes on_bytes() takes now.
     [[nodiscard]] std::size_t room() const;
@@ -40,7 +53,7 @@ public:
 
     /// One step: answers one request, or looks at the one that waits. Returns whether it did
     /// something that may be followed by more at once.
-    bool advance(Emulation& emulation, base::TimePoint now);
+    bool advance(const Subject& subject, base::TimePoint now);
 
     /// When advance() is to be called again although nothing was received; nullopt: never.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
@@ -69,12 +82,13 @@ private:
     };
 
     [[nodiscard]] std::optional<std::string> next_line();
-    void answer(const std::string& line, Emulation& emulation, base::TimePoint now);
-    void begin(const WaitRequest& request, Emulation& emulation, base::TimePoint now);
-    bool look(Waiting& waiting, Emulation& emulation, base::TimePoint now);
-    bool show(Watching& watching, Emulation& emulation, base::TimePoint now);
+    void answer(const std::string& line, const Subject& subject, base::TimePoint now);
+    void begin(const WaitRequest& request, const Subject& subject, base::TimePoint now);
+    bool look(Waiting& waiting, const Subject& subject, base::TimePoint now);
+    bool show(Watching& watching, const Subject& subject, base::TimePoint now);
     void send(std::string_view line, base::TimePoint now);
 
+    std::size_t line_max_;
     std::string input_;
     std::size_t searched_ = 0; // of input_, without a newline
     std::string output_;
@@ -85,4 +99,4 @@ private:
     bool is_gone_ = false;
 };
 
-} // namespace hapnet::emulator
+} // namespace hapnet::control

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/control/conversation.hpp"
+#include "proto/control/core/conversation.hpp"
 
-#include "emulator/control/reply.hpp"
 #include "proto/base/ensure.hpp"
+#include "proto/control/core/reply.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::control {
 
 namespace {
 
@@ -22,7 +23,7 @@ constexpr base::Duration look_every = 100ms;
 std::size_t Conversation::room() const
 {
     // One byte more than the longest line, so that a line that is too long can be told.
-    return has_ended_ ? 0 : line_bytes_max + 1 - input_.size();
+    return has_ended_ ? 0 : line_max_ + 1 - input_.size();
 }
 
 void Conversation::on_bytes(std::string_view bytes)
@@ -40,17 +41,17 @@ void Conversation::on_gone()
     written_ = 0;
 }
 
-bool Conversation::advance(Emulation& emulation, base::TimePoint now)
+bool Conversation::advance(const Subject& subject, base::TimePoint now)
 {
     if (output().size() >= unread_bytes_max) return false;
-    if (auto* waiting = std::get_if<Waiting>(&pending_)) return look(*waiting, emulation, now);
+    if (auto* waiting = std::get_if<Waiting>(&pending_)) return look(*waiting, subject, now);
     if (const auto line = next_line()) {
         pending_ = {};
-        answer(*line, emulation, now);
+        answer(*line, subject, now);
         if (is_gone_) pending_ = {};
         return true;
     }
-    if (auto* watching = std::get_if<Watching>(&pending_)) return show(*watching, emulation, now);
+    if (auto* watching = std::get_if<Watching>(&pending_)) return show(*watching, subject, now);
     return false;
 }
 
@@ -59,7 +60,7 @@ std::optional<std::string> Conversation::next_line()
     const auto end = input_.find('\n', searched_);
     if (end == std::string::npos && !(has_ended_ && !input_.empty())) {
         searched_ = input_.size();
-        if (input_.size() <= line_bytes_max) return std::nullopt;
+        if (input_.size() <= line_max_) return std::nullopt;
     }
     std::string line = input_.substr(0, end);
     input_.erase(0, end == std::string::npos ? end : end + 1);
@@ -67,62 +68,52 @@ std::optional<std::string> Conversation::next_line()
     return line;
 }
 
-void Conversation::answer(const std::string& line, Emulation& emulation, base::TimePoint now)
+void Conversation::answer(const std::string& line, const Subject& subject, base::TimePoint now)
 {
-    if (line.size() > line_bytes_max) {
-        send(refusal(fmt::format("a line of more than {} bytes", line_bytes_max)), now);
+    if (line.size() > line_max_) {
+        send(refusal(fmt::format("a line of more than {} bytes", line_max_)), now);
         has_ended_ = true; // what follows is its rest, and no request
         input_.clear();
         return;
     }
-    const auto request = parse_request(line);
-    if (!request) return send(refusal(request.error().message), now);
-    if (const auto* one = std::get_if<ShowRequest>(&*request)) {
-        send(reply_to(*one, emulation), now);
-    } else if (const auto* set = std::get_if<SetRequest>(&*request)) {
-        send(reply_to(*set, emulation, now), now);
-    } else if (const auto* apply = std::get_if<ApplyRequest>(&*request)) {
-        send(reply_to(*apply, emulation, now), now);
-    } else if (const auto* diff = std::get_if<DiffRequest>(&*request)) {
-        send(reply_to(*diff, emulation), now);
-    } else if (const auto* reset = std::get_if<ResetRequest>(&*request)) {
-        send(reply_to(*reset, emulation, now), now);
-    } else if (const auto* wait = std::get_if<WaitRequest>(&*request)) {
-        begin(*wait, emulation, now);
-    } else if (const auto* watch = std::get_if<WatchRequest>(&*request)) {
+    const Answer answer = subject.answer(line, now);
+    if (const auto* wait = std::get_if<WaitRequest>(&answer)) {
+        begin(*wait, subject, now);
+    } else if (const auto* watch = std::get_if<WatchRequest>(&answer)) {
         pending_ = Watching{*watch, now};
     } else {
-        send(statistics_reply(emulation), now);
+        send(std::get<std::string>(answer), now);
     }
 }
 
-void Conversation::begin(const WaitRequest& request, Emulation& emulation, base::TimePoint now)
+void Conversation::begin(const WaitRequest& request, const Subject& subject, base::TimePoint now)
 {
     Waiting waiting{request, now, std::nullopt};
     if (request.timeout) waiting.end = now + *request.timeout;
     pending_ = waiting;
-    look(std::get<Waiting>(pending_), emulation, now);
+    look(std::get<Waiting>(pending_), subject, now);
 }
 
-bool Conversation::look(Waiting& waiting, Emulation& emulation, base::TimePoint now)
+bool Conversation::look(Waiting& waiting, const Subject& subject, base::TimePoint now)
 {
     const bool is_end = base::is_due(waiting.end, now);
     if (now < waiting.next_look && !is_end) return false;
     waiting.next_look = now + look_every;
     const Condition& until = waiting.request.until;
-    const auto met = is_met(until, statistics_of(emulation));
+    const auto statistics = subject.statistics();
+    const auto met = is_met(until, statistics);
     if (met && !*met && !is_end) return false;
-    send(met ? wait_reply(until, *met, emulation) : refusal(met.error().message), now);
+    send(met ? wait_reply(until, *met, statistics) : refusal(met.error().message), now);
     pending_ = {};
     return true;
 }
 
-bool Conversation::show(Watching& watching, Emulation& emulation, base::TimePoint now)
+bool Conversation::show(Watching& watching, const Subject& subject, base::TimePoint now)
 {
     if (now < watching.next_line) return false;
     watching.next_line = std::max(watching.next_line + watching.request.every, now);
     // A reader that is behind gets the newest line when it is ready for one, not all of them.
-    if (output().empty()) send(statistics_reply(emulation), now);
+    if (output().empty()) send(statistics_reply(subject.statistics()), now);
     return false;
 }
 
@@ -170,4 +161,4 @@ bool Conversation::is_stuck(base::TimePoint now) const
     return !output().empty() && now - last_progress_ >= patience;
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::control

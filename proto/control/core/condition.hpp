@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace hapnet::emulator {
+namespace hapnet::control {
 
 enum class Comparison : std::uint8_t { less, at_most, equal, unequal, at_least, more };
 [[nodiscard]] std::string_view to_text(Comparison comparison);
@@ -32,4 +32,4 @@ struct Condition {
 [[nodiscard]] base::Result<bool> is_met(const Condition& condition,
                                         const nlohmann::ordered_json& statistics);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::control

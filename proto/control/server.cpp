@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/control_server.hpp"
+#include "proto/control/server.hpp"
 
-#include "emulator/control/reply.hpp"
+#include "proto/control/core/reply.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-namespace hapnet::emulator {
+namespace hapnet::control {
 
 namespace {
 
@@ -28,16 +28,16 @@ constexpr std::size_t read_bytes_max = std::size_t{64} << 10;
 constexpr std::size_t admitted_at_a_time = 4;
 
 /// What the wait set calls the listener; the clients are called by their places.
-constexpr std::uint64_t listener_key = ControlServer::clients_max;
+constexpr std::uint64_t listener_key = Server::clients_max;
 
 } // namespace
 
-ControlServer::ControlServer(std::string path) : listener_{std::move(path)}
+Server::Server(std::string path, const Limits& limits) : listener_{std::move(path)}, limits_{limits}
 {
     wait_set_.add(listener_.descriptor(), listener_key, {.to_read = true});
 }
 
-std::optional<base::TimePoint> ControlServer::next_deadline() const
+std::optional<base::TimePoint> Server::next_deadline() const
 {
     if (has_more_) return last_served_;
     std::optional<base::TimePoint> next;
@@ -47,15 +47,16 @@ std::optional<base::TimePoint> ControlServer::next_deadline() const
     return next;
 }
 
-void ControlServer::serve(Emulation& emulation, base::TimePoint now,
-                          std::optional<base::TimePoint> next_departure)
+void Server::serve(const Subject& subject, base::TimePoint now,
+                   std::optional<base::TimePoint> next_departure)
 {
     const auto since = now - last_served_;
     const bool is_in_the_way = base::is_due(next_departure, now + answer_takes);
     if (since < (is_in_the_way ? put_off_max : turn_min)) return;
     last_served_ = now;
     for (const net::Ready& ready : wait_set_.ready()) attend(ready);
-    answer_one(emulation, now);
+    has_more_ = true;
+    for (int i = 0; i < limits_.answers && has_more_; ++i) answer_one(subject, now);
     for (std::size_t place = 0; place < clients_max; ++place) {
         auto& client = clients_[place];
         if (!client) continue;
@@ -68,7 +69,7 @@ void ControlServer::serve(Emulation& emulation, base::TimePoint now,
     }
 }
 
-void ControlServer::attend(const net::Ready& ready)
+void Server::attend(const net::Ready& ready)
 {
     if (ready.key == listener_key) return admit();
     auto& client = clients_[ready.key];
@@ -80,7 +81,7 @@ void ControlServer::attend(const net::Ready& ready)
     }
 }
 
-void ControlServer::admit()
+void Server::admit()
 {
     for (std::size_t i = 0; i < admitted_at_a_time; ++i) {
         auto stream = listener_.accept();
@@ -93,11 +94,12 @@ void ControlServer::admit()
         }
         const auto place = static_cast<std::uint64_t>(free - clients_.begin());
         wait_set_.add(stream->descriptor(), place, {.to_read = true});
-        free->emplace(Client{std::move(*stream), {}, {.to_read = true}});
+        free->emplace(
+            Client{std::move(*stream), Conversation{limits_.line_bytes}, {.to_read = true}});
     }
 }
 
-void ControlServer::take(Client& client)
+void Server::take(Client& client)
 {
     std::array<char, read_bytes_max> buffer; // NOLINT(*-member-init): only what is read is used
     const auto room = std::min(buffer.size(), client.conversation.room());
@@ -113,18 +115,18 @@ void ControlServer::take(Client& client)
     }
 }
 
-void ControlServer::answer_one(Emulation& emulation, base::TimePoint now)
+void Server::answer_one(const Subject& subject, base::TimePoint now)
 {
     has_more_ = false;
     for (std::size_t i = 0; i < clients_max && !has_more_; ++i) {
         auto& client = clients_[(turn_ + i) % clients_max];
-        if (!client || !client->conversation.advance(emulation, now)) continue;
+        if (!client || !client->conversation.advance(subject, now)) continue;
         turn_ = (turn_ + i + 1) % clients_max;
         has_more_ = true;
     }
 }
 
-void ControlServer::send(Client& client, base::TimePoint now)
+void Server::send(Client& client, base::TimePoint now)
 {
     Conversation& conversation = client.conversation;
     if (conversation.output().empty()) return;
@@ -136,7 +138,7 @@ void ControlServer::send(Client& client, base::TimePoint now)
     }
 }
 
-void ControlServer::want(Client& client, std::size_t place)
+void Server::want(Client& client, std::size_t place)
 {
     const net::WaitSet::Interest interest{.to_read = client.conversation.room() > 0,
                                           .to_write = !client.conversation.output().empty()};
@@ -145,4 +147,4 @@ void ControlServer::want(Client& client, std::size_t place)
     wait_set_.change(client.stream.descriptor(), place, interest);
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::control

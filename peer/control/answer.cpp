@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/control/answer.hpp"
+
+#include "proto/control/core/reply.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::peer {
+
+namespace {
+
+using control::Members;
+using Json = nlohmann::ordered_json;
+
+bool is_for_an_emulator(std::string_view command)
+{
+    constexpr std::array<std::string_view, 4> commands{"set", "apply", "diff", "reset"};
+    return std::find(commands.begin(), commands.end(), command) != commands.end();
+}
+
+std::string shown(const Attended& peer)
+{
+    Json reply{{"ok", true}};
+    reply.update(peer.show());
+    return control::line_of(reply);
+}
+
+std::string stopped(const Attended& peer)
+{
+    peer.stop();
+    return control::line_of(Json{{"ok", true}, {"stopping", true}});
+}
+
+/// The answer to a command without members, or that it has too many.
+template <typename Reply>
+control::Answer answer_with(Members& members, Reply reply)
+{
+    const auto whole = members.finish(true);
+    return whole ? reply() : control::refusal(whole.error().message);
+}
+
+/// A request that takes time, or what is wrong with it.
+template <typename Request>
+control::Answer begun(Members& members, Request request)
+{
+    auto whole = members.finish(std::move(request));
+    if (!whole) return control::refusal(whole.error().message);
+    return *std::move(whole);
+}
+
+} // namespace
+
+control::Answer answer_to(std::string_view line, const Attended& peer)
+{
+    const auto json = control::parse_object(line);
+    if (!json) return control::refusal(json.error().message);
+    Members members{*json};
+    const std::string command = members.text("command");
+    if (members.error()) return control::refusal(*members.error());
+    if (command == "show") return answer_with(members, [&] { return shown(peer); });
+    if (command == "stop") return answer_with(members, [&] { return stopped(peer); });
+    if (command == "stats") {
+        return answer_with(members, [&] { return control::statistics_reply(peer.statistics()); });
+    }
+    if (command == "wait") return begun(members, control::wait_request(members));
+    if (command == "watch") return begun(members, control::watch_request(members));
+    if (is_for_an_emulator(command)) {
+        return control::refusal(
+            fmt::format("'{}' is for an emulator: a peer says how it is and can be stopped, but "
+                        "nothing of it is changed while it runs; it knows show, stats, watch, "
+                        "wait and stop",
+                        command));
+    }
+    return control::refusal("\"command\" must be one of show, stats, watch, wait, stop");
+}
+
+control::Subject subject_of(Attended peer)
+{
+    auto statistics = peer.statistics;
+    return {[peer = std::move(peer)](std::string_view line, base::TimePoint /*now*/) {
+                return answer_to(line, peer);
+            },
+            std::move(statistics)};
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/control/core/request.hpp"
+
+#include "proto/base/text.hpp"
+
+#include <algorithm>
+#include <set>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::control {
+
+namespace {
+
+using namespace std::chrono_literals;
+using Json = nlohmann::ordered_json;
+
+/// Refuses while it is read what would be dangerous or ambiguous once it has been.
+class Guard {
+public:
+    /// A callback of the parser: false skips the value.
+    bool on_event(int depth, Json::parse_event_t event, const Json& value)
+    {
+        if (error_) return false;
+        if (depth > static_cast<int>(nesting_max)) {
+            fail("nested too deeply");
+            return false;
+        }
+        if (event == Json::parse_event_t::object_start) keys_.emplace_back();
+        if (event == Json::parse_event_t::object_end) keys_.pop_back();
+        if (event == Json::parse_event_t::key && !keys_.back().insert(value).second) {
+            fail(fmt::format("'{}' stands twice", value.get_ref<const std::string&>()));
+        }
+        return !error_;
+    }
+
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
+private:
+    void fail(std::string what)
+    {
+        if (!error_) error_ = std::move(what);
+    }
+
+    std::vector<std::set<std::string>> keys_; // of the objects that are open
+    std::optional<std::string> error_;
+};
+
+} // namespace
+
+base::Result<Json> parse_object(std::string_view line)
+{
+    Guard guard;
+    const auto json = Json::parse(
+        line,
+        [&](int depth, Json::parse_event_t event, const Json& value) {
+            return guard.on_event(depth, event, value);
+        },
+        /*allow_exceptions*/ false);
+    if (guard.error()) return base::fail(*guard.error());
+    if (!json.is_object()) {
+        return base::fail("not a JSON object on one line, such as {\"command\":\"show\"}");
+    }
+    return json;
+}
+
+std::string Members::text(const char* key)
+{
+    auto value = optional_text(key);
+    if (!value) fail(fmt::format("\"{}\" is missing", key));
+    return value.value_or("");
+}
+
+std::optional<std::string> Members::optional_text(const char* key)
+{
+    const auto* value = find(key);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is_string()) {
+        fail(fmt::format("\"{}\" must be a text in quotes", key));
+        return std::nullopt;
+    }
+    return value->get<std::string>();
+}
+
+std::optional<base::Duration> Members::time(const char* key, base::Duration least)
+{
+    const auto text = optional_text(key);
+    if (!text) return std::nullopt;
+    const auto value = base::parse_duration(*text);
+    if (!value) {
+        fail(fmt::format("\"{}\": {}", key, value.error().message));
+    } else if (*value < least || *value > 24h) {
+        fail(fmt::format("\"{}\": '{}' is not from {} to 24 hours", key, *text,
+                         base::to_text(least)));
+    } else {
+        return *value;
+    }
+    return std::nullopt;
+}
+
+const Json* Members::find(const char* key)
+{
+    known_.emplace_back(key);
+    const auto found = json_.find(key);
+    return found == json_.end() ? nullptr : &*found;
+}
+
+void Members::fail(std::string what)
+{
+    if (!error_) error_ = std::move(what);
+}
+
+void Members::refuse_the_rest()
+{
+    for (const auto& [name, value] : json_.items()) {
+        if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+        fail(fmt::format("\"{}\" is not known here; known are: {}", name, fmt::join(known_, ", ")));
+    }
+}
+
+WaitRequest wait_request(Members& members)
+{
+    auto until = parse_condition(members.text("until"));
+    if (!until) members.fail(std::move(until.error().message));
+    return {until ? *std::move(until) : Condition{}, members.time("timeout", 0ms)};
+}
+
+WatchRequest watch_request(Members& members)
+{
+    return {members.time("every", 50ms).value_or(WatchRequest{}.every)};
+}
+
+} // namespace hapnet::control

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+#include "proto/control/core/condition.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace hapnet::control {
+
+// What clients of a control socket send, as far as it is the same for every program.
+
+/// Answered once the condition holds, or its time is over.
+struct WaitRequest {
+    Condition until;
+    std::optional<base::Duration> timeout;
+};
+
+/// Answered again and again, until the next request.
+struct WatchRequest {
+    base::Duration every = std::chrono::milliseconds{500};
+};
+
+/// How deep a request may be nested; an honest one needs 2.
+inline constexpr std::size_t nesting_max = 16;
+
+/// Reads one line. Keeps the order of the members; refuses what is no object, is nested too deeply
+/// or says something twice.
+[[nodiscard]] base::Result<nlohmann::ordered_json> parse_object(std::string_view line);
+
+/// The members of a request; the first trouble is remembered.
+class Members {
+public:
+    /// `json` is an object, and outlives this.
+    explicit Members(const nlohmann::ordered_json& json) : json_{json} {}
+
+    /// A text that must be there.
+    std::string text(const char* key);
+    std::optional<std::string> optional_text(const char* key);
+    /// A time from `least` to a day.
+    std::optional<base::Duration> time(const char* key, base::Duration least);
+    /// The member as it is; null when it is not there.
+    const nlohmann::ordered_json* find(const char* key);
+    void fail(std::string what);
+
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
+    /// The request, if nothing was wrong and nothing is left over.
+    template <typename Request>
+    base::Result<Request> finish(Request request)
+    {
+        refuse_the_rest();
+        if (error_) return base::fail(*error_);
+        return request;
+    }
+
+private:
+    void refuse_the_rest();
+
+    const nlohmann::ordered_json& json_;
+    std::vector<std::string_view> known_;
+    std::optional<std::string> error_;
+};
+
+/// The members of wait and of watch.
+[[nodiscard]] WaitRequest wait_request(Members& members);
+[[nodiscard]] WatchRequest watch_request(Members& members);
+
+} // namespace hapnet::control
