@@ -30,6 +30,7 @@ public:
     };
 
     explicit Reception(Parts parts);
+    ~Reception() = default;
     Reception(const Reception&) = delete;
     Reception& operator=(const Reception&) = delete;
 

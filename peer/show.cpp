@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "peer/core/sync/text.hpp"
 #include "peer/report.hpp"
 #include "proto/base/version.hpp"
 

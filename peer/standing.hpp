@@ -21,7 +21,7 @@ struct LoopCounters {
     std::uint64_t send_failures = 0; // the remote's host may be down: not an end
 };
 
-/// How a peer stands after one of its ticks: what the statistics are made of. 21 KiB.
+/// How a peer stands after one of its ticks: what the statistics are made of. 19 KiB.
 struct Standing {
     base::TimePoint at;
     base::Duration elapsed{}; // since the first tick

@@ -40,11 +40,12 @@ TEST(PeerUsage, PrintsHelpWithEveryOptionAndExamples)
     const auto outcome = run("hapnet-peer", {"--help"});
     EXPECT_EQ(outcome.exit, 0);
     for (const char* word :
-         {"--id",       "--force-limit",  "--listen", "--remote",    "--device",
-          "--scene",    "--grip-damping", "--task",   "--algorithm", "--seed",
-          "--key",      "--duration",     "--record", "--stats",     "--insecure",
-          "--version",  "Examples",       "P1",       "T1",          "T3",
-          "Exit codes", "list-devices",   "doctor",   "self-test",   "--mount-scale"}) {
+         {"--id",         "--force-limit",  "--listen",     "--remote",    "--device",
+          "--scene",      "--grip-damping", "--task",       "--algorithm", "--seed",
+          "--key",        "--duration",     "--record",     "--stats",     "--control",
+          "--insecure",   "--version",      "Examples",     "P1",          "T1",
+          "T3",           "Exit codes",     "list-devices", "doctor",      "self-test",
+          "--mount-scale"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
 }

@@ -3,7 +3,7 @@
 #include "peer/handover.hpp"
 
 #include <array>
-#include <cstddef>
+#include <atomic>
 #include <gtest/gtest.h>
 #include <thread>
 
