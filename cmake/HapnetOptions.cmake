@@ -59,7 +59,7 @@ function(hapnet_precompile name)
     target_precompile_headers(${name} REUSE_FROM hapnet_precompiled)
 endfunction()
 
-# hapnet_library(NAME SOURCES ... DEPENDS ...): one folder of the map, built where something needs it.
+# hapnet_library(NAME SOURCES ... DEPENDS ...): one folder of the map, built where it is needed.
 function(hapnet_library name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
     add_library(${name} STATIC EXCLUDE_FROM_ALL ${arg_SOURCES})
@@ -71,8 +71,8 @@ endfunction()
 option(HAPNET_PROGRAMS "Build the programs, which the tests end to end need" ON)
 
 # hapnet_program(NAME [COLD] SOURCES ... DEPENDS ...): one binary that is installed. Where several
-# files are read as one, all of it is: CLI11 alone is seven seconds of each. COLD: nothing in its own
-# sources takes time when it runs, so it need not take any to optimise them (a third of building).
+# files are read as one, all of it is: CLI11 alone is seven seconds of each. COLD: what its own
+# sources do takes no time when it runs, so optimising them takes little, too.
 function(hapnet_program name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "COLD" "" "SOURCES;DEPENDS")
     add_executable(${name} ${arg_SOURCES})
