@@ -7,6 +7,7 @@
 #include "peer/self_test/report.hpp"
 #include "peer/self_test/self_test.hpp"
 #include "peer/watchdog.hpp"
+#include "peer/watched_turn.hpp"
 #include "peer/zero_force.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/crash_signal.hpp"
@@ -69,7 +70,7 @@ private:
     {
         const base::TimePoint now = net::monotonic_now();
         watchdog_.beat(now);
-        const std::uint64_t halts_before = watchdog_.halts();
+        WatchedTurn watched{rig_, watchdog_};
         if (watchdog_.take_fault()) {
             rig_.governor().latch({device::Fault::timeout, device::Trip::loop});
         }
@@ -79,9 +80,7 @@ private:
             turn = test_.on_tick({sample, rig_.calibration(), applied_}, now);
         }
         if (watchdog_.is_dying()) return;
-        applied_ = watchdog_.halts() == halts_before
-                       ? rig_.apply(turn.wanted, turn.permitted, now)
-                       : rig_.withhold(turn.wanted, turn.permitted, now);
+        applied_ = watched.apply(turn.wanted, turn.permitted, now);
         prompt_.store(turn.prompt, std::memory_order_relaxed);
         if (turn.is_done) is_ending_ = true;
         if (is_ending_) --ticks_left_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/servo.hpp"
 
+#include "peer/watched_turn.hpp"
 #include "peer/zero_force.hpp"
 #include "proto/net/clock.hpp"
 
@@ -116,7 +117,7 @@ void Servo::take_turn(const Beat& beat, base::TimePoint now)
 void Servo::turn(record::TickRow& row, base::TimePoint now)
 {
     Peer& peer = parts_.peer;
-    const std::uint64_t halts_before = parts_.watchdog.halts();
+    WatchedTurn watched{parts_.rig, parts_.watchdog};
     receive(row.tick);
     if (parts_.watchdog.take_fault()) {
         parts_.rig.governor().latch({device::Fault::timeout, device::Trip::loop});
@@ -124,12 +125,7 @@ void Servo::turn(record::TickRow& row, base::TimePoint now)
     const device::Sample& sample = parts_.rig.read(now);
     const Tick tick =
         peer.tick(now, {sample.hip, sample.velocity, sample.gripping, is_in_hand(sample)});
-    base::Force force;
-    if (parts_.watchdog.halts() != halts_before) {
-        force = parts_.rig.withhold(tick.force, tick.permitted, now);
-    } else if (!parts_.watchdog.is_dying()) {
-        force = parts_.rig.apply(tick.force, tick.permitted, now);
-    }
+    const base::Force force = watched.apply(tick.force, tick.permitted, now);
     send();
     while (const auto event = peer.event()) parts_.journal.put(Happening{*event, now});
     tell_of_device(now);

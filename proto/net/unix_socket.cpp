@@ -127,7 +127,10 @@ UnixListener::UnixListener(std::string path) : path_{std::move(path)}, socket_{n
 UnixListener::~UnixListener()
 {
     struct stat found {};
-    if (lstat(path_.c_str(), &found) == 0 && found.st_ino == file_) unlink(path_.c_str());
+    // Its number may be another file's by now.
+    const bool is_ours =
+        lstat(path_.c_str(), &found) == 0 && S_ISSOCK(found.st_mode) && found.st_ino == file_;
+    if (is_ours) unlink(path_.c_str());
 }
 
 std::optional<UnixStream> UnixListener::accept()

@@ -90,7 +90,6 @@ Opened<Opening> Scheduler::open_one(const std::string& name)
 
 void Scheduler::close(const Opening& opening)
 {
-    opening.seat->fall_silent();
     const std::lock_guard lock{mutex_};
     stop();
     give_back(opening);
@@ -128,6 +127,8 @@ Opened<bool> Scheduler::start()
 void Scheduler::stop()
 {
     if (!is_running_) return;
+    for (const Opening& opening : open_) opening.seat->begin_silence();
+    for (const Opening& opening : open_) opening.seat->await_silence();
     functions_.stop_scheduler();
     functions_.unschedule(callback_);
     is_running_ = false;

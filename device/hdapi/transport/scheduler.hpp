@@ -38,6 +38,7 @@ private:
     [[nodiscard]] Opened<Opening> open_one(const std::string& name);
     void give_back(const Opening& opening);
     [[nodiscard]] Opened<bool> start();
+    /// At zero force, which no stop of the scheduler is known to see to.
     void stop();
     static unsigned int serve_all(void* self);
     /// Each error of the cycle to the device that it names, to all where it names none of them.

@@ -15,16 +15,24 @@ constexpr std::chrono::microseconds beat_max{500};
 
 } // namespace
 
+void Seat::on_start()
+{
+    const std::lock_guard lock{mutex_};
+    is_silent_ = false;
+    hushed_.store(false, std::memory_order_release);
+    cycle_.on_start();
+}
+
 void Seat::serve()
 {
     reports_.put(cycle_.begin());
     call_for_a_beat();
     const bool is_new = commands_.take();
     const bool is_quiet =
-        halted_.load(std::memory_order_acquire) || closing_.load(std::memory_order_acquire);
+        halted_.load(std::memory_order_acquire) || hushed_.load(std::memory_order_acquire);
     cycle_.end(is_quiet ? Command{} : commands_.value(), is_new);
     cycles_.fetch_add(1, std::memory_order_release);
-    if (!closing_.load(std::memory_order_acquire)) return;
+    if (!hushed_.load(std::memory_order_acquire)) return;
     if (cycle_.silent_frames() < silent_frames_wanted) return;
     const std::lock_guard lock{mutex_};
     is_silent_ = true;
@@ -33,11 +41,12 @@ void Seat::serve()
 
 /// Its force is that of this very frame if it comes in time, else that of a later one. A beat that
 /// is not over yet is not waited for again: whatever it hangs in, the library's thread goes on, and
-/// with it the frames that take the force away.
+/// with it the frames that take the force away. Nor does it wait for the lock, whose owner may have
+/// been put aside by the system: then the next cycle calls.
 void Seat::call_for_a_beat()
 {
-    std::unique_lock lock{mutex_};
-    if (beat_ != Beat::awaited) return;
+    std::unique_lock lock{mutex_, std::try_to_lock};
+    if (!lock || beat_ != Beat::awaited) return;
     beat_ = Beat::due;
     changed_.notify_all();
     changed_.wait_for(lock, beat_max, [this] { return beat_ != Beat::due; });
@@ -57,24 +66,29 @@ void Seat::command(const Command& command)
 
 void Seat::pace(const std::function<bool()>& beat)
 {
-    std::unique_lock lock{mutex_};
-    for (bool goes_on = true; goes_on;) {
-        beat_ = Beat::awaited;
-        changed_.wait_for(lock, no_cycle_max, [this] { return beat_ == Beat::due; });
-        if (beat_ != Beat::due) break;
-        lock.unlock();
+    for (bool goes_on = true; goes_on && is_called();) {
         goes_on = beat(); // throws: then it stays due, and nobody waits for it twice
-        lock.lock();
-        beat_ = Beat::none;
-        changed_.notify_all();
+        {
+            const std::lock_guard lock{mutex_};
+            beat_ = Beat::none;
+        }
+        changed_.notify_all(); // without the lock: who wakes wants it, and is more urgent
     }
-    beat_ = Beat::none;
 }
 
-void Seat::fall_silent()
+/// Whether a cycle has called for a beat; false: none came for 100 ms.
+bool Seat::is_called()
 {
     std::unique_lock lock{mutex_};
-    closing_.store(true, std::memory_order_release);
+    beat_ = Beat::awaited;
+    if (changed_.wait_for(lock, no_cycle_max, [this] { return beat_ == Beat::due; })) return true;
+    beat_ = Beat::none;
+    return false;
+}
+
+void Seat::await_silence()
+{
+    std::unique_lock lock{mutex_};
     std::uint64_t before = 0;
     do {
         before = cycles_.load(std::memory_order_acquire);

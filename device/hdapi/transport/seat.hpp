@@ -19,8 +19,8 @@ class Seat {
 public:
     explicit Seat(const DeviceCycle& cycle) : cycle_{cycle} {}
 
-    /// While the scheduler stands still.
-    void on_start() { cycle_.on_start(); }
+    /// While the scheduler stands still: ends the silence.
+    void on_start();
 
     // The scheduler's thread.
     void serve();
@@ -32,14 +32,16 @@ public:
     void command(const Command& command);
     /// As Device::pace(); the beats come on the calling thread.
     void pace(const std::function<bool()>& beat);
-    /// Zero force from now on; returns when at least three frames have carried it, or no cycle came
-    /// for 100 ms.
-    void fall_silent();
     [[nodiscard]] Handle handle() const { return cycle_.handle(); }
 
     // Any thread.
     /// Zero force from the next cycle of the library on.
     void halt() noexcept { halted_.store(true, std::memory_order_release); }
+    /// Zero force until the scheduler starts again, whatever is commanded.
+    void begin_silence() { hushed_.store(true, std::memory_order_release); }
+    /// After begin_silence(): returns when at least three frames have carried it, or no cycle came
+    /// for 100 ms.
+    void await_silence();
 
 private:
     enum class Beat : std::uint8_t {
@@ -49,12 +51,13 @@ private:
     };
 
     void call_for_a_beat();
+    [[nodiscard]] bool is_called();
 
     DeviceCycle cycle_;
     Latest<Report> reports_;
     Latest<Command> commands_;
     std::atomic<bool> halted_{false};
-    std::atomic<bool> closing_{false};
+    std::atomic<bool> hushed_{false};
     std::atomic<std::uint64_t> cycles_{0};
     std::mutex mutex_; // of the two below
     Beat beat_ = Beat::none;

@@ -115,6 +115,31 @@ TEST_F(HdapiSafety, LeavesTheMotorsOffFromTheFirstFrameOnUntilItIsToldAForce)
     EXPECT_TRUE(std::all_of(left.begin(), left.end(), is_silent));
 }
 
+TEST_F(HdapiSafety, IsAtZeroForceBeforeItsSchedulerStopsForAnother)
+{
+    open();
+    ASSERT_NO_FATAL_FAILURE(push());
+    std::atomic<bool> is_over{false};
+    auto loop = std::async(std::launch::async, [&] {
+        device().pace([&] {
+            device().apply(device::ungoverned(to_the_right));
+            return !is_over;
+        });
+    });
+    const std::size_t first = frames_beyond(fake_.commands(0).size() + 20).size();
+    auto other = device::hdapi::open_hdapi("Left", HAPNET_FAKE_HD);
+    ASSERT_TRUE(other);
+    const auto commands = frames_beyond(fake_.commands(0).size() + 20);
+    is_over = true;
+    loop.get();
+    const auto from = commands.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto silent = std::search_n(from, commands.end(), 3, true,
+                                      [](const FakeHdCommand& it, bool) { return is_silent(it); });
+    ASSERT_NE(silent, commands.end());
+    EXPECT_TRUE(std::any_of(from - 10, from, is_push));
+    EXPECT_TRUE(std::any_of(silent, commands.end(), is_push)); // and it plays on
+}
+
 TEST_F(HdapiSafety, LetsGoAtAWordFromAnotherThreadWhileTheLoopHangs)
 {
     open();
