@@ -14,9 +14,9 @@ namespace {
 // An Omni's data sheet.
 constexpr double omni_continuous_n = 0.88;
 constexpr double omni_resolution_m = 0.000055;
-// CHAI3D's table of devices.
-constexpr double omni_stiffness_n_per_m = 700.0;
-constexpr double omni_damping_ns_per_m = 5.0;
+// CHAI3D's table of devices: a Touch's figures, which are less than an Omni's 700 and 5.
+constexpr double touch_stiffness_n_per_m = 400.0;
+constexpr double touch_damping_ns_per_m = 4.0;
 
 // An axis of a workspace is between a centimetre and ten metres long: the scene's size follows from
 // it, and with that how stiff it is at the hand.
@@ -87,9 +87,9 @@ Capabilities capabilities_of(const Properties& properties)
     can.force_continuous_n =
         std::min(sensible(properties.force_continuous_n, omni_continuous_n), can.force_max_n);
     can.stiffness_max_n_per_m =
-        1e3 * sensible(properties.stiffness_max_n_per_mm, 1e-3 * omni_stiffness_n_per_m);
+        1e3 * sensible(properties.stiffness_max_n_per_mm, 1e-3 * touch_stiffness_n_per_m);
     can.damping_max_ns_per_m =
-        1e3 * sensible(properties.damping_max_ns_per_mm, 1e-3 * omni_damping_ns_per_m);
+        1e3 * sensible(properties.damping_max_ns_per_mm, 1e-3 * touch_damping_ns_per_m);
     can.speed_max_m_per_s = 1e-3 * sensible(properties.velocity_limit_mm_per_s, 1000.0);
     can.rate_hz = sensible(properties.update_rate_hz, 1000.0);
     can.resolution_m = omni_resolution_m;
