@@ -54,6 +54,12 @@ device::Opened<std::unique_ptr<device::Device>> open_chosen(const DeviceChoice& 
     return device::open_device(choice.name, choice.options);
 }
 
+std::string why_not_opened(const DeviceChoice& choice, const device::Trouble& trouble)
+{
+    const std::string note = choice.is_real() ? fmt::format(" ({})", device::never_run) : "";
+    return fmt::format("--device {}: {}{}", choice.name, trouble.message, note);
+}
+
 device::Mount mount_of(const DeviceChoice& choice, const device::Capabilities& capabilities)
 {
     device::Mount mount;
