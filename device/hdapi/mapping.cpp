@@ -113,14 +113,16 @@ std::string words_for_refusal(const std::string& name, unsigned int code, const 
     const std::string which =
         name.empty() ? "no default device" : fmt::format("no device '{}'", name);
     if (fault_of(code) == Fault::in_use) {
-        return fmt::format("libHD: another program or session uses {} (error 0x{:x}: {})",
+        return fmt::format("libHD: another program or session uses {} (error 0x{:x}: {}): end that "
+                           "one first",
                            name.empty() ? "the default device" : name, code, said);
     }
     return fmt::format(
         "libHD finds {} (error 0x{:x}: {}): is it connected and powered, may you use its port "
-        "(/dev/ttyACM*: group dialout), and has the vendor's set-up (Touch_HeadlessSetup, or "
-        "Touch_Setup with a screen) given it this name? Usual names are 'Default Device' and, with "
-        "older drivers, 'Default PHANToM': --device 'hdapi:Default Device'",
+        "(/dev/ttyACM*: see hapnet-peer doctor), and has the vendor's set-up "
+        "(Touch_HeadlessSetup, or Touch_Setup with a screen) given it this name? Usual names are "
+        "'Default Device' and, with older drivers, 'Default PHANToM': --device 'hdapi:Default "
+        "Device'",
         which, code, said);
 }
 
