@@ -6,6 +6,14 @@
 
 namespace hapnet::device {
 
+namespace {
+
+constexpr std::string_view calibration_failed =
+    "the calibration failed: check the cable and power, calibrate it with its vendor's program if "
+    "it has one, and start again";
+
+} // namespace
+
 std::string_view words_for(CalibrationStep step)
 {
     switch (step) {
@@ -14,9 +22,9 @@ std::string_view words_for(CalibrationStep step)
     case CalibrationStep::dock_stylus: return "put the stylus into its holder to calibrate";
     case CalibrationStep::sweep_joints:
         return "move the grip slowly through its whole reach, to every stop, to calibrate";
-    case CalibrationStep::failed: return "the calibration failed";
+    case CalibrationStep::failed: return calibration_failed;
     }
-    return "the calibration failed";
+    return calibration_failed;
 }
 
 std::string description(const Device& device)

@@ -54,6 +54,12 @@ device::Opened<std::unique_ptr<device::Device>> open_chosen(const DeviceChoice& 
     return device::open_device(choice.name, choice.options);
 }
 
+std::string why_not_opened(const DeviceChoice& choice, const device::Trouble& trouble)
+{
+    const std::string note = choice.is_real() ? fmt::format(" ({})", device::never_run) : "";
+    return fmt::format("--device {}: {}{}", choice.name, trouble.message, note);
+}
+
 device::Mount mount_of(const DeviceChoice& choice, const device::Capabilities& capabilities)
 {
     device::Mount mount;
@@ -72,9 +78,8 @@ std::string words_on_stiffness(const device::Capabilities& capabilities, const d
     return fmt::format(
         "contacts of {:.0f} N/m in the scene, magnified {:.2f} times, are {:.0f} N/m at the hand, "
         "and this device is said to render at most {:.0f} N/m without buzzing: they are felt at "
-        "no more than {:.0f} % of their force. For all of it: a --mount-scale of at most {:.2f}, "
-        "or a --scene "
-        "with softer contacts",
+        "no more than {:.0f} % of their force. To feel all of it: a --mount-scale of at most "
+        "{:.2f}, or a --scene with softer contacts",
         scene_stiffness_n_per_m, mount.scale, at_the_hand, most, 100.0 * most / at_the_hand,
         std::floor(100.0 * std::sqrt(most / scene_stiffness_n_per_m)) / 100.0);
 }

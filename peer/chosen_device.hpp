@@ -16,6 +16,10 @@ namespace hapnet::peer {
 [[nodiscard]] device::Opened<std::unique_ptr<device::Device>>
 open_chosen(const DeviceChoice& choice, device::Task task);
 
+/// Why it was not opened, and what to do; of a real device also that its backend never met it.
+[[nodiscard]] std::string why_not_opened(const DeviceChoice& choice,
+                                         const device::Trouble& trouble);
+
 /// Where the device stands in the scene. What is said counts; for the rest a simulated or replayed
 /// hand is in the scene already, and a real device is magnified so far that on each of its axes it
 /// covers what an Omni does (160 x 120 x 70 mm), never shrunk, and the centre of its workspace is

@@ -28,9 +28,9 @@ constexpr double hid_travel_max_m = 5.0;
 std::string device_help()
 {
     std::string help =
-        "sim: a simulated Omni in a simulated hand (default); sim:joints: with its joints,\n"
-        "encoders, motors and inkwell; replay:FILE: a hand that goes the way in FILE, CSV with\n"
-        "time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it";
+        "sim: a simulated Omni in a simulated hand (what a session takes by itself); sim:joints:\n"
+        "with its joints, encoders, motors and inkwell; replay:FILE: a hand that goes the way in\n"
+        "FILE, CSV with time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it";
     help += fmt::format(";\nor a real one, by serial or the first that is usable; {}:",
                         device::never_run);
     for (const device::Backend& backend : device::backends()) {

@@ -117,6 +117,33 @@ std::string ready_line(const Options& options, const net::UdpSocket& socket,
                        name_of(options.algorithm), options.seed.value());
 }
 
+void write_statistics(const Run& run, std::optional<net::ResultFile>& file)
+{
+    const std::string statistics = statistics_json(run).dump(2) + "\n";
+    if (file) {
+        file->commit(statistics);
+    } else if (run.options.stats) {
+        fmt::print("{}", statistics);
+    }
+}
+
+/// Tells how the run went; its exit code.
+int conclude(const Run& run, const device::Governor& governor, const Watcher& watcher)
+{
+    net::tell(summary(run));
+    if (const auto reason = run.standing.refusal) {
+        say(fmt::format("refused: the other peer cannot play with this one: {}",
+                        words_for(*reason)));
+        return net::exit_failed;
+    }
+    if (const std::string fault = fault_at_the_end(governor); !fault.empty()) {
+        say(fault);
+        return net::exit_failed;
+    }
+    if (const auto failure = watcher.record_failure()) std::rethrow_exception(failure);
+    return 0;
+}
+
 base::Result<int> run(const Options& options)
 {
     const auto places = look_up(options);
@@ -129,7 +156,7 @@ base::Result<int> run(const Options& options)
     if (options.control) server.emplace(*options.control, Reception::limits);
     auto opened = open_chosen(options.device, options.task);
     if (!opened) {
-        say(fmt::format("--device {}: {}", options.device.name, opened.error().message));
+        say(why_not_opened(options.device, opened.error()));
         return net::exit_environment;
     }
     const device::Mount mount = mount_of(options.device, (*opened)->capabilities());
@@ -157,24 +184,8 @@ base::Result<int> run(const Options& options)
 
     const Standing standing = servo.standing();
     const Run run{options, standing, journal, device, !watcher.record_failure()};
-    const std::string statistics = statistics_json(run).dump(2) + "\n";
-    if (file) {
-        file->commit(statistics);
-    } else if (options.stats) {
-        fmt::print("{}", statistics);
-    }
-    net::tell(summary(run));
-    if (const auto reason = peer.refusal()) {
-        say(fmt::format("refused: the other peer cannot play with this one: {}",
-                        words_for(*reason)));
-        return net::exit_failed;
-    }
-    if (const std::string fault = fault_at_the_end(rig.governor()); !fault.empty()) {
-        say(fault);
-        return net::exit_failed;
-    }
-    if (const auto failure = watcher.record_failure()) std::rethrow_exception(failure);
-    return 0;
+    write_statistics(run, file);
+    return conclude(run, rig.governor(), watcher);
 }
 
 base::Result<int> execute(const Command& command)

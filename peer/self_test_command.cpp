@@ -134,8 +134,7 @@ base::Result<int> run(const SelfTestCommand& command)
     const net::CrashStack stack;
     auto opened = open_chosen(command.device, device::Task::p1);
     if (!opened) {
-        net::say("hapnet-peer",
-                 fmt::format("--device {}: {}", command.device.name, opened.error().message));
+        net::say("hapnet-peer", why_not_opened(command.device, opened.error()));
         return net::exit_environment;
     }
     const auto& capabilities = (*opened)->capabilities();

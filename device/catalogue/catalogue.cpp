@@ -40,7 +40,7 @@ const std::vector<Backend>& backends()
          [](const std::string& serial, const DeviceOptions& options) {
              return falcon::open_falcon(serial, options.falcon_firmware);
          }},
-        {"hid", "USB force feedback, SpaceMouse",
+        {"hid", "USB force feedback and the SpaceMouse",
          [](const DeviceOptions& options) { return hid::find_hids(hid_options(options)); },
          [](const std::string& serial, const DeviceOptions& options) {
              return hid::open_hid(serial, hid_options(options));
@@ -69,12 +69,13 @@ base::Result<DeviceName> parse_device_name(std::string_view text)
     if (backend_named(name.backend) != nullptr && !is_cut_off) return name;
     std::string known;
     for (const Backend& backend : backends()) {
-        known += fmt::format(", {0} or {0}:SERIAL", backend.name);
+        known += fmt::format("{}{}[:SERIAL] ({})", known.empty() ? "" : ", ", backend.name,
+                             backend.what);
     }
-    return base::fail(
-        fmt::format("'{}' is no device of this version: it has sim, sim:joints, replay:FILE{}; "
-                    "hapnet-peer list-devices shows what is there",
-                    text, known));
+    return base::fail(fmt::format(
+        "'{}' is no device of this version: it has sim, sim:joints, replay:FILE and, {}, "
+        "{}; hapnet-peer list-devices shows what is there",
+        text, never_run, known));
 }
 
 std::vector<Found> find_devices(const DeviceOptions& options)

@@ -14,9 +14,9 @@ namespace {
 // An Omni's data sheet.
 constexpr double omni_continuous_n = 0.88;
 constexpr double omni_resolution_m = 0.000055;
-// CHAI3D's table of devices.
-constexpr double omni_stiffness_n_per_m = 700.0;
-constexpr double omni_damping_ns_per_m = 5.0;
+// CHAI3D's table of devices: a Touch's figures, which are less than an Omni's 700 and 5.
+constexpr double touch_stiffness_n_per_m = 400.0;
+constexpr double touch_damping_ns_per_m = 4.0;
 
 // An axis of a workspace is between a centimetre and ten metres long: the scene's size follows from
 // it, and with that how stiff it is at the hand.
@@ -87,9 +87,9 @@ Capabilities capabilities_of(const Properties& properties)
     can.force_continuous_n =
         std::min(sensible(properties.force_continuous_n, omni_continuous_n), can.force_max_n);
     can.stiffness_max_n_per_m =
-        1e3 * sensible(properties.stiffness_max_n_per_mm, 1e-3 * omni_stiffness_n_per_m);
+        1e3 * sensible(properties.stiffness_max_n_per_mm, 1e-3 * touch_stiffness_n_per_m);
     can.damping_max_ns_per_m =
-        1e3 * sensible(properties.damping_max_ns_per_mm, 1e-3 * omni_damping_ns_per_m);
+        1e3 * sensible(properties.damping_max_ns_per_mm, 1e-3 * touch_damping_ns_per_m);
     can.speed_max_m_per_s = 1e-3 * sensible(properties.velocity_limit_mm_per_s, 1000.0);
     can.rate_hz = sensible(properties.update_rate_hz, 1000.0);
     can.resolution_m = omni_resolution_m;
@@ -113,14 +113,16 @@ std::string words_for_refusal(const std::string& name, unsigned int code, const 
     const std::string which =
         name.empty() ? "no default device" : fmt::format("no device '{}'", name);
     if (fault_of(code) == Fault::in_use) {
-        return fmt::format("libHD: another program or session uses {} (error 0x{:x}: {})",
+        return fmt::format("libHD: another program or session uses {} (error 0x{:x}: {}): end that "
+                           "one first",
                            name.empty() ? "the default device" : name, code, said);
     }
     return fmt::format(
         "libHD finds {} (error 0x{:x}: {}): is it connected and powered, may you use its port "
-        "(/dev/ttyACM*: group dialout), and has the vendor's set-up (Touch_HeadlessSetup, or "
-        "Touch_Setup with a screen) given it this name? Usual names are 'Default Device' and, with "
-        "older drivers, 'Default PHANToM': --device 'hdapi:Default Device'",
+        "(/dev/ttyACM*: see hapnet-peer doctor), and has the vendor's set-up "
+        "(Touch_HeadlessSetup, or Touch_Setup with a screen) given it this name? Usual names are "
+        "'Default Device' and, with older drivers, 'Default PHANToM': --device 'hdapi:Default "
+        "Device'",
         which, code, said);
 }
 

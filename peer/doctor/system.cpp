@@ -131,6 +131,21 @@ void find_hid(const fs::path& root, std::vector<Node>& nodes)
     }
 }
 
+/// A serial port has its device's numbers one folder above the interface that it belongs to.
+void find_serial(const fs::path& root, std::vector<Node>& nodes)
+{
+    for (const fs::path& entry : entries_of(root / "sys/class/tty")) {
+        std::error_code trouble;
+        const fs::path interface = fs::canonical(entry / "device", trouble);
+        if (trouble) continue; // no piece of hardware
+        const auto* const id =
+            device::find_usb_id(number_of(word_in(interface.parent_path() / "idVendor")),
+                                number_of(word_in(interface.parent_path() / "idProduct")));
+        if (id == nullptr || id->node != device::UsbNode::tty) continue;
+        nodes.push_back(node_at(root, id->name, "/dev/" + entry.filename().string()));
+    }
+}
+
 std::optional<std::string> rules_in(const fs::path& root)
 {
     for (const char* folder : {"etc/udev/rules.d", "run/udev/rules.d", "usr/local/lib/udev/rules.d",
@@ -192,6 +207,7 @@ Facts look_at(const fs::path& root, const std::string& hd_library)
     find_usb(root, facts.nodes);
     find_firewire(root, facts.nodes);
     find_hid(root, facts.nodes);
+    find_serial(root, facts.nodes);
     facts.has_firewire_card = has_firewire_card(root);
     facts.has_firewire_driver = fs::exists(root / "sys/bus/firewire");
     if (const auto library = device::hdapi::load_library(hd_library); !library) {

@@ -27,8 +27,8 @@ Turn CalibrateStep::on_tick(const Feeling& feeling, base::TimePoint now)
     if (!start_) start_ = now;
     took_ = now - *start_;
     prompt_ = prompt_for(feeling);
-    const bool is_in_vain = feeling.calibration == device::CalibrationStep::failed ||
-                            feeling.sample.fault == device::Fault::disconnected;
+    has_failed_ = feeling.calibration == device::CalibrationStep::failed;
+    const bool is_in_vain = has_failed_ || feeling.sample.fault == device::Fault::disconnected;
     return {.is_done = prompt_ == Prompt::nothing || is_in_vain || took_ >= patience,
             .prompt = prompt_};
 }
@@ -40,8 +40,9 @@ Outcome CalibrateStep::outcome() const
     outcome.text = "the device is calibrated, and in a hand";
     if (prompt_ == Prompt::nothing) return outcome;
     outcome.verdict = Verdict::failed;
-    outcome.text = fmt::format("not done after {:.0f} s; last it was: {}", base::to_seconds(took_),
-                               words_for(prompt_));
+    outcome.text = has_failed_ ? std::string{device::words_for(device::CalibrationStep::failed)}
+                               : fmt::format("not done after {:.0f} s; last it was: {}",
+                                             base::to_seconds(took_), words_for(prompt_));
     return outcome;
 }
 

@@ -22,6 +22,7 @@ private:
     std::optional<base::TimePoint> start_;
     base::Duration took_{};
     Prompt prompt_ = Prompt::nothing; // the last one; nothing: all is done
+    bool has_failed_ = false;         // by the device's own word
 };
 
 } // namespace hapnet::peer::self_test

@@ -26,7 +26,7 @@ const std::vector<Folder>& map()
         {"proto/control/core", true, {"proto/base"}},
         {"proto/control", false, {"proto/control/core", "proto/net"}},
         {"emulator/core", true, {"proto/base"}},
-        {"emulator/control/ctl", false, {"emulator/control", "proto/net"}},
+        {"emulator/control/ctl", false, {"proto/net"}},
         {"emulator/control", true, {"emulator/core", "proto/control/core"}},
         {"emulator", false, {"emulator/control", "proto/control"}},
         {"device/catalogue",

@@ -24,6 +24,7 @@ bool is_text(const fs::path& file)
 {
     constexpr std::array extensions{".hpp",  ".cpp", ".in",   ".txt", ".cmake", ".sh",
                                     ".json", ".md",  ".toml", ".css", ".js"};
+    if (file.filename() == ".git") return false; // where a worktree has its history
     const auto extension = file.extension().string();
     return extension.empty() ||
            std::find(extensions.begin(), extensions.end(), extension) != extensions.end();

@@ -50,7 +50,9 @@ Trouble trouble_of(int result, const std::string& what)
     case LIBUSB_ERROR_OVERFLOW: return with(Fault::communication);
     default: break;
     }
-    return {Fault::internal, fmt::format("{}: libusb says {}", what, libusb_error_name(result)),
+    return {Fault::internal,
+            fmt::format("{}: libusb says {}: {}", what, libusb_error_name(result),
+                        words_for(Fault::internal)),
             result};
 }
 

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "device/hdapi/transport/configuration.hpp"
 
+#include "device/usb_ids.hpp"
+
 #include <algorithm>
-#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
+#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device::hdapi {
 
@@ -35,12 +37,13 @@ std::vector<fs::path> configuration_folders()
     return folders;
 }
 
-std::string first_word_in(const fs::path& file)
+/// What the kernel tells in hexadecimal digits; 0 where it tells nothing.
+std::uint16_t usb_number_in(const fs::path& file)
 {
     std::ifstream in{file};
-    std::string word;
-    in >> word;
-    return word;
+    std::uint16_t number = 0;
+    in >> std::hex >> number;
+    return number;
 }
 
 } // namespace
@@ -61,14 +64,13 @@ std::vector<std::string> configured_names()
 
 std::vector<std::string> models_on_usb()
 {
-    constexpr std::array<std::string_view, 3> known{"0301:2988", "2988:0302", "2988:0304"};
     std::vector<std::string> models;
     std::error_code trouble;
     for (const auto& entry : fs::directory_iterator{"/sys/bus/usb/devices", trouble}) {
-        const std::string id = first_word_in(entry.path() / "idVendor") + ":" +
-                               first_word_in(entry.path() / "idProduct");
-        if (std::find(known.begin(), known.end(), id) == known.end()) continue;
-        models.push_back("Touch (USB " + id + ")");
+        const auto* const id = find_usb_id(usb_number_in(entry.path() / "idVendor"),
+                                           usb_number_in(entry.path() / "idProduct"));
+        if (id == nullptr || id->kind != UsbKind::touch) continue;
+        models.push_back(fmt::format("{} (USB {:04x}:{:04x})", id->name, id->vendor, id->product));
     }
     return models;
 }

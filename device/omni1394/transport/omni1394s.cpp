@@ -65,8 +65,10 @@ Found found(const Seen& seen)
     if (read && *read == quadlet.size()) {
         omni.identity.serial = serial_of(quadlet_of(quadlet));
     } else {
-        omni.unusable = read ? Trouble{Fault::communication, "it does not say its serial number"}
-                             : read.error();
+        omni.unusable =
+            read ? Trouble{Fault::communication, "it does not say its serial number: unplug it, "
+                                                 "plug it in again, and start again"}
+                 : read.error();
     }
     return omni;
 }

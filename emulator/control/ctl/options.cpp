@@ -142,8 +142,9 @@ std::string explained(std::span<char*> words, const CLI::App& app, const CLI::Pa
                            plain.empty() ? "show" : plain[0]);
     }
     if (plain.size() < 2 || !is_command(plain[1])) {
-        return fmt::format("{} is no command; commands are {}",
-                           plain.size() < 2 ? "nothing" : "'" + plain[1] + "'",
+        return fmt::format("{}; commands are {}",
+                           plain.size() < 2 ? "no command is given"
+                                            : "'" + plain[1] + "' is no command",
                            fmt::join(commands, ", "));
     }
     return error.what();

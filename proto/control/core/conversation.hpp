@@ -4,6 +4,7 @@
 
 #include "proto/base/time.hpp"
 #include "proto/control/core/request.hpp"
+
 #include <chrono>
 #include <cstddef>
 #include <functional>

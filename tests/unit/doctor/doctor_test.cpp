@@ -174,6 +174,28 @@ TEST_F(FakeRoot, FindsDevicesAndWhetherTheyMayBeOpened)
     }));
 }
 
+TEST_F(FakeRoot, FindsTheSerialPortOfATouchAndNoOther)
+{
+    for (const auto& [usb, product] : {std::pair{"1-4", "0302\n"}, {"1-5", "6001\n"}}) {
+        const std::string device = std::string{"sys/devices/usb1/"} + usb;
+        put(device + "/idVendor", "2988\n");
+        put(device + "/idProduct", product);
+        put(device + "/interface/bInterfaceClass", "02\n");
+    }
+    for (const auto& [port, usb] : {std::pair{"ttyACM0", "1-4"}, {"ttyACM1", "1-5"}}) {
+        put(std::string{"sys/class/tty/"} + port + "/dev", "166:0\n");
+        fs::create_directory_symlink(root_ / "sys/devices/usb1" / usb / "interface",
+                                     root_ / "sys/class/tty" / port / "device");
+    }
+    put("sys/class/tty/tty1/dev", "4:1\n");
+    put("dev/ttyACM0", "");
+    const auto nodes = facts().nodes;
+    ASSERT_EQ(nodes.size(), 1U);
+    EXPECT_EQ(nodes[0].device, "Touch");
+    EXPECT_EQ(nodes[0].path, "/dev/ttyACM0");
+    EXPECT_TRUE(nodes[0].is_accessible);
+}
+
 TEST_F(FakeRoot, ReadsWhatTheKernelTells)
 {
     put("sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", "powersave\n");

@@ -82,7 +82,7 @@ TEST(HdapiMapping, SpeaksMetresAndDoubtsWhatIsNotSensible)
 
     // More than zero and finite, but not once they are in metres.
     EXPECT_DOUBLE_EQ(capabilities_of({.velocity_limit_mm_per_s = 5e-324}).speed_max_m_per_s, 1.0);
-    EXPECT_DOUBLE_EQ(capabilities_of({.stiffness_max_n_per_mm = 1e306}).stiffness_max_n_per_m, 700);
+    EXPECT_DOUBLE_EQ(capabilities_of({.stiffness_max_n_per_mm = 1e306}).stiffness_max_n_per_m, 400);
 
     // In metres: the scene would be magnified a thousand times, and a million times as stiff.
     const Capabilities tiny =

@@ -163,6 +163,17 @@ TEST(SelfTest, TellsAPersonStepByStepHowToCalibrate)
     EXPECT_EQ(calibration.outcome().verdict, Verdict::passed);
 }
 
+TEST(SelfTest, SaysWhatHelpsWhenTheDeviceSaysThatItsCalibrationFailed)
+{
+    Played calibration{"calibrate"};
+    calibration.feeling.sample.calibrated = false;
+    calibration.feeling.calibration = device::CalibrationStep::failed;
+    calibration.play(10ms);
+    EXPECT_TRUE(calibration.turn.is_done);
+    EXPECT_EQ(calibration.outcome().verdict, Verdict::failed);
+    EXPECT_EQ(calibration.outcome().text, device::words_for(device::CalibrationStep::failed));
+}
+
 TEST(SelfTest, GivesUpACalibrationThatTakesAMinute)
 {
     Played calibration{"calibrate"};
