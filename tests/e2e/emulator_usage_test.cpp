@@ -28,15 +28,6 @@ Outcome run_with(std::vector<std::string> options)
     return run("hapnet-emulator", options);
 }
 
-void expect_refusal(const Outcome& outcome, int exit, const std::vector<std::string>& words)
-{
-    EXPECT_EQ(outcome.exit, exit) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    for (const std::string& word : words) {
-        EXPECT_NE(outcome.err.find(word), std::string::npos) << word << "\n" << outcome.err;
-    }
-}
-
 } // namespace
 
 TEST(EmulatorUsage, PrintsHelpWithEveryOptionAndExamples)

@@ -18,19 +18,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Outcome run_with(std::vector<std::string> options)
+Outcome run_peer_with(std::vector<std::string> options)
 {
     options.insert(options.begin(), {"--remote", "127.0.0.1:9"});
     return run("hapnet-peer", options, 10s);
-}
-
-void expect_refusal(const Outcome& outcome, int exit, const std::vector<std::string>& words)
-{
-    EXPECT_EQ(outcome.exit, exit) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    for (const std::string& word : words) {
-        EXPECT_NE(outcome.err.find(word), std::string::npos) << word << "\n" << outcome.err;
-    }
 }
 
 } // namespace
@@ -60,46 +51,48 @@ TEST(PeerUsage, PrintsItsVersion)
 TEST(PeerUsage, RefusesWhatItDoesNotKnowNamingIt)
 {
     expect_refusal(run("hapnet-peer", {}), 2, {"--remote"});
-    expect_refusal(run_with({"--tsak", "P1"}), 2, {"--tsak", "--help"});
-    expect_refusal(run_with({"stray"}), 2, {"stray"});
-    expect_refusal(run_with({"--task", "P2"}), 2, {"--task", "'P2'", "P1, T1, T2, T3"});
-    expect_refusal(run_with({"--operator", "giant"}), 2, {"--operator", "'giant'", "nominal"});
-    expect_refusal(run_with({"--device", "replay:/no/such.csv"}), 2, {"--device", "/no/such.csv"});
-    expect_refusal(run_with({"--algorithm", "best"}), 2,
+    expect_refusal(run_peer_with({"--tsak", "P1"}), 2, {"--tsak", "--help"});
+    expect_refusal(run_peer_with({"stray"}), 2, {"stray"});
+    expect_refusal(run_peer_with({"--task", "P2"}), 2, {"--task", "'P2'", "P1, T1, T2, T3"});
+    expect_refusal(run_peer_with({"--operator", "giant"}), 2, {"--operator", "'giant'", "nominal"});
+    expect_refusal(run_peer_with({"--device", "replay:/no/such.csv"}), 2,
+                   {"--device", "/no/such.csv"});
+    expect_refusal(run_peer_with({"--algorithm", "best"}), 2,
                    {"--algorithm", "'best'", "base, dead-reckoning, sep"});
-    expect_refusal(run_with({"--device", "omni1394:"}), 2, {"--device", "'omni1394:'", "sim"});
-    expect_refusal(run_with({"--scene", "moon"}), 2, {"--scene", "'moon'", "paper"});
+    expect_refusal(run_peer_with({"--device", "omni1394:"}), 2, {"--device", "'omni1394:'", "sim"});
+    expect_refusal(run_peer_with({"--scene", "moon"}), 2, {"--scene", "'moon'", "paper"});
 }
 
 TEST(PeerUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
 {
-    expect_refusal(run_with({"--duration", "30"}), 2, {"--duration", "'30'", "160ms"});
-    expect_refusal(run_with({"--duration", "5%"}), 2, {"--duration", "'5%'"});
-    expect_refusal(run_with({"--duration", "10ms"}), 2, {"--duration", "at least 1s"});
-    expect_refusal(run_with({"--id", "0"}), 2, {"--id", "1 to 65535"});
-    expect_refusal(run_with({"--id", "65536"}), 2, {"--id", "65536"});
-    expect_refusal(run_with({"--seed", "x"}), 2, {"--seed", "'x'"});
-    expect_refusal(run_with({"--grip-damping", "4"}), 2, {"--grip-damping", "'4'", "2Ns/m"});
-    expect_refusal(run_with({"--grip-damping", "0"}), 2, {"--grip-damping", "more than 0"});
-    expect_refusal(run_with({"--force-limit", "3"}), 2, {"--force-limit", "'3'", "500mN"});
-    expect_refusal(run_with({"--force-limit", "-1N"}), 2, {"--force-limit", "0N to 40N"});
-    expect_refusal(run_with({"--listen", "7000"}), 2, {"--listen", "HOST:PORT"});
+    expect_refusal(run_peer_with({"--duration", "30"}), 2, {"--duration", "'30'", "160ms"});
+    expect_refusal(run_peer_with({"--duration", "5%"}), 2, {"--duration", "'5%'"});
+    expect_refusal(run_peer_with({"--duration", "10ms"}), 2, {"--duration", "at least 1s"});
+    expect_refusal(run_peer_with({"--id", "0"}), 2, {"--id", "1 to 65535"});
+    expect_refusal(run_peer_with({"--id", "65536"}), 2, {"--id", "65536"});
+    expect_refusal(run_peer_with({"--seed", "x"}), 2, {"--seed", "'x'"});
+    expect_refusal(run_peer_with({"--grip-damping", "4"}), 2, {"--grip-damping", "'4'", "2Ns/m"});
+    expect_refusal(run_peer_with({"--grip-damping", "0"}), 2, {"--grip-damping", "more than 0"});
+    expect_refusal(run_peer_with({"--force-limit", "3"}), 2, {"--force-limit", "'3'", "500mN"});
+    expect_refusal(run_peer_with({"--force-limit", "-1N"}), 2, {"--force-limit", "0N to 40N"});
+    expect_refusal(run_peer_with({"--listen", "7000"}), 2, {"--listen", "HOST:PORT"});
     expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:0"}), 2, {"--remote", "port"});
     expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:99999"}), 2, {"--remote", "65535"});
-    expect_refusal(run_with({"--listen", "[::1]:0"}), 2, {"--listen", "--remote", "IPv4", "IPv6"});
-    expect_refusal(run_with({"--task"}), 2, {"--task"});
+    expect_refusal(run_peer_with({"--listen", "[::1]:0"}), 2,
+                   {"--listen", "--remote", "IPv4", "IPv6"});
+    expect_refusal(run_peer_with({"--task"}), 2, {"--task"});
 }
 
 TEST(PeerUsage, RefusesAScenePointingAtTheLineAndAtTheCure)
 {
-    expect_refusal(run_with({"--scene", "no/such.toml"}), 2, {"--scene", "no/such.toml"});
-    expect_refusal(run_with({"--scene", "stack-10"}), 2,
+    expect_refusal(run_peer_with({"--scene", "no/such.toml"}), 2, {"--scene", "no/such.toml"});
+    expect_refusal(run_peer_with({"--scene", "stack-10"}), 2,
                    {"--scene", "one movable body", "this scene has 10"});
-    expect_refusal(run_with({"--scene", "push-6dof"}), 2, {"--scene", "turning = \"locked\""});
+    expect_refusal(run_peer_with({"--scene", "push-6dof"}), 2, {"--scene", "turning = \"locked\""});
     const std::string file = testing::TempDir() + "hapnet-bad-scene.toml";
     std::ofstream{file}
         << "name = \"bad\"\n[[body]]\nsize = \"40mm\"\nmass = \"100g\"\nfricton = 0.3\n";
-    expect_refusal(run_with({"--scene", file}), 2, {"--scene", file + ":5:1: ", "'friction'"});
+    expect_refusal(run_peer_with({"--scene", file}), 2, {"--scene", file + ":5:1: ", "'friction'"});
     std::filesystem::remove(file);
 }
 
@@ -112,31 +105,32 @@ TEST(PeerUsage, PrintsAnAlgorithmThatItTakesFromAFileAgain)
     std::ofstream{file} << printed.out;
     EXPECT_EQ(run("hapnet-peer", {"--print-algorithm", file}).out, printed.out);
     std::ofstream{file} << "algorithm = \"sep\"\nfade_aftr = \"1ms\"\n";
-    expect_refusal(run_with({"--algorithm", file}), 2,
+    expect_refusal(run_peer_with({"--algorithm", file}), 2,
                    {"--algorithm", file + ":2:1: ", "did you mean 'fade_after'?"});
     std::filesystem::remove(file);
 }
 
 TEST(PeerUsage, RefusesKeysUntilThereAreAny)
 {
-    expect_refusal(run_with({"--key", "secret"}), 2, {"--key", "not available", "--insecure"});
+    expect_refusal(run_peer_with({"--key", "secret"}), 2, {"--key", "not available", "--insecure"});
 }
 
 TEST(PeerUsage, PlaysOverARealNetworkOnlyWhenToldThatItIsInsecure)
 {
     expect_refusal(run("hapnet-peer", {"--remote", "192.0.2.1:7000"}), 2, {"--insecure"});
-    expect_refusal(run_with({"--listen", "0.0.0.0:0"}), 2, {"--insecure"});
+    expect_refusal(run_peer_with({"--listen", "0.0.0.0:0"}), 2, {"--insecure"});
 }
 
 TEST(PeerUsage, EndsWithThreeWhenTheSystemRefuses)
 {
     const Host occupant;
-    expect_refusal(run_with({"--listen", occupant.endpoint().to_text()}), 3,
+    expect_refusal(run_peer_with({"--listen", occupant.endpoint().to_text()}), 3,
                    {occupant.endpoint().to_text(), "in use"});
     expect_refusal(run("hapnet-peer", {"--remote", "no-such-host.invalid:7000"}), 3,
                    {"no-such-host.invalid"});
-    expect_refusal(run_with({"--record", "/no/such/folder/a.rec"}), 3, {"/no/such/folder/a.rec"});
-    expect_refusal(run_with({"--stats", "/no/such/folder/a.json"}), 3, {"/no/such/folder"});
+    expect_refusal(run_peer_with({"--record", "/no/such/folder/a.rec"}), 3,
+                   {"/no/such/folder/a.rec"});
+    expect_refusal(run_peer_with({"--stats", "/no/such/folder/a.json"}), 3, {"/no/such/folder"});
 }
 
 TEST(PeerUsage, EndsWithThreeWhenThereIsNoRoute)

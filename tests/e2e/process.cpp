@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <poll.h>
 #include <sstream>
 #include <sys/prctl.h>
@@ -180,6 +181,15 @@ Outcome run(std::string_view name, const std::vector<std::string>& arguments,
     std::ignore = process.wait_for_out("\n", std::chrono::seconds{1});
     std::ignore = process.wait_for_err("\n", std::chrono::seconds{1});
     return {exit, process.out(), process.err()};
+}
+
+void expect_refusal(const Outcome& outcome, int exit, const std::vector<std::string>& words)
+{
+    EXPECT_EQ(outcome.exit, exit) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    for (const std::string& word : words) {
+        EXPECT_NE(outcome.err.find(word), std::string::npos) << word << "\n" << outcome.err;
+    }
 }
 
 TemporaryFolder::TemporaryFolder()

@@ -68,6 +68,9 @@ struct Outcome {
 [[nodiscard]] Outcome run(std::string_view name, const std::vector<std::string>& arguments,
                           std::chrono::milliseconds timeout = std::chrono::seconds{20});
 
+/// It ended with this exit code, said nothing on stdout, and these words on stderr.
+void expect_refusal(const Outcome& outcome, int exit, const std::vector<std::string>& words);
+
 /// An empty folder for one test; removed with all it holds when it goes out of scope.
 class TemporaryFolder {
 public:

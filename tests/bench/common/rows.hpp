@@ -32,6 +32,12 @@ struct Row {
     [[nodiscard]] std::optional<bool> met() const;
 };
 
+/// Puts more at the end.
+inline void append(std::vector<Row>& rows, const std::vector<Row>& more)
+{
+    rows.insert(rows.end(), more.begin(), more.end());
+}
+
 /// {"host": {...}, "rows": [...]}: the format of every benchmark of the project.
 [[nodiscard]] std::string rows_json(const Host& host, std::span<const Row> rows);
 

@@ -32,11 +32,6 @@ std::vector<Entry> entries(std::span<const Subject> subjects, const EngineOption
     return entries;
 }
 
-void append(std::vector<Row>& rows, std::vector<Row> more)
-{
-    rows.insert(rows.end(), more.begin(), more.end());
-}
-
 class Costs {
 public:
     Costs(std::span<const Subject> subjects, bool is_quick)

@@ -25,11 +25,6 @@ constexpr std::string_view usage =
 
 constexpr int spin_words = 5;
 
-void append(std::vector<Row>& rows, std::vector<Row> more)
-{
-    rows.insert(rows.end(), more.begin(), more.end());
-}
-
 std::vector<Row> instructions(std::span<const Subject> all)
 {
     if (std::system("valgrind --version > /dev/null 2>&1") != 0) {

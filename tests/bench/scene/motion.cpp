@@ -6,16 +6,13 @@
 #include "tests/bench/scene/scenario.hpp"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::bench {
 
-namespace {
-
-double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
-
-} // namespace
+namespace {} // namespace
 
 scene::BodyDescription cube()
 {
@@ -53,7 +50,7 @@ Scenario ballistic()
         const glm::dvec3 expected =
             t * course.scene.bodies[0].velocity.value + 0.5 * t * t * course.scene.gravity;
         return std::vector<Measure>{
-            {"error_m", length(engine.state(0).position.value - expected), 1e-12}};
+            {"error_m", glm::length(engine.state(0).position.value - expected), 1e-12}};
     };
     return scenario;
 }
@@ -75,7 +72,7 @@ Scenario slide(double degrees, scene::Turning turning)
         const scene::BodyState end = engine.state(0);
         const double turned = angle_between(course.scene.bodies[0].orientation, end.orientation);
         return std::vector<Measure>{
-            {"relative_distance_error", length(end.position.value / distance - way), 1e-9},
+            {"relative_distance_error", glm::length(end.position.value / distance - way), 1e-9},
             {"turned_rad", turned, 1e-9}};
     };
     return scenario;
@@ -101,7 +98,8 @@ Scenario tumble()
         const scene::BodyState end = engine.state(0);
         const double energy = kinetic_energy(body, end) / kinetic_energy(body, start) - 1.0;
         const double momentum =
-            length(angular_momentum(body, end)) / length(angular_momentum(body, start)) - 1.0;
+            glm::length(angular_momentum(body, end)) / glm::length(angular_momentum(body, start)) -
+            1.0;
         return std::vector<Measure>{{"orientation_error_2s_rad", error, 5e-4},
                                     {"relative_energy_drift_20s", std::abs(energy), {}},
                                     {"relative_momentum_drift_20s", std::abs(momentum), 1e-13}};
@@ -125,7 +123,7 @@ Scenario off_centre_push()
         run(engine, course, tick_s);
         const scene::BodyState end = engine.state(0);
         return std::vector<Measure>{
-            {"error_m", length(end.position.value - reference.position.value), {}},
+            {"error_m", glm::length(end.position.value - reference.position.value), {}},
             {"error_rad", angle_between(end.orientation, reference.orientation), {}}};
     };
     return scenario;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <spdlog/fmt/fmt.h>
 
@@ -15,13 +16,6 @@ namespace hapnet::bench {
 namespace {
 
 constexpr double tick_s = 1e-3;
-
-double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
-
-void append(std::vector<Row>& rows, std::vector<Row> more)
-{
-    rows.insert(rows.end(), more.begin(), more.end());
-}
 
 /// Asks every subject the same.
 std::vector<Row> ask(const Question& question, std::span<const Subject> subjects,
@@ -77,7 +71,7 @@ double heavy_on_light(const Subject& subject, double ratio)
     double most = 0.0;
     run(*engine, {scene, 5.0, {}}, tick_s, [&](double) {
         const glm::dvec3 moved = engine->state(1).position.value - scene.bodies[1].position.value;
-        most = std::max(most, length(moved));
+        most = std::max(most, glm::length(moved));
     });
     return std::isfinite(most) ? most : std::numeric_limits<double>::infinity();
 }
