@@ -203,7 +203,7 @@ TEST(PeerDevices, TellsThePersonWithARealDeviceWhereItIsMountedAndTheirPart)
 TEST(PeerDevices, ThatPaceTheLoopLeaveARecordWhoseForcesCanBeLivedThroughAgain)
 {
     // So a person takes the stylus out of its inkwell.
-    setenv(device::hdapi::fake_hd_log_variable, "/dev/null", 1);
+    setenv(fake_hd_log_variable, "/dev/null", 1);
     const std::string place = free_place();
     Peer simulated{2, free_place(), place, {"--task", "T3", "--duration", "6s"}};
     Peer paced{1,
@@ -211,7 +211,7 @@ TEST(PeerDevices, ThatPaceTheLoopLeaveARecordWhoseForcesCanBeLivedThroughAgain)
                simulated.listen(),
                {"--task", "T3", "--duration", "6s", "--device", "hdapi", "--hd-library",
                 HAPNET_FAKE_HD, "--mount-offset", "-30mm,0mm,0mm", "--mount-scale", "1.3"}};
-    unsetenv(device::hdapi::fake_hd_log_variable);
+    unsetenv(fake_hd_log_variable);
     paced.expect_end();
     simulated.expect_end();
     expect_the_same_forces_again(paced.record());
