@@ -41,8 +41,13 @@ public:
     void rest() { last_beat_.store(resting, std::memory_order_release); }
     /// Whether it was silent for so long that its governor has to latch a fault; once per silence.
     [[nodiscard]] bool take_fault() { return fault_.exchange(false, std::memory_order_acq_rel); }
-    /// The program is dying: no force may follow any more.
-    [[nodiscard]] bool is_dying() const { return dying_.load(std::memory_order_acquire); }
+    /// The program is dying: no force may follow any more. The loop ends then by itself, too: it
+    /// may be this one's thread that crashed.
+    [[nodiscard]] bool is_dying() const
+    {
+        return dying_.load(std::memory_order_acquire) ||
+               (crash_ != nullptr && net::CrashSignal::has_come());
+    }
 
     /// Silences in which it had to let go of the device. The loop's side, too: where this has
     /// changed since the turn began, the turn's force is an old one.

@@ -24,6 +24,7 @@ constexpr std::size_t crash_stack_bytes = 65536;
 struct ForTheHandler {
     std::atomic<int> dying{-1};
     std::atomic<int> in_order{-1};
+    std::atomic<bool> has_come{false};
     std::array<struct sigaction, CrashSignal::signals.size()> former{};
 };
 ForTheHandler for_the_handler;
@@ -42,6 +43,7 @@ extern "C" void hapnet_on_crash(int number)
             sigaction(number, &for_the_handler.former[i], nullptr);
         }
     }
+    for_the_handler.has_come.store(true, std::memory_order_release);
     add_one_to(for_the_handler.dying.load(std::memory_order_relaxed));
     pollfd in_order{for_the_handler.in_order.load(std::memory_order_relaxed), POLLIN, 0};
     constexpr auto patience_ms = std::chrono::milliseconds{20}.count();
@@ -64,6 +66,7 @@ CrashSignal::CrashSignal() : dying_{make_counter()}, in_order_{make_counter()}
     base::ensure(for_the_handler.dying.load() < 0); // one at a time
     for_the_handler.dying = dying_;
     for_the_handler.in_order = in_order_;
+    for_the_handler.has_come = false;
     struct sigaction action {};
     action.sa_handler = hapnet_on_crash;
     action.sa_flags = SA_ONSTACK;
@@ -85,6 +88,11 @@ CrashSignal::~CrashSignal()
     for_the_handler.in_order = -1;
     close(dying_);
     close(in_order_);
+}
+
+bool CrashSignal::has_come() noexcept
+{
+    return for_the_handler.has_come.load(std::memory_order_acquire);
 }
 
 void CrashSignal::acknowledge() const { add_one_to(in_order_); }

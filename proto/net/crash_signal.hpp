@@ -25,6 +25,8 @@ public:
 
     /// Readable once the program is dying, and from then on.
     [[nodiscard]] int descriptor() const { return dying_; }
+    /// Whether it is readable: for a loop that looks and does not wait.
+    [[nodiscard]] static bool has_come() noexcept;
     /// All is in order: let it die.
     void acknowledge() const;
 

@@ -112,6 +112,18 @@ TEST(PeerExit, ByADeathOfTheServoEndsInZeroForceThatTheWatchdogGives)
     }
 }
 
+TEST(PeerExit, ByADeathOfTheWatchdogItselfEndsInZeroForceThatTheServoGives)
+{
+    for (const auto pacing : {device::Pacing::host, device::Pacing::device}) {
+        Push push{{.pacing = pacing}};
+        constexpr std::size_t watchdog = 1; // begins before the servo
+        push.recorded.signal_thread(watchdog, SIGSEGV);
+        EXPECT_EQ(push.recorded.wait_end(), 128 + SIGSEGV);
+        EXPECT_LT(time_to_zero(push.recorded.told()), patience);
+        EXPECT_FALSE(push.recorded.told().back().by_halt);
+    }
+}
+
 TEST(PeerExit, ByADeadlySignalFromElsewhereEndsInZeroForceAlthoughTheServoStillRuns)
 {
     for (const int signal : {SIGQUIT, SIGXFSZ, SIGUSR1}) {

@@ -7,15 +7,19 @@
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 namespace hapnet::e2e {
 
@@ -223,6 +227,17 @@ bool RecordedPeer::pushes()
 }
 
 void RecordedPeer::signal(int number) const { kill(pid_, number); }
+
+void RecordedPeer::signal_thread(std::size_t thread, int number) const
+{
+    std::vector<pid_t> threads;
+    const std::string tasks = "/proc/" + std::to_string(pid_) + "/task";
+    for (const auto& entry : std::filesystem::directory_iterator{tasks}) {
+        threads.push_back(std::stoi(entry.path().filename()));
+    }
+    std::sort(threads.begin(), threads.end());
+    tgkill(pid_, threads.at(thread), number);
+}
 
 int RecordedPeer::wait_end()
 {

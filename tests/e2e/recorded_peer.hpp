@@ -57,6 +57,8 @@ public:
     /// Waits until its hand has felt a force 200 times.
     [[nodiscard]] bool pushes();
     void signal(int number) const;
+    /// To one of its threads, in the order in which they began: 0 is the main one.
+    void signal_thread(std::size_t thread, int number) const;
     /// Waits for its end: the exit code, or 128 + the signal that it died of.
     [[nodiscard]] int wait_end();
 
