@@ -200,9 +200,9 @@ std::string real_time_table(std::span<const RealTimeResult> results)
     std::string table = fmt::format(row, "|x_L - x_R|, mm", "where", "mean", "std", "max",
                                     "real time against virtual time");
     const auto line = [&](const RealTimeResult& result, std::string_view where,
-                          const std::optional<Spread>& mm, std::string_view note) {
+                          const std::optional<Spread>& spread, std::string_view note) {
         const auto cell = [&](double Spread::*part) {
-            return mm ? fmt::format("{:.2f}", (*mm).*part) : std::string{"-"};
+            return spread ? fmt::format("{:.2f}", (*spread).*part) : std::string{"-"};
         };
         table += fmt::format(row, result.algorithm, where, cell(&Spread::mean), cell(&Spread::std),
                              cell(&Spread::max), note);

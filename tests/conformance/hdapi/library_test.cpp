@@ -60,8 +60,8 @@ TEST_F(Hdapi, SaysOfANameThatTheLibraryDoesNotKnowHowToFindTheRightOne)
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().fault, device::Fault::not_found);
     EXPECT_EQ(none.error().code, 0x302);
-    expect_words(none.error().message,
-                 {"'Rigth'", "0x302", "Touch_HeadlessSetup", "Default PHANToM", "dialout"});
+    expect_words(none.error().message, {"'Rigth'", "0x302", "Touch_HeadlessSetup",
+                                        "Default PHANToM", "hapnet-peer doctor"});
 }
 
 TEST_F(Hdapi, OpensAllOfSeveralOrNone)

@@ -15,7 +15,7 @@ namespace {
 // What comes nearer than this share of the smallest half edge within a tick is looked at.
 constexpr double look_ahead = 0.01;
 // What comes farther than this share of it in a tick could pass through.
-constexpr double far = 0.5;
+constexpr double far_share = 0.5;
 
 double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.y, half.z)); }
 
@@ -32,7 +32,7 @@ double reach_of(const Bodies& bodies, Slot slot, const Scales& scales)
 BoxMeeting meeting(const BoxPath& a, const BoxPath& b, double tick, BoxBoxMemory& memory)
 {
     const double margin = a.reach + b.reach;
-    const double near = far * std::min(shortest(a.box.half), shortest(b.box.half));
+    const double near = far_share * std::min(shortest(a.box.half), shortest(b.box.half));
     const glm::dvec3 velocity = b.velocity - a.velocity;
     // The spheres around them tell most pairs that fly side by side.
     const glm::dvec3 apart = b.box.centre - a.box.centre;
