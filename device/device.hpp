@@ -101,8 +101,9 @@ public:
     virtual void on_fault(bool /*is_latched*/) {}
 
     /// Only where capabilities().pacing is Pacing::device: calls `beat` once for each cycle of the
-    /// device, from one thread at a time; read() and apply() belong inside. Returns when `beat`
-    /// says false, or when no cycle came for 100 ms; then the host may go on at its own pace.
+    /// device, on the calling thread; read() and apply() belong inside. Returns when `beat` says
+    /// false, or when no cycle came for 100 ms; then the host may go on at its own pace. Lets
+    /// through what `beat` throws.
     virtual void pace(const std::function<bool()>& /*beat*/) {}
 };
 

@@ -52,7 +52,6 @@ void Servo::follow_device()
     if (device.capabilities().pacing != device::Pacing::device) return;
     DeviceRhythm rhythm{parts_.tick};
     device.pace([this, &rhythm] { return cycle(rhythm); });
-    if (failure_) std::rethrow_exception(failure_);
     if (goes_on()) tell_governor_of_silence();
 }
 
@@ -67,18 +66,13 @@ void Servo::tell_governor_of_silence()
     if (pushes) governor.latch({device::Fault::timeout, device::Trip::silence});
 }
 
-/// Called by a device, perhaps out of a library that knows no exceptions.
+/// One of the device's; whether another is wanted.
 bool Servo::cycle(DeviceRhythm& rhythm)
 {
-    try {
-        const base::TimePoint now = net::monotonic_now();
-        parts_.watchdog.beat(now);
-        if (const auto beat = rhythm.at(now)) take_turn(*beat, now);
-        return goes_on();
-    } catch (...) {
-        failure_ = std::current_exception();
-        return false;
-    }
+    const base::TimePoint now = net::monotonic_now();
+    parts_.watchdog.beat(now);
+    if (const auto beat = rhythm.at(now)) take_turn(*beat, now);
+    return goes_on();
 }
 
 void Servo::go_at_own_pace()

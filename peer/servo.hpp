@@ -13,7 +13,6 @@
 #include "proto/net/udp_socket.hpp"
 
 #include <atomic>
-#include <exception>
 
 namespace hapnet::peer {
 
@@ -73,7 +72,6 @@ private:
 
     Parts parts_;
     DeviceReporter reporter_;
-    std::exception_ptr failure_; // of a turn that a device's own thread took
     LoopCounters counters_;
     record::Phase phase_ = record::Phase::waiting; // of the last turn
     bool is_remote_heard_ = false;                 // in the last turn
