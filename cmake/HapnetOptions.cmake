@@ -59,23 +59,52 @@ function(hapnet_precompile name)
     target_precompile_headers(${name} REUSE_FROM hapnet_precompiled)
 endfunction()
 
-# hapnet_library(NAME SOURCES ... DEPENDS ...): one folder of the map, built where it is needed.
+# hapnet_sources(OUT FOLDER ...): the sources in these folders and below them. A new file is found
+# when the build begins.
+function(hapnet_sources out)
+    set(found)
+    foreach(folder IN LISTS ARGN)
+        file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
+            ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+        list(APPEND found ${sources})
+    endforeach()
+    set(${out} ${found} PARENT_SCOPE)
+endfunction()
+
+# hapnet_read_by_folder(TARGET): where several files are read as one, those of one folder are.
+function(hapnet_read_by_folder target)
+    get_target_property(sources ${target} SOURCES)
+    foreach(source IN LISTS sources)
+        cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+        cmake_path(GET source PARENT_PATH folder)
+        cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+        string(MAKE_C_IDENTIFIER ${folder} group)
+        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    endforeach()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# hapnet_library(NAME [FOLDERS ...] [SOURCES ...] [DEPENDS ...]): a room of the map, built where it
+# is needed.
 function(hapnet_library name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
-    add_library(${name} STATIC EXCLUDE_FROM_ALL ${arg_SOURCES})
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;SOURCES;DEPENDS")
+    hapnet_sources(sources ${arg_FOLDERS})
+    add_library(${name} STATIC EXCLUDE_FROM_ALL ${sources} ${arg_SOURCES})
     target_link_libraries(${name} PUBLIC hapnet_options ${arg_DEPENDS})
     hapnet_precompile(${name})
+    hapnet_read_by_folder(${name})
     set_property(GLOBAL APPEND PROPERTY HAPNET_LIBRARIES ${name})
 endfunction()
 
 option(HAPNET_PROGRAMS "Build the programs, which the tests end to end need" ON)
 
-# hapnet_program(NAME [COLD] SOURCES ... DEPENDS ...): one binary that is installed. Where several
-# files are read as one, all of it is: CLI11 alone is seven seconds of each. COLD: what its own
-# sources do takes no time when it runs, so optimising them takes little, too.
+# hapnet_program(NAME [COLD] [FOLDERS ...] [SOURCES ...] DEPENDS ...): one binary that is installed.
+# Where several files are read as one, all of it is: CLI11 alone is seven seconds of each. COLD:
+# what its own sources do takes no time when it runs, so optimising them takes little, too.
 function(hapnet_program name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "COLD" "" "SOURCES;DEPENDS")
-    add_executable(${name} ${arg_SOURCES})
+    cmake_parse_arguments(PARSE_ARGV 1 arg "COLD" "" "FOLDERS;SOURCES;DEPENDS")
+    hapnet_sources(sources ${arg_FOLDERS})
+    add_executable(${name} ${sources} ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE hapnet_options ${arg_DEPENDS})
     hapnet_precompile(${name})
     set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)

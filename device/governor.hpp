@@ -62,9 +62,9 @@ enum class GovernorState : std::uint8_t {
 [[nodiscard]] std::string_view name_of(GovernorState state);
 
 /// Stands between what the scene wants and what a motor gets; the only way to a motor. Its rules,
-/// their numbers and the reasons for them: docs/GOVERNOR.md. In short: zero at once for what is no
-/// number, for a stylus that is docked, uncalibrated, silent, too fast or at fault, and after a
-/// stall of the loop; without permission the force fades; after any zero it ramps in again; the
+/// their numbers and the reasons for them: docs/design/governor.md. In short: zero at once for what
+/// is no number, for a stylus that is docked, uncalibrated, silent, too fast or at fault, and after
+/// a stall of the loop; without permission the force fades; after any zero it ramps in again; the
 /// norm is clamped with the direction kept, to the peak, to what warm motors bear and to what the
 /// joints' motors have; the change per tick is limited. What is wrong with the device is latched.
 class Governor {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/core/profile/predict.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/dry_run.hpp"
 #include "emulator/profile_file.hpp"
+#include "emulator/tools/predict.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

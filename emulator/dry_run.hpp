@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/profile/predict.hpp"
+#include "emulator/tools/predict.hpp"
 #include "proto/base/random.hpp"
 #include "proto/net/program.hpp"
 

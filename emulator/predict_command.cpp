@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/core/profile/predict.hpp"
 #include "emulator/dry_run.hpp"
 #include "emulator/lens_json.hpp"
 #include "emulator/profile_file.hpp"
+#include "emulator/tools/predict.hpp"
 #include "proto/base/version.hpp"
 
 #include <chrono>

@@ -5,7 +5,7 @@
 #include "emulator/core/director.hpp"
 #include "emulator/options.hpp"
 #include "emulator/places.hpp"
-#include "emulator/relay.hpp"
+#include "emulator/ports/relay.hpp"
 #include "emulator/scenario.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/real_time.hpp"

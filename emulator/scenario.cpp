@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/scenario.hpp"
 
-#include "emulator/core/profile/netem.hpp"
-#include "emulator/core/profile/predict.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/core/profile/timeline.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
+#include "emulator/tools/netem.hpp"
+#include "emulator/tools/predict.hpp"
 #include "proto/base/text.hpp"
 #include "proto/net/text_file.hpp"
 

@@ -4,9 +4,9 @@
 
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/profile/text.hpp"
-#include "emulator/core/verify/verify.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
+#include "emulator/tools/verify/verify.hpp"
 #include "proto/base/text.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"

@@ -40,7 +40,7 @@ step() {
 }
 
 check_format() {
-    find proto emulator device peer lab tests -name '*.[ch]pp' -print0 |
+    find proto scene emulator ctl device peer lab tests -name '*.[ch]pp' -print0 |
         xargs -0 clang-format-14 --dry-run --Werror
 }
 

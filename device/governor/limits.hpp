@@ -14,7 +14,7 @@ namespace hapnet::device {
 
 /// What a hand may be given. The first part is a person's and the program's to say; the second is
 /// the device's, and without one there is no limit: limits_for() puts the two together. Where the
-/// numbers come from stands in docs/GOVERNOR.md.
+/// numbers come from stands in docs/design/governor.md.
 struct GovernorLimits {
     double force_max_n = 3.3;         // peak; the Omni's
     double slew_max_n_per_s = 1000.0; // a contact may rise in a few ticks, but not kick

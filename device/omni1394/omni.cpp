@@ -30,7 +30,8 @@ std::string_view words_for(Use use)
 {
     switch (use) {
     case Use::read_only:
-        return "read-only: its torque per count is not known; see docs/HARDWARE.md to measure it";
+        return "read-only: its torque per count is not known; see docs/use/hardware.md to measure "
+               "it";
     case Use::uncalibrated: return "force uncalibrated, at most a quarter of full scale";
     case Use::measured: return "force by a measured table";
     }

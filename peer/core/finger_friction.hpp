@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/scene/description.hpp"
-#include "peer/core/scene/input.hpp"
+#include "scene/description.hpp"
+#include "scene/input.hpp"
 
 #include <optional>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/scene/world.hpp"
 #include "proto/base/result.hpp"
+#include "scene/world.hpp"
 
 namespace hapnet::peer {
 

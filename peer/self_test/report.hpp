@@ -13,7 +13,7 @@ namespace hapnet::peer::self_test {
 
 /// For a person.
 [[nodiscard]] std::string report_text(const device::Device& device, const SelfTest& test);
-/// What docs/HARDWARE.md asks a person to send.
+/// What docs/use/hardware.md asks a person to send.
 [[nodiscard]] nlohmann::json report_json(const device::Device& device, const SelfTest& test);
 /// The test came to its end, and no step failed.
 [[nodiscard]] bool has_passed(const SelfTest& test);

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bits/plays.hpp"
 
-#include "peer/core/scene/text/text.hpp"
-#include "peer/core/scene/world.hpp"
 #include "proto/base/ensure.hpp"
 #include "proto/base/math.hpp"
+#include "scene/text/text.hpp"
+#include "scene/world.hpp"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/scene/stage.hpp"
+#include "scene/state.hpp"
 
 #include <string_view>
 

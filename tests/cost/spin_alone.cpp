@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // spin_alone PROFILE TICKS: one tick called directly; nothing chooses, nothing else is there.
-#include "peer/core/scene/tick/rigid.hpp"
-#include "peer/core/scene/tick/sliding.hpp"
+#include "scene/one_box/step.hpp"
+#include "scene/rigid/step.hpp"
 #include "tests/cost/spin.hpp"
 
 #include <cstdlib>

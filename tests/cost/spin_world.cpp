@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // spin_world PROFILE TICKS: a world with every tick compiled in, of which the scene chooses one.
-#include "peer/core/scene/world.hpp"
+#include "scene/world.hpp"
 #include "tests/cost/spin.hpp"
 
 #include <cstdlib>

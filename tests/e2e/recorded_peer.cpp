@@ -3,7 +3,7 @@
 #include "tests/e2e/recorded_peer.hpp"
 
 #include "device/simulated/omni.hpp"
-#include "peer/supervise.hpp"
+#include "peer/loop/supervise.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/core/profile/netem.hpp"
+#include "emulator/tools/netem.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 

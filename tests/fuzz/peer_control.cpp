@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/fuzz_target.hpp"
-#include "tests/unit/control/attended_fake.hpp"
+#include "tests/unit/peer/control/attended_fake.hpp"
 
 #include <algorithm>
 #include <sstream>

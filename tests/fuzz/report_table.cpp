@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/core/report/table.hpp"
+#include "lab/report/table.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 #include <string>

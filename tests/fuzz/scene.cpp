@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/core/scene/profile.hpp"
-#include "peer/core/scene/text/text.hpp"
+#include "scene/requirements.hpp"
+#include "scene/text/text.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 #include <string>

@@ -104,10 +104,26 @@ void add_sources_named_in(const SourceFile& cmake, std::set<std::string>& paths)
         std::replace_if(
             line.begin(), line.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
         std::istringstream words{line};
+        bool is_folder = false;
         for (std::string word; words >> word;) {
+            if (word == "FOLDERS") is_folder = true;
             if (word.ends_with(".cpp")) paths.insert(folder + word);
+            if (is_folder && std::islower(static_cast<unsigned char>(word.front())) != 0) {
+                paths.insert(folder + word + "/");
+            }
+            if (is_folder && word == ".") paths.insert(folder);
         }
     }
+}
+
+/// Whether one of the folders that a CMakeLists.txt names holds it.
+bool is_in_folder_of(const std::set<std::string>& paths, std::string_view path)
+{
+    for (auto end = path.rfind('/'); end != std::string_view::npos;) {
+        if (paths.contains(std::string{path.substr(0, end + 1)})) return true;
+        end = end == 0 ? std::string_view::npos : path.rfind('/', end - 1);
+    }
+    return false;
 }
 
 bool is_globbed_test(const SourceFile& file)
@@ -192,6 +208,7 @@ std::vector<std::string> dead_files(const std::vector<SourceFile>& tree)
     for (const SourceFile& file : tree) {
         const bool is_ours_to_check = file.is_header() || (file.is_cpp() && !is_globbed_test(file));
         if (!is_ours_to_check || alive.contains(file.path)) continue;
+        if (file.is_cpp() && !file.is_header() && is_in_folder_of(alive, file.path)) continue;
         complaints.push_back(file.path + ": nothing builds or includes it");
     }
     return complaints;

@@ -14,7 +14,8 @@ namespace hapnet::peer {
 
 /// How two copies of the shared body are kept together: a closed set, chosen by name. Each is a
 /// small value that is told of every state that arrives (hear()), moves the world (tick()), and
-/// forgets a run of the other side that has ended (forget()). docs/ALGORITHMS.md describes them.
+/// forgets a run of the other side that has ended (forget()). docs/design/algorithms.md describes
+/// them.
 using Algorithm = std::variant<BaseAlgorithm, DeadReckoning, EstimatorPredictor>;
 
 /// "base", "dead-reckoning" or "sep", with all defaults.

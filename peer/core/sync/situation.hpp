@@ -4,7 +4,7 @@
 
 #include "peer/core/clock_offset.hpp"
 #include "peer/core/remote.hpp"
-#include "peer/core/scene/world.hpp"
+#include "scene/world.hpp"
 
 #include <optional>
 

@@ -12,7 +12,7 @@
 namespace hapnet::peer {
 
 // Algorithms as TOML: `algorithm = "dead-reckoning"` and the keys of its parameters. What is left
-// out has its named default. docs/ALGORITHMS.md lists them.
+// out has its named default. docs/design/algorithms.md lists them.
 
 /// Reads the table at `node`, or the name of an algorithm or of a file of one; nullopt when a
 /// complaint was made.

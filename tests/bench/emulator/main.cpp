@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/core/plot/plot.hpp"
+#include "lab/report/plot/plot.hpp"
 #include "proto/base/text.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/freed_memory.hpp"
+#include "lab/runner/freed_memory.hpp"
 #include "tests/bench/common/host.hpp"
 #include "tests/bench/common/options.hpp"
 #include "tests/bench/lab/run_time_error.hpp"

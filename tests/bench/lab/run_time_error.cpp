@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/lab/run_time_error.hpp"
 
-#include "lab/core/plot/plot.hpp"
+#include "lab/report/plot/plot.hpp"
 #include "tests/bench/lab/sessions.hpp"
 
 #include <algorithm>

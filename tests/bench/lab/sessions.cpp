@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/lab/sessions.hpp"
 
-#include "lab/core/spread.hpp"
-#include "peer/core/scene/text/text.hpp"
+#include "lab/metrics/spread.hpp"
 #include "proto/base/ensure.hpp"
+#include "scene/text/text.hpp"
 #include "tests/bench/lab/stepped_hand.hpp"
 
 #include <chrono>

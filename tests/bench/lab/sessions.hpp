@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/core/virtual_time/play.hpp"
+#include "lab/virtual_time/play.hpp"
 
 #include <optional>
 #include <string>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/scene/input.hpp"
-#include "peer/core/scene/profile.hpp"
+#include "scene/input.hpp"
+#include "scene/requirements.hpp"
 
 #include <memory>
 #include <optional>

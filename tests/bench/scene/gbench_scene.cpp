@@ -3,9 +3,9 @@
 //
 // Parts of a tick, each by itself: for whoever changes one. The numbers are this machine's and
 // nobody's targets.
-#include "peer/core/scene/contact/box_box.hpp"
-#include "peer/core/scene/contact/sphere_box.hpp"
-#include "peer/core/scene/world.hpp"
+#include "scene/collide/box_box.hpp"
+#include "scene/collide/sphere_box.hpp"
+#include "scene/world.hpp"
 #include "tests/bench/scene/crowd.hpp"
 
 #include <benchmark/benchmark.h>

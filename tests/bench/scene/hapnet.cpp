@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/core/scene/world.hpp"
 #include "proto/base/ensure.hpp"
+#include "scene/world.hpp"
 #include "tests/bench/scene/peers.hpp"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/scene/input.hpp"
+#include "scene/input.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/scene/precision.hpp"
 
-#include "lab/core/plot/plot.hpp"
+#include "lab/report/plot/plot.hpp"
 #include "tests/bench/scene/compare.hpp"
 
 #include <algorithm>

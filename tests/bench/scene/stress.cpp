@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/scene/stress.hpp"
 
-#include "peer/core/scene/world.hpp"
+#include "scene/world.hpp"
 
 #include <algorithm>
 #include <array>

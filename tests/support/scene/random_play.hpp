@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/scene/world.hpp"
+#include "scene/world.hpp"
 
 #include <utility>
 #include <vector>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // What a tick must not do besides computing: take memory or ask the system for anything.
-#include "peer/core/scene/text/text.hpp"
-#include "peer/core/scene/world.hpp"
 #include "proto/base/math.hpp"
+#include "scene/text/text.hpp"
+#include "scene/world.hpp"
 #include "tests/support/allocations.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/core/scene/world.hpp"
+#include "scene/world.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "ctl/print.hpp"
+
+#include <cstdint>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The value at a pointer such as "/up/received"; null when there is none.
+Json at(const Json& json, const std::string& pointer)
+{
+    const Json::json_pointer place{pointer};
+    return json.contains(place) ? json[place] : Json(nullptr);
+}
+
+std::string text_of(const Json& value)
+{
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    if (value.is_null()) return "-";
+    return value.dump();
+}
+
+std::string text_at(const Json& json, const std::string& pointer)
+{
+    return text_of(at(json, pointer));
+}
+
+double number_at(const Json& json, const std::string& pointer)
+{
+    const Json value = at(json, pointer);
+    return value.is_number() ? value.get<double>() : 0.0;
+}
+
+std::uint64_t total_of(const Json& dropped)
+{
+    std::uint64_t total = 0;
+    if (!dropped.is_object()) return total;
+    for (const auto& count : dropped) {
+        if (count.is_number_unsigned()) total += count.get<std::uint64_t>();
+    }
+    return total;
+}
+
+bool is_of_a_peer(const Json& reply) { return at(reply, "/program") == "hapnet-peer"; }
+
+std::string shown_peer(const Json& reply)
+{
+    std::string text = fmt::format("hapnet-peer {}: {} ({}), {} s since its start\n",
+                                   text_at(reply, "/peer_id"), text_at(reply, "/says"),
+                                   text_at(reply, "/state"), text_at(reply, "/elapsed_s"));
+    text += fmt::format("task {}, scene {}, algorithm {}, seed {}, {} s, at most {} N\n",
+                        text_at(reply, "/task"), text_at(reply, "/scene"),
+                        text_at(reply, "/algorithm"), text_at(reply, "/seed"),
+                        text_at(reply, "/duration_s"), text_at(reply, "/force_limit_n"));
+    if (at(reply, "/session").is_object()) {
+        text += fmt::format("session {} as {}, at {} s\n", text_at(reply, "/session/number"),
+                            text_at(reply, "/session/role"), text_at(reply, "/session/at_s"));
+    }
+    return text + fmt::format("device {}, governor {}, force {} N\n", text_at(reply, "/device"),
+                              text_at(reply, "/governor"), text_at(reply, "/force_n"));
+}
+
+std::string shown(const Json& reply)
+{
+    if (is_of_a_peer(reply)) return shown_peer(reply);
+    std::string text = fmt::format("# generation {}, {} s since the start, timeline at {} s",
+                                   text_at(reply, "/generation"), text_at(reply, "/elapsed_s"),
+                                   text_at(reply, "/timeline/position_s"));
+    if (const auto next = at(reply, "/timeline/next_change_in_s"); next.is_number()) {
+        text += fmt::format(", next change in {} s", text_of(next));
+    }
+    text += "\n";
+    for (const Json& one : at(reply, "/live")) {
+        const Json settings = at(one, "/settings");
+        for (const auto& [key, value] : settings.items()) {
+            text += fmt::format("# set by hand: {} = {}", key, text_of(value));
+            if (const auto left = at(one, "/remaining_s"); left.is_number()) {
+                text += fmt::format(", for {} s more", text_of(left));
+            }
+            text += "\n";
+        }
+    }
+    return text + text_at(reply, "/profile");
+}
+
+std::string differing(const Json& reply)
+{
+    std::string text;
+    for (const Json& one : at(reply, "/changes")) {
+        text += fmt::format("{}: {} -> {}\n", text_at(one, "/key"), text_at(one, "/from"),
+                            text_at(one, "/to"));
+    }
+    if (at(reply, "/is_other_timeline") == true) {
+        text += fmt::format("timeline: steps to come: {} -> {}, counted from then\n",
+                            text_at(reply, "/timeline/from"), text_at(reply, "/timeline/to"));
+    }
+    return text.empty() ? "nothing would change\n" : text;
+}
+
+} // namespace
+
+std::string in_words(const std::string& command, const Json& reply)
+{
+    if (command == "show") return shown(reply);
+    if (command == "diff") return differing(reply);
+    if (command == "stats") {
+        Json statistics = reply;
+        statistics.erase("ok");
+        return statistics.dump(2) + "\n";
+    }
+    if (command == "stop") return "it ends with zero force\n";
+    if (command == "wait") {
+        return fmt::format("{}: {} after {} s\n", text_at(reply, "/until"),
+                           at(reply, "/met") == true ? "met" : "not met",
+                           text_at(reply, "/elapsed_s"));
+    }
+    return fmt::format(
+        "generation {} holds from datagram {} up and {} down, {} s after the start\n",
+        text_at(reply, "/generation"), text_at(reply, "/effective_at/up"),
+        text_at(reply, "/effective_at/down"), text_at(reply, "/elapsed_s"));
+}
+
+std::string WatchPrinter::next(const Json& reply)
+{
+    const bool has_table = is_terminal_ && !is_of_a_peer(reply);
+    std::string text = has_table ? table(reply) : line(reply);
+    last_ = reply;
+    return text;
+}
+
+std::string WatchPrinter::rate(const std::string& pointer, const Json& statistics) const
+{
+    const double time =
+        number_at(statistics, "/elapsed_s") - (last_ ? number_at(*last_, "/elapsed_s") : 0.0);
+    const double count =
+        number_at(statistics, pointer) - (last_ ? number_at(*last_, pointer) : 0.0);
+    return time > 0.0 ? fmt::format("{:.0f}", count / time) : "-";
+}
+
+std::string WatchPrinter::table(const Json& statistics) const
+{
+    // Back to the top of the table before, whose lines are overwritten to their ends.
+    constexpr int lines = 4;
+    std::string text = last_ ? fmt::format("\x1b[{}A", lines) : "";
+    text += fmt::format("{} s, generation {}\x1b[K\n", text_at(statistics, "/elapsed_s"),
+                        text_at(statistics, "/generation"));
+    text += fmt::format("{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\x1b[K\n", "", "per s",
+                        "received", "delivered", "dropped", "in flight", "p50 us", "p99 us");
+    for (const char* direction : {"up", "down"}) {
+        const std::string place = fmt::format("/{}", direction);
+        text += fmt::format(
+            "{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\x1b[K\n", direction,
+            rate(place + "/received", statistics), text_at(statistics, place + "/received"),
+            text_at(statistics, place + "/delivered"), total_of(at(statistics, place + "/dropped")),
+            text_at(statistics, place + "/in_flight"),
+            text_at(statistics, place + "/lateness_us/p50"),
+            text_at(statistics, place + "/lateness_us/p99"));
+    }
+    return text;
+}
+
+std::string WatchPrinter::line_of_peer(const Json& statistics) const
+{
+    return fmt::format(
+        "elapsed_s={} ticks={} missed={} late_p99_us={} sent={} received={} "
+        "received_per_s={} governor={} fault={}\n",
+        text_at(statistics, "/elapsed_s"), text_at(statistics, "/tick/count"),
+        text_at(statistics, "/tick/missed"), text_at(statistics, "/tick/late_us/p99"),
+        text_at(statistics, "/messages/states_sent"),
+        text_at(statistics, "/messages/states_received"),
+        rate("/messages/states_received", statistics), text_at(statistics, "/governor/state"),
+        text_at(statistics, "/governor/fault"));
+}
+
+std::string WatchPrinter::line(const Json& statistics) const
+{
+    if (is_of_a_peer(statistics)) return line_of_peer(statistics);
+    std::string text = fmt::format("elapsed_s={} generation={}", text_at(statistics, "/elapsed_s"),
+                                   text_at(statistics, "/generation"));
+    for (const char* direction : {"up", "down"}) {
+        const std::string place = fmt::format("/{}", direction);
+        text += fmt::format(
+            " {0}.per_s={1} {0}.received={2} {0}.delivered={3} {0}.dropped={4}"
+            " {0}.in_flight={5} {0}.p99_us={6}",
+            direction, rate(place + "/received", statistics),
+            text_at(statistics, place + "/received"), text_at(statistics, place + "/delivered"),
+            total_of(at(statistics, place + "/dropped")), text_at(statistics, place + "/in_flight"),
+            text_at(statistics, place + "/lateness_us/p99"));
+    }
+    return text + "\n";
+}
+
+} // namespace hapnet::emulator

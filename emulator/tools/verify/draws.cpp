@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/tools/verify/draws.hpp"
+
+#include "emulator/tools/verify/tails.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::emulator {
+
+namespace {
+
+constexpr std::size_t delays_min = 100; // for the laws of the statistics
+
+TestResult too_few(std::string name)
+{
+    return unable(std::move(name), fmt::format("fewer than {} delays", delays_min));
+}
+
+} // namespace
+
+TestResult test_distribution(std::vector<base::Duration> delays, const Distribution& law,
+                             double alpha)
+{
+    if (delays.size() < delays_min) return too_few("delay law");
+    std::sort(delays.begin(), delays.end());
+    const auto n = static_cast<double>(delays.size());
+    constexpr double half = 0.5; // a nanosecond stands for what was rounded to it
+    double distance = 0.0;
+    for (std::size_t i = 0; i < delays.size();) {
+        std::size_t next = i;
+        while (next < delays.size() && delays[next] == delays[i]) ++next;
+        const double value = base::to_nanoseconds(delays[i]);
+        distance = std::max({distance, std::abs(static_cast<double>(i) / n - law(value - half)),
+                             std::abs(static_cast<double>(next) / n - law(value + half))});
+        i = next;
+    }
+    auto result = by_chance("delay law", distance, kolmogorov_tail(distance, n), alpha);
+    result.sentence =
+        fmt::format("the distribution of {} delays is off by {:.5f} at most (Kolmogorov-Smirnov)",
+                    delays.size(), distance);
+    return result;
+}
+
+TestResult test_tails(std::vector<base::Duration> delays, const Distribution& law, double alpha)
+{
+    if (delays.size() < delays_min) return too_few("delay tails");
+    std::sort(delays.begin(), delays.end());
+    const std::size_t count = delays.size();
+    const auto n = static_cast<double>(count);
+    constexpr double least = 1e-300; // a value that the law cannot have is one beyond any chance
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double below = std::max(law(base::to_nanoseconds(delays[i])), least);
+        const double above =
+            std::max(1.0 - law(base::to_nanoseconds(delays[count - 1 - i])), least);
+        sum += (2.0 * static_cast<double>(i) + 1.0) * (std::log(below) + std::log(above));
+    }
+    const double a_square = -n - sum / n;
+    auto result = by_chance("delay tails", a_square, anderson_darling_tail(a_square), alpha);
+    result.sentence =
+        fmt::format("A^2 = {:.2f} over {} delays (Anderson-Darling)", a_square, count);
+    return result;
+}
+
+TestResult test_same_law(std::vector<base::Duration> a, std::vector<base::Duration> b, double alpha)
+{
+    if (std::min(a.size(), b.size()) < delays_min) return too_few("delay law");
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    const auto size_a = static_cast<double>(a.size());
+    const auto size_b = static_cast<double>(b.size());
+    double distance = 0.0;
+    for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+        const base::Duration value = std::min(a[i], b[j]);
+        while (i < a.size() && a[i] == value) ++i;
+        while (j < b.size() && b[j] == value) ++j;
+        distance = std::max(
+            distance, std::abs(static_cast<double>(i) / size_a - static_cast<double>(j) / size_b));
+    }
+    const double worth = size_a * size_b / (size_a + size_b);
+    auto result = by_chance("delay law", distance, kolmogorov_tail(distance, worth), alpha);
+    result.sentence =
+        fmt::format("the distribution of {} delays and that of {} drawn for comparison are {:.5f} "
+                    "apart at most (Kolmogorov-Smirnov)",
+                    a.size(), b.size(), distance);
+    return result;
+}
+
+std::vector<double> normal_scores(std::span<const base::Duration> delays, const Distribution& law)
+{
+    constexpr double edge = 1e-12; // keeps the extremes finite
+    std::vector<double> scores;
+    scores.reserve(delays.size());
+    for (const base::Duration delay : delays) {
+        scores.push_back(
+            normal_score(std::clamp(law(base::to_nanoseconds(delay)), edge, 1.0 - edge)));
+    }
+    return scores;
+}
+
+TestResult test_correlation(std::span<const double> scores, double rho, double alpha)
+{
+    if (scores.size() < delays_min) return too_few("delay correlation");
+    const double rest = std::sqrt(1.0 - rho * rho);
+    double products = 0.0;
+    double with_innovation = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i + 1 < scores.size(); ++i) {
+        const double innovation = (scores[i + 1] - rho * scores[i]) / rest;
+        products += scores[i] * scores[i + 1];
+        with_innovation += scores[i] * innovation;
+        squares += scores[i] * scores[i];
+    }
+    // The innovations are standard normal and know nothing of what was before.
+    const double z = with_innovation / std::sqrt(squares);
+    auto result = by_chance("delay correlation", products / squares, normal_two_sided(z), alpha);
+    result.sentence =
+        fmt::format("neighbouring delays have a correlation of {:.4f}, {:.4f} expected: {:+.2f} "
+                    "standard deviations",
+                    products / squares, rho, z);
+    return result;
+}
+
+} // namespace hapnet::emulator

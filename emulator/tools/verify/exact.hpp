@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/loss/law.hpp"
+#include "emulator/core/verdict.hpp"
+#include "emulator/tools/verify/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace hapnet::emulator {
+
+// Tests of laws that leave nothing, or little, to chance.
+
+/// Datagram by datagram; also the numbers have to be equal.
+[[nodiscard]] TestResult test_equal(std::span<const Fate> expected, std::span<const Fate> observed);
+
+/// What is lost (1) of each datagram, index by index: for laws that draw nothing.
+[[nodiscard]] TestResult test_same_losses(std::span<const std::uint8_t> expected,
+                                          std::span<const std::uint8_t> observed);
+
+/// Whether each whole block lost exactly its number.
+[[nodiscard]] TestResult test_blocks(std::span<const std::uint8_t> lost, const BlockLoss& law);
+
+/// Whether each place in a block is lost equally often: chi-square over the places.
+[[nodiscard]] TestResult test_places(std::span<const std::uint8_t> lost, const BlockLoss& law,
+                                     double alpha);
+
+/// Whether the losses are bursts of one length that return with one period, wherever they begin.
+[[nodiscard]] TestResult test_bursts(std::span<const std::uint8_t> lost, const Burst& law);
+
+/// Whether datagrams, in the order of their numbers, left in that order.
+[[nodiscard]] TestResult test_order(std::span<const base::TimePoint> departures);
+
+} // namespace hapnet::emulator

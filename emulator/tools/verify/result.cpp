@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/tools/verify/result.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <utility>
+
+namespace hapnet::emulator {
+
+std::string_view to_text(Outcome outcome)
+{
+    switch (outcome) {
+    case Outcome::passed: return "passed";
+    case Outcome::failed: return "failed";
+    case Outcome::unable: return "unable";
+    }
+    base::ensure(false);
+    return {};
+}
+
+TestResult by_chance(std::string name, double statistic, double p_value, double alpha)
+{
+    // Written so that a p-value which is not a number fails.
+    const bool passes = p_value >= alpha;
+    return {std::move(name), statistic, p_value, passes ? Outcome::passed : Outcome::failed, {}};
+}
+
+TestResult exactly(std::string name, bool holds, std::string sentence)
+{
+    return {
+        std::move(name), 0.0, {}, holds ? Outcome::passed : Outcome::failed, std::move(sentence)};
+}
+
+TestResult unable(std::string name, std::string sentence)
+{
+    return {std::move(name), 0.0, {}, Outcome::unable, std::move(sentence)};
+}
+
+} // namespace hapnet::emulator

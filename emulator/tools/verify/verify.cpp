@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/tools/verify/verify.hpp"
+
+#include "emulator/core/pipeline.hpp"
+#include "emulator/tools/verify/by_law.hpp"
+#include "emulator/tools/verify/delays.hpp"
+#include "emulator/tools/verify/exact.hpp"
+#include "emulator/tools/verify/losses.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using Results = std::vector<TestResult>;
+
+bool is_in_time(const Variation& variation)
+{
+    return variation.correlation_time > base::Duration{0} ||
+           std::holds_alternative<TraceLaw>(variation.law);
+}
+
+bool is_in_time(const Conditions& conditions)
+{
+    return is_in_time(conditions.delay) || is_in_time(conditions.jitter) ||
+           std::any_of(conditions.loss.begin(), conditions.loss.end(),
+                       [](const LossLaw& law) { return is_in_time(law); });
+}
+
+/// Whether the fates are those that the seed gives.
+TestResult verify_seed(const Claim& claim, Direction direction, std::span<const Fate> fates)
+{
+    const auto& conditions = direction == Direction::up ? claim.path.up : claim.path.down;
+    if (!claim.seed) return unable("seed", "the seed of the run is not known");
+    if (is_in_time(conditions) || conditions.mtu.bytes_max > 0) {
+        return unable("seed", "the fates depend on when datagrams came or on their lengths");
+    }
+    Pipeline pipeline{conditions, *claim.seed, direction};
+    std::vector<Fate> expected;
+    expected.reserve(fates.size());
+    for (std::uint64_t number = 0; number < fates.size(); ++number) {
+        expected.push_back(pipeline.on_packet({.number = number}));
+    }
+    auto result = test_equal(expected, fates);
+    result.name = "seed";
+    return result;
+}
+
+/// How much the losses of a direction remember; nullopt when they are not drawn one by one.
+std::optional<double> memory_of(const Conditions& conditions, std::optional<base::Duration> spacing)
+{
+    if (conditions.loss.empty()) return std::nullopt;
+    double most = 0.0;
+    for (const LossLaw& law : conditions.loss) {
+        const auto memory = memory_of(law, spacing);
+        if (!memory) return std::nullopt;
+        most = std::max(most, *memory);
+    }
+    return most;
+}
+
+Results verify_between(const Claim& claim, std::span<const Fate> up, std::span<const Fate> down)
+{
+    const auto memory_up = memory_of(claim.path.up, claim.spacing);
+    const auto memory_down = memory_of(claim.path.down, claim.spacing);
+    if (!memory_up || !memory_down) {
+        return {unable("directions", "the losses of one of them are not drawn one by one")};
+    }
+    PairTally tally;
+    for (std::size_t i = 0; i < std::min(up.size(), down.size()); ++i) {
+        tally.add(std::holds_alternative<Drop>(up[i].verdict),
+                  std::holds_alternative<Drop>(down[i].verdict));
+    }
+    return {test_unrelated(tally, *memory_up * *memory_down, claim.alpha)};
+}
+
+bool any_failed(const Results& results)
+{
+    return std::any_of(results.begin(), results.end(),
+                       [](const TestResult& result) { return result.outcome == Outcome::failed; });
+}
+
+void append_lines(std::string& text, std::string_view part, const Results& results)
+{
+    for (const TestResult& result : results) {
+        const auto p = result.p_value ? fmt::format("p = {:.3g}", *result.p_value)
+                       : result.outcome == Outcome::unable ? ""
+                                                           : "exact";
+        text += fmt::format("{:<8} {:<38} {:<7} {:<14} {}\n", part, result.name,
+                            to_text(result.outcome), p, result.sentence);
+    }
+}
+
+} // namespace
+
+bool Verification::failed() const
+{
+    return any_failed(up) || any_failed(down) || any_failed(between);
+}
+
+Verification verify(const Claim& claim, std::span<const Fate> up, std::span<const Fate> down)
+{
+    return {verify_direction(claim, Direction::up, up),
+            verify_direction(claim, Direction::down, down), verify_between(claim, up, down)};
+}
+
+std::vector<TestResult> verify_direction(const Claim& claim, Direction direction,
+                                         std::span<const Fate> fates)
+{
+    if (fates.empty()) return {unable("fates", "no datagram passed in this direction")};
+    const auto& conditions = direction == Direction::up ? claim.path.up : claim.path.down;
+    Results results{verify_seed(claim, direction, fates)};
+    for (auto& part : {verify_losses(conditions.loss, loss_record(fates, conditions.loss.size()),
+                                     claim.spacing, claim.alpha),
+                       verify_delays(conditions, fates, claim.spacing, claim.alpha)}) {
+        results.insert(results.end(), part.begin(), part.end());
+    }
+    return results;
+}
+
+std::string to_text(const Verification& verification)
+{
+    std::string text;
+    append_lines(text, "up", verification.up);
+    append_lines(text, "down", verification.down);
+    append_lines(text, "between", verification.between);
+    text += verification.failed() ? "verdict  failed: the run did not do what it was asked to\n"
+                                  : "verdict  passed\n";
+    return text;
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "emulator/core/verdict.hpp"
+#include "emulator/tools/verify/result.hpp"
+#include "proto/base/random.hpp"
+#include "proto/base/time.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// What a run was meant to do: the same from its first datagram to its last.
+struct Claim {
+    Path path;
+    std::optional<base::Seed> seed{};        // known: the fates are drawn again and compared
+    std::optional<base::Duration> spacing{}; // of datagrams, if they came evenly; > 0
+    double alpha = 1e-6;                     // how often a test fails for a law that is right
+};
+
+/// What the tests say of the fates of a run.
+struct Verification {
+    std::vector<TestResult> up;
+    std::vector<TestResult> down;
+    std::vector<TestResult> between; // the directions
+
+    [[nodiscard]] bool failed() const;
+};
+
+/// Runs every test that applies. Fate n is that of datagram n of its direction.
+[[nodiscard]] Verification verify(const Claim& claim, std::span<const Fate> up,
+                                  std::span<const Fate> down);
+
+/// The tests of one direction.
+[[nodiscard]] std::vector<TestResult> verify_direction(const Claim& claim, Direction direction,
+                                                       std::span<const Fate> fates);
+
+/// One line per test, and one with the verdict.
+[[nodiscard]] std::string to_text(const Verification& verification);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/cli/demo_command.hpp"
+#include "lab/cli/options.hpp"
+#include "lab/cli/real_time_command.hpp"
+#include "lab/cli/report_command.hpp"
+#include "lab/cli/run_command.hpp"
+#include "lab/records/analysis.hpp"
+#include "lab/records/analysis_report.hpp"
+#include "lab/records/csv.hpp"
+#include "lab/records/replay.hpp"
+#include "lab/report/explain.hpp"
+#include "lab/runner/freed_memory.hpp"
+#include "peer/core/sync/text.hpp"
+#include "proto/net/text_file.hpp"
+#include "proto/record/reader.hpp"
+#include "scene/text/text.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace hapnet::lab {
+
+namespace {
+
+constexpr std::string_view program = "hapnet-lab";
+
+void print(const std::string& text)
+{
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+        throw std::system_error{errno, std::generic_category(), "cannot write the result"};
+    }
+}
+
+base::Result<record::Record> read_record(const std::string& path)
+{
+    auto record = record::read(path);
+    if (record && record->cut_off) {
+        net::say(program, path + " ends inside a row, which is left out: its writer was killed or "
+                                 "its disk was full");
+    }
+    return record;
+}
+
+base::Result<int> run(const AnalyseCommand& command)
+{
+    const auto a = read_record(command.record_a);
+    if (!a) return tl::unexpected{a.error()};
+    const auto b = read_record(command.record_b);
+    if (!b) return tl::unexpected{b.error()};
+    const auto analysis = analyse(*a, *b);
+    if (!analysis) {
+        return base::fail("cannot compare " + command.record_a + " (A) with " + command.record_b +
+                          " (B): " + analysis.error().message);
+    }
+    print(command.json ? to_json(*analysis).dump(2) + '\n' : to_table(*analysis));
+    return 0;
+}
+
+base::Result<int> run(const ExportCommand& command)
+{
+    const auto record = read_record(command.record);
+    if (!record) return tl::unexpected{record.error()};
+    const auto zero = csv_zero(*record);
+    const auto print_rows = [&](const std::string& header, const auto& rows) {
+        print(header + '\n');
+        for (const auto& row : rows) print(csv_line(row, zero) + '\n');
+    };
+    switch (command.rows) {
+    case ExportRows::ticks: print_rows(tick_csv_header(), record->ticks); break;
+    case ExportRows::messages: print_rows(message_csv_header(), record->messages); break;
+    }
+    return 0;
+}
+
+base::Result<int> run(const DemoReportCommand& command)
+{
+    return conclude_demo(command).map([](bool is_met) { return is_met ? 0 : net::exit_failed; });
+}
+
+base::Result<int> run(const ExplainCommand& command)
+{
+    const auto scene = scene::load_scene(command.scene, net::text_of_file);
+    if (!scene) return tl::unexpected{scene.error()};
+    const auto explanation = explain(*scene, command.tick, command.sleeping);
+    print(command.json ? to_json(explanation).dump(2) + '\n' : to_table(explanation));
+    return 0;
+}
+
+base::Result<int> run(const RealTimeCommand& command)
+{
+    return conclude_real_time(command).map([](const std::string& table) {
+        print(table);
+        return 0;
+    });
+}
+
+base::Result<int> run(const ReplayCommand& command)
+{
+    const auto record = read_record(command.record);
+    if (!record) return tl::unexpected{record.error()};
+    std::optional<peer::Algorithm> instead;
+    if (command.algorithm) {
+        auto algorithm = peer::load_algorithm(*command.algorithm, net::text_of_file);
+        if (!algorithm) return base::fail("--algorithm: " + algorithm.error().message);
+        instead = *std::move(algorithm);
+    }
+    const auto replayed = replay(*record, instead);
+    if (!replayed) return base::fail(command.record + ": " + replayed.error().message);
+    if (command.csv) {
+        print(replay_csv_header() + '\n');
+        const auto zero = csv_zero(*record);
+        for (const ReplayedTick& tick : replayed->ticks) print(csv_line(tick, zero) + '\n');
+    } else {
+        print(command.json ? to_json(*replayed).dump(2) + '\n' : to_table(*replayed));
+    }
+    const bool failed = replayed->differs_from && replayed->is_the_recorded_one;
+    return failed ? net::exit_failed : 0;
+}
+
+base::Result<int> run(const ReportCommand& command)
+{
+    return write_report(command).map([](const std::string& page) {
+        print(page + '\n');
+        return 0;
+    });
+}
+
+base::Result<int> run(const RunCommand& command)
+{
+    keep_freed_memory();
+    return run_experiment(command);
+}
+
+base::Result<int> execute(const Command& command)
+{
+    return std::visit([](const auto& chosen) { return run(chosen); }, command);
+}
+
+} // namespace
+
+int main_program(std::span<char*> words)
+{
+    return net::run_program(program, parse_command_line(words), execute);
+}
+
+} // namespace hapnet::lab
+
+int main(int argc, char** argv)
+{
+    return hapnet::lab::main_program({argv, static_cast<std::size_t>(argc)});
+}

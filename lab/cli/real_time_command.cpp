@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/cli/real_time_command.hpp"
+
+#include "lab/cli/host.hpp"
+#include "lab/cli/json_file.hpp"
+#include "lab/report/real_time.hpp"
+#include "lab/virtual_time/play.hpp"
+#include "proto/net/result_file.hpp"
+#include "proto/net/text_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <vector>
+
+namespace hapnet::lab {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+base::Result<RealTimeSession> read_session(const fs::path& folder, const std::string& where)
+{
+    RealTimeSession session{.where = where};
+    for (auto [part, name] : {std::pair{&session.analysis, "analysis.json"},
+                              {&session.emulator, "emulator.json"},
+                              {&session.peer, "peer-1.json"}}) {
+        auto json = read_json((folder / name).string());
+        if (!json) return tl::unexpected{json.error()};
+        *part = *std::move(json);
+    }
+    return session;
+}
+
+/// Where sessions were played, and the folders of those, by name.
+std::vector<fs::path> session_folders(const fs::path& place)
+{
+    std::vector<fs::path> folders;
+    if (!fs::is_directory(place)) return folders;
+    for (const auto& entry : fs::directory_iterator{place}) {
+        if (entry.is_directory()) folders.push_back(entry.path());
+    }
+    std::ranges::sort(folders);
+    return folders;
+}
+
+base::Result<RealTimeResult> result_in(const fs::path& folder, const std::string& where)
+{
+    const auto session = read_session(folder, where);
+    if (!session) return tl::unexpected{session.error()};
+    const auto setting = twin_of(*session, net::text_of_file);
+    if (!setting) return base::fail(folder.string() + ": " + setting.error().message);
+    const auto twin = play(*setting);
+    if (!twin) return base::fail(folder.string() + ": " + twin.error().message);
+    return result_of(*session, *twin);
+}
+
+/// The manifest that is there already says this, too; or there is none, and this is all.
+base::Result<void> note_in_manifest(const fs::path& folder, Json real_time)
+{
+    const auto path = (folder / "manifest.json").string();
+    Json manifest{{"kind", "real-time"},
+                  {"title", "Real time beside virtual time"},
+                  {"command", real_time.at("command")},
+                  {"version", real_time.at("version")},
+                  {"commit", real_time.at("commit")},
+                  {"compiler", real_time.at("compiler")},
+                  {"host", real_time.at("host")},
+                  {"start", real_time.at("start")},
+                  {"wall_time_s", real_time.at("wall_time_s")},
+                  {"valid", real_time.at("valid")}};
+    if (fs::exists(path)) {
+        auto there = read_json(path);
+        if (!there) return tl::unexpected{there.error()};
+        if (there->value("kind", "") != "real-time") manifest = *std::move(there);
+    }
+    manifest["real_time"] = std::move(real_time);
+    net::ResultFile{path}.commit(manifest.dump(2) + '\n');
+    return {};
+}
+
+} // namespace
+
+base::Result<std::string> conclude_real_time(const RealTimeCommand& command)
+{
+    const fs::path folder{command.folder};
+    std::vector<RealTimeResult> results;
+    for (const char* where : {"loopback", "namespaces"}) {
+        for (const fs::path& session : session_folders(folder / "real-time" / where)) {
+            auto result = result_in(session, where);
+            if (!result) return tl::unexpected{result.error()};
+            results.push_back(*std::move(result));
+        }
+    }
+    if (results.empty()) {
+        return base::fail((folder / "real-time").string() +
+                          " holds no sessions: let scripts/real-time.sh play some");
+    }
+    net::ResultFile{(folder / "real_time.csv").string()}.commit(real_time_csv(results));
+    const RealTimeCircumstances circumstances{command.command, command.start, command.wall_time_s,
+                                              host()};
+    const auto noted = note_in_manifest(folder, real_time_manifest(results, circumstances));
+    if (!noted) return tl::unexpected{noted.error()};
+    return real_time_table(results);
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/cli/options.hpp"
+#include "proto/base/result.hpp"
+
+#include <string>
+
+namespace hapnet::lab {
+
+/// Reads what scripts/real-time.sh has recorded in a folder, plays the same sessions in virtual
+/// time, writes real_time.csv and what manifest.json says of it there. Gives lines for a person.
+/// Throws std::system_error when something cannot be written.
+[[nodiscard]] base::Result<std::string> conclude_real_time(const RealTimeCommand& command);
+
+} // namespace hapnet::lab

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/cli/run_command.hpp"
+
+#include "lab/cli/host.hpp"
+#include "lab/experiment/criteria_text.hpp"
+#include "lab/experiment/text.hpp"
+#include "lab/results/cells.hpp"
+#include "lab/results/manifest.hpp"
+#include "lab/results/results.hpp"
+#include "lab/runner/progress.hpp"
+#include "lab/runner/runner.hpp"
+#include "proto/base/version.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/program.hpp"
+#include "proto/net/result_file.hpp"
+#include "proto/net/text_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <span>
+#include <spdlog/fmt/fmt.h>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace hapnet::lab {
+
+namespace {
+
+constexpr std::string_view program_name = "hapnet-lab";
+
+/// Who plays: this very build. A session that any other build has played is not reused.
+std::string program_identity()
+{
+    const auto binary = net::text_of_file("/proc/self/exe");
+    const auto hash = binary ? base::Seed{}.stream(*binary).bits(0) : 0;
+    return fmt::format("{} {:016x}", base::version_line(program_name), hash);
+}
+
+base::Result<Experiment> load(const RunCommand& command)
+{
+    Adjustments adjustments{command.quick, command.settings};
+    if (command.seeds) adjustments.settings.push_back(fmt::format("seeds={}", *command.seeds));
+    return load_experiment(command.experiment, net::text_of_file, adjustments);
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text)
+{
+    std::filesystem::create_directories(path.parent_path());
+    net::ResultFile file{path.string()};
+    file.commit(text);
+}
+
+/// A manifest without sessions beside it was written by something else.
+base::Result<void> refuse_foreign(const std::filesystem::path& out)
+{
+    const bool has_sessions = std::filesystem::exists(out / "sessions.jsonl");
+    if (has_sessions || !std::filesystem::exists(out / "manifest.json")) return {};
+    return base::fail(fmt::format("--out: {} holds the results of something else: choose another "
+                                  "folder, or remove it",
+                                  out.string()));
+}
+
+/// The run of one experiment into one folder.
+class ExperimentRun {
+public:
+    ExperimentRun(const RunCommand& command, Experiment experiment, const Criteria& criteria)
+        : command_{command},
+          experiment_{std::move(experiment)},
+          criteria_{criteria},
+          out_{command.out},
+          start_{net::monotonic_now()},
+          start_s_{net::wall_clock_seconds()}
+    {}
+
+    base::Result<int> run()
+    {
+        net::StopSignal stop;
+        auto foreign = refuse_foreign(out_);
+        if (!foreign) return tl::unexpected{std::move(foreign).error()};
+        std::filesystem::create_directories(out_);
+        const FolderIdentity identity{std::string{name_of(experiment_.kind)}, experiment_.title};
+        const auto store =
+            SessionStore::open((out_ / "sessions.jsonl").string(), identity, program_identity());
+        if (!store) return base::fail("--out: " + store.error().message);
+        if ((*store)->damaged_lines() > 0) {
+            net::say(program_name,
+                     fmt::format("{} lines of {} are damaged and left out",
+                                 (*store)->damaged_lines(), (out_ / "sessions.jsonl").string()));
+        }
+        return carry_out_with(**store, stop);
+    }
+
+private:
+    base::Result<int> carry_out_with(SessionStore& store, net::StopSignal& stop)
+    {
+        ProgressLine line{start_};
+        const Runner runner{store, play_in_virtual_time, jobs(), [&](const RunProgress& progress) {
+                                line.show(progress, net::monotonic_now());
+                            }};
+        const auto findings = carry_out_all(experiment_, criteria_, runner, stop);
+        line.finish();
+        if (!findings) throw std::runtime_error{findings.error().message};
+        const auto counts = store.counts();
+        if (!*findings) {
+            write_manifest(counts, {"stopped before its end"});
+            net::say(program_name,
+                     fmt::format("stopped; {} sessions are kept in {}: the same command goes on "
+                                 "from there",
+                                 counts.played + counts.reused, out_.string()));
+            return net::exit_failed;
+        }
+        write_results(**findings);
+        write_manifest(counts, {});
+        fmt::print("{}: {} sessions played, {} reused; results in {}\n", experiment_.title,
+                   counts.played, counts.reused, out_.string());
+        return 0;
+    }
+
+    void write_results(std::span<const Finding> findings) const
+    {
+        const auto files = results_of(experiment_, criteria_, findings);
+        if (!files) throw std::runtime_error{files.error().message};
+        for (const ResultText& file : *files) {
+            write_text(out_ / file.name, file.text);
+            if (file.name == "table1.csv" || file.name == "limits.csv") {
+                fmt::print("{}\n", aligned(file.text));
+            } else if (file.name == "criteria.toml") {
+                fmt::print("{}\n", file.text);
+            }
+        }
+    }
+
+    [[nodiscard]] unsigned jobs() const
+    {
+        return command_.jobs.value_or(std::max(std::thread::hardware_concurrency(), 1U));
+    }
+
+    void write_manifest(const SessionStore::Counts& counts, std::vector<std::string> invalid) const
+    {
+        const Circumstances circumstances{command_.command,
+                                          print_criteria(criteria_),
+                                          base::version_line(program_name),
+                                          host(),
+                                          start_s_,
+                                          base::to_seconds(net::monotonic_now() - start_),
+                                          counts.played,
+                                          counts.reused,
+                                          std::move(invalid)};
+        write_text(out_ / "manifest.json", manifest_of(experiment_, circumstances).dump(2) + '\n');
+    }
+
+    const RunCommand& command_;
+    Experiment experiment_;
+    Criteria criteria_;
+    std::filesystem::path out_;
+    base::TimePoint start_;
+    double start_s_;
+};
+
+} // namespace
+
+base::Result<int> run_experiment(const RunCommand& command)
+{
+    auto experiment = load(command);
+    if (!experiment) return tl::unexpected{experiment.error()};
+    const auto criteria = load_criteria(command.criteria, net::text_of_file);
+    if (!criteria) return tl::unexpected{criteria.error()};
+    return ExperimentRun{command, *std::move(experiment), *criteria}.run();
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/criteria.hpp"
+#include "proto/base/reading.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hapnet::lab {
+
+/// Criteria that every program carries with it: a file of scripts/criteria.
+struct BuiltInCriteria {
+    std::string_view name; // without .toml
+    std::string_view text;
+};
+
+/// All of them, by name.
+[[nodiscard]] std::span<const BuiltInCriteria> built_in_criteria();
+
+/// Reads the built-in criteria of that name, or else the file that `open` gives the text of.
+/// "paper" are those that were calibrated on the paper's two numbers.
+[[nodiscard]] base::Result<Criteria> load_criteria(const std::string& file_or_name,
+                                                   const base::OpenFile& open);
+
+} // namespace hapnet::lab

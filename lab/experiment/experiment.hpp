@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/simulated/operator.hpp"
+#include "device/simulated/task.hpp"
+#include "emulator/core/conditions.hpp"
+#include "lab/experiment/level.hpp"
+#include "lab/metrics/criteria.hpp"
+#include "peer/core/sync/algorithm.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// An algorithm under the name that the results give it.
+struct NamedAlgorithm {
+    std::string name;
+    peer::Algorithm algorithm{};
+};
+
+/// Whose hands play L and R.
+struct Hands {
+    device::Operator left{};
+    device::Operator right{};
+
+    friend bool operator==(const Hands&, const Hands&) = default;
+};
+
+/// "nominal", or "relaxed/firm" when they differ.
+[[nodiscard]] std::string name_of(const Hands& hands);
+
+/// The orders as numbers, in the order of FilterOrder.
+inline constexpr std::array<std::uint32_t, 3> filter_order_counts{1, 2, 4};
+[[nodiscard]] constexpr std::uint32_t count_of(FilterOrder order)
+{
+    return filter_order_counts[static_cast<std::size_t>(order)];
+}
+
+/// How far an impairment is searched: upward from `from` in steps to `to` or the first failure,
+/// then by bisection to `resolution`.
+struct SearchRange {
+    Impairment impairment{};
+    Level from{};
+    Level to{};
+    Level step{};
+    Level resolution{};
+
+    friend bool operator==(const SearchRange&, const SearchRange&) = default;
+};
+
+/// By which conventions else the limits are to be looked for: how far they can be trusted.
+struct Convention {
+    std::vector<FilterOrder> filter_orders{FilterOrder::first, FilterOrder::second,
+                                           FilterOrder::fourth};
+    std::vector<Hands> hands{};
+    std::vector<device::Task> tasks{};
+    std::uint32_t seeds = 1;
+
+    friend bool operator==(const Convention&, const Convention&) = default;
+};
+
+// The kinds of experiment.
+
+/// Table 1: task P1 and the closed-loop tasks under the experiment's conditions.
+struct Table1 {
+    std::uint32_t rows_per_s = 100; // of the replays
+
+    friend bool operator==(const Table1&, const Table1&) = default;
+};
+
+/// Fig. 6: up to which level of each impairment a task can be done.
+struct Limits {
+    std::vector<SearchRange> ranges{};
+    std::optional<Convention> convention{};
+
+    friend bool operator==(const Limits&, const Limits&) = default;
+};
+
+/// Fig. 7: what cubes, hands and forces did over time; the first seed of the first task.
+struct Trajectories {
+    std::uint32_t rows_per_s = 200;
+
+    friend bool operator==(const Trajectories&, const Trajectories&) = default;
+};
+
+/// Quality of service: every delay with every jitter and every loss.
+struct Plane {
+    std::vector<Level> delays{};
+    std::vector<Level> jitters{};
+    std::vector<Level> losses{};
+
+    friend bool operator==(const Plane&, const Plane&) = default;
+};
+
+/// The two numbers of the paper that the criteria are fixed by, with the first algorithm.
+struct Calibration {
+    Level delay{};
+    Level random_loss{};
+
+    friend bool operator==(const Calibration&, const Calibration&) = default;
+};
+
+using Kind = std::variant<Table1, Limits, Trajectories, Plane, Calibration>;
+
+/// "table1", "limits", "trajectories", "plane", "calibration"
+[[nodiscard]] std::string_view name_of(const Kind& kind);
+
+/// What is to be found out, and about what: sessions of every algorithm, task and seed.
+struct Experiment {
+    std::string title;
+    Kind kind{};
+    base::Duration duration{std::chrono::seconds{30}}; // of a session, hands off included
+    base::Duration tick{std::chrono::milliseconds{1}};
+    std::uint32_t seeds = 10;
+    std::uint32_t first_seed = 1;
+    std::vector<NamedAlgorithm> algorithms{};
+    std::vector<device::Task> tasks{};
+    Hands hands{};
+    emulator::Path path{}; // the conditions that all sessions have in common
+};
+
+} // namespace hapnet::lab

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/experiment.hpp"
+#include "proto/base/reading.hpp"
+#include "proto/base/result.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab {
+
+// Experiments as people write them, in TOML: docs/use/experiments.md.
+
+/// What somebody wants otherwise than the text says.
+struct Adjustments {
+    bool quick = false;                // what the text says under [quick] counts
+    std::vector<std::string> settings; // "limit.delay.to=200ms": the last word
+};
+
+/// Reads an experiment. Errors begin with "SOURCE:LINE:COLUMN: ", or with "--set KEY=VALUE: " when
+/// it is a setting that the text does not bear, and say what would be right.
+[[nodiscard]] base::Result<Experiment> parse_experiment(std::string_view text,
+                                                        const std::string& source,
+                                                        const Adjustments& adjustments = {});
+
+/// The experiment as TOML with every parameter of its algorithms: it reads back as the same
+/// experiment.
+[[nodiscard]] std::string to_text(const Experiment& experiment);
+
+/// An experiment that every program carries with it: a file of scripts/experiments.
+struct BuiltInExperiment {
+    std::string_view name; // without .toml
+    std::string_view text;
+};
+
+/// All of them, by name.
+[[nodiscard]] std::span<const BuiltInExperiment> built_in_experiments();
+
+/// Reads the built-in experiment of that name, or else the file that `open` gives the text of:
+/// what holds a '/' or ends in ".toml" is a file.
+[[nodiscard]] base::Result<Experiment> load_experiment(const std::string& file_or_name,
+                                                       const base::OpenFile& open,
+                                                       const Adjustments& adjustments);
+
+} // namespace hapnet::lab

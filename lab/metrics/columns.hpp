@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/virtual_time/trace.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// What metrics are made of, of one side, as one contiguous row of numbers each: a sample is three
+/// cache lines, and a metric needs two numbers of it. SI units; x components.
+struct Columns {
+    std::vector<double> body_x;
+    std::vector<double> body_y;
+    std::vector<double> hip_x;
+    std::vector<double> hand_force; // on the hand, by the device
+    std::vector<double> push;       // the length of the contact force
+    std::vector<double> work;       // that the hand did on the device from this tick to the next
+    std::vector<std::uint8_t> touching; // or holding
+    std::vector<std::uint8_t> follows;  // only the other side touches
+};
+
+[[nodiscard]] Columns columns_of(std::span<const Sample> side);
+
+} // namespace hapnet::lab

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/metrics.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace hapnet::lab {
+
+// Metrics as one JSON object, its keys the names of the fields; by side a list of two, null where
+// there is no value.
+
+/// Exact: metrics_from(to_json(m)) == m, as long as all numbers are finite.
+[[nodiscard]] nlohmann::ordered_json to_json(const Metrics& metrics);
+
+/// nullopt when a key is missing or holds something else.
+[[nodiscard]] std::optional<Metrics> metrics_from(const nlohmann::json& json);
+
+} // namespace hapnet::lab

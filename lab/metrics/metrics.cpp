@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/metrics/metrics.hpp"
+
+#include "device/simulated/press_schedule.hpp"
+#include "lab/metrics/causality.hpp"
+#include "lab/metrics/columns.hpp"
+#include "lab/metrics/contact.hpp"
+#include "lab/metrics/energy.hpp"
+#include "lab/metrics/exercise.hpp"
+#include "lab/metrics/stiffness.hpp"
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace hapnet::lab {
+
+namespace {
+
+constexpr double vibration_above_hz = 20.0;
+constexpr double felt_below_hz = 300.0;
+// Who learns late of the session's start has to catch up first. That is in the discrepancy, and in
+// nothing else.
+constexpr double catching_up_s = 0.5;
+constexpr double path_every_s = 0.010;
+constexpr double fallen_m = 0.025; // half the height to which the body is lifted
+
+/// A trace as columns, and where its samples stand in time.
+struct Taken {
+    Exercise exercise;
+    std::array<Columns, 2> sides;
+    double tick_s = 0.001;
+    double begin_s = 0.0;
+
+    [[nodiscard]] std::size_t count() const { return sides[0].body_x.size(); }
+
+    /// The first sample at or after a time.
+    [[nodiscard]] std::size_t index_at(double seconds) const
+    {
+        const double index = std::ceil((seconds - begin_s) / tick_s - 1e-6);
+        return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(count())));
+    }
+    /// From when on all has caught up.
+    [[nodiscard]] std::size_t steady() const { return index_at(begin_s + catching_up_s); }
+    [[nodiscard]] std::span<const double> cut(const std::vector<double>& column,
+                                              const Stretch& stretch) const
+    {
+        const std::size_t begin = index_at(stretch.begin_s);
+        const std::size_t end = std::max(begin, index_at(stretch.end_s));
+        return std::span{column}.subspan(begin, end - begin);
+    }
+    /// No part of it is missing.
+    [[nodiscard]] bool covers(const Stretch& stretch) const
+    {
+        const double end_s = begin_s + static_cast<double>(count()) * tick_s;
+        return begin_s <= stretch.begin_s + 0.5 * tick_s && end_s >= stretch.end_s - 0.5 * tick_s;
+    }
+};
+
+std::optional<Spread> body_discrepancy(const Taken& taken)
+{
+    std::vector<double> distances(taken.count());
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        distances[i] = std::abs(taken.sides[0].body_x[i] - taken.sides[1].body_x[i]);
+    }
+    return spread_of(distances);
+}
+
+std::optional<double> path_rms(const Taken& taken, const Columns& side)
+{
+    const auto stride = static_cast<std::size_t>(std::max(1.0, path_every_s / taken.tick_s));
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = taken.steady(); i < side.body_x.size(); i += stride) {
+        const double time = taken.begin_s + static_cast<double>(i) * taken.tick_s;
+        const double apart = side.body_x[i] - device::path_x(taken.exercise.path_pace * time);
+        sum += apart * apart;
+        count += 1.0;
+    }
+    if (count == 0.0) return std::nullopt;
+    return std::sqrt(sum / count);
+}
+
+std::optional<double> contact_lost(const Taken& taken, const Columns& side)
+{
+    std::vector<double> push;
+    for (const Stretch& stretch : taken.exercise.contact) {
+        const auto part = taken.cut(side.push, stretch);
+        push.insert(push.end(), part.begin(), part.end());
+    }
+    return contact_lost_of(push);
+}
+
+void measure_side(const Taken& taken, std::size_t index, Metrics& metrics)
+{
+    const Columns& side = taken.sides[index];
+    const Cutoff above{vibration_above_hz, taken.tick_s};
+    const auto body_x = std::span{side.body_x}.subspan(taken.steady());
+    const auto force = std::span{side.hand_force}.subspan(taken.steady());
+    const auto follows = std::span{side.follows}.subspan(taken.steady());
+    metrics.body_vibration_m[index] = vibration_of(
+        body_x, taken.exercise.by_turns ? follows : std::span<const std::uint8_t>{}, above);
+    metrics.force_vibration_n[index] = vibration_of(force, {}, above);
+    metrics.felt_vibration_n[index] =
+        band_vibration_of(force, above, {felt_below_hz, taken.tick_s});
+    metrics.contact_lost[index] = contact_lost(taken, side);
+    metrics.force_steps[index] = force_steps_of(force, taken.tick_s);
+    if (const auto stop = taken.exercise.stopped_at_m) {
+        double farthest = *stop;
+        for (const double x : body_x) farthest = std::max(farthest, x);
+        metrics.overshoot_m[index] = farthest - *stop;
+    }
+    if (!taken.exercise.along_path) return;
+    metrics.drag_n[index] = drag_of(side, taken.tick_s);
+    metrics.path_rms_m[index] = path_rms(taken, side);
+}
+
+void measure_presses(const Taken& taken, Metrics& metrics)
+{
+    for (const device::PressInterval& press : device::press_schedule) {
+        const Stretch steady{press.begin_s + 1.0 / press.hertz, press.end_s};
+        const auto at = std::find(press_hertz.begin(), press_hertz.end(), press.hertz);
+        if (!taken.covers(steady) || at == press_hertz.end()) continue;
+        const std::size_t presser = press.left_presses ? 0 : 1;
+        const Columns& side = taken.sides[presser];
+        metrics.stiffness_n_per_m[static_cast<std::size_t>(at - press_hertz.begin())][presser] =
+            stiffness_of(taken.cut(side.hand_force, steady), taken.cut(side.hip_x, steady),
+                         press.hertz, taken.tick_s);
+    }
+    Stretch left{device::press_schedule[0].begin_s, device::press_schedule[0].end_s};
+    for (const device::PressInterval& press : device::press_schedule) {
+        if (press.left_presses) left.end_s = press.end_s;
+    }
+    metrics.similarity = similarity_of(taken.cut(taken.sides[0].hand_force, left),
+                                       taken.cut(taken.sides[1].hand_force, left), taken.tick_s);
+}
+
+std::optional<double> drops(const Taken& taken)
+{
+    double count = 0.0;
+    for (const Stretch& stretch : taken.exercise.lifted) {
+        if (!taken.covers(stretch)) return std::nullopt;
+        const auto falls = [&](const Columns& side) {
+            const auto heights = taken.cut(side.body_y, stretch);
+            return std::any_of(heights.begin(), heights.end(),
+                               [](double height) { return height < fallen_m; });
+        };
+        if (falls(taken.sides[0]) || falls(taken.sides[1])) count += 1.0;
+    }
+    return count;
+}
+
+} // namespace
+
+Metrics metrics_of(const Trace& trace)
+{
+    base::ensure(trace.sides[0].size() == trace.sides[1].size());
+    const Taken taken{.exercise = exercise_of(trace.task),
+                      .sides = {columns_of(trace.sides[0]), columns_of(trace.sides[1])},
+                      .tick_s = base::to_seconds(trace.tick),
+                      .begin_s = base::to_seconds(trace.begin)};
+    Metrics metrics{.task = trace.task,
+                    .scored_s = static_cast<double>(taken.count()) * taken.tick_s};
+    if (taken.count() == 0) return metrics;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+        measure_side(taken, side, metrics);
+    }
+    if (taken.exercise.presses) measure_presses(taken, metrics);
+    if (!taken.exercise.lifted.empty()) metrics.drops = drops(taken);
+    const auto& [left, right] = taken.sides;
+    if (taken.exercise.presses) metrics.force_discrepancy = force_discrepancy_of(left, right);
+    metrics.discrepancy_m = body_discrepancy(taken);
+    metrics.energy_taken_j = energy_taken_of(left.work, right.work);
+    if (taken.exercise.taps) metrics.response_s = response_of(left, right, taken.tick_s);
+    return metrics;
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/high_pass.hpp"
+#include "lab/metrics/similarity.hpp"
+#include "lab/metrics/spread.hpp"
+#include "lab/metrics/steps.hpp"
+#include "lab/virtual_time/trace.hpp"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace hapnet::lab {
+
+/// Of L and of R.
+template <typename Value>
+using BySide = std::array<std::optional<Value>, 2>;
+
+/// The frequencies at which stiffness is measured.
+inline constexpr std::array press_hertz{0.5, 1.0, 2.0};
+inline constexpr std::size_t judged_press = 1; // of them
+
+/// What a session is measured by, A to L. SI units. What a task does not exercise is nullopt.
+/// As measured: what has to be taken relative to the unimpaired session is, in scores_of().
+/// docs/design/metrics.md says what each can tell and what not.
+struct Metrics {
+    device::Task task = device::Task::p1;
+    double scored_s = 0.0; // how long both sides were running
+
+    /// A: root mean square of the body's x above 20 Hz, metres; in a task by turns only while the
+    /// side follows.
+    BySide<ByOrder> body_vibration_m{};
+    /// B: by the frequency of pressing (press_hertz) and the side that presses, N/m.
+    std::array<BySide<double>, press_hertz.size()> stiffness_n_per_m{};
+    /// C: mean ||F_L| - |F_R|| over the mean force, at equal times.
+    std::optional<double> force_discrepancy{};
+    /// D: |x_L - x_R| of the body at equal times, metres.
+    std::optional<Spread> discrepancy_m{};
+    /// E: root mean square of the force on the hand in x above 20 Hz, newtons.
+    BySide<ByOrder> force_vibration_n{};
+    /// E between 20 and 300 Hz. Not weighted by how well a stylus transmits: no table of that was
+    /// in reach.
+    BySide<double> felt_vibration_n{};
+    /// F: the share of the time of commanded contact, 0 to 1, without 0.02 N of it.
+    BySide<double> contact_lost{};
+    /// G: of the force on the hand in x.
+    BySide<ForceSteps> force_steps{};
+    /// H: the most energy that the hands together got out of their devices, joules.
+    std::optional<double> energy_taken_j{};
+    /// I: mean force on the hand at a speed of about 0.1 m/s, newtons.
+    BySide<double> drag_n{};
+    /// J: root mean square of the distance, in x, of a side's body from the path it is to follow.
+    BySide<double> path_rms_m{};
+    /// J: in how many lifts a side's body is down, by half, while it is to be held up.
+    std::optional<double> drops{};
+    /// J: how far a side's body was beyond where the static cube stops it, metres.
+    BySide<double> overshoot_m{};
+    /// K: from a tap of L to the motion of R's body, seconds.
+    std::optional<double> response_s{};
+    /// L: of what the resting hand feels to what the pressing hand does.
+    std::optional<Similarity> similarity{};
+
+    friend bool operator==(const Metrics&, const Metrics&) = default;
+};
+
+[[nodiscard]] Metrics metrics_of(const Trace& trace);
+
+} // namespace hapnet::lab

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/metrics/scores.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <cmath>
+
+namespace hapnet::lab {
+
+namespace {
+
+// A number that is none stays one, so that it fails where it is judged.
+
+/// What is in `value` beyond `reference`, of two root mean squares that do not correlate.
+double excess(double value, double reference)
+{
+    const double squares = value * value - reference * reference;
+    return squares < 0.0 ? 0.0 : std::sqrt(squares);
+}
+
+ByOrder excess(const ByOrder& value, const ByOrder& reference)
+{
+    return {.first = excess(value.first, reference.first),
+            .second = excess(value.second, reference.second),
+            .fourth = excess(value.fourth, reference.fourth)};
+}
+
+double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
+
+ByOrder larger(const ByOrder& a, const ByOrder& b)
+{
+    return {.first = larger(a.first, b.first),
+            .second = larger(a.second, b.second),
+            .fourth = larger(a.fourth, b.fourth)};
+}
+
+ForceSteps larger(const ForceSteps& a, const ForceSteps& b)
+{
+    return {.largest_n = larger(a.largest_n, b.largest_n),
+            .reversals = larger(a.reversals, b.reversals)};
+}
+
+template <typename Value>
+std::optional<Value> worse(const BySide<Value>& sides)
+{
+    if (!sides[0] || !sides[1]) return sides[0] ? sides[0] : sides[1];
+    return larger(*sides[0], *sides[1]);
+}
+
+/// Side by side against the perfect network; nullopt where either has none.
+template <typename Value, typename Compare>
+BySide<Value> against(const BySide<Value>& impaired, const BySide<Value>& perfect, Compare compare)
+{
+    BySide<Value> result;
+    for (std::size_t side = 0; side < result.size(); ++side) {
+        if (impaired[side] && perfect[side]) {
+            result[side] = compare(*impaired[side], *perfect[side]);
+        }
+    }
+    return result;
+}
+
+std::optional<double> difference(const std::optional<double>& value,
+                                 const std::optional<double>& reference)
+{
+    if (!value || !reference) return std::nullopt;
+    return *value - *reference;
+}
+
+const auto in_quadrature = [](const ByOrder& value, const ByOrder& reference) {
+    return excess(value, reference);
+};
+const auto minus = [](double value, double reference) { return value - reference; };
+const auto ratio_of = [](double value, double reference) -> std::optional<double> {
+    if (!(reference > 0.0)) return std::nullopt;
+    return value / reference;
+};
+
+/// Of the stiffness that the hands feel when it is their turn to press: the mean of both, as both
+/// press on the same coupling, and each on its own is off by how the hands waver meanwhile. Of one
+/// alone, where the session ended before the other's turn.
+std::optional<double> stiffness_ratio(const BySide<double>& impaired, const BySide<double>& perfect)
+{
+    double felt = 0.0;
+    double reference = 0.0;
+    for (std::size_t side = 0; side < impaired.size(); ++side) {
+        if (!impaired[side] || !perfect[side]) continue;
+        felt += *impaired[side];
+        reference += *perfect[side];
+    }
+    return ratio_of(felt, reference);
+}
+
+} // namespace
+
+Scores scores_of(const Metrics& impaired, const Metrics& perfect)
+{
+    base::ensure(impaired.task == perfect.task);
+    Scores scores{
+        .task = impaired.task,
+        .scored_share = perfect.scored_s > 0.0 ? impaired.scored_s / perfect.scored_s : 0.0,
+        .vibration_m =
+            worse(against(impaired.body_vibration_m, perfect.body_vibration_m, in_quadrature)),
+        .force_discrepancy = impaired.force_discrepancy,
+        .force_discrepancy_added =
+            difference(impaired.force_discrepancy, perfect.force_discrepancy),
+        .discrepancy_m = impaired.discrepancy_m,
+        .force_vibration_n = worse(impaired.force_vibration_n),
+        .force_vibration_added_n =
+            worse(against(impaired.force_vibration_n, perfect.force_vibration_n, in_quadrature)),
+        .felt_vibration_n = worse(impaired.felt_vibration_n),
+        .contact_lost = worse(against(impaired.contact_lost, perfect.contact_lost, minus)),
+        .force_steps = worse(impaired.force_steps),
+        .energy_taken_j = impaired.energy_taken_j,
+        .drag_n = worse(against(impaired.drag_n, perfect.drag_n, minus)),
+        .path_rms_m = worse(impaired.path_rms_m),
+        .path_rms_ratio = worse(against(impaired.path_rms_m, perfect.path_rms_m, ratio_of)),
+        .drops = impaired.drops,
+        .overshoot_m = worse(impaired.overshoot_m),
+        .response_added_s = difference(impaired.response_s, perfect.response_s),
+        .similarity = impaired.similarity};
+    for (std::size_t i = 0; i < press_hertz.size(); ++i) {
+        scores.stiffness_ratio[i] =
+            stiffness_ratio(impaired.stiffness_n_per_m[i], perfect.stiffness_n_per_m[i]);
+    }
+    return scores;
+}
+
+} // namespace hapnet::lab

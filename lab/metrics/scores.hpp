@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/metrics.hpp"
+
+#include <array>
+#include <optional>
+
+namespace hapnet::lab {
+
+/// Metrics against those of the same session (task, algorithm, hands, seed) on a perfect network:
+/// what the network did. SI units; of the side that is worse off.
+struct Scores {
+    device::Task task = device::Task::p1;
+    /// How long both sides were running, of what it was on the perfect network.
+    double scored_share = 0.0;
+
+    /// A: sqrt(a^2 - a0^2), a the vibration, a0 that on the perfect network; 0 when it is less.
+    std::optional<ByOrder> vibration_m{};
+    /// B: mean stiffness of both hands over that on the perfect network, by press_hertz; can be
+    /// below 0.
+    std::array<std::optional<double>, press_hertz.size()> stiffness_ratio{};
+    /// C as measured, and the part of it that the perfect network does not show.
+    std::optional<double> force_discrepancy{};
+    std::optional<double> force_discrepancy_added{};
+    /// D as measured.
+    std::optional<Spread> discrepancy_m{};
+    /// E as measured, and in excess of the perfect network's as A.
+    std::optional<ByOrder> force_vibration_n{};
+    std::optional<ByOrder> force_vibration_added_n{};
+    std::optional<double> felt_vibration_n{};
+    /// F: the share lost beyond that on the perfect network; below 0 when less is lost.
+    std::optional<double> contact_lost{};
+    /// G as measured.
+    std::optional<ForceSteps> force_steps{};
+    /// H as measured.
+    std::optional<double> energy_taken_j{};
+    /// I: mean force beyond that on the perfect network; below 0 when it is less.
+    std::optional<double> drag_n{};
+    /// J: root mean square distance from the path, over that on the perfect network.
+    std::optional<double> path_rms_m{};
+    std::optional<double> path_rms_ratio{};
+    std::optional<double> drops{};
+    std::optional<double> overshoot_m{};
+    /// K: the response's time beyond that on the perfect network: the delay, if all is well.
+    std::optional<double> response_added_s{};
+    /// L as measured.
+    std::optional<Similarity> similarity{};
+
+    friend bool operator==(const Scores&, const Scores&) = default;
+};
+
+/// Both are to be of the same task.
+[[nodiscard]] Scores scores_of(const Metrics& impaired, const Metrics& perfect);
+
+} // namespace hapnet::lab

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/criteria.hpp"
+#include "lab/metrics/scores.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab {
+
+enum class Tier : std::uint8_t { unusable, usable, good };
+
+/// "unusable", "usable", "good"
+[[nodiscard]] std::string_view to_text(Tier tier);
+
+struct Judgement {
+    Tier tier = Tier::unusable;
+    /// What keeps it from `usable`, e.g. "vibration 1.31 mm > 0.95 mm"; empty when usable.
+    std::vector<std::string> failures;
+    /// What keeps it from `good` besides, e.g. "contact lost 12 % > 5 %".
+    std::vector<std::string> shortcomings;
+};
+
+/// Judges what the task exercised; what it did not is taken as kept.
+[[nodiscard]] Judgement judge(const Scores& scores, const Criteria& criteria);
+
+} // namespace hapnet::lab

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/records/agreement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace hapnet::lab {
+
+namespace {
+
+using namespace std::chrono_literals;
+using record::Phase;
+using record::TickRow;
+
+// Ticks of B further apart than this have time without data between them, not a straight line.
+constexpr base::Duration gap_max = 10ms;
+// Once both let go, the copies have this long to agree again.
+constexpr base::Duration settling_time = 2s;
+
+/// A tick of A, and the ticks of B around it; equal when B has one at that very time.
+struct Moment {
+    const TickRow* a;
+    const TickRow* before;
+    const TickRow* after;
+    double share; // of the way from `before` to `after`
+
+    [[nodiscard]] bool both_in(Phase phase) const
+    {
+        return a->phase == phase && before->phase == phase && after->phase == phase;
+    }
+    [[nodiscard]] bool both_touch() const
+    {
+        return a->touching && before->touching && after->touching;
+    }
+    [[nodiscard]] base::Displacement cube_distance() const
+    {
+        const base::Displacement step = after->cube - before->cube;
+        return a->cube - (before->cube + share * step);
+    }
+    [[nodiscard]] double force_distance() const
+    {
+        const base::Force step = after->contact - before->contact;
+        return std::abs(norm(a->contact) - norm(before->contact + share * step));
+    }
+};
+
+std::vector<Moment> moments_of(const Session& session)
+{
+    std::vector<Moment> moments;
+    const auto b = session.b.ticks;
+    const auto time_of = [&](const TickRow& row) { return session.clock.to_a(row.at()); };
+    auto after = b.begin();
+    for (const TickRow& a : session.a.ticks) {
+        while (after != b.end() && time_of(*after) < a.at()) ++after;
+        if (after == b.end()) break;
+        if (time_of(*after) == a.at()) {
+            moments.push_back({&a, &*after, &*after, 0.0});
+            continue;
+        }
+        if (after == b.begin()) continue;
+        const auto before = after - 1;
+        const base::Duration gap = after->at() - before->at();
+        if (gap > gap_max) continue;
+        moments.push_back({&a, &*before, &*after,
+                           base::to_seconds(a.at() - time_of(*before)) / base::to_seconds(gap)});
+    }
+    return moments;
+}
+
+std::optional<ForceDiscrepancy> force_discrepancy_of(const std::vector<Moment>& moments)
+{
+    std::vector<double> distances;
+    for (const Moment& moment : moments) {
+        if (moment.both_in(Phase::running) && moment.both_touch()) {
+            distances.push_back(moment.force_distance());
+        }
+    }
+    const auto spread = spread_of(distances);
+    if (!spread) return std::nullopt;
+    return ForceDiscrepancy{spread->mean, spread->max};
+}
+
+std::optional<double> settled_discrepancy_of(const std::vector<Moment>& moments)
+{
+    std::optional<base::TimePoint> let_go;
+    std::optional<double> largest;
+    for (const Moment& moment : moments) {
+        if (!moment.both_in(Phase::hands_off)) continue;
+        if (!let_go) let_go = moment.a->due;
+        if (moment.a->due < *let_go + settling_time) continue;
+        largest = std::max(largest.value_or(0.0), norm(moment.cube_distance()));
+    }
+    return largest;
+}
+
+TouchShares touch_shares_of(const std::vector<Moment>& moments)
+{
+    TouchShares touched;
+    double scored = 0.0;
+    for (const Moment& moment : moments) {
+        if (!moment.both_in(Phase::running)) continue;
+        const bool a = moment.a->touching, b = moment.before->touching;
+        scored += 1.0;
+        touched.a += a ? 1.0 : 0.0;
+        touched.b += b ? 1.0 : 0.0;
+        touched.either += a || b ? 1.0 : 0.0;
+        touched.both += a && b ? 1.0 : 0.0;
+    }
+    if (scored == 0.0) return {};
+    return {touched.a / scored, touched.b / scored, touched.either / scored, touched.both / scored};
+}
+
+double overlap_of(const Session& session, const std::vector<Moment>& moments)
+{
+    const base::TimePoint start = session.a.terms.start;
+    const base::Duration length = session.a.terms.length;
+    if (length <= 0s) return 0.0;
+    const auto shared = std::ranges::count_if(moments, [&](const Moment& moment) {
+        const bool within = moment.a->due >= start && moment.a->due - start < length;
+        const auto takes_part = [](const TickRow* row) {
+            return row->phase == Phase::running || row->phase == Phase::hands_off;
+        };
+        return within && takes_part(moment.a) && takes_part(moment.before) &&
+               takes_part(moment.after);
+    });
+    return std::min(1.0, base::to_seconds(shared * session.tick) / base::to_seconds(length));
+}
+
+} // namespace
+
+Agreement agreement_of(const Session& session)
+{
+    const auto moments = moments_of(session);
+    std::vector<double> distances;
+    for (const Moment& moment : moments) {
+        if (moment.both_in(Phase::running)) {
+            distances.push_back(std::abs(moment.cube_distance().x()));
+        }
+    }
+    return {.discrepancy_x = spread_of(distances),
+            .force_discrepancy = force_discrepancy_of(moments),
+            .settled_discrepancy = settled_discrepancy_of(moments),
+            .touching = touch_shares_of(moments),
+            .scored = static_cast<base::Duration::rep>(distances.size()) * session.tick,
+            .overlap = overlap_of(session, moments)};
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/records/loop.hpp"
+
+#include <vector>
+
+namespace hapnet::lab {
+
+Loop loop_of(const Side& side)
+{
+    using record::Phase;
+    Loop loop;
+    std::vector<base::Duration> late;
+    base::TimePoint first{};
+    base::TimePoint last{};
+    for (const record::TickRow& row : side.ticks) {
+        const bool counts = row.phase == Phase::running || row.phase == Phase::hands_off ||
+                            row.phase == Phase::alone;
+        if (!counts) continue;
+        if (late.empty()) first = row.due;
+        last = row.due;
+        loop.missed += row.missed_before;
+        late.push_back(row.late);
+    }
+    loop.ticks = late.size();
+    if (last > first) {
+        loop.rate_hz = static_cast<double>(loop.ticks - 1) / base::to_seconds(last - first);
+    }
+    loop.late = quantiles_of(std::move(late));
+    return loop;
+}
+
+} // namespace hapnet::lab

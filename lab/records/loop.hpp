@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/quantiles.hpp"
+#include "lab/records/session.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::lab {
+
+/// How well one peer's haptic loop kept its time, from T0 to its end.
+struct Loop {
+    std::uint64_t ticks = 0;
+    std::uint64_t missed = 0;
+    /// nullopt with fewer than two ticks.
+    std::optional<double> rate_hz;
+    std::optional<Quantiles> late;
+
+    /// Share of the ticks due that were skipped, 0 to 1.
+    [[nodiscard]] double missed_share() const
+    {
+        const auto due = static_cast<double>(ticks + missed);
+        return due > 0 ? static_cast<double>(missed) / due : 0.0;
+    }
+};
+
+[[nodiscard]] Loop loop_of(const Side& side);
+
+} // namespace hapnet::lab

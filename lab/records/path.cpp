@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/records/path.hpp"
+
+#include "lab/records/message_view.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <unordered_set>
+#include <vector>
+
+namespace hapnet::lab {
+
+namespace {
+
+struct Sent {
+    std::uint32_t highest = 0;
+    std::optional<double> packets_per_s;
+};
+
+Sent sent_by(const Side& sender)
+{
+    Sent sent;
+    std::uint64_t count = 0;
+    base::TimePoint first{};
+    base::TimePoint last{};
+    for (const record::TickRow& row : sender.ticks) {
+        if (row.sent_sequence == 0) continue;
+        sent.highest = std::max(sent.highest, row.sent_sequence);
+        last = row.due + row.late;
+        if (count++ == 0) first = last;
+    }
+    if (last > first) {
+        sent.packets_per_s = static_cast<double>(count - 1) / base::to_seconds(last - first);
+    }
+    return sent;
+}
+
+/// `receiver_ahead`: the receiver's clock minus the sender's.
+Path path_between(const Side& sender, const Side& receiver, base::Duration receiver_ahead)
+{
+    Path path;
+    std::uint32_t highest = 0;
+    std::unordered_set<std::uint32_t> seen;
+    std::vector<base::Duration> delays;
+    for (const record::MessageRow& row : receiver.messages) {
+        const auto message = view_of(row);
+        if (!message || message->session != receiver.terms.session) continue;
+        if (!seen.insert(message->sequence).second) {
+            ++path.duplicates;
+            continue;
+        }
+        if (message->sequence < highest) ++path.reordered;
+        highest = std::max(highest, message->sequence);
+        delays.push_back(row.received_at - receiver_ahead - message->sent);
+    }
+    std::vector<base::Duration> variations;
+    for (std::size_t i = 1; i < delays.size(); ++i) {
+        variations.push_back(std::chrono::abs(delays[i] - delays[i - 1]));
+    }
+    const Sent sent = sent_by(sender);
+    // What came was sent, even if the sender was killed before it wrote that down.
+    path.sent = std::max(sent.highest, highest);
+    path.packets_per_s = sent.packets_per_s;
+    path.received = delays.size();
+    if (highest > 0) {
+        path.loss = 1.0 - static_cast<double>(path.received) / static_cast<double>(highest);
+    }
+    path.delay = quantiles_of(std::move(delays));
+    path.jitter = quantiles_of(std::move(variations));
+    return path;
+}
+
+} // namespace
+
+Path path_a_to_b(const Session& session)
+{
+    return path_between(session.a, session.b, session.clock.offset);
+}
+
+Path path_b_to_a(const Session& session)
+{
+    return path_between(session.b, session.a, -session.clock.offset);
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/quantiles.hpp"
+#include "lab/records/session.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::lab {
+
+/// What became of the state messages of one session on one way.
+struct Path {
+    std::uint64_t sent = 0;
+    /// Different messages; a second copy counts under `duplicates`, and nowhere else.
+    std::uint64_t received = 0;
+    std::uint64_t duplicates = 0;
+    /// Came after a message with a higher sequence (RFC 4737, type-P-reordered).
+    std::uint64_t reordered = 0;
+    /// Share of the sequences up to the highest received that never came, 0 to 1; nullopt when
+    /// nothing came. Those after it may still have been on their way.
+    std::optional<double> loss;
+    /// From the sender's stamp to the kernel's receive stamp.
+    std::optional<Quantiles> delay;
+    /// |difference of the delays| of messages received one after another (RFC 3393, in the order
+    /// of arrival).
+    std::optional<Quantiles> jitter;
+    /// The rate at which the sender sent.
+    std::optional<double> packets_per_s;
+};
+
+[[nodiscard]] Path path_a_to_b(const Session& session);
+[[nodiscard]] Path path_b_to_a(const Session& session);
+
+} // namespace hapnet::lab

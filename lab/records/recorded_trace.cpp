@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/records/recorded_trace.hpp"
+
+#include "peer/core/peer.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace hapnet::lab {
+
+namespace {
+
+// Rows further apart than this have time without data between them, not a straight line.
+constexpr base::Duration bridge_max{std::chrono::milliseconds{10}};
+
+Sample sample_of(const record::TickRow& row)
+{
+    return {.body = row.cube,
+            .body_velocity = row.cube_velocity,
+            .hip = row.hip,
+            .hip_velocity = row.hip_velocity,
+            .on_hand = row.device,
+            .on_body = -row.contact,
+            .touching = row.touching,
+            .holding = false,
+            .remote_touching = row.remote_touching};
+}
+
+/// The rows of a side while it was running, on A's clock, asked in the order of time.
+class RunningRows {
+public:
+    RunningRows(const Side& side, base::Duration ahead) : ahead_{ahead}
+    {
+        const auto runs = [](const record::TickRow& row) {
+            return row.phase == record::Phase::running;
+        };
+        const auto first = std::ranges::find_if(side.ticks, runs);
+        const auto last = std::find_if_not(first, side.ticks.end(), runs);
+        rows_ = {first, last};
+    }
+
+    [[nodiscard]] bool empty() const { return rows_.empty(); }
+    [[nodiscard]] base::TimePoint begin() const { return rows_.front().at() - ahead_; }
+    [[nodiscard]] base::TimePoint end() const { return rows_.back().at() - ahead_; }
+
+    struct Reading {
+        Sample sample;
+        bool is_bridged = false; // there is no row near it
+    };
+    /// At a time from begin() to end(), not before the last one asked for.
+    [[nodiscard]] Reading at(base::TimePoint time)
+    {
+        const base::TimePoint here = time + ahead_;
+        while (at_ + 1 < rows_.size() && rows_[at_ + 1].at() <= here) ++at_;
+        const record::TickRow& row = rows_[at_];
+        if (at_ + 1 == rows_.size()) return {sample_of(row)};
+        const record::TickRow& next = rows_[at_ + 1];
+        const base::Duration gap = next.at() - row.at();
+        const double share = base::to_seconds(here - row.at()) / base::to_seconds(gap);
+        return {between(sample_of(row), sample_of(next), share), gap > bridge_max};
+    }
+
+private:
+    std::span<const record::TickRow> rows_;
+    base::Duration ahead_;
+    std::size_t at_ = 0;
+};
+
+base::Duration hands_on(base::Duration length)
+{
+    return length - std::min(peer::Peer::hands_off_length, length / 2);
+}
+
+} // namespace
+
+Trace trace_of(const Session& session)
+{
+    Trace trace{.tick = session.tick};
+    if (const auto task = device::task_named(session.task)) trace.task = *task;
+    const bool a_is_left = session.a.peer_id < session.b.peer_id;
+    const base::Duration b_ahead = session.clock.offset;
+    RunningRows a{session.a, base::Duration{0}};
+    RunningRows b{session.b, b_ahead};
+    if (a.empty() || b.empty()) return trace;
+
+    const base::TimePoint begin = std::max(a.begin(), b.begin());
+    const base::TimePoint end = std::min(a.end(), b.end());
+    base::Duration::rep bridged = 0;
+    for (base::TimePoint time = begin; time <= end; time += session.tick) {
+        const auto of_a = a.at(time);
+        const auto of_b = b.at(time);
+        trace.sides[a_is_left ? 0 : 1].push_back(of_a.sample);
+        trace.sides[a_is_left ? 1 : 0].push_back(of_b.sample);
+        if (of_a.is_bridged || of_b.is_bridged) ++bridged;
+    }
+    const base::TimePoint start =
+        a_is_left ? session.a.terms.start : session.clock.to_a(session.b.terms.start);
+    trace.begin = begin - start;
+    const auto samples = static_cast<base::Duration::rep>(trace.sides[0].size());
+    const base::Duration length = hands_on(session.a.terms.length);
+    if (length > base::Duration{0}) {
+        trace.overlap = std::min(1.0, base::to_seconds((samples - bridged) * session.tick) /
+                                          base::to_seconds(length));
+    }
+    return trace;
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/records/session.hpp"
+#include "lab/virtual_time/trace.hpp"
+
+namespace hapnet::lab {
+
+/// What two records tell of a session, as play() gives it of one in virtual time: both sides at the
+/// same even times, by straight lines between their rows. Side 0 is the one whose seed and clock
+/// count, the lower id; the records may come in either order.
+///
+/// Rows do not hold everything: `on_body` is the reaction to what the scene gave the hand, which
+/// differs from the force on the body where the force on the hand was softened for passivity, or
+/// where the hand touched something else besides; `holding` is false throughout. Time without rows
+/// (more than 10 ms) is bridged by straight lines too, but does not count in `overlap`.
+[[nodiscard]] Trace trace_of(const Session& session);
+
+} // namespace hapnet::lab

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/records/replay.hpp"
+
+#include "device/governor.hpp"
+#include "lab/records/recorded_settings.hpp"
+#include "peer/core/sync/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <spdlog/fmt/fmt.h>
+#include <tuple>
+#include <utility>
+
+namespace hapnet::lab {
+
+namespace {
+
+/// What the device said in a tick, as far as the governor looks at it.
+device::Sample said_in(const record::TickRow& row)
+{
+    device::Sample sample;
+    sample.hip = row.hip;
+    sample.velocity = row.hip_velocity;
+    sample.gripping = row.gripping;
+    sample.docked = row.docked;
+    sample.calibrated = row.calibrated;
+    sample.fault = static_cast<device::Fault>(row.fault);
+    sample.buttons = row.buttons;
+    sample.presses = row.presses;
+    sample.sequence = row.sample_sequence;
+    return sample;
+}
+
+/// One peer as it was.
+class Revival {
+public:
+    Revival(const record::Record& record, const RecordedSettings& settings)
+        : record_{record}, mount_{settings.mount}, peer_{settings.peer}, governor_{settings.limits}
+    {}
+
+    ReplayedTick turn(const record::TickRow& row)
+    {
+        const auto& messages = record_.messages;
+        for (; message_ < messages.size() && messages[message_].tick <= row.tick; ++message_) {
+            peer_.on_datagram(messages[message_].datagram(), messages[message_].received_at);
+        }
+        // Its own end comes by the clock; another one's was a person's.
+        if (row.phase == record::Phase::ended) peer_.leave(wire::ByeReason::interrupted);
+        const device::Sample sample = said_in(row);
+        const peer::Tick tick = peer_.tick(
+            row.at(), {sample.hip, sample.velocity, sample.gripping, is_in_hand(sample)});
+        while (peer_.poll()) {}
+        while (peer_.event()) {}
+        const device::Wish wish{mount_.to_device(tick.force), tick.permitted};
+        const base::Force force = governed(wish, sample, row);
+        return {row.tick, row.at(), row.contact, tick.force, row.device, force};
+    }
+
+    [[nodiscard]] std::size_t messages() const { return message_; }
+
+private:
+    base::Force governed(const device::Wish& wish, device::Sample sample,
+                         const record::TickRow& row)
+    {
+        sample.hip = mount_.to_device(sample.hip);
+        sample.velocity = mount_.to_device(sample.velocity);
+        constexpr auto fault = static_cast<std::uint8_t>(device::GovernorState::fault);
+        if (row.governor == fault && governor_.state() != device::GovernorState::fault) {
+            // What nothing in the row explains was the watchdog's doing.
+            device::Governor by_itself = governor_;
+            std::ignore = by_itself.govern(wish, sample, row.at());
+            if (by_itself.state() != device::GovernorState::fault) {
+                governor_.latch({device::Fault::timeout, device::Trip::loop});
+            }
+        }
+        return governor_.govern(wish, sample, row.at()).force();
+    }
+
+    const record::Record& record_;
+    device::Mount mount_;
+    peer::Peer peer_;
+    device::Governor governor_;
+    std::size_t message_ = 0;
+};
+
+/// Infinite where one of two is no number and the other is.
+double difference(const base::Force& a, const base::Force& b)
+{
+    double most = 0.0;
+    for (const int axis : {0, 1, 2}) {
+        const double x = a.value[axis];
+        const double y = b.value[axis];
+        const bool same = x == y || (std::isnan(x) && std::isnan(y));
+        const double gap = same ? 0.0 : std::abs(x - y);
+        most = std::max(most, std::isnan(gap) ? std::numeric_limits<double>::infinity() : gap);
+    }
+    return most;
+}
+
+std::optional<std::string> gap_in(const record::Record& record)
+{
+    if (record.ticks.empty()) return "it holds no tick";
+    std::uint64_t expected = 0;
+    for (const record::TickRow& row : record.ticks) {
+        if (row.tick < expected) {
+            return fmt::format("its tick {} stands where tick {} should: the file is damaged",
+                               row.tick, expected);
+        }
+        if (row.tick > expected) {
+            return fmt::format("its ticks {} to {} are missing, which its recorder could not write "
+                               "in time, or which were damaged: what came after them cannot be "
+                               "played again",
+                               expected, row.tick - 1);
+        }
+        ++expected;
+    }
+    return std::nullopt;
+}
+
+nlohmann::json finite(double value)
+{
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json{};
+}
+
+} // namespace
+
+base::Result<Replayed> replay(const record::Record& record,
+                              const std::optional<peer::Algorithm>& instead)
+{
+    auto settings = settings_of(record.config);
+    if (!settings) return tl::unexpected{settings.error()};
+    if (const auto gap = gap_in(record)) return base::fail(*gap);
+    if (instead) settings->peer.algorithm = *instead;
+
+    Replayed replayed;
+    replayed.algorithm = peer::name_of(settings->peer.algorithm);
+    replayed.is_the_recorded_one = !instead;
+    replayed.ticks.reserve(record.ticks.size());
+    Revival revival{record, *settings};
+    for (const record::TickRow& row : record.ticks) {
+        const ReplayedTick& tick = replayed.ticks.emplace_back(revival.turn(row));
+        const double contact = difference(tick.contact, tick.recorded_contact);
+        const double device = difference(tick.device, tick.recorded_device);
+        replayed.contact_difference_max_n = std::max(replayed.contact_difference_max_n, contact);
+        replayed.device_difference_max_n = std::max(replayed.device_difference_max_n, device);
+        const bool differs = contact > tolerance_n || device > tolerance_n;
+        if (differs && !replayed.differs_from) replayed.differs_from = row.tick;
+    }
+    replayed.messages = revival.messages();
+    replayed.is_complete = record.ticks.back().phase == record::Phase::ended;
+    return replayed;
+}
+
+nlohmann::json to_json(const Replayed& replayed)
+{
+    nlohmann::json out{{"ticks", replayed.ticks.size()},
+                       {"messages", replayed.messages},
+                       {"algorithm", replayed.algorithm},
+                       {"algorithm_is_the_recorded_one", replayed.is_the_recorded_one},
+                       {"contact_difference_max_n", finite(replayed.contact_difference_max_n)},
+                       {"device_difference_max_n", finite(replayed.device_difference_max_n)},
+                       {"tolerance_n", tolerance_n},
+                       {"differs_from_tick", nullptr},
+                       {"complete", replayed.is_complete},
+                       {"reproduced", !replayed.differs_from}};
+    if (replayed.differs_from) out["differs_from_tick"] = *replayed.differs_from;
+    return out;
+}
+
+std::string to_table(const Replayed& replayed)
+{
+    std::string text =
+        fmt::format("replayed    {} ticks with {} messages, algorithm {}\n"
+                    "difference  contact force {:.3g} N, device force {:.3g} N at most\n",
+                    replayed.ticks.size(), replayed.messages, replayed.algorithm,
+                    replayed.contact_difference_max_n, replayed.device_difference_max_n);
+    if (!replayed.is_complete) {
+        text += "incomplete  the record stops before the session's end: its writer was killed, its "
+                "disk was full, or it was cut off\n";
+    }
+    if (!replayed.differs_from) return text + "verdict     the recorded forces, again\n";
+    return text + fmt::format("verdict     {} from tick {} on\n",
+                              replayed.is_the_recorded_one
+                                  ? "NOT the recorded forces"
+                                  : "other forces than the recorded algorithm's",
+                              *replayed.differs_from);
+}
+
+std::string replay_csv_header()
+{
+    std::string line = "time_s,tick";
+    for (const char* name : {"recorded_contact", "contact", "recorded_device", "device"}) {
+        for (const char axis : {'x', 'y', 'z'}) line += fmt::format(",{}_{}_n", name, axis);
+    }
+    return line;
+}
+
+std::string csv_line(const ReplayedTick& tick, base::TimePoint zero)
+{
+    std::string line = fmt::format("{:.6f},{}", base::to_seconds(tick.at - zero), tick.tick);
+    for (const base::Force& force :
+         {tick.recorded_contact, tick.contact, tick.recorded_device, tick.device}) {
+        for (const int axis : {0, 1, 2}) {
+            const double part = force.value[axis];
+            line += std::isfinite(part) ? fmt::format(",{:.9f}", part) : ",";
+        }
+    }
+    return line;
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/plot/plot.hpp"
+#include "lab/report/section.hpp"
+#include "lab/report/words.hpp"
+
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::lab::report {
+
+using plot::escaped;
+
+namespace {
+
+constexpr std::size_t points_max = 6000; // a curve: finer than pixels even when zoomed
+constexpr std::string_view left_colour = "var(--left)";
+constexpr std::string_view right_colour = "var(--right)";
+
+using Rows = std::vector<TrajectoryRow>;
+
+std::vector<plot::Point> points_of(const Rows& rows, double TrajectoryRow::*value)
+{
+    std::vector<plot::Point> points;
+    for (const TrajectoryRow& row : rows) points.push_back({row.time_s, row.*value});
+    return plot::thinned(points, points_max);
+}
+
+/// What is drawn of both sides over time.
+struct BothSides {
+    std::string_view title; // after the algorithm's name
+    std::string_view left_name;
+    std::string_view right_name;
+    std::string_view unit;
+    double TrajectoryRow::*left;
+    double TrajectoryRow::*right;
+};
+
+constexpr BothSides drawn_cubes{
+    "", "cube at L", "cube at R", "x, mm", &TrajectoryRow::cube_l_mm, &TrajectoryRow::cube_r_mm};
+constexpr BothSides drawn_hands{
+    ": hands", "hand L", "hand R", "x, mm", &TrajectoryRow::hand_l_mm, &TrajectoryRow::hand_r_mm};
+constexpr BothSides drawn_forces{": forces",
+                                 "on hand L",
+                                 "on hand R",
+                                 "x, N",
+                                 &TrajectoryRow::force_l_n,
+                                 &TrajectoryRow::force_r_n};
+
+std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot::Range& range = {})
+{
+    const std::array curves{plot::Curve{.name = both.left_name,
+                                        .colour = left_colour,
+                                        .points = points_of(rows, both.left)},
+                            plot::Curve{.name = both.right_name,
+                                        .colour = right_colour,
+                                        .points = points_of(rows, both.right)}};
+    const std::string title = rows.front().algorithm + std::string{both.title};
+    return plot::svg_plot({title, "s", both.unit}, curves,
+                          {.size = {900.0, 230.0}, .y = range, .can_zoom = true});
+}
+
+std::string apart_text(const Rows& rows)
+{
+    double sum = 0.0, most = 0.0;
+    for (const TrajectoryRow& row : rows) {
+        const double apart = std::abs(row.cube_l_mm - row.cube_r_mm);
+        sum += apart;
+        most = std::max(most, apart);
+    }
+    return fmt::format("{}: the copies are {} mm apart on average and {} mm at most.",
+                       escaped(rows.front().algorithm),
+                       shown(sum / static_cast<double>(rows.size()), 2), shown(most, 1));
+}
+
+} // namespace
+
+std::optional<Section> fig7_section(const Results& results)
+{
+    if (results.trajectories.empty()) return std::nullopt;
+    Section section{
+        "fig7", "Fig. 7: where each side has the cube",
+        "<div class='zoom-group'>\n<p class='zoom-help' hidden>Drag across a plot to zoom; "
+        "all follow. <span class='zoom-buttons'></span></p>\n"};
+    plot::Range range;
+    for (const TrajectoryRow& row : results.trajectories) {
+        range.include(row.cube_l_mm);
+        range.include(row.cube_r_mm);
+    }
+    std::string more;
+    for (const auto& name :
+         distinct(results.trajectories, [](const auto& r) { return r.algorithm; })) {
+        Rows rows;
+        for (const TrajectoryRow& row : results.trajectories) {
+            if (row.algorithm == name) rows.push_back(row);
+        }
+        section.add_figure("fig7-" + name, both_sides_plot(rows, drawn_cubes, range),
+                           apart_text(rows));
+        more += figure(both_sides_plot(rows, drawn_hands), escaped(name)) +
+                figure(both_sides_plot(rows, drawn_forces), escaped(name));
+    }
+    section.html += folded("Hands and forces", more) + "</div>\n";
+    return section;
+}
+
+} // namespace hapnet::lab::report

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/real_time.hpp"
+
+#include "emulator/core/profile/text.hpp"
+#include "lab/metrics/metrics.hpp"
+#include "peer/core/peer.hpp"
+#include "peer/core/sync/text.hpp"
+#include "proto/base/version.hpp"
+#include "scene/text/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+#include <string_view>
+
+namespace hapnet::lab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double agreement_percent = 5.0; // of mean and of std
+
+/// The values that a program wrote down. What is missing is remembered.
+class Written {
+public:
+    Written(const Json& json, std::string_view program) : json_{json}, program_{program} {}
+
+    template <typename Value>
+    Value at(const std::string& pointer)
+    {
+        const Json::json_pointer where{pointer};
+        const Json found = json_.contains(where) ? json_.at(where) : Json{};
+        const bool fits =
+            std::is_same_v<Value, std::string> ? found.is_string() : found.is_number();
+        if (fits) return found.get<Value>();
+        if (!missing_) missing_ = fmt::format("{} does not say {}", program_, pointer);
+        return {};
+    }
+    [[nodiscard]] const std::optional<std::string>& missing() const { return missing_; }
+
+private:
+    const Json& json_;
+    std::string_view program_;
+    std::optional<std::string> missing_;
+};
+
+/// Takes results; the first error stays.
+class Parts {
+public:
+    template <typename Value>
+    Value take(base::Result<Value> part)
+    {
+        if (part) return *std::move(part);
+        if (!error_) error_ = part.error().message;
+        return {};
+    }
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
+private:
+    std::optional<std::string> error_;
+};
+
+/// A spread as `analyse` writes it.
+std::optional<Spread> spread_in(const Json& json)
+{
+    Written written{json, "the analysis"};
+    const Spread spread{written.at<double>("/mean"), written.at<double>("/min"),
+                        written.at<double>("/max"), written.at<double>("/std")};
+    if (written.missing()) return std::nullopt;
+    return spread;
+}
+
+std::optional<Spread> in_mm(const std::optional<Spread>& metres)
+{
+    if (!metres) return std::nullopt;
+    return Spread{1e3 * metres->mean, 1e3 * metres->min, 1e3 * metres->max, 1e3 * metres->std};
+}
+
+std::vector<std::string> objections_to(const RealTimeSession& session)
+{
+    std::vector<std::string> objections;
+    for (const auto& reason : session.analysis.value("invalid_because", Json::array())) {
+        objections.push_back(reason.get<std::string>());
+    }
+    if (!session.emulator.value("valid", false)) {
+        objections.emplace_back("the emulator was later than its budget");
+    }
+    if (!session.analysis.value("discrepancy_x_mm", Json{}).is_object()) {
+        objections.emplace_back("the two were never in session together");
+    }
+    return objections;
+}
+
+std::string number_text(std::optional<double> value, int decimals)
+{
+    return value ? fmt::format("{:.{}f}", *value, decimals) : "";
+}
+
+/// Mean, std and max, each after a comma.
+std::string cells_of(const std::optional<Spread>& spread)
+{
+    if (!spread) return ",,,";
+    return fmt::format(",{:.4f},{:.4f},{:.4f}", spread->mean, spread->std, spread->max);
+}
+
+/// As a cell of CSV.
+std::string cell_of(const std::vector<std::string>& reasons)
+{
+    if (reasons.empty()) return "";
+    const std::string text = fmt::format("{}", fmt::join(reasons, "; "));
+    std::string cell = "\"";
+    for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+    return cell + '"';
+}
+
+std::string_view verdict_on(const RealTimeResult& result)
+{
+    if (!result.valid()) return "NOT VALID, excluded";
+    const auto difference = result.difference_percent();
+    if (!difference) return "nothing to compare";
+    return std::abs(*difference) <= agreement_percent ? "agrees" : "DIFFERS";
+}
+
+} // namespace
+
+base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFile& open)
+{
+    Written peer{session.peer, "hapnet-peer"};
+    Written emulator{session.emulator, "hapnet-emulator"};
+    const auto task = peer.at<std::string>("/task");
+    const auto scene = peer.at<std::string>("/scene");
+    const auto algorithm = peer.at<std::string>("/algorithm_toml");
+    const auto person = peer.at<std::string>("/operator_toml");
+    const auto profile = emulator.at<std::string>("/profile");
+    Setting setting;
+    setting.length = base::from_seconds(peer.at<double>("/duration_s"));
+    setting.seed = base::Seed{emulator.at<std::uint64_t>("/seed")};
+    setting.players[0].seed = base::Seed{peer.at<std::uint64_t>("/session/seed")};
+    const auto grip_damping = peer.at<double>("/grip_damping_ns_per_m");
+    for (const Written* written : {&peer, &emulator}) {
+        if (written->missing()) return base::fail(*written->missing());
+    }
+    if (grip_damping != peer::Settings{}.grip_damping_ns_per_m) {
+        return base::fail("virtual time knows no other grip damping than the default");
+    }
+
+    Parts parts;
+    setting.task = parts.take(device::task_named(task));
+    setting.scene = parts.take(scene::load_scene(scene, open));
+    setting.profile = parts.take(emulator::parse_profile(profile, "the emulator's profile", open));
+    const auto text_of_person = [&](const std::string&) {
+        return base::Result<std::string>{person};
+    };
+    for (PlayerSetting& player : setting.players) {
+        player.algorithm = parts.take(peer::parse_algorithm(algorithm, "the peer's algorithm"));
+        player.person = parts.take(device::load_operator("the/peer's operator", text_of_person));
+    }
+    if (parts.error()) return base::fail(*parts.error());
+    if (auto why = objection(setting)) return base::fail(*std::move(why));
+    return setting;
+}
+
+std::optional<double> RealTimeResult::difference_percent() const
+{
+    if (!valid() || !real_mm || !virtual_mm) return std::nullopt;
+    if (virtual_mm->mean == 0.0 || virtual_mm->std == 0.0) return std::nullopt;
+    const double of_mean = 100.0 * (real_mm->mean - virtual_mm->mean) / virtual_mm->mean;
+    const double of_std = 100.0 * (real_mm->std - virtual_mm->std) / virtual_mm->std;
+    return std::abs(of_mean) >= std::abs(of_std) ? of_mean : of_std;
+}
+
+RealTimeResult result_of(const RealTimeSession& session, const Trace& twin)
+{
+    return {.algorithm = session.peer.value("algorithm", "?"),
+            .where = session.where,
+            .real_mm = spread_in(session.analysis.value("discrepancy_x_mm", Json{})),
+            .virtual_mm = in_mm(metrics_of(twin).discrepancy_m),
+            .invalid_because = objections_to(session)};
+}
+
+std::string real_time_csv(std::span<const RealTimeResult> results)
+{
+    std::string csv = "algorithm,where,mean_mm,std_mm,max_mm,virtual_mean_mm,virtual_std_mm,"
+                      "virtual_max_mm,difference_percent,valid,invalid_because\n";
+    for (const RealTimeResult& result : results) {
+        csv += fmt::format("{},{}{}{},{},{},{}\n", result.algorithm, result.where,
+                           cells_of(result.real_mm), cells_of(result.virtual_mm),
+                           number_text(result.difference_percent(), 2), result.valid(),
+                           cell_of(result.invalid_because));
+    }
+    return csv;
+}
+
+std::string real_time_table(std::span<const RealTimeResult> results)
+{
+    constexpr auto row = "{:<16}{:<12}{:>9}{:>9}{:>9}   {}\n";
+    std::string table = fmt::format(row, "|x_L - x_R|, mm", "where", "mean", "std", "max",
+                                    "real time against virtual time");
+    const auto line = [&](const RealTimeResult& result, std::string_view where,
+                          const std::optional<Spread>& spread, std::string_view note) {
+        const auto cell = [&](double Spread::*part) {
+            return spread ? fmt::format("{:.2f}", (*spread).*part) : std::string{"-"};
+        };
+        table += fmt::format(row, result.algorithm, where, cell(&Spread::mean), cell(&Spread::std),
+                             cell(&Spread::max), note);
+    };
+    for (const RealTimeResult& result : results) {
+        line(result, "virtual", result.virtual_mm, "");
+        const auto percent = number_text(result.difference_percent(), 2);
+        line(result, result.where, result.real_mm,
+             percent.empty() ? std::string{verdict_on(result)}
+                             : fmt::format("{} % off at most: {}", percent, verdict_on(result)));
+        for (const auto& reason : result.invalid_because) table += "  " + reason + '\n';
+    }
+    return table;
+}
+
+Json real_time_manifest(std::span<const RealTimeResult> results,
+                        const RealTimeCircumstances& circumstances)
+{
+    Json sessions = Json::array();
+    for (const RealTimeResult& result : results) {
+        sessions.push_back({{"algorithm", result.algorithm},
+                            {"where", result.where},
+                            {"valid", result.valid()},
+                            {"invalid_because", result.invalid_because}});
+    }
+    const auto is_valid = [](const RealTimeResult& result) { return result.valid(); };
+    return {{"command", circumstances.command},
+            {"version", base::version()},
+            {"commit", base::commit()},
+            {"compiler", base::compiler()},
+            {"host", circumstances.host},
+            {"start", circumstances.start},
+            {"wall_time_s", circumstances.wall_time_s},
+            {"valid", std::ranges::all_of(results, is_valid)},
+            {"sessions", sessions}};
+}
+
+} // namespace hapnet::lab

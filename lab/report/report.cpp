@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/report.hpp"
+
+#include "lab/report/gnuplot.hpp"
+#include "lab/report/page.hpp"
+#include "lab/report/plot/axis.hpp"
+#include "lab/report/section.hpp"
+#include "lab/report/words.hpp"
+
+#include <array>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::lab::report {
+
+using plot::escaped;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What a page can have, and how to make it.
+struct PartOfPage {
+    std::string_view what;
+    std::optional<Section> (*section)(const Results&);
+    std::string_view command; // up to the folder; empty: it comes with others
+    std::string_view subfolder{};
+};
+
+constexpr std::array parts_of_page{
+    PartOfPage{"the replay", replay_section, "scripts/table1.sh --out", "table1"},
+    PartOfPage{"Table 1", table1_section, "scripts/table1.sh --out", "table1"},
+    PartOfPage{"Fig. 6a", fig6a_section, "scripts/fig6a.sh --out", "fig6a"},
+    PartOfPage{"Fig. 6b", fig6b_section, "scripts/fig6b.sh --out", "fig6b"},
+    PartOfPage{"the curves", curves_section, "scripts/fig6a.sh --out", "fig6a"},
+    PartOfPage{"how far a limit can be trusted", trust_section, "scripts/fig6a.sh --out", "fig6a"},
+    PartOfPage{"Fig. 7", fig7_section, "scripts/fig7.sh --out", "fig7"},
+    PartOfPage{"what a network must offer", qos_section, "scripts/qos.sh --out", "qos"},
+    PartOfPage{"the closed-loop tasks", tasks_section, "scripts/table1.sh --out", "table1"},
+    PartOfPage{"real time", real_time_section, "scripts/table1.sh --real-time --out", "table1"},
+    PartOfPage{"calibrated, predicted, missed", claims_section, ""},
+    PartOfPage{"how to repeat it", runs_section, ""}};
+
+/// The sections that there are, and as HTML what is missing.
+struct Contents {
+    std::vector<Section> sections;
+    std::string missing;
+};
+
+Contents contents_of(const Results& results, std::string_view folder)
+{
+    Contents contents;
+    for (const PartOfPage& part : parts_of_page) {
+        if (auto section = part.section(results)) {
+            contents.sections.push_back(*std::move(section));
+        } else if (!part.command.empty()) {
+            contents.missing += fmt::format("<li>{}: <code>{} {}/{}</code></li>\n", part.what,
+                                            part.command, escaped(folder), part.subfolder);
+        }
+    }
+    return contents;
+}
+
+std::string title_of(const Results& results)
+{
+    if (results.runs.size() == 1) {
+        const auto& manifest = results.runs.front().manifest;
+        const auto title = manifest.find("title");
+        if (title != manifest.end() && title->is_string()) return title->get<std::string>();
+    }
+    return "Two people, one cube, a bad network";
+}
+
+/// Whether the results count, and why not.
+std::string validity(const Results& results)
+{
+    std::string reasons;
+    for (const Run& run : results.runs) {
+        if (run.is_valid()) continue;
+        const auto found = run.manifest.find("invalid_because");
+        if (found == run.manifest.end() || !found->is_array() || found->empty()) {
+            // Of sessions over real UDP each row says it for itself.
+            const bool is_real_time = run.manifest.value("kind", Json{}) == "real-time";
+            reasons += fmt::format("<li>{}: {}</li>\n", escaped(run.folder),
+                                   is_real_time ? "not every session over real UDP kept its timing"
+                                                : "does not say why");
+            continue;
+        }
+        for (const auto& reason : *found) {
+            const auto text = reason.is_string() ? reason.get<std::string>() : reason.dump();
+            reasons += fmt::format("<li>{}: {}</li>\n", escaped(run.folder), escaped(text));
+        }
+    }
+    if (!reasons.empty()) {
+        return "<div class='banner missed' role='alert'><b>Not valid.</b> These numbers do not "
+               "count:<ul>\n" +
+               reasons + "</ul></div>\n";
+    }
+    if (results.runs.empty()) {
+        return "<div class='banner'>No manifest.json: how these numbers came about, and whether "
+               "they are valid, is not known.</div>\n";
+    }
+    return "<div class='banner met'><b>Valid.</b> Every run came to its end and has nothing "
+           "against "
+           "itself.</div>\n";
+}
+
+std::string tile(std::size_t count, std::string_view text, std::string_view style)
+{
+    return fmt::format("<a class='tile {}' href='#claims'><b>{}</b> {}</a>\n", style, count, text);
+}
+
+/// What stands on top: what one sees, and whether it counts.
+std::string head_of(const Results& results, const std::string& title, const Contents& contents)
+{
+    const Claims claims = main_claims(results);
+    const std::size_t count = claims.calibrated.size() + claims.met.size() + claims.missed.size();
+    std::string out = fmt::format(
+        "<header>\n<h1>{}</h1>\n<p class='lead'>Two simulated hands push one cube over a bad "
+        "network; each computer has its own copy of the cube, and this page shows how far the "
+        "copies drift apart and when the push stops feeling right, beside the paper’s numbers."
+        "</p>\n{}",
+        escaped(title), validity(results));
+    if (count > 0) {
+        out += fmt::format("<p class='tiles' aria-label='results that stand against the paper'>\n"
+                           "{}{}{}</p>\n",
+                           tile(claims.calibrated.size(), "calibrated", "calibrated"),
+                           tile(claims.met.size(), "predicted and met", "met"),
+                           tile(claims.missed.size(), "missed", "missed"));
+    }
+    out += "<nav aria-label='contents'><ul>\n";
+    for (const Section& section : contents.sections) {
+        out += fmt::format("<li><a href='#{}'>{}</a></li>\n", section.id, escaped(section.title));
+    }
+    return out + "</ul></nav>\n</header>\n";
+}
+
+std::string page_of(const Results& results, const Contents& contents)
+{
+    const std::string title = title_of(results);
+    std::string page = page_head(title) + head_of(results, title, contents);
+    for (const Section& section : contents.sections) {
+        page += fmt::format("<section id='{0}' aria-labelledby='{0}-title'>\n"
+                            "<h2 id='{0}-title'>{1}</h2>\n{2}</section>\n",
+                            section.id, escaped(section.title), section.html);
+    }
+    if (!contents.missing.empty()) {
+        page += "<section id='missing'>\n<h2>Not in this folder</h2>\n<p>These commands make the "
+                "rest; report the folder again afterwards.</p>\n<ul>\n" +
+                contents.missing + "</ul>\n</section>\n";
+    }
+    page += "<footer><p>The hands are simulated. A verdict is a calibrated convention, not a "
+            "finding about people.</p></footer>\n";
+    return page + page_foot(std::string{zoom_script()}.append(player_script()));
+}
+
+} // namespace
+
+std::vector<File> report_of(const Results& results, std::string_view folder)
+{
+    Contents contents = contents_of(results, folder);
+    std::vector<File> files{{"report.html", page_of(results, contents)}};
+    for (const Section& section : contents.sections) {
+        for (const Figure& one : section.figures) {
+            files.push_back({fmt::format("figures/{}.svg", one.name), standalone(one.svg)});
+        }
+    }
+    for (File& file : gnuplot_files(results)) files.push_back(std::move(file));
+    return files;
+}
+
+} // namespace hapnet::lab::report

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/report/file.hpp"
+#include "lab/report/results.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab::report {
+
+/// The report of a result folder: report.html, figures/*.svg, gnuplot/*. Equal results give equal
+/// bytes. `folder` is its name, for the commands that the page shows.
+[[nodiscard]] std::vector<File> report_of(const Results& results, std::string_view folder);
+
+} // namespace hapnet::lab::report

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/results.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::lab::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Outcome = base::Result<void>;
+
+std::string_view name_of(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+
+std::string folder_of(std::string_view path)
+{
+    const auto slash = path.rfind('/');
+    return std::string{path.substr(0, slash == std::string_view::npos ? 0 : slash)};
+}
+
+Outcome add_run(const File& file, Results& results)
+{
+    // What nests deeper than anything that we write is left out: it could exhaust the stack.
+    constexpr int depth_max = 16;
+    auto json = Json::parse(
+        file.text, [](int depth, Json::parse_event_t, const Json&) { return depth <= depth_max; },
+        false);
+    if (!json.is_object()) return base::fail(file.path + ":1: expected one JSON object");
+    Run run{folder_of(file.path), std::move(json), std::nullopt};
+    const auto criteria = run.manifest.find("criteria");
+    if (criteria != run.manifest.end() && criteria->is_string()) {
+        auto parsed = parse_criteria(criteria->get<std::string>(), file.path + ": criteria");
+        if (!parsed) return tl::unexpected{parsed.error()};
+        run.criteria = *parsed;
+    }
+    results.runs.push_back(std::move(run));
+    return {};
+}
+
+template <typename Value>
+Outcome append(std::vector<Value>& all, base::Result<std::vector<Value>> rows)
+{
+    if (!rows) return tl::unexpected{rows.error()};
+    all.insert(all.end(), std::make_move_iterator(rows->begin()),
+               std::make_move_iterator(rows->end()));
+    return {};
+}
+
+Outcome add_replay(const File& file, Results& results)
+{
+    auto replay = read_replay(file);
+    if (!replay) return tl::unexpected{replay.error()};
+    results.replays.push_back(*std::move(replay));
+    return {};
+}
+
+struct Kind {
+    std::string_view name;
+    Outcome (*add)(const File&, Results&);
+};
+
+constexpr std::array kinds{
+    Kind{"manifest.json", add_run},
+    Kind{"table1.csv", [](const File& f, Results& r) { return append(r.table1, read_table1(f)); }},
+    Kind{"tasks.csv", [](const File& f, Results& r) { return append(r.tasks, read_tasks(f)); }},
+    Kind{"limits.csv", [](const File& f, Results& r) { return append(r.limits, read_limits(f)); }},
+    Kind{"limits_by_convention.csv",
+         [](const File& f, Results& r) { return append(r.conventions, read_conventions(f)); }},
+    Kind{"curves.csv", [](const File& f, Results& r) { return append(r.curves, read_curves(f)); }},
+    Kind{"trajectories.csv",
+         [](const File& f, Results& r) { return append(r.trajectories, read_trajectories(f)); }},
+    Kind{"qos.csv", [](const File& f, Results& r) { return append(r.qos, read_qos(f)); }},
+    Kind{"real_time.csv",
+         [](const File& f, Results& r) { return append(r.real_time, read_real_time(f)); }}};
+
+constexpr Kind replay_kind{"*.csv", add_replay};
+
+const Kind* kind_of(std::string_view path)
+{
+    const auto folder = folder_of(path);
+    if (name_of(folder) == "replay" && path.ends_with(".csv")) return &replay_kind;
+    const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                    [&](const Kind& kind) { return kind.name == name_of(path); });
+    return found == kinds.end() ? nullptr : &*found;
+}
+
+/// Says which rows give one thing twice.
+template <typename Value, typename Name>
+Outcome require_once(const std::vector<Value>& rows, std::string_view file, const Name& name)
+{
+    std::map<std::string, int> counts;
+    for (const Value& row : rows) {
+        const std::string one = name(row);
+        if (++counts[one] == 1) continue;
+        return base::fail(fmt::format("{} has '{}' twice, perhaps in two folders: report one at a "
+                                      "time",
+                                      file, one));
+    }
+    return {};
+}
+
+Outcome require_each_once(const Results& results)
+{
+    return require_once(results.table1, "table1.csv",
+                        [](const Table1Row& row) { return row.algorithm; })
+        .and_then([&] {
+            return require_once(results.tasks, "tasks.csv", [](const TaskRow& row) {
+                return row.algorithm + " in " + row.task;
+            });
+        })
+        .and_then([&] {
+            return require_once(results.limits, "limits.csv", [](const LimitRow& row) {
+                return row.algorithm + ", " + row.impairment + ", " + row.task;
+            });
+        })
+        .and_then([&] {
+            return require_once(results.qos, "qos.csv", [](const QosRow& row) {
+                return fmt::format("{}, {}, {} ms, {} ms, {} %", row.algorithm, row.task,
+                                   row.delay_ms, row.jitter_ms, row.loss_percent);
+            });
+        })
+        .and_then([&] {
+            return require_once(results.replays, "replay/", [](const Replay& replay) {
+                return replay.algorithm + "-" + replay.task;
+            });
+        });
+}
+
+/// Base first, then the others as the paper names them, then what it does not know.
+std::size_t rank(std::string_view algorithm)
+{
+    constexpr std::array<std::string_view, 3> known{"base", "sep", "dead-reckoning"};
+    return static_cast<std::size_t>(std::find(known.begin(), known.end(), algorithm) -
+                                    known.begin());
+}
+
+template <typename Value>
+void put_in_order(std::vector<Value>& rows)
+{
+    std::stable_sort(rows.begin(), rows.end(), [](const Value& a, const Value& b) {
+        return rank(a.algorithm) < rank(b.algorithm);
+    });
+}
+
+} // namespace
+
+bool Run::is_valid() const
+{
+    const auto found = manifest.find("valid");
+    return found != manifest.end() && found->is_boolean() && found->get<bool>();
+}
+
+std::optional<Criteria> Results::criteria() const
+{
+    if (runs.empty()) return std::nullopt;
+    const auto first = runs.front().criteria;
+    const bool is_one = std::all_of(runs.begin(), runs.end(),
+                                    [&](const Run& run) { return run.criteria == first; });
+    return is_one ? first : std::nullopt;
+}
+
+bool is_result_file(std::string_view path) { return kind_of(path) != nullptr; }
+
+base::Result<Results> read_results(std::span<const File> files)
+{
+    std::vector<const File*> ordered;
+    for (const File& file : files) ordered.push_back(&file);
+    std::sort(ordered.begin(), ordered.end(),
+              [](const File* a, const File* b) { return a->path < b->path; });
+    Results results;
+    for (const File* file : ordered) {
+        const Kind* kind = kind_of(file->path);
+        if (kind == nullptr) continue;
+        const auto added = kind->add(*file, results);
+        if (!added) return tl::unexpected{added.error()};
+    }
+    const auto once = require_each_once(results);
+    if (!once) return tl::unexpected{once.error()};
+    put_in_order(results.table1);
+    put_in_order(results.tasks);
+    put_in_order(results.limits);
+    put_in_order(results.conventions);
+    put_in_order(results.curves);
+    put_in_order(results.trajectories);
+    put_in_order(results.qos);
+    put_in_order(results.real_time);
+    put_in_order(results.replays);
+    return results;
+}
+
+} // namespace hapnet::lab::report

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/criteria.hpp"
+#include "lab/report/rows.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab::report {
+
+/// How some of the results came about: a manifest.json.
+struct Run {
+    std::string folder; // where it stands, as the path of the file says
+    nlohmann::ordered_json manifest;
+    std::optional<Criteria> criteria; // by which it judged; nullopt: it does not say
+
+    [[nodiscard]] bool is_valid() const;
+};
+
+/// All that a result folder holds, its subfolders' results joined.
+struct Results {
+    std::vector<Run> runs;
+    std::vector<Table1Row> table1;
+    std::vector<TaskRow> tasks;
+    std::vector<LimitRow> limits;
+    std::vector<ConventionRow> conventions;
+    std::vector<CurveRow> curves;
+    std::vector<TrajectoryRow> trajectories;
+    std::vector<QosRow> qos;
+    std::vector<RealTimeRow> real_time;
+    std::vector<Replay> replays;
+
+    /// By which all runs judged; nullopt when they do not say, or differ.
+    [[nodiscard]] std::optional<Criteria> criteria() const;
+};
+
+/// Whether a file of this name is one that read_results() reads; all others it leaves alone.
+/// Replays are those of a folder replay/.
+[[nodiscard]] bool is_result_file(std::string_view path);
+
+/// Reads the files of a result folder and of its subfolders; their order does not matter. Errors
+/// begin with "FILE:LINE: ". Of two results that exclude each other, such as two rows of Table 1
+/// for one algorithm, it is an error that both are there.
+[[nodiscard]] base::Result<Results> read_results(std::span<const File> files);
+
+} // namespace hapnet::lab::report

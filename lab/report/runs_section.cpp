@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/plot/axis.hpp"
+#include "lab/report/section.hpp"
+#include "lab/report/words.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::lab::report {
+
+using plot::escaped;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What a person reads of a value: texts without quotes, lists with commas.
+std::string words_of(const Json& value)
+{
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    if (value.is_null()) return "–";
+    std::string out;
+    if (value.is_array()) {
+        for (const Json& one : value) out += (out.empty() ? "" : ", ") + words_of(one);
+        return out;
+    }
+    if (value.is_object()) {
+        for (const auto& [key, one] : value.items()) {
+            out += (out.empty() ? "" : ", ") + key + " " + words_of(one);
+        }
+        return out;
+    }
+    return value.dump();
+}
+
+/// "speed_ratio" as "speed ratio", "wall_time_s" as "wall time, s".
+std::string title_of_key(std::string key)
+{
+    if (key.ends_with("_s")) key.replace(key.size() - 2, 2, ", s");
+    std::replace(key.begin(), key.end(), '_', ' ');
+    return key;
+}
+
+/// The words of one value of a manifest; "–" when it is not there.
+std::string words_at(const Run& run, std::string_view key)
+{
+    const auto found = run.manifest.find(key);
+    return found == run.manifest.end() ? "–" : escaped(words_of(*found));
+}
+
+std::string overview(const std::vector<Run>& runs)
+{
+    HtmlTable table{"What was run",
+                    {"folder", "title", "wall time, s", "simulated, s", "times faster<br>than life",
+                     "sessions", "seeds", "valid"}};
+    for (const Run& run : runs) {
+        table.rows.push_back(
+            {{escaped(run.folder)},
+             {words_at(run, "title"), "words"},
+             {words_at(run, "wall_time_s")},
+             {words_at(run, "simulated_s")},
+             {words_at(run, "speed_ratio")},
+             {words_at(run, "sessions"), "name"},
+             {words_at(run, "seeds"), "name"},
+             {run.is_valid() ? "valid" : "not valid", run.is_valid() ? "name" : "name missed"}});
+    }
+    return html_of(table);
+}
+
+/// All that a manifest says; what has lines of its own, such as the configuration, below the rest.
+std::string run_html(const Run& run)
+{
+    HtmlTable table{run.folder, {"", "value"}};
+    std::string texts;
+    for (const auto& [key, value] : run.manifest.items()) {
+        const std::string words = words_of(value), title = escaped(title_of_key(key));
+        if (words.find('\n') == std::string::npos) {
+            table.rows.push_back({{title}, {escaped(words), "words"}});
+        } else {
+            texts += fmt::format("<p>{}:</p>\n<pre>{}</pre>\n", title, escaped(words));
+        }
+    }
+    return folded(fmt::format("{}: <code>{}</code>", escaped(run.folder), words_at(run, "command")),
+                  html_of(table) + texts);
+}
+
+} // namespace
+
+std::optional<Section> runs_section(const Results& results)
+{
+    if (results.runs.empty()) return std::nullopt;
+    Section section{"runs", "How to repeat it", overview(results.runs)};
+    for (const Run& run : results.runs) section.html += run_html(run);
+    return section;
+}
+
+} // namespace hapnet::lab::report

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/report/results.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab::report {
+
+/// A plot that also becomes a file of its own.
+struct Figure {
+    std::string name; // figures/NAME.svg
+    std::string svg;
+};
+
+/// A part of the page.
+struct Section {
+    std::string id;
+    std::string title; // text
+    std::string html{};
+    std::vector<Figure> figures{};
+
+    /// A figure in the page and as a file; the caption is HTML.
+    void add_figure(std::string name, std::string svg, std::string_view caption);
+};
+
+// The sections, each from what the folder holds of it; nullopt when that is nothing.
+
+[[nodiscard]] std::optional<Section> replay_section(const Results& results);
+[[nodiscard]] std::optional<Section> table1_section(const Results& results);
+[[nodiscard]] std::optional<Section> tasks_section(const Results& results);
+/// Delay and jitter.
+[[nodiscard]] std::optional<Section> fig6a_section(const Results& results);
+/// Random loss and burst loss.
+[[nodiscard]] std::optional<Section> fig6b_section(const Results& results);
+[[nodiscard]] std::optional<Section> curves_section(const Results& results);
+[[nodiscard]] std::optional<Section> trust_section(const Results& results);
+[[nodiscard]] std::optional<Section> fig7_section(const Results& results);
+[[nodiscard]] std::optional<Section> qos_section(const Results& results);
+[[nodiscard]] std::optional<Section> real_time_section(const Results& results);
+[[nodiscard]] std::optional<Section> claims_section(const Results& results);
+[[nodiscard]] std::optional<Section> runs_section(const Results& results);
+
+/// Results that stand against the paper, as lines of HTML.
+struct Claims {
+    std::vector<std::string> calibrated;
+    std::vector<std::string> met;
+    std::vector<std::string> missed;
+};
+
+/// What Table 1 and the worst of the tasks say.
+[[nodiscard]] Claims main_claims(const Results& results);
+/// What single tasks say.
+[[nodiscard]] Claims task_claims(const Results& results);
+
+} // namespace hapnet::lab::report

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/bands.hpp"
+#include "lab/report/plot/bars.hpp"
+#include "lab/report/section.hpp"
+#include "lab/report/words.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::lab::report {
+
+using plot::escaped;
+
+namespace {
+
+/// One number of Table 1, ours and the paper's.
+struct Quantity {
+    std::string_view name;
+    double Table1Row::*ours;
+    std::optional<double> Table1Row::*papers;
+    std::optional<Band> Table1Bands::*band;
+};
+
+constexpr std::array quantities{
+    Quantity{"mean", &Table1Row::mean_mm, &Table1Row::paper_mean_mm, &Table1Bands::mean_mm},
+    Quantity{"std", &Table1Row::std_mm, &Table1Row::paper_std_mm, &Table1Bands::std_mm},
+    Quantity{"max", &Table1Row::max_mm, &Table1Row::paper_max_mm, &Table1Bands::max_mm}};
+
+HtmlCell measured_cell(double value, const std::optional<Band>& band)
+{
+    const bool is_outside = band && !band->holds(value);
+    return {shown(value, 2), is_outside ? "ours missed" : "ours"};
+}
+
+HtmlCell band_cell(const std::optional<Band>& band)
+{
+    if (!band) return {"–", "band"};
+    return {fmt::format("{} to {}", shown(band->low, 2), shown(band->high, 2)), "band"};
+}
+
+const Table1Row* base_of(const Results& results)
+{
+    for (const Table1Row& row : results.table1) {
+        if (row.algorithm == "base") return &row;
+    }
+    return nullptr;
+}
+
+std::string table_of(const Results& results)
+{
+    HtmlTable table{"|x at L − x at R| of the cube in task P1, mm: this run, the paper, and from "
+                    "where to where it agrees",
+                    {"algorithm"}};
+    for (const Quantity& quantity : quantities) {
+        table.heads.insert(table.heads.end(), {std::string{quantity.name}, "paper", "band"});
+    }
+    table.heads.insert(table.heads.end(), {"min", "verdict"});
+    const Table1Row* base = base_of(results);
+    for (const Table1Row& row : results.table1) {
+        const Table1Bands bands = table1_bands(row, base);
+        std::vector<HtmlCell> cells{{escaped(row.algorithm)}};
+        for (const Quantity& quantity : quantities) {
+            cells.push_back(measured_cell(row.*quantity.ours, bands.*quantity.band));
+            cells.push_back({shown(row.*quantity.papers, 2), "paper"});
+            cells.push_back(band_cell(bands.*quantity.band));
+        }
+        cells.push_back({shown(row.min_mm, 2), "ours"});
+        cells.push_back({claim_badge(row.verdict)});
+        table.rows.push_back(std::move(cells));
+    }
+    return html_of(table);
+}
+
+/// Ours beside the paper's, one group for each algorithm.
+std::string bars_of(const Results& results, const Quantity& quantity)
+{
+    const Table1Row* base = base_of(results);
+    std::vector<plot::BarGroup> groups;
+    for (const Table1Row& row : results.table1) {
+        plot::BarGroup group{row.algorithm, {}};
+        const auto colour = colour_of(row.algorithm);
+        if (const auto paper = row.*quantity.papers) {
+            group.bars.push_back(
+                {.value = *paper,
+                 .label = shown(*paper, 1),
+                 .colour = colour,
+                 .is_outlined = true,
+                 .tip = fmt::format("{}, paper: {} mm", row.algorithm, shown(*paper, 2))});
+        }
+        const double ours = row.*quantity.ours;
+        const auto band = table1_bands(row, base).*quantity.band;
+        group.bars.push_back(
+            {.value = ours,
+             .label = shown(ours, 1),
+             .colour = colour,
+             .is_missed = band && !band->holds(ours),
+             .tip = fmt::format("{}, this run: {} mm", row.algorithm, shown(ours, 2))});
+        groups.push_back(std::move(group));
+    }
+    const std::string title = fmt::format("Table 1: {}", quantity.name);
+    return plot::svg_bars({title, "left: paper, right: this run", "mm"}, groups, {},
+                          {360.0, 240.0});
+}
+
+} // namespace
+
+std::optional<Section> table1_section(const Results& results)
+{
+    if (results.table1.empty()) return std::nullopt;
+    Section section{"table1", "Table 1: how far the two copies are apart"};
+    section.html = "<p>One hand carries the cube; the other side sees it late. The distance "
+                   "between the two copies is what the network costs. Sep stands where the paper "
+                   "has TiDeC.</p>\n" +
+                   table_of(results) + "<div class='panels small'>\n";
+    for (const Quantity& quantity : quantities) {
+        section.add_figure(fmt::format("table1-{}", quantity.name), bars_of(results, quantity),
+                           fmt::format("Dashed: the paper. Filled: this run, {}.", quantity.name));
+    }
+    section.html += "</div>\n";
+    return section;
+}
+
+std::optional<Section> tasks_section(const Results& results)
+{
+    if (results.tasks.empty()) return std::nullopt;
+    HtmlTable table{"Closed-loop tasks: worst of the seeds; discrepancy mean and std: mean over "
+                    "the seeds",
+                    {"task", "algorithm", "tier", "seeds", "mean<br>mm", "std<br>mm", "max<br>mm",
+                     "vibration<br>mm", "stiffness<br>ratio", "force<br>vibration, N",
+                     "forces<br>apart, %", "contact<br>lost, %", "force<br>step, N", "drag<br>N",
+                     "energy<br>mJ", "limited by"}};
+    const auto percent = [](std::optional<double> share) {
+        return shown(share ? std::optional{100.0 * *share} : std::nullopt, 1);
+    };
+    for (const std::string& task : distinct(results.tasks, [](const auto& r) { return r.task; })) {
+        for (const TaskRow& row : results.tasks) {
+            if (row.task != task) continue;
+            const Judged& judged = row.judged;
+            table.rows.push_back({{escaped(task)},
+                                  {escaped(row.algorithm), "name"},
+                                  {rating_badge(judged.tier), "name"},
+                                  {plain(row.seeds)},
+                                  {shown(judged.mean_mm, 2)},
+                                  {shown(row.std_mm, 2)},
+                                  {shown(row.max_mm, 2)},
+                                  {shown(judged.vibration_mm, 3)},
+                                  {shown(judged.stiffness_ratio, 3)},
+                                  {shown(judged.force_vibration_n, 3)},
+                                  {percent(row.force_discrepancy)},
+                                  {percent(row.contact_lost)},
+                                  {shown(row.force_step_n, 3)},
+                                  {shown(row.drag_n, 3)},
+                                  {shown(row.energy_mj, 2)},
+                                  {escaped(row.limited_by), "words"}});
+        }
+    }
+    return Section{"tasks", "The closed-loop tasks beside it",
+                   "<p>In P1 the cube follows a path whatever is felt. In these tasks both hands "
+                   "act on what they feel, so the numbers are not Table 1’s: they say what the "
+                   "same network does to people who work together.</p>\n" +
+                       html_of(table)};
+}
+
+} // namespace hapnet::lab::report

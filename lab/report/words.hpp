@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/report/results.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace hapnet::lab::report {
+
+// How numbers, names and tables are written on a page.
+
+/// With so many decimals; "–" for none.
+[[nodiscard]] std::string shown(std::optional<double> value, int decimals);
+/// As many digits as it takes: "160", "4.5".
+[[nodiscard]] std::string plain(double value);
+/// "> 320 ms", "93 %", "40 of 100": a limit and its bound.
+[[nodiscard]] std::string limit_text(double limit, bool is_open, std::string_view unit);
+/// "ms", "%", "of 100"
+[[nodiscard]] std::string_view unit_text(std::string_view unit);
+/// "delay", "burst loss"; what is not known is left as it is.
+[[nodiscard]] std::string impairment_text(std::string_view impairment);
+
+[[nodiscard]] std::string_view claim_text(Claim claim); // "calibrated"
+[[nodiscard]] std::string claim_badge(Claim claim);     // as HTML; empty for none
+[[nodiscard]] std::string_view rating_text(Rating rating);
+[[nodiscard]] std::string_view rating_symbol(Rating rating);
+[[nodiscard]] std::string rating_badge(Rating rating); // as HTML
+[[nodiscard]] std::string_view rating_colour(Rating rating);
+
+/// The colour of an algorithm, the same all over the page; of what a person need not tell apart
+/// the same.
+[[nodiscard]] std::string_view colour_of(std::string_view algorithm);
+
+/// How thick its curve is, in pixels: sep often lies under base, and is to be seen there.
+[[nodiscard]] double curve_width(std::string_view algorithm);
+
+/// What differs in these rows, in the order in which it comes.
+template <typename Value, typename Name>
+[[nodiscard]] auto distinct(const std::vector<Value>& rows, const Name& name)
+{
+    std::vector<std::decay_t<decltype(name(rows.front()))>> found;
+    for (const Value& row : rows) {
+        const auto one = name(row);
+        if (std::find(found.begin(), found.end(), one) == found.end()) found.push_back(one);
+    }
+    return found;
+}
+
+/// A cell of a table on a page: HTML, and the class that it is shown by.
+struct HtmlCell {
+    std::string html;
+    std::string_view style{};
+};
+
+struct HtmlTable {
+    std::string_view caption;                  // text
+    std::vector<std::string> heads;            // HTML
+    std::vector<std::vector<HtmlCell>> rows{}; // the first cell names the row
+};
+
+/// A table that a narrow screen scrolls sideways.
+[[nodiscard]] std::string html_of(const HtmlTable& table);
+
+/// A figure with its caption, which is HTML.
+[[nodiscard]] std::string figure(std::string_view svg, std::string_view caption);
+
+/// What one need not see at once: a line of HTML that opens the rest.
+[[nodiscard]] std::string folded(std::string_view summary, std::string_view html);
+
+} // namespace hapnet::lab::report

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/results/summary.hpp"
+
+#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::lab {
+
+namespace {
+
+void raise(std::optional<double>& worst, std::optional<double> value)
+{
+    if (value) worst = std::max(worst.value_or(*value), *value);
+}
+
+void lower(std::optional<double>& worst, std::optional<double> value)
+{
+    if (value) worst = std::min(worst.value_or(*value), *value);
+}
+
+std::optional<double> vibration_at(const std::optional<ByOrder>& values, FilterOrder order)
+{
+    return values ? std::optional{at_order(*values, order)} : std::nullopt;
+}
+
+void raise(std::optional<ByOrder>& worst, const std::optional<ByOrder>& values)
+{
+    if (!values) return;
+    const ByOrder so_far = worst.value_or(*values);
+    worst = ByOrder{std::max(so_far.first, values->first), std::max(so_far.second, values->second),
+                    std::max(so_far.fourth, values->fourth)};
+}
+
+/// A session that is in every respect as bad as the worst of all.
+Scores worst_of(std::span<const Scores> all)
+{
+    Scores worst = all.front();
+    for (const Scores& scores : all.subspan(1)) {
+        worst.scored_share = std::min(worst.scored_share, scores.scored_share);
+        raise(worst.vibration_m, scores.vibration_m);
+        lower(worst.stiffness_ratio[judged_press], scores.stiffness_ratio[judged_press]);
+        raise(worst.force_discrepancy, scores.force_discrepancy);
+        raise(worst.force_vibration_n, scores.force_vibration_n);
+        raise(worst.force_vibration_added_n, scores.force_vibration_added_n);
+        raise(worst.contact_lost, scores.contact_lost);
+        raise(worst.drag_n, scores.drag_n);
+        raise(worst.energy_taken_j, scores.energy_taken_j);
+    }
+    return worst;
+}
+
+std::optional<Spread> mean_spread(std::span<const Scores> all)
+{
+    Spread sum;
+    double count = 0.0;
+    for (const Scores& scores : all) {
+        if (!scores.discrepancy_m) continue;
+        sum.mean += scores.discrepancy_m->mean;
+        sum.min += scores.discrepancy_m->min;
+        sum.max += scores.discrepancy_m->max;
+        sum.std += scores.discrepancy_m->std;
+        count += 1.0;
+    }
+    if (count == 0.0) return std::nullopt;
+    return Spread{sum.mean / count, sum.min / count, sum.max / count, sum.std / count};
+}
+
+} // namespace
+
+Summary summary_of(std::span<const Scores> scores, const Criteria& criteria)
+{
+    Summary summary{mean_spread(scores), {}, {}, worst_of(scores)};
+    for (const Scores& one : scores) {
+        if (one.discrepancy_m) raise(summary.discrepancy_max_m, one.discrepancy_m->max);
+        if (one.force_steps) raise(summary.force_step_n, one.force_steps->largest_n);
+    }
+    const Judgement judgement = judge(summary.worst, criteria);
+    summary.tier = judgement.tier;
+    const auto& reasons = judgement.failures.empty() ? judgement.shortcomings : judgement.failures;
+    summary.limited_by = fmt::format("{}", fmt::join(reasons, "; "));
+    return summary;
+}
+
+std::optional<double> vibration_m(const Summary& summary, const Criteria& criteria)
+{
+    return vibration_at(summary.worst.vibration_m, criteria.filter_order);
+}
+
+std::optional<double> force_vibration_n(const Summary& summary, const Criteria& criteria)
+{
+    return vibration_at(summary.worst.force_vibration_n, criteria.filter_order);
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/metrics/verdict.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace hapnet::lab {
+
+/// What the sessions of all seeds say together.
+struct Summary {
+    std::optional<Spread> typical_m{}; // the means over the seeds of the discrepancy's figures
+    std::optional<double> discrepancy_max_m{}; // the largest of any seed
+    std::optional<double> force_step_n{};      // as well
+    Scores worst{};                            // in every respect as bad as that of the worst seed
+    Tier tier = Tier::good;                    // of the worst
+    std::string limited_by{};                  // what keeps it from the next tier
+};
+
+/// A task's scores by seed; at least one.
+[[nodiscard]] Summary summary_of(std::span<const Scores> scores, const Criteria& criteria);
+
+/// Of the worst, by the filter that the criteria judge by.
+[[nodiscard]] std::optional<double> vibration_m(const Summary& summary, const Criteria& criteria);
+[[nodiscard]] std::optional<double> force_vibration_n(const Summary& summary,
+                                                      const Criteria& criteria);
+
+} // namespace hapnet::lab

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/runner/runner.hpp"
+#include "proto/base/time.hpp"
+
+#include <string>
+
+namespace hapnet::lab {
+
+/// "412/~1300 sessions (31 %), 41.2/s, 22 s left": the total is what the parts that are done make
+/// likely. `reused` sessions took no time.
+[[nodiscard]] std::string progress_text(const RunProgress& progress, base::Duration elapsed);
+
+/// The line of progress on stderr: rewritten in place on a terminal, else a new line now and then.
+class ProgressLine {
+public:
+    explicit ProgressLine(base::TimePoint start);
+
+    void show(const RunProgress& progress, base::TimePoint now);
+    /// Leaves the line as it is.
+    void finish();
+
+private:
+    base::TimePoint start_;
+    base::TimePoint next_;
+    bool is_terminal_;
+    bool is_open_ = false;
+    bool is_over_ = false; // the last has been shown
+};
+
+} // namespace hapnet::lab

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/virtual_time/setting.hpp"
+#include "lab/virtual_time/trace.hpp"
+#include "lab/virtual_time/world.hpp"
+#include "proto/base/result.hpp"
+
+#include <atomic>
+#include <optional>
+
+namespace hapnet::lab {
+
+/// Plays a session from the first hello to its end in virtual time, on the cores that the daemons
+/// run. A pure function of the setting. Fails when the scene cannot be shared, or when `stop`
+/// became true meanwhile. A session that never begins gives an empty trace.
+[[nodiscard]] base::Result<Trace> play(const Setting& setting,
+                                       const std::atomic<bool>* stop = nullptr);
+
+/// Plays the first pair of a world that has just begun to its end: for players who hold other
+/// devices. nullopt when `stop` became true meanwhile.
+[[nodiscard]] std::optional<Trace> play_out(VirtualWorld& world,
+                                            const std::atomic<bool>* stop = nullptr);
+
+} // namespace hapnet::lab

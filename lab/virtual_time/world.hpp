@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/director.hpp"
+#include "emulator/core/link.hpp"
+#include "lab/virtual_time/player.hpp"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// Pairs of players and the links between them on one timeline, which jumps from deadline to
+/// deadline: to the next tick of any player, or to the next step of a profile. A datagram that is
+/// due between two ticks of its receiver waits in the receiver's socket: it is handed over at the
+/// next tick, stamped with the time at which it was due.
+///
+/// Sides are counted through: those of pair p are 2p, its L, and 2p + 1, its R.
+class VirtualWorld {
+public:
+    /// When every world begins, and the timelines of its profiles.
+    static constexpr base::TimePoint start{std::chrono::seconds{1000}};
+    /// How many datagrams a link holds unless it is said: 1 s of them, which stay in a processor's
+    /// near memory. The emulator's own bound costs more memory than a session takes time.
+    static constexpr emulator::QueueLimits few{1024};
+
+    /// One pair. Ensures that there is no objection() to the setting.
+    explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);
+    /// One pair for each setting.
+    explicit VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits = few);
+
+    /// To the next deadline, and all that happens then.
+    void step();
+    /// All that happens within `duration` from now, its end included.
+    void run_for(base::Duration duration);
+
+    /// Kills a side on the spot; nothing is said.
+    void kill(std::size_t side) { seats_[side].player.reset(); }
+    /// Starts it again as a new run.
+    void revive(std::size_t side);
+    [[nodiscard]] bool is_alive(std::size_t side) const { return seats_[side].player.has_value(); }
+    /// Nothing passes between the sides of a pair while it is true.
+    void cut(bool is_cut, std::size_t pair = 0) { pairs_[pair].is_cut = is_cut; }
+
+    [[nodiscard]] VirtualPlayer& side(std::size_t index) { return *seats_[index].player; }
+    [[nodiscard]] const VirtualPlayer& side(std::size_t index) const
+    {
+        return *seats_[index].player;
+    }
+    [[nodiscard]] const Setting& setting(std::size_t pair = 0) const
+    {
+        return pairs_[pair].setting;
+    }
+    [[nodiscard]] base::TimePoint now() const { return now_; }
+    [[nodiscard]] std::size_t sides() const { return seats_.size(); }
+    [[nodiscard]] const emulator::Link& link(std::size_t from) const { return seats_[from].out; }
+
+private:
+    /// Undelayed: it left at once, and waits in the receiver's socket.
+    struct Passing {
+        emulator::Departure departure; // but for its bytes
+        wire::Datagram datagram;
+    };
+    /// A side's place: it stays when the player is killed.
+    struct Place {
+        std::optional<VirtualPlayer> player;
+        emulator::Link out; // to the other side
+        std::vector<Passing> undelayed;
+        base::TimePoint next_tick;
+        base::Duration tick;
+    };
+    struct Pair {
+        Setting setting;
+        emulator::Director director;
+        std::uint32_t next_nonce = 100;
+        bool is_cut = false;
+    };
+
+    void add(const Setting& setting, emulator::QueueLimits limits);
+    [[nodiscard]] base::TimePoint next_deadline() const;
+    void follow_timeline(std::size_t pair);
+    void deliver(std::size_t to);
+    void turn(std::size_t side);
+
+    base::TimePoint now_ = start;
+    std::vector<Pair> pairs_;
+    std::vector<Place> seats_; // two of each pair
+};
+
+} // namespace hapnet::lab

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/cli/chosen_device.hpp"
+
+#include "device/replay/replay.hpp"
+#include "device/simulated/joints/joint_omni.hpp"
+#include "device/simulated/omni.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+namespace {
+
+constexpr glm::dvec3 omni_span_m{0.160, 0.120, 0.070};
+
+double default_scale(const device::Capabilities& capabilities)
+{
+    const base::Displacement span = capabilities.workspace_max - capabilities.workspace_min;
+    double scale = 1.0;
+    for (int axis = 0; axis < capabilities.axes_in; ++axis) {
+        scale = std::max(scale, omni_span_m[axis] / span.value[axis]);
+    }
+    return scale;
+}
+
+base::Displacement default_offset(const device::Capabilities& capabilities, double scale)
+{
+    const glm::dvec3 centre =
+        0.5 * (capabilities.workspace_min.value + capabilities.workspace_max.value);
+    return {-scale * centre};
+}
+
+} // namespace
+
+device::Opened<std::unique_ptr<device::Device>> open_chosen(const DeviceChoice& choice,
+                                                            device::Task task)
+{
+    if (choice.replay) {
+        return std::make_unique<device::Replay>(
+            *choice.replay, choice.name,
+            choice.replay_loops ? device::AfterTheEnd::begins_again : device::AfterTheEnd::stays);
+    }
+    if (choice.has_joints()) {
+        return std::make_unique<device::JointOmni>(
+            device::JointOmniSettings{.role = {.task = task, .person = choice.person}});
+    }
+    if (choice.is_simulated()) {
+        return std::make_unique<device::SimulatedOmni>(
+            device::Performer{.task = task, .person = choice.person});
+    }
+    return device::open_device(choice.name, choice.options);
+}
+
+std::string why_not_opened(const DeviceChoice& choice, const device::Trouble& trouble)
+{
+    const std::string note = choice.is_real() ? fmt::format(" ({})", device::never_run) : "";
+    return fmt::format("--device {}: {}{}", choice.name, trouble.message, note);
+}
+
+device::Mount mount_of(const DeviceChoice& choice, const device::Capabilities& capabilities)
+{
+    device::Mount mount;
+    mount.scale = choice.mount_scale.value_or(choice.is_real() ? default_scale(capabilities) : 1.0);
+    if (choice.is_real()) mount.offset = default_offset(capabilities, mount.scale);
+    if (choice.mount_offset) mount.offset = *choice.mount_offset;
+    return mount;
+}
+
+std::string words_on_stiffness(const device::Capabilities& capabilities, const device::Mount& mount,
+                               double scene_stiffness_n_per_m)
+{
+    const double most = capabilities.stiffness_max_n_per_m;
+    const double at_the_hand = scene_stiffness_n_per_m * mount.scale * mount.scale;
+    if (capabilities.axes_out == 0 || most == 0.0 || at_the_hand <= most) return "";
+    return fmt::format(
+        "contacts of {:.0f} N/m in the scene, magnified {:.2f} times, are {:.0f} N/m at the hand, "
+        "and this device is said to render at most {:.0f} N/m without buzzing: they are felt at "
+        "no more than {:.0f} % of their force. To feel all of it: a --mount-scale of at most "
+        "{:.2f}, or a --scene with softer contacts",
+        scene_stiffness_n_per_m, mount.scale, at_the_hand, most, 100.0 * most / at_the_hand,
+        std::floor(100.0 * std::sqrt(most / scene_stiffness_n_per_m)) / 100.0);
+}
+
+std::string_view parts_in(device::Task task)
+{
+    switch (task) {
+    case device::Task::p1:
+        return "L holds the cube by the primary button and carries it to and fro, R watches";
+    case device::Task::t1: return "by turns L pushes the cube to the right and R pushes it back";
+    case device::Task::t2: return "one holds the cube in place, the other presses against it";
+    case device::Task::t3: return "both press the cube between them and carry it slowly to and fro";
+    case device::Task::t4: return "both press the cube between them, lift it, hold it, lower it";
+    case device::Task::t5:
+        return "both press the cube to the right against the static one; by turns one lets go";
+    case device::Task::t6: return "L taps the cube, R rests a hand on its far side";
+    }
+    return "";
+}
+
+std::string introduction(const device::Device& device, const device::Mount& mount,
+                         device::Task task)
+{
+    const auto millimetres = [&](int axis) {
+        return std::round(1e3 * mount.offset.value[axis]) + 0.0; // no -0
+    };
+    return fmt::format(
+        "{}; mounted at {:.0f},{:.0f},{:.0f} mm, magnified {:.2f} times (--mount-offset, "
+        "--mount-scale). Task {} is yours to play, the lower --id is L: {}",
+        device::description(device), millimetres(0), millimetres(1), millimetres(2), mount.scale,
+        device::name_of(task), parts_in(task));
+}
+
+} // namespace hapnet::peer

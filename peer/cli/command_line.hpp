@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/cli/device_options.hpp"
+#include "peer/cli/options.hpp"
+#include "proto/net/program.hpp"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+
+namespace hapnet::peer {
+
+/// `hapnet-peer list-devices [--json]`
+struct ListDevicesCommand {
+    device::DeviceOptions options;
+    bool json = false;
+};
+
+/// `hapnet-peer doctor [--json] [--print-udev-rules]`
+struct DoctorCommand {
+    std::string hd_library;
+    bool json = false;
+};
+
+/// The steps of a self-test, in their order.
+inline constexpr std::array self_test_steps{"read", "calibrate", "force", "cable"};
+
+/// `hapnet-peer self-test --device ... [--skip STEP]... [--json FILE]`
+struct SelfTestCommand {
+    DeviceChoice device;
+    std::vector<std::string> skip;
+    base::Duration read_for{std::chrono::seconds{10}};
+    std::optional<std::string> json; // a file
+};
+
+/// Options: a session.
+using Command = std::variant<Options, ListDevicesCommand, DoctorCommand, SelfTestCommand>;
+
+/// Reads the command line; the first word may name a command other than a session.
+[[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);
+
+} // namespace hapnet::peer

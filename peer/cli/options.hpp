@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/simulated/task.hpp"
+#include "peer/cli/device_options.hpp"
+#include "peer/core/sync/algorithm.hpp"
+#include "proto/base/random.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+#include "proto/net/endpoint.hpp"
+#include "proto/net/program.hpp"
+#include "scene/description.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace hapnet::peer {
+
+/// What the command line asks for. Names of hosts are not looked up yet; the scene has been read.
+struct Options {
+    std::uint16_t id = 1;
+    net::HostPort listen{"127.0.0.1", 0};
+    net::HostPort remote;
+    DeviceChoice device;
+    std::string scene_name = "paper";
+    scene::Description scene; // one that two peers can share
+    double grip_damping_ns_per_m = 4.0;
+    double force_max_n = 3.3; // that the hand is given at most
+    device::Task task = device::Task::p1;
+    Algorithm algorithm;
+    base::Seed seed{1};
+    base::Duration duration{std::chrono::seconds{30}};
+    bool insecure = false;
+    std::optional<std::string> record;
+    std::optional<std::string> stats;   // a file, or "-" for stdout
+    std::optional<std::string> control; // where its socket is to be
+};
+
+/// Reads the command line; the error names the option, what is wrong with it, and what would be
+/// right.
+[[nodiscard]] net::CommandLine<Options> parse_options(std::span<char*> words);
+
+} // namespace hapnet::peer

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "device/rig.hpp"
+#include "peer/cli/chosen_device.hpp"
+#include "peer/cli/commands.hpp"
+#include "peer/loop/watchdog.hpp"
+#include "peer/loop/watched_turn.hpp"
+#include "peer/loop/zero_force.hpp"
+#include "peer/self_test/report.hpp"
+#include "peer/self_test/self_test.hpp"
+#include "proto/net/clock.hpp"
+#include "proto/net/crash_signal.hpp"
+#include "proto/net/real_time.hpp"
+#include "proto/net/result_file.hpp"
+#include "proto/net/stop_signal.hpp"
+#include "proto/net/wait.hpp"
+#include "scene/description.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+namespace {
+
+using namespace std::chrono_literals;
+using self_test::Prompt;
+using self_test::SelfTest;
+
+constexpr int test_priority = 45; // as the loop of a session
+constexpr base::Duration test_tick = 1ms;
+constexpr base::Duration prompts_shown_every = 50ms;
+constexpr int ticks_after_the_end = 60; // a governor's fade
+
+/// The test's loop, at the device's pace where it has one, and what another thread sees of it.
+/// Watched like that of a session: the self-test is what a device's first force comes from.
+class TestLoop {
+public:
+    TestLoop(SelfTest& test, device::Rig& rig, Watchdog& watchdog)
+        : test_{test}, rig_{rig}, watchdog_{watchdog}
+    {}
+
+    void run()
+    {
+        const net::CrashStack stack;
+        const ZeroForceAtTheEnd zero{rig_.device(), watchdog_};
+        std::ignore = net::request_real_time(test_priority);
+        if (rig_.device().capabilities().pacing == device::Pacing::device) {
+            rig_.device().pace([this] { return turn(), !is_over(); });
+        }
+        // At our own pace; also after a device that has stopped to set one.
+        base::TimePoint due = net::monotonic_now();
+        while (!is_over()) {
+            due = std::max(due + test_tick, net::monotonic_now());
+            net::sleep_until(due);
+            turn();
+        }
+    }
+    void stop() { stop_.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] Prompt prompt() const { return prompt_.load(std::memory_order_relaxed); }
+
+private:
+    [[nodiscard]] bool is_over() const { return ticks_left_ == 0 || watchdog_.is_dying(); }
+
+    void turn()
+    {
+        const base::TimePoint now = net::monotonic_now();
+        watchdog_.beat(now);
+        WatchedTurn watched{rig_, watchdog_};
+        if (watchdog_.take_fault()) {
+            rig_.governor().latch({device::Fault::timeout, device::Trip::loop});
+        }
+        const device::Sample& sample = rig_.read(now);
+        self_test::Turn turn{.is_done = true};
+        if (!is_ending_ && !stop_.load(std::memory_order_relaxed)) {
+            turn = test_.on_tick({sample, rig_.calibration(), applied_}, now);
+        }
+        if (watchdog_.is_dying()) return;
+        applied_ = watched.apply(turn.wanted, turn.permitted, now);
+        prompt_.store(turn.prompt, std::memory_order_relaxed);
+        if (turn.is_done) is_ending_ = true;
+        if (is_ending_) --ticks_left_;
+    }
+
+    SelfTest& test_;
+    device::Rig& rig_;
+    Watchdog& watchdog_;
+    base::Force applied_;
+    bool is_ending_ = false;
+    int ticks_left_ = ticks_after_the_end;
+    std::atomic<bool> stop_{false};
+    std::atomic<Prompt> prompt_{Prompt::nothing};
+};
+
+/// Shows what the person is to do until the loop has ended; SIGINT and SIGTERM end it.
+void accompany(TestLoop& loop, net::StopSignal& stop)
+{
+    auto ended = std::async(std::launch::async, [&loop] { loop.run(); });
+    Prompt shown = Prompt::nothing;
+    while (ended.wait_for(0ms) != std::future_status::ready) {
+        const std::array descriptors{stop.descriptor()};
+        net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
+                           net::monotonic_now() + prompts_shown_every);
+        if (stop.requested()) loop.stop();
+        const Prompt prompt = loop.prompt();
+        if (prompt == shown) continue;
+        shown = prompt;
+        if (prompt != Prompt::nothing) net::say("hapnet-peer", self_test::words_for(prompt));
+    }
+    ended.get();
+}
+
+/// What a session with the paper's scene would say of its contacts.
+std::string stiffness_of_a_session(const DeviceChoice& choice,
+                                   const device::Capabilities& capabilities)
+{
+    if (!choice.is_real()) return "";
+    return words_on_stiffness(capabilities, mount_of(choice, capabilities),
+                              scene::paper_scene().hips.stiffness_n_per_m);
+}
+
+} // namespace
+
+base::Result<int> run(const SelfTestCommand& command)
+{
+    std::optional<net::ResultFile> file;
+    if (command.json) file.emplace(*command.json);
+    net::StopSignal stop; // before any thread
+    const net::CrashSignal crash;
+    const net::CrashStack stack;
+    auto opened = open_chosen(command.device, device::Task::p1);
+    if (!opened) {
+        net::say("hapnet-peer", why_not_opened(command.device, opened.error()));
+        return net::exit_environment;
+    }
+    const auto& capabilities = (*opened)->capabilities();
+    const std::string softer = stiffness_of_a_session(command.device, capabilities);
+    SelfTest test{{.capabilities = capabilities,
+                   .is_real = command.device.is_real(),
+                   .read_for = command.read_for,
+                   .skip = command.skip}};
+    // In the device's own frame: nothing of a scene is felt here.
+    device::Rig rig{*std::move(opened), device::GovernorLimits{}};
+    net::say("hapnet-peer", device::description(rig.device()));
+    if (!softer.empty()) net::say("hapnet-peer", "in a session: " + softer);
+    // A simulated person takes the stylus out of its inkwell at the cue, and has no part to play.
+    if (command.device.is_simulated()) {
+        rig.device().on_cue({.start = net::monotonic_now(), .hands_on = {}, .seed = base::Seed{}});
+    }
+    Watchdog watchdog{rig.device(), &crash};
+    TestLoop loop{test, rig, watchdog};
+    accompany(loop, stop);
+    test.stop();
+    fmt::print("{}", self_test::report_text(rig.device(), test));
+    if (file) file->commit(self_test::report_json(rig.device(), test).dump(2) + "\n");
+    return self_test::has_passed(test) ? 0 : net::exit_failed;
+}
+
+} // namespace hapnet::peer

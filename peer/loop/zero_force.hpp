@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/loop/watchdog.hpp"
+
+namespace hapnet::peer {
+
+/// On every way out of a loop's scope zero force, repeated because a wire may lose one; and nobody
+/// is to be watched any more.
+class ZeroForceAtTheEnd {
+public:
+    ZeroForceAtTheEnd(device::Device& device, Watchdog& watchdog)
+        : device_{device}, watchdog_{watchdog}
+    {}
+    ~ZeroForceAtTheEnd()
+    {
+        for (int i = 0; i < repeats; ++i) device_.apply({});
+        watchdog_.rest();
+    }
+    ZeroForceAtTheEnd(const ZeroForceAtTheEnd&) = delete;
+    ZeroForceAtTheEnd& operator=(const ZeroForceAtTheEnd&) = delete;
+
+    static constexpr int repeats = 3;
+
+private:
+    device::Device& device_;
+    Watchdog& watchdog_;
+};
+
+} // namespace hapnet::peer

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/monitor/report.hpp"
+
+#include "peer/core/sync/text.hpp"
+#include "proto/base/text.hpp"
+#include "proto/base/version.hpp"
+#include "proto/net/clock.hpp"
+#include "scene/text/text.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::peer {
+
+namespace {
+
+using nlohmann::json;
+
+// A run is valid when 99 % of its ticks are at most this late and at most this share is missed.
+constexpr base::Duration late_budget{std::chrono::milliseconds{1}};
+constexpr double missed_share_budget = 0.005;
+
+json microseconds(std::optional<base::Duration> duration)
+{
+    if (!duration) return nullptr;
+    return base::to_seconds(*duration) * 1e6;
+}
+
+double missed_share(const LoopCounters& loop)
+{
+    const auto all = static_cast<double>(loop.ticks + loop.missed);
+    return all > 0.0 ? static_cast<double>(loop.missed) / all : 0.0;
+}
+
+json tick_json(const LoopCounters& loop)
+{
+    return {{"count", loop.ticks},
+            {"missed", loop.missed},
+            {"missed_share", missed_share(loop)},
+            {"late_us",
+             {{"p50", microseconds(loop.late.quantile(0.5))},
+              {"p90", microseconds(loop.late.quantile(0.9))},
+              {"p99", microseconds(loop.late.quantile(0.99))},
+              {"p999", microseconds(loop.late.quantile(0.999))},
+              {"max", microseconds(loop.late.max())}}}};
+}
+
+json messages_json(const Run& run)
+{
+    const Counters& c = run.standing.messages;
+    return {{"states_sent", c.sent},
+            {"states_received", c.states},
+            {"outdated", c.outdated},
+            {"other_session", c.other_session},
+            {"hellos", c.hellos},
+            {"byes", c.byes},
+            {"malformed", c.malformed},
+            {"other_version", c.other_version},
+            {"implausible", c.implausible},
+            {"strangers", run.standing.loop.strangers},
+            {"overflowed", run.standing.overflowed},
+            {"send_failed", run.standing.loop.send_failures}};
+}
+
+json session_json(const Run& run)
+{
+    const auto& session = run.standing.session;
+    if (!session) return nullptr;
+    const auto& clock = run.standing.clock;
+    json out{{"number", session->number},
+             {"seed", session->seed},
+             {"role", session->is_left ? "L" : "R"},
+             {"joined_late", session->joined_late},
+             {"clock_offset_ms", nullptr},
+             {"clock_uncertainty_ms", nullptr}};
+    if (clock) {
+        out["clock_offset_ms"] = base::to_seconds(clock->offset) * 1e3;
+        out["clock_uncertainty_ms"] = base::to_seconds(clock->uncertainty) * 1e3;
+    }
+    return out;
+}
+
+json governor_json(const Run& run)
+{
+    const Standing& standing = run.standing;
+    const device::GovernorCounters& c = standing.governor;
+    const device::RigCounters& device = standing.device;
+    return {{"state", device::name_of(standing.governor_state)},
+            {"fault", device::name_of(standing.fault.fault)},
+            {"tripped_by", device::name_of(standing.fault.trip)},
+            {"force_limit_n", standing.force_limit_n},
+            {"motor_heat", standing.motor_heat},
+            {"not_finite", c.not_finite},
+            {"clamped", c.clamped},
+            {"heat_limited", c.heat_limited},
+            {"joint_limited", c.joint_limited},
+            {"flattened", c.flattened},
+            {"outside", c.outside},
+            {"slewed", c.slewed},
+            {"faded", c.faded},
+            {"stalled", c.stalled},
+            {"silent", c.silent},
+            {"docked", c.docked},
+            {"uncalibrated", c.uncalibrated},
+            {"too_fast", c.too_fast},
+            {"faults",
+             {{"device", c.device_faults},
+              {"silence", c.silence_faults},
+              {"loop", c.loop_faults},
+              {"speed", c.speed_trips},
+              {"jump", c.jump_trips},
+              {"nonsense", c.nonsense_trips}}},
+            {"resets", c.resets},
+            {"watchdog_halts", run.standing.watchdog_halts},
+            {"unusable_samples", run.standing.messages.unusable_hand},
+            {"device",
+             {{"reads", device.reads},
+              {"repeated", device.repeated},
+              {"repeated_most", device.repeated_most}}}};
+}
+
+/// Why the run is no measurement; "" when it is one.
+std::string_view why_not_valid(const Run& run)
+{
+    const LoopCounters& loop = run.standing.loop;
+    const auto p99 = loop.late.quantile(0.99);
+    const bool is_punctual =
+        p99 && *p99 <= late_budget && missed_share(loop) <= missed_share_budget;
+    if (!is_punctual) return "the loop was late";
+    // Also one that an operator has ended: meanwhile the hand did not play.
+    const device::GovernorCounters& c = run.standing.governor;
+    const std::uint64_t faults = c.device_faults + c.silence_faults + c.loop_faults +
+                                 c.speed_trips + c.jump_trips + c.nonsense_trips;
+    return faults > 0 ? "the device was at fault" : "";
+}
+
+} // namespace
+
+json configuration_json(const Options& options, std::string_view device)
+{
+    const bool simulated = options.device.is_simulated();
+    return {{"program", "hapnet-peer"},
+            {"version", base::version()},
+            {"commit", base::commit()},
+            {"compiler", base::compiler()},
+            {"peer_id", options.id},
+            {"task", device::name_of(options.task)},
+            {"scene", options.scene_name},
+            {"scene_toml", scene::to_text(options.scene)},
+            {"scene_hash", fmt::format("{:016x}", scene::hash(options.scene))},
+            {"grip_damping_ns_per_m", options.grip_damping_ns_per_m},
+            {"force_limit_n", options.force_max_n},
+            {"algorithm", name_of(options.algorithm)},
+            {"algorithm_toml", print_algorithm(options.algorithm)},
+            {"seed", options.seed.value()},
+            {"device", device},
+            {"operator", simulated ? json(options.device.person.name) : json{}},
+            {"operator_toml", simulated ? json(print_operator(options.device.person)) : json{}},
+            {"duration_s", base::to_seconds(options.duration)},
+            {"tick_ns", 1'000'000},
+            {"boot_id", net::boot_id()},
+            {"started_unix_s", net::wall_clock_seconds()}};
+}
+
+json statistics_json(const Run& run)
+{
+    json out = configuration_json(run.options, run.device);
+    out.erase("started_unix_s");
+    out["session"] = session_json(run);
+    out["tick"] = tick_json(run.standing.loop);
+    out["messages"] = messages_json(run);
+    out["governor"] = governor_json(run);
+    out["record_rows_lost"] = run.journal.lost();
+    out["record_whole"] = run.options.record ? json(run.is_record_whole) : json{};
+    out["real_time"] = {{"fifo", run.standing.real_time.fifo},
+                        {"locked_memory", run.standing.real_time.locked_memory}};
+    out["refusal"] = nullptr;
+    if (const auto reason = run.standing.refusal) out["refusal"] = words_for(*reason);
+    out["valid"] = why_not_valid(run).empty();
+    return out;
+}
+
+std::string summary(const Run& run)
+{
+    const LoopCounters& loop = run.standing.loop;
+    const Counters& c = run.standing.messages;
+    const auto p99 = loop.late.quantile(0.99);
+    std::string text =
+        fmt::format("hapnet-peer {}: {} ticks, {} missed", run.options.id, loop.ticks, loop.missed);
+    if (p99) text += fmt::format(", 99 % at most {:.0f} us late", base::to_seconds(*p99) * 1e6);
+    text += fmt::format("; {} states sent, {} received", c.sent, c.states);
+    if (const auto why = why_not_valid(run); !why.empty()) {
+        text += fmt::format("; NOT VALID as a measurement: {}", why);
+    }
+    text += '\n';
+    if (!run.is_record_whole) {
+        text += fmt::format("hapnet-peer {}: NOT COMPLETE: the record could not be written to its "
+                            "end\n",
+                            run.options.id);
+    }
+    if (const auto lost = run.journal.lost(); lost > 0) {
+        text +=
+            fmt::format("hapnet-peer {}: {} rows of the record were lost\n", run.options.id, lost);
+    }
+    return text;
+}
+
+std::string_view words_for(wire::ByeReason reason)
+{
+    switch (reason) {
+    case wire::ByeReason::finished: return "finished";
+    case wire::ByeReason::interrupted: return "interrupted";
+    case wire::ByeReason::other_version:
+        return "it speaks another version of the protocol: use the same version of hapnet on both "
+               "sides";
+    case wire::ByeReason::other_scene: return "it has another scene: give both the same --scene";
+    case wire::ByeReason::other_task: return "it has another task: give both the same --task";
+    case wire::ByeReason::other_tick_rate: return "it has another tick rate";
+    case wire::ByeReason::same_id: return "it has the same id: give the two different --id";
+    }
+    return "";
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/bodies.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <utility>
+
+namespace hapnet::scene {
+
+namespace {
+
+int free_axis(Turning turning)
+{
+    return static_cast<int>(turning) - static_cast<int>(Turning::about_x);
+}
+
+/// In the world's frame, of a body that turns about one of the world's axes alone: turning does
+/// not change it.
+double inertia_about(int axis, const glm::dvec3& inertia, const glm::dquat& orientation)
+{
+    const glm::dmat3 axes = glm::mat3_cast(orientation);
+    double about = 0.0;
+    for (const int own : {0, 1, 2}) about += axes[own][axis] * axes[own][axis] * inertia[own];
+    return about;
+}
+
+BodyForm form_of(const BodyDescription& body, BodyId id)
+{
+    BodyForm form{.id = id, .half = body.half};
+    form.material = body.material;
+    form.drag = body.drag_ns_per_m;
+    if (!body.movable) return form;
+    form.mass = body.mass_kg;
+    form.turning = body.turning;
+    const double light = 1.0 / body.mass_kg;
+    form.inverse_mass = {body.locked_x ? 0.0 : light, body.locked_y ? 0.0 : light,
+                         body.locked_z ? 0.0 : light};
+    form.inertia = box_inertia(body.mass_kg, body.half);
+    form.is_isotropic = body.half.x == body.half.y && body.half.y == body.half.z;
+    if (body.turning == Turning::free) {
+        form.inverse_inertia = 1.0 / form.inertia;
+    } else if (body.turning != Turning::locked) {
+        const int axis = free_axis(body.turning);
+        form.inverse_inertia[axis] =
+            1.0 / inertia_about(axis, form.inertia, base::normalized(body.orientation));
+    }
+    return form;
+}
+
+template <typename Lanes>
+void swap_lanes(Lanes& lanes, Slot a, Slot b)
+{
+    std::swap(lanes.x[a], lanes.x[b]);
+    std::swap(lanes.y[a], lanes.y[b]);
+    std::swap(lanes.z[a], lanes.z[b]);
+}
+
+} // namespace
+
+glm::dvec3 box_inertia(double mass_kg, const glm::dvec3& half)
+{
+    const glm::dvec3 square = half * half;
+    return mass_kg / 3.0 *
+           glm::dvec3{square.y + square.z, square.z + square.x, square.x + square.y};
+}
+
+Bodies::Bodies(const Description& description)
+{
+    const auto& bodies = description.bodies;
+    const std::size_t count = bodies.size();
+    for (Lanes3* lanes : {&position, &velocity, &angular_momentum}) {
+        for (auto* lane : {&lanes->x, &lanes->y, &lanes->z}) lane->resize(count);
+    }
+    for (auto* lane : {&orientation.w, &orientation.x, &orientation.y, &orientation.z}) {
+        lane->resize(count);
+    }
+    slot_of.resize(count);
+    form.reserve(count);
+    ease.reserve(count);
+    for (const bool movables : {true, false}) {
+        for (BodyId id = 0; id < count; ++id) {
+            if (bodies[id].movable != movables) continue;
+            slot_of[id] = size();
+            form.push_back(form_of(bodies[id], id));
+            const glm::dvec3& easy = form.back().inverse_inertia;
+            ease.push_back(std::max({easy.x, easy.y, easy.z}));
+        }
+        if (movables) awake = movable = size();
+    }
+    for (BodyId id = 0; id < count; ++id) {
+        const BodyDescription& body = bodies[id];
+        const Slot slot = slot_of[id];
+        orientation.put(slot, base::normalized(body.orientation));
+        position.put(slot, body.position.value);
+        if (!body.movable) continue;
+        put(slot, {body.position, orientation.at(slot), body.velocity, body.angular_velocity});
+    }
+}
+
+void Bodies::swap(Slot a, Slot b)
+{
+    if (a == b) return;
+    swap_lanes(position, a, b);
+    swap_lanes(velocity, a, b);
+    swap_lanes(orientation, a, b);
+    std::swap(orientation.w[a], orientation.w[b]);
+    swap_lanes(angular_momentum, a, b);
+    std::swap(ease[a], ease[b]);
+    std::swap(form[a], form[b]);
+    slot_of[form[a].id] = a;
+    slot_of[form[b].id] = b;
+}
+
+Slot Bodies::put_to_sleep(Slot slot)
+{
+    base::ensure(slot < awake);
+    --awake;
+    swap(slot, awake);
+    return awake;
+}
+
+Slot Bodies::wake(Slot slot)
+{
+    base::ensure(slot >= awake && slot < movable);
+    swap(slot, awake);
+    return awake++;
+}
+
+glm::dvec3 Bodies::turned_by(Slot slot, const glm::dvec3& momentum) const
+{
+    const BodyForm& body = form[slot];
+    // Alike about every axis, or about the world's own axes: no frame to turn into.
+    if (body.is_isotropic || body.turning != Turning::free) return body.inverse_inertia * momentum;
+    const glm::dmat3 axes = glm::mat3_cast(orientation.at(slot));
+    return axes * (body.inverse_inertia * (momentum * axes));
+}
+
+glm::dvec3 Bodies::angular_velocity(Slot slot) const
+{
+    return turned_by(slot, angular_momentum.at(slot));
+}
+
+void Bodies::spin(Slot slot, const glm::dvec3& angular_velocity)
+{
+    const BodyForm& body = form[slot];
+    glm::dvec3 momentum{0.0};
+    if (body.turning == Turning::free) {
+        const glm::dmat3 axes = glm::mat3_cast(orientation.at(slot));
+        momentum = body.is_isotropic ? body.inertia * angular_velocity
+                                     : axes * (body.inertia * (angular_velocity * axes));
+    } else if (body.turning != Turning::locked) {
+        const int axis = free_axis(body.turning);
+        momentum[axis] = angular_velocity[axis] / body.inverse_inertia[axis];
+    }
+    angular_momentum.put(slot, momentum);
+}
+
+BodyState Bodies::state(Slot slot) const
+{
+    return {{position.at(slot)}, orientation.at(slot), {velocity.at(slot)}, angular_velocity(slot)};
+}
+
+void Bodies::put(Slot slot, const BodyState& state)
+{
+    const glm::dvec3& light = form[slot].inverse_mass;
+    glm::dvec3 speed = state.velocity.value;
+    for (const int axis : {0, 1, 2}) {
+        if (light[axis] == 0.0) speed[axis] = 0.0;
+    }
+    position.put(slot, state.position.value);
+    orientation.put(slot, state.orientation);
+    velocity.put(slot, speed);
+    spin(slot, state.angular_velocity);
+}
+
+} // namespace hapnet::scene

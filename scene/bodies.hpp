@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/input.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hapnet::scene {
+
+/// Where a body is kept at the moment. Changes when it falls asleep or wakes; its id does not.
+using Slot = std::uint32_t;
+
+/// What of a body does not change: the cold half.
+struct BodyForm {
+    BodyId id = 0;
+    glm::dvec3 half{0.02};
+    glm::dvec3 inverse_mass{0.0};    // 1/kg per axis of the world; 0 where locked or fixed
+    glm::dvec3 inertia{1.0};         // kg m^2 about the body's own axes
+    glm::dvec3 inverse_inertia{0.0}; // 0 where it cannot turn; with one free axis see `turning`
+    double mass = 0.0;               // kg; 0: fixed
+    Turning turning = Turning::locked;
+    bool is_isotropic = false; // the three moments of inertia are equal, as a cube's
+    Material material{};
+    double drag = 0.0; // N s/m
+};
+
+/// The state of all bodies. The hot half lies in lanes, one number of every body after the other,
+/// so that a loop over many bodies reads only what it needs and compilers can vectorise it. Slots
+/// are kept in three ranges: awake [0, awake), asleep [awake, movable), fixed [movable, size).
+/// Angular momentum about the centre (world's frame) is the state and not angular velocity: that
+/// is what a free body keeps.
+struct Bodies {
+    struct Lanes3 {
+        std::vector<double> x, y, z;
+        [[nodiscard]] glm::dvec3 at(Slot i) const { return {x[i], y[i], z[i]}; }
+        void put(Slot i, const glm::dvec3& v)
+        {
+            x[i] = v.x;
+            y[i] = v.y;
+            z[i] = v.z;
+        }
+    };
+    struct Lanes4 {
+        std::vector<double> w, x, y, z;
+        [[nodiscard]] glm::dquat at(Slot i) const { return {w[i], x[i], y[i], z[i]}; }
+        void put(Slot i, const glm::dquat& q)
+        {
+            w[i] = q.w;
+            x[i] = q.x;
+            y[i] = q.y;
+            z[i] = q.z;
+        }
+    };
+
+    Lanes3 position;          // of the centre, m
+    Lanes3 velocity;          // m/s
+    Lanes4 orientation;       // unit
+    Lanes3 angular_momentum;  // kg m^2/s
+    std::vector<double> ease; // the largest inverse moment of inertia, 1/(kg m^2)
+    std::vector<BodyForm> form;
+    std::vector<Slot> slot_of; // by id
+
+    Slot awake = 0;
+    Slot movable = 0;
+
+    /// All movable bodies awake, in the order of their ids; then the fixed ones.
+    explicit Bodies(const Description& description);
+
+    [[nodiscard]] Slot size() const { return static_cast<Slot>(form.size()); }
+
+    /// Exchanges two bodies' slots.
+    void swap(Slot a, Slot b);
+    /// Moves a body over the border between awake and asleep; returns its new slot.
+    Slot put_to_sleep(Slot slot);
+    Slot wake(Slot slot);
+
+    /// The inverse inertia times a vector, in the world's frame.
+    [[nodiscard]] glm::dvec3 turned_by(Slot slot, const glm::dvec3& angular_momentum) const;
+    [[nodiscard]] glm::dvec3 angular_velocity(Slot slot) const;
+    /// Sets the angular momentum that belongs to an angular velocity.
+    void spin(Slot slot, const glm::dvec3& angular_velocity);
+
+    [[nodiscard]] BodyState state(Slot slot) const;
+    void put(Slot slot, const BodyState& state);
+};
+
+/// The moments of inertia of a solid box about its axes, kg m^2: m/3 (b^2 + c^2) with half edges.
+[[nodiscard]] glm::dvec3 box_inertia(double mass_kg, const glm::dvec3& half);
+
+} // namespace hapnet::scene

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/collide/box_plane.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace hapnet::scene {
+
+namespace {
+
+using Triple = std::array<double, 3>;
+using Corners = std::array<std::uint32_t, manifold_points_max>;
+
+/// The four deepest corners when the axes add `rise` to a corner's height: of the face that looks
+/// most at the plane, or, when the box stands on a corner, that one and its three neighbours.
+Corners deepest(const Triple& rise)
+{
+    const Triple size{std::abs(rise[0]), std::abs(rise[1]), std::abs(rise[2])};
+    const std::uint32_t lowest =
+        (rise[0] < 0.0 ? 1U : 0U) | (rise[1] < 0.0 ? 2U : 0U) | (rise[2] < 0.0 ? 4U : 0U);
+    if (size[2] >= size[0] + size[1]) {
+        const std::uint32_t face = lowest & 4U;
+        return {face, face | 1U, face | 2U, face | 3U};
+    }
+    if (size[1] >= size[0] + size[2]) {
+        const std::uint32_t face = lowest & 2U;
+        return {face, face | 1U, face | 4U, face | 5U};
+    }
+    if (size[0] >= size[1] + size[2]) {
+        const std::uint32_t face = lowest & 1U;
+        return {face, face | 2U, face | 4U, face | 6U};
+    }
+    return {lowest, lowest ^ 1U, lowest ^ 2U, lowest ^ 4U};
+}
+
+} // namespace
+
+Manifold collide(const PlaneSurface& plane, const OrientedBox& box, double margin)
+{
+    const glm::dvec3& normal = plane.normal;
+    const std::array<glm::dvec3, 3> edge{box.half.x * box.axes[0], box.half.y * box.axes[1],
+                                         box.half.z * box.axes[2]};
+    const Triple rise{glm::dot(normal, edge[0]), glm::dot(normal, edge[1]),
+                      glm::dot(normal, edge[2])};
+    const double height = glm::dot(normal, box.centre) - plane.offset;
+
+    Manifold manifold;
+    manifold.normal = normal;
+    if (height - (std::abs(rise[0]) + std::abs(rise[1]) + std::abs(rise[2])) > margin)
+        return manifold;
+    for (const std::uint32_t corner : deepest(rise)) {
+        const double x = (corner & 1U) != 0 ? 1.0 : -1.0;
+        const double y = (corner & 2U) != 0 ? 1.0 : -1.0;
+        const double z = (corner & 4U) != 0 ? 1.0 : -1.0;
+        const double separation = height + (x * rise[0] + y * rise[1] + z * rise[2]);
+        if (separation > margin) continue;
+        const glm::dvec3 place = box.centre + (x * edge[0] + y * edge[1] + z * edge[2]);
+        manifold.points[manifold.count++] = {.position = place - (0.5 * separation) * normal,
+                                             .separation = separation,
+                                             .feature = corner};
+    }
+    return manifold;
+}
+
+} // namespace hapnet::scene

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/bodies.hpp"
+#include "scene/collide/nearby.hpp"
+
+#include <vector>
+
+namespace hapnet::scene {
+
+/// Where a body's box is, and how far it comes.
+struct BoxNow {
+    OrientedBox box;
+    double radius = 0.0; // of the corners, m
+    double reach = 0.0;  // see reach_of(); of what is asleep, when it were awake
+};
+
+/// The bodies' boxes at the start of a tick: found when they are asked for, and only of what has
+/// moved since. Nobody asks for a body that flies alone.
+class Boxes {
+public:
+    Boxes(const Bodies& bodies, const Scales& scales);
+
+    void begin_tick() { ++now_; }
+    /// The reference is good until the next tick.
+    [[nodiscard]] const BoxNow& at(const Bodies& bodies, BodyId body)
+    {
+        Entry& entry = entries_[body];
+        if (entry.seen != now_) renew(bodies, body, entry);
+        return entry.now;
+    }
+
+private:
+    struct Entry {
+        BoxNow now;
+        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+        std::uint64_t seen = 0;
+    };
+
+    void renew(const Bodies& bodies, BodyId body, Entry& entry) const;
+
+    Scales scales_;
+    std::vector<Entry> entries_; // by id
+    std::uint64_t now_ = 0;
+};
+
+} // namespace hapnet::scene

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/collide/neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapnet::scene {
+
+namespace {
+
+// Cubes of one size that are heaped up without order have about 20 others in reach of their fat
+// boxes: ten pairs each. Three times that, on average.
+constexpr std::uint64_t pairs_per_body_max = 32;
+// Planes that a body lies near at the same time: the corners of a room, and some more.
+constexpr std::uint64_t planes_per_body_max = 8;
+// Ticks for which a hand that keeps its velocity stays in its box.
+constexpr double hand_look_ahead_ticks = 32.0;
+// ... which reaches no farther ahead than this times its radius, unless it is faster.
+constexpr double hand_stretch_max = 16.0;
+
+PairSet::Room room_for_bodies(const Bodies& bodies)
+{
+    const std::uint64_t movable = bodies.movable;
+    const std::uint64_t fixed = bodies.size() - bodies.movable;
+    const std::uint64_t all =
+        movable * (movable - std::min<std::uint64_t>(movable, 1)) / 2 + movable * fixed;
+    const std::uint64_t bound = std::min(all, movable * pairs_per_body_max);
+    return {bodies.size(), bodies.size(), static_cast<std::uint32_t>(bound)};
+}
+
+PairSet::Room room_for_planes(const Bodies& bodies, std::size_t planes)
+{
+    const std::uint64_t each = std::min<std::uint64_t>(planes, planes_per_body_max);
+    return {bodies.size(), static_cast<std::uint32_t>(planes),
+            static_cast<std::uint32_t>(bodies.movable * each)};
+}
+
+std::vector<Box> first_boxes(FatBoxes& fat, const Bodies& bodies)
+{
+    std::vector<Box> boxes(bodies.size());
+    for (Slot slot = 0; slot < bodies.size(); ++slot)
+        boxes[bodies.form[slot].id] = fat.renew(bodies, slot);
+    return boxes;
+}
+
+/// The lowest corner of a box above a plane is not above it.
+bool reaches(const Box& box, const PlaneDescription& plane)
+{
+    const glm::dvec3 half = 0.5 * box.size();
+    const double radius = glm::dot(glm::abs(plane.normal), half);
+    return glm::dot(plane.normal, box.centre()) - plane.offset_m <= radius;
+}
+
+} // namespace
+
+template <Search search>
+Neighbours<search>::Neighbours(const Frozen& frozen, const Bodies& bodies)
+    : surfaces_{frozen.planes},
+      fat_{frozen, bodies},
+      found_{first_boxes(fat_, bodies)},
+      pairs_{room_for_bodies(bodies)},
+      planes_{room_for_planes(bodies, frozen.planes.size())},
+      left_{bodies.movable},
+      stamps_(bodies.size(), 0)
+{
+    for (std::uint32_t hand = 0; hand < frozen.hips.count; ++hand)
+        hands_.push_back({Box{glm::dvec3{1.0}, glm::dvec3{-1.0}}, Bounded<BodyId>{bodies.size()}});
+    for (Slot slot = 0; slot < bodies.movable; ++slot) meet(bodies, bodies.form[slot].id);
+    settle();
+}
+
+template <Search search>
+void Neighbours<search>::update(const Bodies& bodies)
+{
+    if (has_unmet_) {
+        has_unmet_ = false;
+        for (Slot slot = 0; slot < bodies.awake; ++slot) meet(bodies, bodies.form[slot].id);
+    }
+    left_.clear();
+    fat_.find_left(bodies, left_);
+    for (const Slot slot : left_) {
+        const BodyId id = bodies.form[slot].id;
+        found_.move(id, fat_.renew(bodies, slot));
+        meet(bodies, id);
+        for (Hand& hand : hands_) show(hand, id);
+    }
+    renewed_ += left_.size();
+    settle();
+}
+
+/// Renews the pairs of a body after its box.
+template <Search search>
+void Neighbours<search>::meet(const Bodies& bodies, BodyId id)
+{
+    const Box box = found_.box(id);
+    const bool is_awake = bodies.slot_of[id] < bodies.awake;
+    ++stamp_;
+    const auto keep_if_near = [&](PairIndex index, BodyId other) {
+        if (overlap(box, found_.box(other)))
+            stamps_[other] = stamp_;
+        else
+            pairs_.remove(index);
+    };
+    pairs_.for_first(id, [&](PairIndex index) { keep_if_near(index, pairs_[index].b); });
+    pairs_.for_second(id, [&](PairIndex index) { keep_if_near(index, pairs_[index].a); });
+    found_.near(id, [&](BodyId other) {
+        if (other == id || stamps_[other] == stamp_) return;
+        const bool is_active = is_awake || bodies.slot_of[other] < bodies.awake;
+        if (!pairs_.add(std::min(id, other), std::max(id, other), is_active)) has_unmet_ = true;
+    });
+    meet_planes(box, id, is_awake);
+}
+
+template <Search search>
+void Neighbours<search>::meet_planes(const Box& box, BodyId id, bool is_awake)
+{
+    std::uint64_t known = 0;
+    planes_.for_first(id, [&](PairIndex index) {
+        const std::uint32_t plane = planes_[index].b;
+        if (reaches(box, surfaces_[plane]))
+            known |= std::uint64_t{1} << plane;
+        else
+            planes_.remove(index);
+    });
+    for (std::uint32_t plane = 0; plane < surfaces_.size(); ++plane)
+        if ((known >> plane & 1U) == 0 && reaches(box, surfaces_[plane]))
+            if (!planes_.add(id, plane, is_awake)) has_unmet_ = true;
+}
+
+/// Adds a body to those in a hand's box, or takes it away.
+template <Search search>
+void Neighbours<search>::show(Hand& hand, BodyId id)
+{
+    Bounded<BodyId>& bodies = hand.bodies;
+    BodyId* const place = std::lower_bound(bodies.begin(), bodies.end(), id);
+    const bool is_there = place != bodies.end() && *place == id;
+    const bool belongs = overlap(hand.box, found_.box(id));
+    if (is_there == belongs) return;
+    if (is_there) {
+        std::copy(place + 1, bodies.end(), place);
+        bodies.resize(bodies.size() - 1);
+    } else {
+        bodies.add(id); // its room is for all: `place` stays
+        std::rotate(place, bodies.end() - 1, bodies.end());
+    }
+}
+
+template <Search search>
+std::span<const BodyId> Neighbours<search>::reached_by(std::uint32_t hand, const HandPath& path)
+{
+    Hand& known = hands_[hand];
+    const Box needed = grown(hull(path.from, path.to), glm::dvec3{path.radius});
+    if (!contains(known.box, needed)) {
+        ++hands_renewed_;
+        glm::dvec3 ahead = (path.to - path.from) * hand_look_ahead_ticks;
+        const glm::dvec3 size = glm::abs(ahead);
+        const double length = std::max({size.x, size.y, size.z});
+        if (length > hand_stretch_max * path.radius)
+            ahead *= hand_stretch_max * path.radius / length;
+        const Box along = hull(glm::dvec3{0.0}, ahead);
+        known.box =
+            grown({needed.low + along.low, needed.high + along.high}, glm::dvec3{path.radius});
+        known.bodies.clear();
+        found_.near(known.box, [&](BodyId id) { known.bodies.add(id); });
+        std::sort(known.bodies.begin(), known.bodies.end());
+    }
+    return known.bodies.all();
+}
+
+template <Search search>
+void Neighbours<search>::has_woken(const Bodies& bodies, BodyId body)
+{
+    fat_.follow(bodies, bodies.slot_of[body]);
+    if (counts().pairs_left_out != 0) has_unmet_ = true; // perhaps its own, while it slept
+    const auto show_it = [this](PairIndex index) { pairs_.set_active(index, true); };
+    pairs_.for_first(body, show_it);
+    pairs_.for_second(body, show_it);
+    planes_.for_first(body, [this](PairIndex index) { planes_.set_active(index, true); });
+}
+
+template <Search search>
+void Neighbours<search>::has_fallen_asleep(const Bodies& bodies, BodyId body, Slot was_in)
+{
+    if (was_in < bodies.awake) fat_.follow(bodies, was_in);
+    const auto park = [&](PairIndex index, BodyId other) {
+        if (bodies.slot_of[other] >= bodies.awake) pairs_.set_active(index, false);
+    };
+    pairs_.for_first(body, [&](PairIndex index) { park(index, pairs_[index].b); });
+    pairs_.for_second(body, [&](PairIndex index) { park(index, pairs_[index].a); });
+    planes_.for_first(body, [this](PairIndex index) { planes_.set_active(index, false); });
+}
+
+template <Search search>
+void Neighbours<search>::settle()
+{
+    pairs_.settle();
+    planes_.settle();
+}
+
+template <Search search>
+void Neighbours<search>::forget(BodyId body)
+{
+    const auto forget_it = [this](PairIndex index) { pairs_[index].memory = {}; };
+    pairs_.for_first(body, forget_it);
+    pairs_.for_second(body, forget_it);
+    planes_.for_first(body, [this](PairIndex index) { planes_[index].memory = {}; });
+}
+
+template <Search search>
+typename Neighbours<search>::Counts Neighbours<search>::counts() const
+{
+    return {renewed_, hands_renewed_, pairs_.left_out() + planes_.left_out()};
+}
+
+template class Neighbours<Search::scan>;
+template class Neighbours<Search::grid>;
+
+} // namespace hapnet::scene

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/bodies.hpp"
+#include "scene/bounded.hpp"
+#include "scene/collide/box_box.hpp"
+
+#include <array>
+#include <span>
+
+namespace hapnet::scene {
+
+/// What a contact was last tick, so that the solver starts from it.
+struct ContactMemory {
+    BoxBoxMemory axis;
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, manifold_points_max> feature{};
+    std::array<double, manifold_points_max> normal_impulse{};
+    glm::dvec3 friction_impulse{0.0}; // tangential, world's frame
+    double torsion_impulse = 0.0;
+    std::uint32_t ticks = 0; // since its impulses were corrected
+};
+
+/// Whether the contact carried anything last tick: then what sleeps on it wakes with it.
+[[nodiscard]] bool touches(const ContactMemory& memory);
+
+/// Two near each other: bodies with `a` < `b`, or the body `a` and the plane `b`.
+struct Pair {
+    BodyId a = 0;
+    std::uint32_t b = 0;
+    ContactMemory memory;
+};
+
+/// A pair's place in its set, as long as it lives.
+using PairIndex = std::uint32_t;
+
+/// Pairs with their memories. Those that a tick has to look at, the active ones, are listed in
+/// the order of their ids, whatever the order in which they came and went; the others are parked
+/// and cost nothing. Takes no memory after its construction: a pair beyond `pairs_max` is left
+/// out and counted; which one, depends on the past.
+class PairSet {
+public:
+    struct Room {
+        std::uint32_t firsts = 0;  // a < firsts
+        std::uint32_t seconds = 0; // b < seconds
+        std::uint32_t pairs_max = 0;
+    };
+    explicit PairSet(Room room);
+
+    [[nodiscard]] Pair& operator[](PairIndex index) { return pairs_[index]; }
+    [[nodiscard]] const Pair& operator[](PairIndex index) const { return pairs_[index]; }
+
+    /// By (a, b). Valid until the next settle().
+    [[nodiscard]] std::span<const PairIndex> active() const { return active_.all(); }
+    /// Which of them the last settle() added, by (a, b).
+    [[nodiscard]] std::span<const PairIndex> added() const { return added_.all(); }
+    [[nodiscard]] std::uint32_t size() const { return size_; }
+    /// How often there was no room.
+    [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
+
+    /// Adds a pair that is not there; false when there is no room for it.
+    bool add(std::uint32_t a, std::uint32_t b, bool is_active);
+    void remove(PairIndex index);
+    void set_active(PairIndex index, bool is_active);
+    [[nodiscard]] bool is_active(PairIndex index) const
+    {
+        return (marks_[index] & active_mark) != 0;
+    }
+    /// Brings the list of active pairs up to date. Costs nothing when nothing has changed.
+    void settle();
+
+    /// Calls visit(index) for every pair whose `a` is the given; it may remove that pair.
+    template <typename Visit>
+    void for_first(std::uint32_t a, Visit visit) const
+    {
+        for (PairIndex i = first_[a]; i != none;) {
+            const PairIndex next = links_[i].next_first;
+            visit(i);
+            i = next;
+        }
+    }
+    /// The same for its `b`.
+    template <typename Visit>
+    void for_second(std::uint32_t b, Visit visit) const
+    {
+        for (PairIndex i = second_[b]; i != none;) {
+            const PairIndex next = links_[i].next_second;
+            visit(i);
+            i = next;
+        }
+    }
+
+private:
+    static constexpr PairIndex none = ~PairIndex{0};
+
+    /// A pair's neighbours in the lists of its two ends.
+    struct Links {
+        PairIndex next_first = none;
+        PairIndex previous_first = none;
+        PairIndex next_second = none;
+        PairIndex previous_second = none;
+    };
+
+    // Marks: in the list of the active ones (or in it after the next settle()); listed in active_
+    // or coming_.
+    static constexpr std::uint8_t active_mark = 1;
+    static constexpr std::uint8_t listed = 2;
+    static constexpr std::uint8_t parking = 4; // in parked_
+
+    void link(PairIndex index);
+    void unlink(PairIndex index);
+    [[nodiscard]] PairIndex* find(PairIndex* first, PairIndex* last, PairIndex index) const;
+    void drop_parked();
+    void merge_coming();
+
+    Bounded<Pair> pairs_;
+    Bounded<Links> links_;
+    Bounded<std::uint64_t> keys_; // a, then b
+    Bounded<std::uint8_t> marks_;
+    Bounded<PairIndex> free_;
+    std::vector<PairIndex> first_, second_; // heads of the lists
+    Bounded<PairIndex> active_, coming_, added_;
+    Bounded<PairIndex> parked_; // no longer active, and still listed
+    Bounded<PairIndex> going_;  // of those the removed ones
+    std::uint32_t size_ = 0;
+    std::uint64_t left_out_ = 0;
+};
+
+} // namespace hapnet::scene

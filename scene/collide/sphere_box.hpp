@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/collide/manifold.hpp"
+
+#include <glm/geometric.hpp>
+#include <optional>
+
+namespace hapnet::scene {
+
+/// A face of a box.
+struct Face {
+    std::int8_t axis = 0;
+    std::int8_t sign = 1;
+
+    friend bool operator==(const Face&, const Face&) = default;
+};
+
+/// How a sphere and a box overlap, in the world's frame.
+struct SphereOverlap {
+    double depth = 0.0;     // metres, > 0
+    glm::dvec3 normal{0.0}; // unit, from the box to the sphere
+    glm::dvec3 point{0.0};  // on the surface of the box, nearest to the centre along the normal
+};
+
+/// The same in the box's frame.
+struct PlaceOverlap {
+    double depth = 0.0;
+    glm::dvec3 normal{0.0};
+    glm::dvec3 point{0.0};
+    bool is_amid_face = false; // nine tenths of its half edges from its middle at most
+};
+
+/// How far a sphere's centre may come in one tick, or go behind the face where it went in, in
+/// units of the box's longest half edge; beyond it was put there, and nothing is remembered. A
+/// cube of 4 cm: 8 cm, that is 80 m/s at 1 kHz.
+inline constexpr double sphere_reach_of_half = 4.0;
+
+/// Finds how a sphere overlaps a box, and remembers the face through which its centre went in, so
+/// that a deep push does not jump to another face, and a sphere that is through the box, pushed
+/// slowly or within one tick, is still found in front of the face where it entered. It is let go
+/// when its centre comes out in front of that face or leaves the space behind it to the side.
+/// From outside the nearest point of the box decides: the depth is continuous over edges and
+/// corners.
+class SphereBoxMemory {
+public:
+    /// nullopt when they do not overlap. For a sphere of which no earlier place is known.
+    [[nodiscard]] std::optional<SphereOverlap> find(const OrientedBox& box,
+                                                    const glm::dvec3& centre, double radius);
+
+    /// Likewise; `before` is where the centre was a tick ago in the box's frame of that time, see
+    /// seen_from(): the face is that which the straight way from there to here meets first.
+    [[nodiscard]] std::optional<SphereOverlap>
+    find(const OrientedBox& box, const glm::dvec3& centre, double radius, const glm::dvec3& before);
+
+    /// Likewise in the frame of a box with such half edges; `before` is null when it is not known.
+    /// A sphere in front of one of the faces, as most are, or far away costs a few compares.
+    [[nodiscard]] std::optional<PlaceOverlap> find(const glm::dvec3& half, const glm::dvec3& place,
+                                                   double radius, const glm::dvec3* before);
+
+    void forget() { entered_.reset(); }
+
+    /// The face through which the centre went in, or would on its shortest way.
+    [[nodiscard]] std::optional<Face> entered() const { return entered_; }
+
+    friend bool operator==(const SphereBoxMemory&, const SphereBoxMemory&) = default;
+
+private:
+    [[nodiscard]] std::optional<PlaceOverlap> find_here(const glm::dvec3& half,
+                                                        const glm::dvec3& place, double radius);
+
+    std::optional<Face> entered_;
+};
+
+/// A point in a box's own frame.
+[[nodiscard]] inline glm::dvec3 seen_from(const OrientedBox& box, const glm::dvec3& point)
+{
+    const glm::dvec3 offset = point - box.centre;
+    return {glm::dot(box.axes[0], offset), glm::dot(box.axes[1], offset),
+            glm::dot(box.axes[2], offset)};
+}
+
+/// The distance from a point to a box's surface; 0 inside.
+[[nodiscard]] double distance(const OrientedBox& box, const glm::dvec3& point);
+
+} // namespace hapnet::scene

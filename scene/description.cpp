@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/description.hpp"
+
+#include <bit>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+#include <string_view>
+
+namespace hapnet::scene {
+
+namespace {
+
+/// Checks one part of a description; keeps the first complaint.
+class Check {
+public:
+    explicit Check(std::string part) : part_{std::move(part)} {}
+
+    void within(std::string_view what, double value, double least, double most)
+    {
+        if (value >= least && value <= most) return; // not so for NaN
+        complain(fmt::format("{} is {}; it can be {} to {}", what, value, least, most));
+    }
+    void within(std::string_view what, const glm::dvec3& value, double least, double most)
+    {
+        for (const int axis : {0, 1, 2}) within(what, value[axis], least, most);
+    }
+    void holds(bool condition, std::string_view otherwise)
+    {
+        if (!condition) complain(std::string{otherwise});
+    }
+    [[nodiscard]] base::Result<void> result() const
+    {
+        if (complaint_.empty()) return {};
+        return base::fail(part_ + ": " + complaint_);
+    }
+
+private:
+    void complain(std::string complaint)
+    {
+        if (complaint_.empty()) complaint_ = std::move(complaint);
+    }
+
+    std::string part_;
+    std::string complaint_;
+};
+
+bool is_unit(double square)
+{
+    constexpr double tolerance = 1e-6; // of what a person writes with seven digits
+    return std::abs(square - 1.0) <= tolerance;
+}
+
+double square(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
+double square(const glm::dquat& q) { return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z; }
+
+void check_material(Check& check, const Material& material)
+{
+    check.within("friction", material.friction, 0.0, friction_max);
+    check.within("restitution", material.restitution, 0.0, 1.0);
+}
+
+base::Result<void> check_body(const BodyDescription& body, std::size_t number)
+{
+    Check check{fmt::format("body {} '{}'", number, body.name)};
+    check.within("half an edge in m", body.half, size_min_m, size_max_m);
+    check.within("position in m", body.position.value, -reach_max_m, reach_max_m);
+    check.holds(is_unit(square(body.orientation)), "orientation is not a unit quaternion");
+    check_material(check, body.material);
+    check.within("drag in N s/m", body.drag_ns_per_m, 0.0, damping_max_ns_per_m);
+    if (!body.movable) return check.result();
+    check.within("mass in kg", body.mass_kg, mass_min_kg, mass_max_kg);
+    check.within("velocity in m/s", body.velocity.value, -speed_max_m_per_s, speed_max_m_per_s);
+    check.within("angular velocity in rad/s", body.angular_velocity, -turn_max_rad_per_s,
+                 turn_max_rad_per_s);
+    return check.result();
+}
+
+base::Result<void> check_plane(const PlaneDescription& plane, std::size_t number)
+{
+    Check check{fmt::format("plane {} '{}'", number, plane.name)};
+    check.holds(is_unit(square(plane.normal)), "normal is not of length 1");
+    check.within("offset in m", plane.offset_m, -reach_max_m, reach_max_m);
+    check_material(check, plane.material);
+    return check.result();
+}
+
+base::Result<void> check_whole(const Description& description)
+{
+    Check check{"scene"};
+    check.holds(description.bodies.size() <= bodies_max,
+                fmt::format("more than {} bodies", bodies_max));
+    check.holds(description.planes.size() <= planes_max,
+                fmt::format("more than {} planes", planes_max));
+    check.within("gravity in m/s^2", description.gravity, -gravity_max_m_per_s2,
+                 gravity_max_m_per_s2);
+    return check.result();
+}
+
+base::Result<void> check_hips(const HipDescription& hips)
+{
+    Check check{"hips"};
+    check.holds(hips.count <= hips_max, fmt::format("count is more than {}", hips_max));
+    check.within("radius in m", hips.radius_m, size_min_m, size_max_m);
+    check.within("stiffness in N/m", hips.stiffness_n_per_m, 0.0, stiffness_max_n_per_m);
+    check.within("damping in N s/m", hips.damping_ns_per_m, 0.0, damping_max_ns_per_m);
+    check.within("grip reach in m", hips.grip_reach_m, 0.0, size_max_m);
+    check.within("friction", hips.friction, 0.0, friction_max);
+    check.holds(std::isinf(hips.force_max_n) || hips.force_max_n <= force_max_n,
+                fmt::format("force_max is more than {} N; infinity: no limit", force_max_n));
+    check.holds(hips.force_max_n >= 0.0, "force_max is below 0");
+    return check.result();
+}
+
+/// FNV-1a over the bits of every number.
+class Hash {
+public:
+    void add(std::uint64_t bits)
+    {
+        for (unsigned shift = 0; shift < 64; shift += 8) {
+            hash_ ^= (bits >> shift) & 0xffU;
+            hash_ *= 0x100000001b3U;
+        }
+    }
+    void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); } // -0 counts as 0
+    void add(const glm::dvec3& v)
+    {
+        for (const int axis : {0, 1, 2}) add(v[axis]);
+    }
+    void add(const Material& material)
+    {
+        add(material.friction);
+        add(material.restitution);
+    }
+    [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+private:
+    std::uint64_t hash_ = 0xcbf29ce484222325U;
+};
+
+void add(Hash& hash, const BodyDescription& body)
+{
+    const auto flags = (body.movable ? 1U : 0U) | (body.locked_x ? 2U : 0U) |
+                       (body.locked_y ? 4U : 0U) | (body.locked_z ? 8U : 0U) |
+                       static_cast<unsigned>(body.turning) << 4U;
+    hash.add(std::uint64_t{flags});
+    hash.add(body.half);
+    hash.add(body.position.value);
+    for (const double part :
+         {body.orientation.w, body.orientation.x, body.orientation.y, body.orientation.z}) {
+        hash.add(part);
+    }
+    hash.add(body.material);
+    hash.add(body.drag_ns_per_m);
+    if (!body.movable) return;
+    hash.add(body.velocity.value);
+    hash.add(body.angular_velocity);
+    hash.add(body.mass_kg);
+}
+
+} // namespace
+
+base::Result<void> check(const Description& description)
+{
+    if (auto whole = check_whole(description); !whole) return whole;
+    if (auto hips = check_hips(description.hips); !hips) return hips;
+    for (std::size_t i = 0; i < description.planes.size(); ++i) {
+        if (auto plane = check_plane(description.planes[i], i + 1); !plane) return plane;
+    }
+    for (std::size_t i = 0; i < description.bodies.size(); ++i) {
+        if (auto body = check_body(description.bodies[i], i + 1); !body) return body;
+    }
+    return {};
+}
+
+std::uint64_t hash(const Description& description)
+{
+    Hash hash;
+    hash.add(std::uint64_t{description.bodies.size()});
+    for (const BodyDescription& body : description.bodies) add(hash, body);
+    hash.add(std::uint64_t{description.planes.size()});
+    for (const PlaneDescription& plane : description.planes) {
+        hash.add(plane.normal);
+        hash.add(plane.offset_m);
+        hash.add(plane.material);
+    }
+    const HipDescription& hips = description.hips;
+    for (const double value : {hips.radius_m, hips.stiffness_n_per_m, hips.damping_ns_per_m,
+                               hips.force_max_n, hips.grip_reach_m}) {
+        hash.add(value);
+    }
+    hash.add(std::uint64_t{hips.count});
+    hash.add(description.gravity);
+    // Scenes without it keep the hash that they had before there was any.
+    if (hips.friction != 0.0) hash.add(hips.friction);
+    return hash.value();
+}
+
+} // namespace hapnet::scene

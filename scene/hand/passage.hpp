@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/hand/pressing.hpp"
+#include "scene/hand/surface.hpp"
+
+#include <array>
+#include <span>
+
+namespace hapnet::scene {
+
+/// A rigid body through one tick under one or two unilateral springs: from one moment to the next
+/// at which a spring begins or ends, or its direction has turned too far to be held. In between,
+/// normals, arms and inertia are held as they are halfway, which is of second order; depths,
+/// impulses and displacements are in closed form. In the end the speed relative to the hand is
+/// scaled by the little that makes the springs' energy what the true depth says (a discrete
+/// gradient in the sense of O. Gonzalez, J. Nonlinear Sci. 6, 1996): bounces keep their energy.
+template <std::size_t count>
+class Passage {
+public:
+    Passage(MovingBody& body, const Answer& answer, double tick);
+
+    /// The i-th spring; all have to be set before the tick.
+    void set(std::size_t i, const HipSpring& spring, HipWork& work);
+    /// Goes through the tick. False, with how much is left in `left()`, when there is no closed
+    /// form, or phases end again and again.
+    [[nodiscard]] bool pass();
+    [[nodiscard]] double left() const { return left_; }
+    [[nodiscard]] const glm::dmat3& inverse_inertia() const { return inverse_inertia_; }
+    /// The springs as they are now.
+    [[nodiscard]] std::array<HipSpring, count> current() const;
+
+private:
+    /// What is held for a time.
+    struct Setting {
+        glm::dmat3 inverse_inertia{0.0};
+        std::array<Hold, count> holds;
+        double turned = 0.0; // of the normal that turned farthest since the start, squared
+    };
+
+    [[nodiscard]] Setting halfway(double time) const;
+    [[nodiscard]] Coupling couple(const Setting& setting);
+    void apply(const Setting& setting, const Pressed<count>& pressed);
+    void meet(std::size_t i);
+    void settle();
+
+    MovingBody& body_;
+    const Answer& answer_;
+    double tick_;
+    double left_;
+    bool turns_;
+    double turned_ = 0.0;        // the farthest that a normal turned in a phase, squared
+    glm::dmat3 inverse_inertia_; // now
+    glm::dmat3 axes_;            // of the body, now
+    std::array<const HipSpring*, count> springs_{};
+    std::array<HipWork*, count> works_{};
+    std::array<Surface, count> surfaces_;
+    std::array<glm::dvec3, count> hands_{}; // seen from the body's centre, now
+    std::array<Hold, count> holds_;         // now
+    std::array<bool, count> is_amid_face_{};
+    std::array<Press, count> presses_;
+};
+
+extern template class Passage<1>;
+extern template class Passage<2>;
+
+/// Advances a body that no hand touches.
+void advance_freely(MovingBody& body, const Answer& answer, double tick);
+
+} // namespace hapnet::scene

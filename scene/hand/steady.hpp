@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/hand/advance.hpp"
+
+#include <span>
+
+namespace hapnet::scene {
+
+/// Advances a body by a tick in which nothing begins and nothing ends, which is what most ticks
+/// are: one or two springs press amid faces of the box from the start to the end, and it turns
+/// evenly and little. What Passage does in one phase, with depths and impulses as Taylor's series
+/// to rounding. False, and the body has not changed, when it is not so; `work` is set and not added
+/// to.
+[[nodiscard]] bool press_steadily(MovingBody& body, const Answer& answer,
+                                  std::span<const HipSpring> springs, std::span<HipWork> work,
+                                  double tick);
+
+} // namespace hapnet::scene

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/hand/advance.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace hapnet::scene {
+
+/// How a hand's spring acts on a body that lies as it does at some moment.
+struct Hold {
+    glm::dvec3 normal{0.0}; // unit, from the body to the hand
+    glm::dvec3 lever{0.0};  // arm x normal
+    double depth = 0.0;     // > 0: overlap
+};
+
+/// A box and a hand's sphere near it, in the box's frame: where they touch while the box turns and
+/// the hand moves on. The nearest point of the box; a sphere whose centre is within it stays at the
+/// face where it was at the start.
+class Surface {
+public:
+    Surface() = default;
+    /// `axes` are the box's, in the world.
+    Surface(const HipSpring& spring, const glm::dvec3& half, const glm::dmat3& axes);
+
+    /// Whether it was a face at the start.
+    [[nodiscard]] bool is_face() const { return is_face_; }
+    /// Whether it is a face, and the hand too far from its edges to leave it soon.
+    [[nodiscard]] bool is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const;
+
+    /// With the hand's centre at `hand`, seen from the box's centre in the world's frame.
+    [[nodiscard]] Hold at(const glm::dmat3& axes, const glm::dvec3& hand) const;
+
+private:
+    glm::dvec3 half_{0.0};
+    double radius_ = 0.0;
+    glm::dvec3 face_{0.0}; // its normal
+    bool is_face_ = false;
+};
+
+} // namespace hapnet::scene

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/maths/first_root.hpp"
+
+namespace hapnet::scene {
+
+namespace {
+
+struct Sample {
+    double value, rate, bend;
+    double bend_max; // of |bend| from then on
+};
+
+Sample sample(const Watch& watch, const Courses& courses, double time, double to)
+{
+    Sample s{watch.level + watch.slope * time, watch.slope, 0.0, 0.0};
+    for (std::size_t i = 0; i < courses.size(); ++i) {
+        const Course& course = courses[i];
+        const double p = watch.way_weight[i];
+        const double q = watch.speed_weight[i];
+        if ((p == 0.0 && q == 0.0) || !course.moves()) continue;
+        const Motion motion = course.after(time);
+        const double acceleration = course.acceleration(time, motion);
+        const double jerk = course.jerk(acceleration, motion.speed);
+        const Bounds most = bounds(*course.kernel, acceleration, jerk, to - time);
+        s.value += p * motion.way + q * motion.speed;
+        s.rate += p * motion.speed + q * acceleration;
+        s.bend += p * acceleration + q * jerk;
+        s.bend_max += std::abs(p) * most.acceleration + std::abs(q) * most.jerk;
+    }
+    return s;
+}
+
+/// The longest time for which value + rate t - bend_max t^2 / 2 stays positive, value >= 0.
+double safe_step(double value, const Sample& s)
+{
+    const double root = std::sqrt(s.rate * s.rate + 2.0 * value * s.bend_max);
+    if (s.rate < 0.0) return 2.0 * value / (root - s.rate);
+    if (s.bend_max > 0.0) return (s.rate + root) / s.bend_max;
+    return std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+std::optional<double> first_root(const Watch& watch, const Courses& courses, double from, double to)
+{
+    constexpr int steps_max = 200;
+    constexpr double near = 1e-14; // of the time searched: as good as reached
+    constexpr double flat = 1e-9;  // of the greatest bend: no bend at all
+    const double nearest = near * (to - from);
+
+    double time = from;
+    Sample s = sample(watch, courses, time, to);
+    if (s.value <= 0.0 || watch.leaves_zero) {
+        const bool falls = s.rate < 0.0 || (s.rate == 0.0 && s.bend < -flat * s.bend_max);
+        if (!watch.leaves_zero && falls) return time;
+        // From 0 upwards: look again a moment later.
+        if (watch.leaves_zero || safe_step(0.0, s) <= nearest) {
+            time = from + (to - from) / 1024.0;
+            s = sample(watch, courses, time, to);
+            if (s.value < 0.0) return time;
+        }
+    }
+    for (int steps = 0; steps < steps_max; ++steps) {
+        const double step = safe_step(std::max(s.value, 0.0), s);
+        if (time + step >= to) return std::nullopt;
+        if (step <= nearest) return time;
+        time += step;
+        s = sample(watch, courses, time, to);
+    }
+    // Hundreds of periods in one tick, and none has come to it so far: only the end counts.
+    return sample(watch, courses, to, to).value < 0.0 ? std::optional{time} : std::nullopt;
+}
+
+} // namespace hapnet::scene

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/one_box/obstacles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hapnet::scene {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Obstacle between(const Material& a, const Material& b)
+{
+    Obstacle obstacle;
+    obstacle.friction = std::sqrt(a.friction * b.friction);
+    obstacle.restitution = std::max(a.restitution, b.restitution);
+    return obstacle;
+}
+
+Obstacle in_the_way(const PlaneDescription& plane, const BodyForm& movable)
+{
+    Obstacle obstacle = between(plane.material, movable.material);
+    obstacle.is_plane = true;
+    obstacle.low.fill(-infinity);
+    obstacle.high.fill(infinity);
+    for (std::size_t i = 0; i < 3; ++i) { // a unit vector along one of the axes
+        const auto axis = static_cast<int>(i);
+        if (std::abs(plane.normal[axis]) > 0.5) obstacle.normal_axis = i;
+        if (plane.normal[axis] > 0.5) obstacle.high[i] = plane.offset_m + movable.half[axis];
+        if (plane.normal[axis] < -0.5) obstacle.low[i] = -plane.offset_m - movable.half[axis];
+    }
+    return obstacle;
+}
+
+} // namespace
+
+Obstacles::Obstacles(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable)
+    : usual_margin_{std::min(std::min(movable.half.x, movable.half.y), movable.half.z)}
+{
+    for (const PlaneDescription& plane : frozen.planes) {
+        all_.push_back(in_the_way(plane, movable));
+    }
+    for (const Slot slot : bodies.slot_of) {
+        if (bodies.form[slot].mass > 0.0) continue;
+        Obstacle obstacle = between(bodies.form[slot].material, movable.material);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto axis = static_cast<int>(i);
+            const double reach = bodies.form[slot].half[axis] + movable.half[axis];
+            obstacle.low[i] = bodies.position.at(slot)[axis] - reach;
+            obstacle.high[i] = bodies.position.at(slot)[axis] + reach;
+        }
+        all_.push_back(obstacle);
+    }
+    near_ = Bounded<std::uint32_t>{all_.size()};
+    for (std::size_t i = 0; i < 3; ++i) {
+        locked_[i] = movable.inverse_mass[static_cast<int>(i)] == 0.0;
+    }
+}
+
+void Obstacles::look(const PerAxis& centre, double reach)
+{
+    seen_from_ = centre;
+    margin_ = std::max(usual_margin_, 2.0 * reach);
+    near_.clear();
+    for (std::uint32_t i = 0; i < all_.size(); ++i) {
+        const Obstacle& one = all_[i];
+        const bool is_near = one.gap(0, centre[0]) <= margin_ && one.gap(1, centre[1]) <= margin_ &&
+                             one.gap(2, centre[2]) <= margin_;
+        if (is_near) near_.add(i);
+    }
+}
+
+bool Obstacles::put_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const
+{
+    bool was_inside = false;
+    for (const std::uint32_t id : of_those) {
+        const Obstacle& one = all_[id];
+        if (one.is_plane) {
+            const std::size_t axis = one.normal_axis;
+            if (locked_[axis] || one.gap(axis, centre[axis]) >= 0.0) continue;
+            centre[axis] = one.face(axis, one.side(axis, centre[axis]));
+            was_inside = true;
+            continue;
+        }
+        PerAxis gaps{};
+        for (std::size_t i = 0; i < 3; ++i) gaps[i] = one.gap(i, centre[i]);
+        if (gaps[0] >= 0.0 || gaps[1] >= 0.0 || gaps[2] >= 0.0) continue;
+        std::size_t nearest = 3;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!locked_[i] && (nearest == 3 || gaps[i] > gaps[nearest])) nearest = i;
+        }
+        if (nearest == 3) continue;
+        centre[nearest] = one.face(nearest, one.side(nearest, centre[nearest]));
+        was_inside = true;
+    }
+    return was_inside;
+}
+
+} // namespace hapnet::scene

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/bounded.hpp"
+#include "scene/maths/per_axis.hpp"
+#include "scene/state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace hapnet::scene {
+
+/// Where a box's centre may not go because of one fixed box or plane: that one, grown by the half
+/// edges of the box. A plane reaches to infinity in all directions but one.
+struct Obstacle {
+    PerAxis low{};
+    PerAxis high{};
+    double friction = 0.0; // of the pair
+    double restitution = 0.0;
+    bool is_plane = false;
+    std::size_t normal_axis = 0; // of a plane
+
+    /// How far a centre is outside of it along an axis; < 0: between its two faces.
+    [[nodiscard]] double gap(std::size_t axis, double place) const
+    {
+        return std::max(low[axis] - place, place - high[axis]);
+    }
+    /// +1 when the centre is nearer to the high face, else -1.
+    [[nodiscard]] double side(std::size_t axis, double place) const
+    {
+        return place - high[axis] >= low[axis] - place ? 1.0 : -1.0;
+    }
+    [[nodiscard]] double face(std::size_t axis, double side) const
+    {
+        return side > 0.0 ? high[axis] : low[axis];
+    }
+};
+
+/// All that stands in the way of one movable box. Those that are near are kept in a list, in the
+/// order of the description; the rest is looked at again when the box has gone some way.
+class Obstacles {
+public:
+    Obstacles(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable);
+
+    /// How far the centre may still go before the list of what is near has to be made again.
+    [[nodiscard]] double room(const PerAxis& centre) const
+    {
+        const double x = std::abs(centre[0] - seen_from_[0]);
+        const double y = std::abs(centre[1] - seen_from_[1]);
+        const double z = std::abs(centre[2] - seen_from_[2]);
+        return margin_ - std::max(std::max(x, y), z);
+    }
+    /// At least those within `reach` of the centre, along every axis.
+    [[nodiscard]] std::span<const std::uint32_t> near(const PerAxis& centre, double reach)
+    {
+        if (!(reach <= room(centre))) look(centre, reach);
+        return {near_.begin(), near_.size()};
+    }
+    [[nodiscard]] const Obstacle& operator[](std::uint32_t index) const { return all_[index]; }
+
+    /// Puts the centre out of everything that it is in: to the nearest face of each, along an axis
+    /// that is not locked. Whether it was in anything.
+    bool put_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const;
+
+private:
+    void look(const PerAxis& centre, double reach);
+
+    std::vector<Obstacle> all_;
+    Bounded<std::uint32_t> near_;
+    std::array<bool, 3> locked_{};
+    PerAxis seen_from_{};
+    double usual_margin_ = 0.0;
+    double margin_ = -1.0; // what is farther from `seen_from_` is not in the list
+};
+
+} // namespace hapnet::scene

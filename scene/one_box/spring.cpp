@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/one_box/spring.hpp"
+
+namespace hapnet::scene {
+
+namespace {
+
+/// When level + slope t is on the positive side, within [from, to].
+struct Interval {
+    double from, to;
+};
+
+Interval positive(double level, double slope, Interval within)
+{
+    if (slope == 0.0) return level > 0.0 ? within : Interval{within.from, within.from};
+    const double root = std::clamp(-level / slope, within.from, within.to);
+    return slope > 0.0 ? Interval{root, within.to} : Interval{within.from, root};
+}
+
+/// The integral of level + slope t.
+double integral(double level, double slope, Interval over)
+{
+    return (over.to - over.from) * (level + 0.5 * slope * (over.from + over.to));
+}
+
+} // namespace
+
+double steady_impulse(const HipDescription& hips, double depth, double closing, double time)
+{
+    const double level = hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing;
+    const double slope = hips.stiffness_n_per_m * closing;
+    const Interval overlap = positive(depth, closing, {0.0, time});
+    const Interval pushing = positive(level, slope, overlap);
+    double impulse = integral(level, slope, pushing);
+    const double over = level - hips.force_max_n;
+    if (std::max(over + slope * pushing.from, over + slope * pushing.to) > 0.0) {
+        impulse -= integral(over, slope, positive(over, slope, pushing));
+    }
+    return impulse;
+}
+
+} // namespace hapnet::scene

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/requirements.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::scene {
+
+namespace {
+
+// Above so many bodies a grid finds neighbours faster than a scan of all: about 64 to 80, measured
+// with packed boxes.
+constexpr std::size_t scan_max = 64;
+
+/// What the reasons are about.
+struct Census {
+    std::size_t movable = 0;
+    std::size_t fixed = 0;
+    std::size_t turning = 0;     // movable
+    std::size_t skew = 0;        // boxes and planes not parallel to the axes
+    std::size_t bouncing = 0;    // bodies and planes with restitution
+    std::size_t rough = 0;       // movable bodies with friction
+    std::size_t rough_other = 0; // fixed bodies and planes with friction
+    std::size_t dragged = 0;     // movable bodies with viscous friction
+};
+
+bool is_parallel(const glm::dquat& q) { return q.x == 0.0 && q.y == 0.0 && q.z == 0.0; }
+
+bool is_parallel(const glm::dvec3& normal)
+{
+    const auto is_zero = [](double v) { return v == 0.0; };
+    return int{is_zero(normal.x)} + int{is_zero(normal.y)} + int{is_zero(normal.z)} == 2;
+}
+
+Census census_of(const Description& description)
+{
+    Census census;
+    for (const BodyDescription& body : description.bodies) {
+        ++(body.movable ? census.movable : census.fixed);
+        if (body.movable && body.turning != Turning::locked) ++census.turning;
+        if (!is_parallel(body.orientation)) ++census.skew;
+        if (body.material.restitution > 0.0) ++census.bouncing;
+        if (body.material.friction > 0.0) ++(body.movable ? census.rough : census.rough_other);
+        if (body.movable && body.drag_ns_per_m > 0.0) ++census.dragged;
+    }
+    for (const PlaneDescription& plane : description.planes) {
+        if (!is_parallel(plane.normal)) ++census.skew;
+        if (plane.material.restitution > 0.0) ++census.bouncing;
+        if (plane.material.friction > 0.0) ++census.rough_other;
+    }
+    return census;
+}
+
+Need need(Feature feature, bool needed, std::string because)
+{
+    return {feature, needed, std::move(because)};
+}
+
+Need need_friction(const Census& census)
+{
+    if (census.rough == 0) return need(Feature::friction, false, "no movable body is rough");
+    if (census.rough_other == 0 && census.rough < 2) {
+        return need(Feature::friction, false, "a rough body meets nothing that is rough");
+    }
+    return need(Feature::friction, true,
+                fmt::format("{} of {} movable bodies are rough", census.rough, census.movable));
+}
+
+Need need_contact(const Description& description, const Census& census)
+{
+    if (census.movable == 0) return need(Feature::contact, false, "nothing is movable");
+    const std::size_t others =
+        census.movable - 1 + census.fixed + description.planes.size() + description.hips.count;
+    if (others == 0) {
+        return need(Feature::contact, false, "one movable body with nothing around it");
+    }
+    return need(Feature::contact, true,
+                fmt::format("movable bodies: {}; fixed bodies: {}; planes: {}; hands: {}",
+                            census.movable, census.fixed, description.planes.size(),
+                            description.hips.count));
+}
+
+Need without_contact(Feature feature) { return need(feature, false, "nothing touches anything"); }
+
+} // namespace
+
+std::string_view name_of(Feature feature)
+{
+    constexpr std::array<std::string_view, features> names{
+        "contact",     "hips", "skew",   "rotation", "friction",
+        "restitution", "drag", "bodies", "sleep",    "grid"};
+    return names.at(static_cast<std::size_t>(feature));
+}
+
+std::string_view name_of(Profile profile)
+{
+    constexpr std::array<std::string_view, profiles> names{"flight", "sliding", "sliding-coulomb",
+                                                           "lone",   "few",     "many"};
+    return names.at(static_cast<std::size_t>(profile));
+}
+
+FeatureSet abilities(Profile profile)
+{
+    using enum Feature;
+    FeatureSet set;
+    const auto add = [&set](auto... those) { (set.add(those), ...); };
+    switch (profile) {
+    case Profile::flight: add(rotation, skew); break;
+    case Profile::many: add(grid); [[fallthrough]];
+    case Profile::few: add(bodies, sleep); [[fallthrough]];
+    case Profile::lone: add(rotation, skew); [[fallthrough]];
+    case Profile::sliding_coulomb: add(friction); [[fallthrough]];
+    case Profile::sliding: add(contact, hips, restitution, drag); break;
+    }
+    return set;
+}
+
+Needs needs_of(const Description& description, bool sleeping)
+{
+    using enum Feature;
+    const Census census = census_of(description);
+    const std::size_t total = census.movable + census.fixed;
+    Needs needs{
+        need_contact(description, census),
+        need(hips, description.hips.count > 0, fmt::format("hands: {}", description.hips.count)),
+        need(skew, census.skew > 0,
+             fmt::format("boxes and planes not parallel to the axes: {}", census.skew)),
+        need(rotation, census.turning > 0,
+             fmt::format("movable bodies that can turn: {} of {}", census.turning, census.movable)),
+        need_friction(census),
+        need(restitution, census.bouncing > 0,
+             fmt::format("bodies and planes that make things bounce: {}", census.bouncing)),
+        need(drag, census.dragged > 0 && !description.planes.empty(),
+             fmt::format("movable bodies with drag: {}; planes: {}", census.dragged,
+                         description.planes.size())),
+        need(bodies, census.movable > 1, fmt::format("movable bodies: {}", census.movable)),
+        need(sleep, sleeping && census.movable > 1,
+             sleeping ? fmt::format("movable bodies: {}", census.movable)
+                      : std::string{"switched off"}),
+        need(grid, total > scan_max && census.movable > 0,
+             fmt::format("bodies: {}; up to {} a scan is faster", total, scan_max))};
+    if (!needs[0].needed) {
+        for (Need& each : needs) {
+            const bool is_own = each.feature == contact || each.feature == rotation;
+            if (!is_own) each = without_contact(each.feature);
+        }
+    }
+    return needs;
+}
+
+FeatureSet features_of(const Needs& needs)
+{
+    FeatureSet set;
+    for (const Need& each : needs) {
+        if (each.needed) set.add(each.feature);
+    }
+    return set;
+}
+
+Profile profile_for(FeatureSet needed)
+{
+    for (std::size_t i = 0; i < profiles; ++i) {
+        const auto profile = static_cast<Profile>(i);
+        if (abilities(profile).covers(needed)) return profile;
+    }
+    base::ensure(false); // the last one can do everything
+    return Profile::many;
+}
+
+} // namespace hapnet::scene

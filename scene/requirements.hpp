@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/description.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace hapnet::scene {
+
+/// What a scene may need of a tick.
+enum class Feature : std::uint8_t {
+    contact,     // anything can touch anything at all
+    hips,        // hands
+    skew,        // a box or a plane that is not parallel to the axes
+    rotation,    // a movable body that can turn
+    friction,    // Coulomb friction
+    restitution, // bounces
+    drag,        // viscous friction
+    bodies,      // movable bodies that can touch each other
+    sleep,       // bodies at rest cost nothing
+    grid,        // so many bodies that each cannot be compared with each
+};
+inline constexpr std::size_t features = 10;
+
+[[nodiscard]] std::string_view name_of(Feature feature);
+
+/// A set of features.
+class FeatureSet {
+public:
+    constexpr FeatureSet() = default;
+    template <typename... Features>
+    constexpr explicit FeatureSet(Features... those) : bits_{(0U | ... | bit(those))}
+    {}
+    [[nodiscard]] constexpr bool has(Feature feature) const { return (bits_ & bit(feature)) != 0; }
+    constexpr void add(Feature feature) { bits_ |= bit(feature); }
+    /// Whether this set has everything that `needed` has.
+    [[nodiscard]] constexpr bool covers(FeatureSet needed) const
+    {
+        return (needed.bits_ & ~bits_) == 0;
+    }
+    friend constexpr bool operator==(FeatureSet, FeatureSet) = default;
+
+private:
+    static constexpr std::uint32_t bit(Feature feature)
+    {
+        return 1U << static_cast<unsigned>(feature);
+    }
+    std::uint32_t bits_ = 0;
+};
+
+/// The ticks that exist, the cheapest first. Each is compiled for its features alone, without a
+/// branch for the others.
+enum class Profile : std::uint8_t {
+    flight,          // nothing touches anything: exact parabolas and rotations
+    sliding,         // one box that cannot turn among others parallel to it: exact, event by event
+    sliding_coulomb, // ... with dry friction
+    lone,            // one movable body that can turn
+    few,             // movable bodies that touch each other; each is compared with each
+    many,            // ... found through a grid
+};
+inline constexpr std::size_t profiles = 6;
+
+[[nodiscard]] std::string_view name_of(Profile profile);
+/// What a profile can do.
+[[nodiscard]] FeatureSet abilities(Profile profile);
+
+/// Whether a scene needs a feature, and why or why not.
+struct Need {
+    Feature feature = Feature::contact;
+    bool needed = false;
+    std::string because;
+};
+
+/// What a scene needs, feature by feature.
+using Needs = std::array<Need, features>;
+[[nodiscard]] Needs needs_of(const Description& description, bool sleeping);
+[[nodiscard]] FeatureSet features_of(const Needs& needs);
+
+/// The cheapest profile that can do what is needed.
+[[nodiscard]] Profile profile_for(FeatureSet needed);
+
+} // namespace hapnet::scene

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/rigid/sleep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace hapnet::scene {
+
+namespace {
+
+constexpr double rest_s = 0.1;
+// How often islands are looked for while somebody could sleep and its neighbours do not.
+constexpr double looks_per_rest = 4.0;
+constexpr double gravity_share = 0.1;
+constexpr double size_share = 1e-3;
+
+double rest_speed(const Frozen& frozen, const BodyForm& form)
+{
+    const double gravity = std::sqrt(glm::dot(frozen.gravity, frozen.gravity));
+    const double size = 2.0 * std::min({form.half.x, form.half.y, form.half.z});
+    return gravity_share * gravity * frozen.tick + size_share * std::sqrt(gravity * size);
+}
+
+/// The angular momentum at which no corner is faster than a speed.
+double rest_momentum(const BodyForm& form, double speed)
+{
+    const glm::dvec3& easy = form.inverse_inertia;
+    const double ease = std::max({easy.x, easy.y, easy.z});
+    if (ease == 0.0) return std::numeric_limits<double>::infinity();
+    return speed / (ease * std::sqrt(glm::dot(form.half, form.half)));
+}
+
+} // namespace
+
+Sleep::Sleep(const Frozen& frozen, const Bodies& bodies)
+    : sleeping_{frozen.sleeping},
+      rest_ticks_{std::max(1.0, std::ceil(rest_s / frozen.tick))},
+      interval_{static_cast<std::uint64_t>(std::max(1.0, rest_ticks_ / looks_per_rest))},
+      speed2_(bodies.movable),
+      momentum2_(bodies.movable),
+      rested_(bodies.movable, 0.0),
+      islands_{bodies.size()},
+      island_rested_(bodies.size(), 0.0),
+      touched_{bodies.movable},
+      queue_{bodies.movable}
+{
+    for (Slot slot = 0; slot < bodies.movable; ++slot) {
+        const double speed = rest_speed(frozen, bodies.form[slot]);
+        const double momentum = rest_momentum(bodies.form[slot], speed);
+        speed2_[slot] = speed * speed;
+        momentum2_[slot] = momentum * momentum;
+    }
+}
+
+template <Search search>
+void Sleep::wake(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+{
+    rouse(body, bodies, neighbours);
+    neighbours.settle();
+}
+
+/// Wakes everything in the body's island that sleeps, from neighbour to neighbour.
+template <Search search>
+void Sleep::rouse(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+{
+    if (bodies.slot_of[body] >= bodies.movable) return;
+    if (bodies.slot_of[body] >= bodies.awake) get_up(body, bodies, neighbours);
+    keep_awake(bodies, body);
+    if (bodies.awake == bodies.movable) return;
+    queue_.clear();
+    queue_.add(body);
+    const PairSet& pairs = neighbours.all_pairs();
+    const auto wake_other = [&](PairIndex index, BodyId other) {
+        const Slot slot = bodies.slot_of[other];
+        if (slot < bodies.awake || slot >= bodies.movable || !touches(pairs[index].memory)) return;
+        get_up(other, bodies, neighbours);
+        queue_.add(other);
+    };
+    while (!queue_.is_empty()) {
+        const BodyId next = queue_.take_last();
+        pairs.for_first(next, [&](PairIndex i) { wake_other(i, pairs[i].b); });
+        pairs.for_second(next, [&](PairIndex i) { wake_other(i, pairs[i].a); });
+    }
+}
+
+template <Search search>
+void Sleep::get_up(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+{
+    const Slot from = bodies.slot_of[body];
+    const Slot to = bodies.wake(from);
+    swap(from, to);
+    rested_[to] = 0.0;
+    neighbours.has_woken(bodies, body);
+}
+
+template <Search search>
+void Sleep::lie_down(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+{
+    const Slot from = bodies.slot_of[body];
+    bodies.velocity.put(from, glm::dvec3{0.0});
+    bodies.angular_momentum.put(from, glm::dvec3{0.0});
+    swap(from, bodies.put_to_sleep(from));
+    neighbours.has_fallen_asleep(bodies, body, from);
+}
+
+BodyId Sleep::disturbed_sleeper(const Bodies& bodies, const Pair& pair) const
+{
+    const Slot a = bodies.slot_of[pair.a];
+    const Slot b = bodies.slot_of[pair.b];
+    const Slot mover = std::min(a, b); // the awake come first, the fixed last
+    const Slot sleeper = std::max(a, b);
+    if (sleeper < bodies.awake || sleeper >= bodies.movable || mover >= bodies.awake) return nobody;
+    if (rested_[mover] > 0.0) return nobody;
+    return sleeper == a ? pair.a : pair.b;
+}
+
+template <Search search>
+void Sleep::rest(Bodies& bodies, Neighbours<search>& neighbours, std::uint64_t ticks)
+{
+    if (!sleeping_) return;
+    if (!count(bodies) || ticks % interval_ != 0) return;
+    find_islands(bodies, neighbours);
+    queue_.clear();
+    for (Slot slot = 0; slot < bodies.awake; ++slot) {
+        const BodyId id = bodies.form[slot].id;
+        if (island_rested_[islands_.of(id)] >= rest_ticks_) queue_.add(id);
+    }
+    // By their ids, so that the order of the slots has one reason less to depend on the past.
+    std::sort(queue_.begin(), queue_.end());
+    for (const BodyId id : queue_) lie_down(id, bodies, neighbours);
+    neighbours.settle();
+}
+
+bool Sleep::count(const Bodies& bodies)
+{
+    const Bodies::Lanes3& v = bodies.velocity;
+    const Bodies::Lanes3& l = bodies.angular_momentum;
+    double any = 0.0;
+    for (Slot i = 0; i < bodies.awake; ++i) { // without branches: many at once
+        const double speed2 = v.x[i] * v.x[i] + v.y[i] * v.y[i] + v.z[i] * v.z[i];
+        const double momentum2 = l.x[i] * l.x[i] + l.y[i] * l.y[i] + l.z[i] * l.z[i];
+        const double stays = speed2 <= speed2_[i] ? 1.0 : 0.0;
+        const double lies = momentum2 <= momentum2_[i] ? 1.0 : 0.0;
+        const double rested = (rested_[i] + 1.0) * (stays * lies);
+        rested_[i] = rested;
+        any += rested >= rest_ticks_ ? 1.0 : 0.0;
+    }
+    return any != 0.0;
+}
+
+template <Search search>
+void Sleep::find_islands(const Bodies& bodies, Neighbours<search>& neighbours)
+{
+    for (Slot slot = 0; slot < bodies.awake; ++slot) islands_.part(bodies.form[slot].id);
+    for (const PairIndex index : neighbours.pairs()) {
+        const Pair& pair = neighbours.pair(index);
+        const bool are_awake =
+            bodies.slot_of[pair.a] < bodies.awake && bodies.slot_of[pair.b] < bodies.awake;
+        if (are_awake && touches(pair.memory)) islands_.join(pair.a, pair.b);
+    }
+    for (Slot slot = 0; slot < bodies.awake; ++slot)
+        island_rested_[bodies.form[slot].id] = std::numeric_limits<double>::infinity();
+    for (Slot slot = 0; slot < bodies.awake; ++slot) {
+        double& least = island_rested_[islands_.of(bodies.form[slot].id)];
+        least = std::min(least, rested_[slot]);
+    }
+}
+
+void Sleep::swap(Slot a, Slot b)
+{
+    std::swap(speed2_[a], speed2_[b]);
+    std::swap(momentum2_[a], momentum2_[b]);
+    std::swap(rested_[a], rested_[b]);
+}
+
+template void Sleep::wake(BodyId, Bodies&, Neighbours<Search::scan>&);
+template void Sleep::wake(BodyId, Bodies&, Neighbours<Search::grid>&);
+template void Sleep::rouse(BodyId, Bodies&, Neighbours<Search::scan>&);
+template void Sleep::rouse(BodyId, Bodies&, Neighbours<Search::grid>&);
+template void Sleep::rest(Bodies&, Neighbours<Search::scan>&, std::uint64_t);
+template void Sleep::rest(Bodies&, Neighbours<Search::grid>&, std::uint64_t);
+
+} // namespace hapnet::scene

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/bounded.hpp"
+#include "scene/collide/neighbours.hpp"
+#include "scene/solver/islands.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace hapnet::scene {
+
+/// Who sleeps. A body that has been at rest for a tenth of a second, together with everything
+/// movable that it touches, falls asleep: its velocity becomes exactly zero, its contacts keep
+/// their impulses, and it costs nothing until it is woken. Fixed bodies connect nothing. Two touch
+/// when their contact carried something in the last tick (touches() of its memory).
+///
+/// At rest: the centre, and the corners as they turn, no faster than a tenth of what gravity adds
+/// in a tick plus a thousandth of sqrt(gravity * size). Without gravity: not moving at all.
+///
+/// A tick: wake() whom a hand reaches or a push moves; wake_touched() once the manifolds are
+/// known; at the end of the tick, with the contacts' memories written, rest().
+class Sleep {
+public:
+    Sleep(const Frozen& frozen, const Bodies& bodies);
+
+    /// Wakes a body and all that touches it, one through the other, and starts its time at rest
+    /// anew. Slots change.
+    template <Search search>
+    void wake(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
+
+    /// Wakes those asleep whom an awake body that is not at rest touches, and what touches them.
+    /// `touching(index)`: whether the pair's manifold of this tick has points. Returns whether it
+    /// woke anybody: then neighbours.pairs_added() are to be looked at and this to be called again.
+    template <Search search, typename Touching>
+    bool wake_touched(Bodies& bodies, Neighbours<search>& neighbours, Touching touching)
+    {
+        if (bodies.awake == bodies.movable) return false;
+        touched_.clear();
+        for (const PairIndex index : neighbours.pairs()) {
+            const BodyId sleeper = disturbed_sleeper(bodies, neighbours.pair(index));
+            // What finds no room is found by the next call.
+            if (sleeper != nobody && touching(index)) touched_.add(sleeper);
+        }
+        for (const BodyId sleeper : touched_) rouse(sleeper, bodies, neighbours);
+        neighbours.settle();
+        return !touched_.is_empty();
+    }
+
+    /// Counts the time at rest of those awake and puts islands to sleep. `ticks`: of the world.
+    template <Search search>
+    void rest(Bodies& bodies, Neighbours<search>& neighbours, std::uint64_t ticks);
+
+    /// Starts the time at rest of an awake body anew: a hand touches it.
+    void keep_awake(const Bodies& bodies, BodyId body) { rested_[bodies.slot_of[body]] = 0.0; }
+
+    /// Ticks for which an awake body has been at rest.
+    [[nodiscard]] double rested(Slot slot) const { return rested_[slot]; }
+
+private:
+    static constexpr BodyId nobody = ~BodyId{0};
+
+    /// The one of a pair that is asleep while the other is awake and not at rest; or nobody.
+    [[nodiscard]] BodyId disturbed_sleeper(const Bodies& bodies, const Pair& pair) const;
+    template <Search search>
+    void rouse(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
+    template <Search search>
+    void get_up(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
+    template <Search search>
+    void lie_down(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
+    /// Counts; whether anybody has been at rest long enough.
+    [[nodiscard]] bool count(const Bodies& bodies);
+    template <Search search>
+    void find_islands(const Bodies& bodies, Neighbours<search>& neighbours);
+    void swap(Slot a, Slot b);
+
+    bool sleeping_;
+    double rest_ticks_;      // how long before it sleeps
+    std::uint64_t interval_; // ticks between two looks at the islands
+    // By slot, moving with their bodies.
+    std::vector<double> speed2_;    // (m/s)^2: at rest up to this
+    std::vector<double> momentum2_; // (kg m^2/s)^2: likewise
+    std::vector<double> rested_;    // ticks at rest so far
+
+    Islands islands_;
+    std::vector<double> island_rested_; // by the island's id: the least of its bodies
+    Bounded<BodyId> touched_;
+    Bounded<BodyId> queue_; // those going to wake, or to sleep
+};
+
+} // namespace hapnet::scene

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/solver/ldl.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace hapnet::scene {
+
+/// Makes a slowly converging iteration x -> g(x) fast: the next x is the mixture of the last few
+/// results whose steps cancel best (D. G. Anderson, J. ACM 12, 1965). Where the iteration is
+/// linear, that is GMRES (Walker, Ni, SIAM J. Numer. Anal. 49, 2011): as many steps as there are
+/// different modes of convergence, one for a heavy body on a light one.
+class Anderson {
+public:
+    static constexpr std::size_t depth = 6;
+
+    explicit Anderson(std::size_t size_max);
+    /// Has the room but not what is in it.
+    Anderson(const Anderson& other) : Anderson{other.size_max_} {}
+    Anderson(Anderson&&) noexcept = default;
+    Anderson& operator=(const Anderson& other);
+    Anderson& operator=(Anderson&&) noexcept = default;
+    ~Anderson() = default;
+
+    /// Forgets, for a problem of another size.
+    void begin(std::size_t size);
+
+    /// What was put in, and what came out of it. The mixture is in `next`, which may be `in` or
+    /// `out`; whether it is another than `out`.
+    bool mix(std::span<const double> in, std::span<const double> out, std::span<double> next);
+
+private:
+    [[nodiscard]] double* step_change(std::size_t column) { return &steps_[column * size_]; }
+    [[nodiscard]] double* result_change(std::size_t column) { return &results_[column * size_]; }
+    void learn(std::span<const double> in, std::span<const double> out);
+    [[nodiscard]] std::array<double, depth> weights();
+
+    std::size_t size_max_;
+    std::size_t size_ = 0;
+    std::size_t seen_ = 0; // results since the beginning
+    std::vector<double> last_step_, last_result_;
+    std::vector<double> steps_, results_; // changes from one to the next, a column each
+    Square<depth> products_{};            // of the columns of steps_
+};
+
+} // namespace hapnet::scene

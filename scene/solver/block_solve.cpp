@@ -1,0 +1,379 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/solver/block_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapnet::scene {
+
+namespace {
+
+using Friction = std::array<double, 3>; // along the tangents, and torsion over its arm
+
+Modal minus(Modal a, const Modal& b)
+{
+    for (std::size_t i = 0; i < 6; ++i) a[i] -= b[i];
+    return a;
+}
+
+/// One contact with the velocities that it would have without its own impulses.
+class Trial {
+public:
+    Trial(ContactBlock& block, const Modal& velocity)
+        : block_{block},
+          modal_{modal(block, block.impulse)},
+          free_{minus(velocity, times(block.matrix, modal_))},
+          now_{velocity},
+          answer_{block.impulse}
+    {}
+
+    /// Whether slip() has found the answer.
+    [[nodiscard]] bool has_settled() const { return has_settled_; }
+    [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
+    [[nodiscard]] const Modal& impulse() const { return modal_; }
+
+    /// Sticking contact. False when something would pull or friction would pass its limit.
+    bool stick(double quiet);
+    /// Slipping or frictionless contact: the normal impulses for the friction as it is.
+    void push(double quiet);
+    /// Slipping contact, in so many rounds at most. False when friction does not reach its limit.
+    bool slip(double quiet, int rounds_max);
+
+private:
+    [[nodiscard]] PointSet pushing(double quiet) const;
+    [[nodiscard]] PointSet without_pulling(const PointSet& set) const;
+    template <bool sticks>
+    void hold_points(const PointSet& set);
+    template <bool sticks>
+    void hold_all(const PlaneFit& fit);
+    template <bool sticks>
+    void hold_few(const PointSet& set);
+    template <std::size_t points, std::size_t frictions>
+    void hold_exactly(const PointSet& set);
+    /// The first velocities without the normal impulses.
+    [[nodiscard]] Modal given() const
+    {
+        const auto& m = block_.matrix;
+        Modal velocity{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            velocity[i] =
+                free_[i] + (m[i][3] * modal_[3] + m[i][4] * modal_[4] + m[i][5] * modal_[5]);
+        }
+        return velocity;
+    }
+    void set_normals(const PointSet& set);
+    void set_friction(double tangent_1, double tangent_2, double torsion)
+    {
+        answer_.tangent_1 = modal_[3] = tangent_1;
+        answer_.tangent_2 = modal_[4] = tangent_2;
+        answer_.torsion = modal_[5] = torsion;
+    }
+    void move_normals();
+    void move_tangents();
+    [[nodiscard]] Friction scaled_friction() const
+    {
+        return {answer_.tangent_1, answer_.tangent_2,
+                block_.torsion_arm > 0.0 ? answer_.torsion / block_.torsion_arm : 0.0};
+    }
+    [[nodiscard]] double normal_sum() const
+    {
+        return answer_.normal[0] + answer_.normal[1] + answer_.normal[2] + answer_.normal[3];
+    }
+    double slip_once(double step);
+
+    ContactBlock& block_;
+    Modal modal_; // the answer
+    Modal free_;
+    Modal now_; // with the answer
+    ContactImpulse answer_;
+    bool is_at_limit_ = false;
+    bool has_settled_ = false;
+};
+
+PointSet Trial::pushing(double quiet) const
+{
+    PointSet set;
+    for (std::uint32_t i = 0; i < block_.count; ++i) {
+        const double speed = block_.normal_speed(now_, i) - block_.least[i];
+        if (answer_.normal[i] > 0.0 || speed < -quiet) set.add(i);
+    }
+    return set;
+}
+
+PointSet Trial::without_pulling(const PointSet& set) const
+{
+    PointSet rest;
+    for (std::uint32_t i = 0; i < set.count; ++i) {
+        if (answer_.normal[set.at[i]] > 0.0) rest.add(set.at[i]);
+    }
+    return rest;
+}
+
+void Trial::set_normals(const PointSet& set)
+{
+    modal_[0] = modal_[1] = modal_[2] = 0.0;
+    for (std::uint32_t i = 0; i < set.count; ++i) {
+        const std::size_t at = set.at[i];
+        modal_[0] += answer_.normal[at];
+        modal_[1] += block_.along_2[at] * answer_.normal[at];
+        modal_[2] -= block_.along_1[at] * answer_.normal[at];
+    }
+}
+
+void Trial::move_normals()
+{
+    const Modal before = given();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& row = block_.matrix[i];
+        now_[i] = before[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2]);
+    }
+}
+
+void Trial::move_tangents()
+{
+    for (std::size_t i = 3; i < 6; ++i) {
+        const auto& row = block_.matrix[i];
+        now_[i] = free_[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2] +
+                              row[3] * modal_[3] + row[4] * modal_[4] + row[5] * modal_[5]);
+    }
+}
+
+template <std::size_t points, std::size_t frictions>
+void Trial::hold_exactly(const PointSet& set)
+{
+    const Modal before = frictions > 0 ? free_ : given();
+    std::array<double, points + frictions> wanted{};
+    for (std::size_t i = 0; i < points; ++i) {
+        wanted[i] = block_.least[set.at[i]] - block_.normal_speed(before, set.at[i]);
+    }
+    for (std::size_t i = 0; i < frictions; ++i) wanted[points + i] = -before[3 + i];
+    const auto unknown = few_factors(block_, set).solve(wanted);
+    answer_.normal = {};
+    for (std::size_t i = 0; i < points; ++i) answer_.normal[set.at[i]] = unknown[i];
+    if constexpr (frictions > 0) {
+        set_friction(unknown[points], unknown[points + 1],
+                     frictions > 2 ? unknown[points + frictions - 1] : 0.0);
+    }
+    set_normals(set);
+}
+
+template <bool sticks>
+void Trial::hold_few(const PointSet& set)
+{
+    if constexpr (!sticks) {
+        return set.count == 1 ? hold_exactly<1, 0>(set) : hold_exactly<2, 0>(set);
+    } else {
+        if (set.count == 1) return hold_exactly<1, 2>(set);
+        return block_.torsion_arm == 0.0 ? hold_exactly<2, 2>(set) : hold_exactly<2, 3>(set);
+    }
+}
+
+template <bool sticks>
+void Trial::hold_all(const PlaneFit& fit)
+{
+    const std::array<double, 3> least = fit.modal_least(block_.least);
+    const Ldl<6>& factors = whole_factors(block_);
+    const Modal before = sticks ? free_ : given();
+    const std::array<double, 3> wanted{least[0] - before[0], least[1] - before[1],
+                                       least[2] - before[2]};
+    answer_.normal = {};
+    if constexpr (sticks) {
+        const auto unknown = factors.solve(
+            Modal{wanted[0], wanted[1], wanted[2], -before[3], -before[4], -before[5]});
+        fit.spread({unknown[0], unknown[1], unknown[2]}, answer_.normal);
+        set_friction(unknown[3], unknown[4], unknown[5]);
+    } else {
+        fit.spread(factors.solve(wanted), answer_.normal);
+    }
+    set_normals(fit.set());
+}
+
+template <bool sticks>
+void Trial::hold_points(const PointSet& set)
+{
+    if (set.count == 0) {
+        answer_ = {};
+        modal_ = {};
+    } else if (set.count <= 2) {
+        hold_few<sticks>(set);
+    } else if (const PlaneFit& fit = fit_of(block_, set); fit.is_flat()) {
+        hold_few<sticks>(outermost(block_, fit));
+    } else {
+        hold_all<sticks>(fit);
+    }
+}
+
+bool Trial::stick(double quiet)
+{
+    PointSet set = pushing(quiet);
+    for (std::uint32_t round = 0; round < manifold_points_max; ++round) {
+        hold_points<true>(set);
+        if (set.count == 0) return true;
+        const PointSet rest = without_pulling(set);
+        if (rest.count == set.count) break;
+        set = rest;
+    }
+    const Friction f = scaled_friction();
+    const double limit = block_.friction * normal_sum();
+    if (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] > limit * limit) return false;
+    move_normals();
+    for (std::uint32_t i = 0; i < block_.count; ++i) {
+        if (block_.normal_speed(now_, i) - block_.least[i] < -quiet) return false;
+    }
+    return true;
+}
+
+void Trial::push(double quiet)
+{
+    PointSet set = pushing(quiet);
+    for (std::uint32_t round = 0; round < 2 * manifold_points_max; ++round) {
+        hold_points<false>(set);
+        const PointSet rest = without_pulling(set);
+        if (rest.count < set.count) {
+            set = rest;
+            continue;
+        }
+        move_normals();
+        if (set.count == 0) return;
+        const PointSet more = pushing(quiet);
+        if (more.count == set.count) return;
+        set = more;
+    }
+    for (double& impulse : answer_.normal) impulse = std::max(impulse, 0.0);
+    modal_ = modal(block_, answer_);
+    move_normals();
+}
+
+/// Moves friction toward the direction against the slip; returns by how much.
+double Trial::slip_once(double step)
+{
+    const double arm = block_.torsion_arm;
+    const Friction was = scaled_friction();
+    move_tangents();
+    Friction f{was[0] - step * now_[3], was[1] - step * now_[4], was[2] - step * now_[5] * arm};
+    const double limit = block_.friction * normal_sum();
+    const double size = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+    is_at_limit_ = size > limit;
+    if (is_at_limit_) {
+        const double share = limit / size;
+        for (double& part : f) part *= share;
+    }
+    set_friction(f[0], f[1], f[2] * arm);
+    move_normals();
+    return std::max({std::abs(f[0] - was[0]), std::abs(f[1] - was[1]), std::abs(f[2] - was[2])});
+}
+
+bool Trial::slip(double quiet, int rounds_max)
+{
+    const double most = slip_answer(block_);
+    const double step = most > 0.0 ? 1.0 / most : 0.0;
+    constexpr double settled = 1e-14; // of the impulses: rounding
+    push(quiet);
+    bool reached = false;
+    for (int round = 0; round < rounds_max; ++round) {
+        const double change = slip_once(step);
+        reached = is_at_limit_;
+        push(quiet);
+        has_settled_ = change <= settled * normal_sum();
+        if (has_settled_) return reached;
+    }
+    slip_once(0.0); // within the limit
+    return reached;
+}
+
+/// What of such speeds may be rounding, m/s.
+double rounding_of(const ContactBlock& block, const Modal& velocity)
+{
+    constexpr double share = 1e-13;
+    return share * (std::abs(velocity[0]) + std::abs(velocity[3]) + std::abs(velocity[4]) +
+                    block.torsion_arm *
+                        (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
+}
+
+Modal finish(ContactBlock& block, const Trial& trial, const Trial& begun)
+{
+    block.impulse = trial.answer();
+    return minus(trial.impulse(), begun.impulse());
+}
+
+} // namespace
+
+bool is_separated(const ContactBlock& block, const Modal& velocity, double quiet)
+{
+    for (std::size_t i = 0; i < block.count; ++i) {
+        const double excess = block.normal_speed(velocity, i) - block.least[i];
+        if (excess < -quiet || (excess > quiet && block.impulse.normal[i] > 0.0)) return false;
+        if (block.impulse.normal[i] < 0.0) return false;
+    }
+    return true;
+}
+
+bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet)
+{
+    if (!is_separated(block, velocity, quiet)) return false;
+    if (block.friction == 0.0) return true;
+    const double arm = block.torsion_arm;
+    const double limit = block.friction * block.normal_sum();
+    const Friction slip{velocity[3], velocity[4], velocity[5] * arm};
+    const Friction held{block.impulse.tangent_1, block.impulse.tangent_2,
+                        arm > 0.0 ? block.impulse.torsion / arm : 0.0};
+    const double speed2 = slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2];
+    const double held2 = held[0] * held[0] + held[1] * held[1] + held[2] * held[2];
+    constexpr double rounding = 1e-12;
+    if (held2 > limit * limit * (1.0 + rounding)) return false;
+    if (speed2 <= quiet * quiet) return true;
+    const double speed = std::sqrt(speed2);
+    double miss2 = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double miss = held[i] * speed + limit * slip[i];
+        miss2 += miss * miss;
+    }
+    return miss2 <= rounding * rounding * limit * limit * speed2;
+}
+
+Modal solve(ContactBlock& block, const Modal& velocity, double quiet)
+{
+    if (block.friction == 0.0) return solve_normals(block, velocity, quiet);
+    const double still = std::max(quiet, rounding_of(block, velocity));
+    const Trial begun{block, velocity};
+    constexpr int rounds = 8;
+    // What slipped at the end of the last tick mostly slips on.
+    const bool slips = slips_already(block, velocity, still);
+    Trial slipping = begun;
+    if (slips && slipping.slip(still, rounds) && slipping.has_settled())
+        return finish(block, slipping, begun);
+    Trial sticking = begun;
+    if (sticking.stick(still)) return finish(block, sticking, begun);
+    if (!slips) slipping.slip(still, rounds);
+    return finish(block, slipping, begun);
+}
+
+Modal improve(ContactBlock& block, const Modal& velocity, double quiet)
+{
+    if (block.friction == 0.0) return solve_normals(block, velocity, quiet);
+    const double still = std::max(quiet, rounding_of(block, velocity));
+    const Trial begun{block, velocity};
+    Trial slipping = begun;
+    // What slipped slips.
+    bool& slipped = block.factors.slipped;
+    if (slipped && slipping.slip(still, 1)) return finish(block, slipping, begun);
+    Trial sticking = begun;
+    if (sticking.stick(still)) {
+        slipped = false;
+        return finish(block, sticking, begun);
+    }
+    if (!slipped) slipping.slip(still, 1);
+    slipped = true;
+    return finish(block, slipping, begun);
+}
+
+Modal solve_normals(ContactBlock& block, const Modal& velocity, double quiet)
+{
+    const Trial begun{block, velocity};
+    Trial trial = begun;
+    trial.push(std::max(quiet, rounding_of(block, velocity)));
+    return finish(block, trial, begun);
+}
+
+} // namespace hapnet::scene

@@ -1,0 +1,397 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/solver/contact_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hapnet::scene {
+
+namespace {
+
+/// The impulses of a block as numbers of one kind, N s.
+constexpr std::size_t parts = 7;
+
+// A few sweeps are made of any island: the first, to and fro.
+constexpr std::uint32_t sweeps_min = 3;
+// Islands larger than this are swept without mixing: what they may cost is used up before it helps.
+constexpr std::size_t mixed_max = 1024;
+
+void read(const ContactBlock& block, double* to)
+{
+    const ContactImpulse& impulse = block.impulse;
+    for (std::size_t i = 0; i < manifold_points_max; ++i) to[i] = impulse.normal[i];
+    to[4] = impulse.tangent_1;
+    to[5] = impulse.tangent_2;
+    to[6] = block.torsion_arm > 0.0 ? impulse.torsion / block.torsion_arm : 0.0;
+}
+
+void write(ContactBlock& block, const double* from)
+{
+    ContactImpulse& impulse = block.impulse;
+    for (std::size_t i = 0; i < manifold_points_max; ++i) impulse.normal[i] = from[i];
+    impulse.tangent_1 = from[4];
+    impulse.tangent_2 = from[5];
+    if (block.torsion_arm > 0.0) impulse.torsion = from[6] * block.torsion_arm;
+}
+
+double size2(std::span<const double> a)
+{
+    double sum = 0.0;
+    for (const double part : a) sum += part * part;
+    return sum;
+}
+
+double distance2(std::span<const double> a, std::span<const double> b)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sum;
+}
+
+} // namespace
+
+ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
+    : responses_{bodies + 1},
+      ending_{bodies + 1},
+      mean_{bodies + 1},
+      blocks_{blocks},
+      contacts_{bodies + 1},
+      parents_{bodies + 1},
+      starts_{bodies + 2},
+      order_{blocks},
+      before_{parts * std::min(blocks, mixed_max)},
+      after_{parts * std::min(blocks, mixed_max)},
+      good_{parts * std::min(blocks, mixed_max)},
+      saved_{bodies + 1},
+      anderson_{parts * std::min(blocks, mixed_max)}
+{}
+
+void ContactSolver::begin(std::size_t bodies)
+{
+    responses_.resize(bodies + 1);
+    ending_.resize(bodies + 1);
+    mean_.resize(bodies + 1);
+    blocks_.clear();
+}
+
+SolverOutcome ContactSolver::solve(const SolverLimits& limits)
+{
+    return run({Mode::contacts, ending_.all(), limits});
+}
+
+SolverOutcome ContactSolver::separate(const SolverLimits& limits)
+{
+    const auto overlaps = [&](const ContactBlock& block) {
+        Modal velocity = velocity_at(block, mean_[block.a], mean_[block.b]);
+        for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.bend[i];
+        for (std::size_t i = 0; i < block.count; ++i) {
+            if (block.normal_speed(velocity, i) < block.least[i] - limits.quiet) return true;
+        }
+        return false;
+    };
+    const std::span<ContactBlock> blocks = blocks_.all();
+    if (std::none_of(blocks.begin(), blocks.end(), overlaps)) return {};
+    // What is new in the impulses counts half in the mean velocities, as a force would. Of a hit it
+    // should be all, from the moment when they met: a good start.
+    for (ContactBlock& block : blocks) {
+        ContactImpulse start;
+        for (std::size_t i = 0; i < block.count; ++i) {
+            start.normal[i] = std::max(0.0, 0.5 * (block.impulse.normal[i] - block.begun[i]));
+        }
+        block.impulse = start;
+        apply(block, modal(block, start), mean_.all());
+    }
+    return run({Mode::separations, mean_.all(), limits});
+}
+
+SolverOutcome ContactSolver::separate_again(const SolverLimits& limits)
+{
+    for (ContactBlock& block : blocks_.all()) {
+        block.impulse = {};
+        block.has_matrix = false;
+    }
+    return run({Mode::separations, mean_.all(), limits});
+}
+
+SolverOutcome ContactSolver::run(const Task& task)
+{
+    SolverOutcome outcome{1, 0.0};
+    count_contacts();
+    for (ContactBlock& block : blocks_.all()) {
+        block.change = visit(block, task, is_alone(block) ? Depth::exact : Depth::nearer);
+        outcome.change = std::max(outcome.change, block.change);
+    }
+    if (outcome.change <= task.limits.enough || blocks_.size() < 2) return outcome;
+    find_islands();
+    std::size_t moving = 0;
+    for_moving_islands(task, [&](Island island) { moving += island.size(); });
+    // What may be done is shared evenly.
+    const std::size_t share = std::max<std::size_t>(
+        sweeps_min, task.limits.visits_max / std::max<std::size_t>(moving, 1));
+    Task its = task;
+    its.limits.sweeps_max = std::min(its.limits.sweeps_max, static_cast<std::uint32_t>(share));
+    outcome.change = 0.0;
+    for_moving_islands(task, [&](Island island) {
+        const SolverOutcome one = run_island(its, island);
+        const bool is_done = one.change <= task.limits.enough;
+        if (task.mode == Mode::contacts && !is_done) lose_energy(task, island);
+        outcome.sweeps = std::max(outcome.sweeps, one.sweeps);
+        outcome.change = std::max(outcome.change, one.change);
+    });
+    return outcome;
+}
+
+/// Those that the first sweep has not settled.
+template <typename Do>
+void ContactSolver::for_moving_islands(const Task& task, Do&& act)
+{
+    const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.enough; };
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : starts_.all()) {
+        const Island island = order_.all().subspan(begin, end - begin);
+        begin = end;
+        if (island.size() > 1 && std::any_of(island.begin(), island.end(), moves)) act(island);
+    }
+}
+
+SolverOutcome ContactSolver::run_island(const Task& task, Island island)
+{
+    SolverOutcome outcome{1, 0.0};
+    if (island.size() > mixed_max) {
+        while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
+            outcome.change = sweep(task, island);
+            outcome.sweeps += 2;
+            if (outcome.change <= task.limits.enough) break;
+        }
+        return outcome;
+    }
+    before_.resize(parts * island.size());
+    after_.resize(parts * island.size());
+    good_.resize(parts * island.size());
+    anderson_.begin(parts * island.size());
+    note(island, before_.all());
+    double shortest2 = std::numeric_limits<double>::infinity();
+    double first2 = -1.0;
+    bool has_jumped = false;
+    while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
+        outcome.change = sweep(task, island);
+        outcome.sweeps += 2;
+        if (outcome.change <= task.limits.enough) break;
+        note(island, after_.all());
+        if (first2 < 0.0) first2 = size2(after_.all());
+        const double step2 = distance2(before_.all(), after_.all());
+        // A mixture that leads astray, because something opens or slips there, is taken back.
+        constexpr double astray = 4.0;
+        if (has_jumped && !(step2 <= astray * shortest2)) {
+            step_back(task, island);
+            anderson_.begin(parts * island.size());
+            std::copy(good_.all().begin(), good_.all().end(), before_.all().begin());
+            has_jumped = false;
+            continue;
+        }
+        shortest2 = std::min(shortest2, step2);
+        if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
+        has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
+        // Where bodies are wedged, impulses that do nothing could grow without end.
+        constexpr double too_far = 1e4;
+        if (size2(before_.all()) > too_far * too_far * first2) {
+            std::copy(after_.all().begin(), after_.all().end(), before_.all().begin());
+            anderson_.begin(parts * island.size());
+            has_jumped = false;
+        }
+        if (has_jumped) jump(task, island);
+    }
+    return outcome;
+}
+
+/// Impulses on the way to the answer may leave more energy than none at all would have. Then they
+/// are scaled to what leaves least.
+void ContactSolver::lose_energy(const Task& task, Island island)
+{
+    const auto scale_all = [&](double by) {
+        for (const std::uint32_t i : island) {
+            Modal change = modal(blocks_[i], blocks_[i].impulse);
+            for (double& part : change) part *= by;
+            apply(blocks_[i], change, task.motions);
+        }
+    };
+    const auto product = [&] { // of the impulses and the velocities there now
+        double sum = 0.0;
+        for (const std::uint32_t i : island) {
+            const ContactBlock& block = blocks_[i];
+            const Modal impulse = modal(block, block.impulse);
+            const Modal speed = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+            for (std::size_t k = 0; k < impulse.size(); ++k) sum += impulse[k] * speed[k];
+        }
+        return sum;
+    };
+    const double with = product();
+    save(task, island);
+    scale_all(-1.0);
+    const double without = product();
+    const double answer = with - without;
+    if (with + without <= 0.0) {
+        bring_back(task, island);
+        return;
+    }
+    const double share = without < 0.0 ? -without / answer : 0.0;
+    scale_all(share);
+    for (const std::uint32_t i : island) {
+        ContactImpulse& impulse = blocks_[i].impulse;
+        for (double& normal : impulse.normal) normal *= share;
+        impulse.tangent_1 *= share;
+        impulse.tangent_2 *= share;
+        impulse.torsion *= share;
+    }
+}
+
+double ContactSolver::sweep(const Task& task, Island island)
+{
+    double change = 0.0;
+    for (const std::uint32_t i : island)
+        change = std::max(change, visit(blocks_[i], task, Depth::nearer));
+    for (std::size_t i = island.size(); i-- > 0;) {
+        change = std::max(change, visit(blocks_[island[i]], task, Depth::nearer));
+    }
+    return change;
+}
+
+void ContactSolver::note(Island island, std::span<double> impulses) const
+{
+    for (std::size_t i = 0; i < island.size(); ++i) read(blocks_[island[i]], &impulses[parts * i]);
+}
+
+/// From after_ to before_; the way back is kept.
+void ContactSolver::jump(const Task& task, Island island)
+{
+    std::copy(after_.all().begin(), after_.all().end(), good_.all().begin());
+    save(task, island);
+    for (std::size_t i = 0; i < island.size(); ++i) {
+        ContactBlock& block = blocks_[island[i]];
+        Modal change = modal(block, block.impulse);
+        write(block, &before_[parts * i]);
+        const Modal now = modal(block, block.impulse);
+        for (std::size_t k = 0; k < change.size(); ++k) change[k] = now[k] - change[k];
+        apply(block, change, task.motions);
+    }
+}
+
+void ContactSolver::step_back(const Task& task, Island island)
+{
+    bring_back(task, island);
+    for (std::size_t i = 0; i < island.size(); ++i) {
+        write(blocks_[island[i]], &good_[parts * i]);
+    }
+}
+
+void ContactSolver::save(const Task& task, Island island)
+{
+    saved_.resize(task.motions.size());
+    for (const std::uint32_t i : island) {
+        saved_[blocks_[i].a] = task.motions[blocks_[i].a];
+        saved_[blocks_[i].b] = task.motions[blocks_[i].b];
+    }
+}
+
+void ContactSolver::bring_back(const Task& task, Island island)
+{
+    for (const std::uint32_t i : island) {
+        task.motions[blocks_[i].a] = saved_[blocks_[i].a];
+        task.motions[blocks_[i].b] = saved_[blocks_[i].b];
+    }
+}
+
+double ContactSolver::visit(ContactBlock& block, const Task& task, Depth depth)
+{
+    Modal velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+    for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.bend[i];
+    const double quiet = task.limits.quiet;
+    const bool pushes_only = task.mode == Mode::separations;
+    if (pushes_only ? is_separated(block, velocity, quiet) : is_solved(block, velocity, quiet)) {
+        return 0.0;
+    }
+    if (!block.has_matrix) build_matrix(block, responses_[block.a], responses_[block.b]);
+    const Modal change = pushes_only             ? scene::solve_normals(block, velocity, quiet)
+                         : depth == Depth::exact ? scene::solve(block, velocity, quiet)
+                                                 : scene::improve(block, velocity, quiet);
+    apply(block, change, task.motions);
+    const Modal gained = times(block.matrix, change);
+    const double arm = block.torsion_arm;
+    double most = std::max({std::abs(gained[0]), std::abs(gained[3]), std::abs(gained[4])});
+    for (const std::size_t turn : {1U, 2U, 5U}) most = std::max(most, arm * std::abs(gained[turn]));
+    return most;
+}
+
+Modal ContactSolver::solve_one(ContactBlock& block, const Modal& velocity, double quiet)
+{
+    if (!block.has_matrix) build_matrix(block, responses_[block.a], responses_[block.b]);
+    return scene::solve(block, velocity, quiet);
+}
+
+void ContactSolver::apply(const ContactBlock& block, const Modal& change,
+                          std::span<BodyMotion> motions)
+{
+    Wrench push = wrench(block, change);
+    if (block.b != 0) scene::apply(push, block.arm_b, responses_[block.b], motions[block.b]);
+    if (block.a == 0) return;
+    push.impulse = -push.impulse;
+    push.angular = -push.angular;
+    scene::apply(push, block.arm_a, responses_[block.a], motions[block.a]);
+}
+
+void ContactSolver::count_contacts()
+{
+    contacts_.resize(responses_.size());
+    for (std::uint32_t& count : contacts_.all()) count = 0;
+    for (const ContactBlock& block : blocks_.all()) {
+        ++contacts_[block.a];
+        ++contacts_[block.b];
+    }
+}
+
+/// Whether no other block has to do with its bodies.
+bool ContactSolver::is_alone(const ContactBlock& block) const
+{
+    return (block.a == 0 || contacts_[block.a] == 1) && (block.b == 0 || contacts_[block.b] == 1);
+}
+
+SolverIndex ContactSolver::root_of(SolverIndex body)
+{
+    while (parents_[body] != body) {
+        parents_[body] = parents_[parents_[body]];
+        body = parents_[body];
+    }
+    return body;
+}
+
+/// Sorts the blocks by islands: first those of the body with the lowest index, each in the order
+/// of its blocks.
+void ContactSolver::find_islands()
+{
+    const std::size_t bodies = responses_.size();
+    parents_.resize(bodies);
+    for (SolverIndex i = 0; i < bodies; ++i) parents_[i] = i;
+    for (const ContactBlock& block : blocks_.all()) {
+        if (block.a == 0 || block.b == 0) continue;
+        const SolverIndex a = root_of(block.a);
+        const SolverIndex b = root_of(block.b);
+        parents_[std::max(a, b)] = std::min(a, b);
+    }
+    starts_.resize(bodies + 1);
+    for (std::uint32_t& start : starts_.all()) start = 0;
+    const auto root_of_block = [&](const ContactBlock& block) {
+        return root_of(block.a != 0 ? block.a : block.b);
+    };
+    for (const ContactBlock& block : blocks_.all()) ++starts_[root_of_block(block) + 1];
+    for (std::size_t i = 1; i <= bodies; ++i) starts_[i] += starts_[i - 1];
+    order_.resize(blocks_.size());
+    for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
+        order_[starts_[root_of_block(blocks_[i])]++] = i;
+    }
+    // Now every entry has become the end of its island.
+    starts_.resize(bodies);
+}
+
+} // namespace hapnet::scene

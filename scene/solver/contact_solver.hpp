@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/solver/anderson.hpp"
+#include "scene/solver/block.hpp"
+#include "scene/solver/scratch.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace hapnet::scene {
+
+/// When to stop.
+struct SolverLimits {
+    double quiet = 0.0;           // m/s: a contact that misses by less is left alone
+    double enough = 0.0;          // m/s: when no contact changed its speed by more, that was it
+    std::uint32_t sweeps_max = 1; // over an island
+    std::uint32_t visits_max =
+        std::numeric_limits<std::uint32_t>::max(); // over all islands, beyond a few sweeps
+};
+
+/// How far it came.
+struct SolverOutcome {
+    std::uint32_t sweeps = 0; // of the island that needed most
+    double change = 0.0;      // m/s, of the last sweep: the largest of a contact's speed
+};
+
+/// Solves all contacts of a tick for the velocities at its end, block after block, each as a whole
+/// (projected Gauss-Seidel). A contact that is in balance already costs a look, and what is at
+/// rest or nearly so is done with one sweep. Bodies that touch each other and are not are an
+/// island: swept again and again, to and fro, with Anderson's mixing, which is what carries a heavy
+/// body on a light one and a stack.
+class ContactSolver {
+public:
+    ContactSolver(std::size_t bodies, std::size_t blocks);
+
+    /// Begins a tick: no contacts, and bodies 1 .. `bodies`.
+    void begin(std::size_t bodies);
+
+    [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
+    /// At the end of the tick.
+    [[nodiscard]] BodyMotion& ending(SolverIndex body) { return ending_[body]; }
+    /// The mean over the tick: what moves the bodies.
+    [[nodiscard]] BodyMotion& mean(SolverIndex body) { return mean_[body]; }
+
+    [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
+    ContactBlock& add() { return blocks_.add(); }
+    [[nodiscard]] std::span<ContactBlock> blocks() { return blocks_.all(); }
+
+    /// Changes the impulses of the contacts and the velocities at the end of the tick.
+    SolverOutcome solve(const SolverLimits& limits);
+    /// The same for the mean velocities, without friction, and impulses that begin at zero.
+    SolverOutcome separate(const SolverLimits& limits);
+    /// Once more, when bodies answer otherwise.
+    SolverOutcome separate_again(const SolverLimits& limits);
+    /// What one block changes in velocities that are told, which stay as they are.
+    Modal solve_one(ContactBlock& block, const Modal& velocity, double quiet);
+
+private:
+    enum class Mode : std::uint8_t { contacts, separations };
+    /// What is solved, and for which velocities.
+    struct Task {
+        Mode mode = Mode::contacts;
+        std::span<BodyMotion> motions;
+        SolverLimits limits;
+    };
+
+    /// How far a visit goes where a block slips: to the end, or some way, as the next one goes on.
+    enum class Depth : std::uint8_t { exact, nearer };
+
+    using Island = std::span<const std::uint32_t>; // its blocks
+
+    SolverOutcome run(const Task& task);
+    template <typename Do>
+    void for_moving_islands(const Task& task, Do&& act);
+    SolverOutcome run_island(const Task& task, Island island);
+    void save(const Task& task, Island island);
+    void bring_back(const Task& task, Island island);
+    void lose_energy(const Task& task, Island island);
+    double sweep(const Task& task, Island island);
+    void note(Island island, std::span<double> impulses) const;
+    void jump(const Task& task, Island island);
+    void step_back(const Task& task, Island island);
+    double visit(ContactBlock& block, const Task& task, Depth depth);
+    void apply(const ContactBlock& block, const Modal& change, std::span<BodyMotion> motions);
+    void count_contacts();
+    [[nodiscard]] bool is_alone(const ContactBlock& block) const;
+    void find_islands();
+    [[nodiscard]] SolverIndex root_of(SolverIndex body);
+
+    Scratch<BodyResponse> responses_;
+    Scratch<BodyMotion> ending_;
+    Scratch<BodyMotion> mean_;
+    Scratch<ContactBlock> blocks_;
+
+    Scratch<std::uint32_t> contacts_; // of each body
+
+    // Islands: of which body, by body; the blocks in the order of their islands; where each ends.
+    Scratch<SolverIndex> parents_;
+    Scratch<std::uint32_t> starts_;
+    Scratch<std::uint32_t> order_;
+    Scratch<double> before_, after_, good_; // impulses of an island
+    Scratch<BodyMotion> saved_;             // of its bodies
+    Anderson anderson_;
+};
+
+} // namespace hapnet::scene

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/collide/manifold.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace hapnet::scene {
+
+/// A number at each point of a contact.
+using PointNumbers = std::array<double, manifold_points_max>;
+
+/// Which of the points push, in their order.
+struct PointSet {
+    std::array<std::uint8_t, manifold_points_max> at{};
+    std::uint32_t count = 0;
+
+    void add(std::uint32_t point) { at[count++] = static_cast<std::uint8_t>(point); }
+    /// A bit for each.
+    [[nodiscard]] std::uint32_t bits() const
+    {
+        std::uint32_t sum = 0;
+        for (std::uint32_t i = 0; i < count; ++i) sum |= 1U << at[i];
+        return sum;
+    }
+};
+
+/// A plane over the tangents through numbers given at three or four points: the numbers' best fit,
+/// and for impulses of a given sum and moment those of the least squares.
+class PlaneFit {
+public:
+    PlaneFit() = default;
+    PlaneFit(const PointNumbers& along_1, const PointNumbers& along_2, const PointSet& set)
+        : set_{set}
+    {
+        share_ = 1.0 / set.count;
+        for (std::uint32_t i = 0; i < set.count; ++i) {
+            middle_1_ += along_1[set.at[i]];
+            middle_2_ += along_2[set.at[i]];
+        }
+        middle_1_ *= share_;
+        middle_2_ *= share_;
+        for (std::uint32_t i = 0; i < set.count; ++i) {
+            u_[i] = along_1[set.at[i]] - middle_1_;
+            v_[i] = along_2[set.at[i]] - middle_2_;
+            uu_ += u_[i] * u_[i];
+            uv_ += u_[i] * v_[i];
+            vv_ += v_[i] * v_[i];
+        }
+        determinant_ = uu_ * vv_ - uv_ * uv_;
+        if (is_flat()) return;
+        const double inverse = 1.0 / determinant_;
+        u_by_u_ = vv_ * inverse;
+        u_by_v_ = -uv_ * inverse;
+        v_by_v_ = uu_ * inverse;
+    }
+
+    [[nodiscard]] const PointSet& set() const { return set_; }
+
+    /// Whether the points lie on a line, to rounding.
+    [[nodiscard]] bool is_flat() const
+    {
+        constexpr double thin = 1e-10;
+        const double size = uu_ + vv_;
+        return !(determinant_ > thin * size * size);
+    }
+
+    [[nodiscard]] bool is_along_1() const { return uu_ >= vv_; }
+
+    /// The modal velocity whose normal speeds at the points are `least`.
+    [[nodiscard]] std::array<double, 3> modal_least(const PointNumbers& least) const
+    {
+        double mean = 0.0;
+        double u_moment = 0.0;
+        double v_moment = 0.0;
+        for (std::uint32_t i = 0; i < set_.count; ++i) {
+            const double value = least[set_.at[i]];
+            mean += value;
+            u_moment += u_[i] * value;
+            v_moment += v_[i] * value;
+        }
+        mean *= share_;
+        const auto [u, v] = slope(u_moment, v_moment);
+        return {mean - u * middle_1_ - v * middle_2_, v, -u};
+    }
+
+    void spread(const std::array<double, 3>& total, PointNumbers& impulse) const
+    {
+        const auto [u, v] =
+            slope(-total[2] - total[0] * middle_1_, total[1] - total[0] * middle_2_);
+        const double mean = total[0] * share_;
+        for (std::uint32_t i = 0; i < set_.count; ++i) {
+            impulse[set_.at[i]] = mean + u * u_[i] + v * v_[i];
+        }
+    }
+
+private:
+    [[nodiscard]] std::array<double, 2> slope(double u_moment, double v_moment) const
+    {
+        return {u_by_u_ * u_moment + u_by_v_ * v_moment, u_by_v_ * u_moment + v_by_v_ * v_moment};
+    }
+
+    PointSet set_;
+    PointNumbers u_{}, v_{}; // of the set's points, from their middle
+    double share_ = 0.0;
+    double middle_1_ = 0.0, middle_2_ = 0.0;
+    double uu_ = 0.0, uv_ = 0.0, vv_ = 0.0, determinant_ = 0.0;
+    double u_by_u_ = 0.0, u_by_v_ = 0.0, v_by_v_ = 0.0; // the inverse: slopes by moments
+};
+
+} // namespace hapnet::scene

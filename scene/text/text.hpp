@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/reading.hpp"
+#include "scene/description.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hapnet::scene {
+
+// Scenes as people write them, in TOML: docs/formats/scene.md. Every quantity has its unit.
+
+/// Reads a scene. `source` is the name of its file in errors, which begin with
+/// "FILE:LINE:COLUMN: " and say what is wrong and what would be right. What is read may be frozen:
+/// check() finds nothing wrong with it.
+[[nodiscard]] base::Result<Description> parse_scene(std::string_view text,
+                                                    const std::string& source);
+
+/// The scene as TOML, each body on its own. Of a description that check() accepts, also with its
+/// fixed bodies movable, and whose normals and orientations are of length 1 within rounding, it
+/// reads back as the same bits.
+[[nodiscard]] std::string to_text(const Description& description);
+
+/// A scene that every program carries with it: a file of scripts/scenes.
+struct BuiltInScene {
+    std::string_view name; // without .toml
+    std::string_view text;
+};
+
+/// All of them, by name.
+[[nodiscard]] std::span<const BuiltInScene> built_in_scenes();
+
+/// Reads the built-in scene of that name, or else the file that `open` gives the text of: what
+/// holds a '/' or ends in ".toml" is a file. The error names the file and the line, or the names
+/// that there are.
+[[nodiscard]] base::Result<Description> load_scene(const std::string& file_or_name,
+                                                   const base::OpenFile& open);
+
+} // namespace hapnet::scene

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/world.hpp"
+
+#include "proto/base/ensure.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::scene {
+
+namespace {
+
+/// Why a vector cannot be taken.
+std::optional<Refusal> objection(const glm::dvec3& v, double most)
+{
+    const bool is_within = std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
+    if (is_within) return std::nullopt; // and no NaN
+    return base::is_finite(v) ? Refusal::out_of_range : Refusal::not_finite;
+}
+
+std::optional<Refusal> objection(const glm::dquat& q)
+{
+    const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    if (!std::isfinite(square)) return Refusal::not_finite;
+    constexpr double tolerance = 1e-6;
+    if (std::abs(square - 1.0) > tolerance) return Refusal::out_of_range;
+    return std::nullopt;
+}
+
+/// Whether a body may be turned from one orientation to the other.
+bool can_turn(Turning turning, const glm::dquat& from, const glm::dquat& to)
+{
+    if (turning == Turning::free) return true;
+    const glm::dquat by = to * glm::conjugate(from);
+    constexpr double tolerance = 1e-9;
+    const int axis = static_cast<int>(turning) - static_cast<int>(Turning::about_x);
+    const std::array<double, 3> parts{by.x, by.y, by.z};
+    for (int i = 0; i < 3; ++i) {
+        const bool is_free = turning != Turning::locked && i == axis;
+        if (!is_free && std::abs(parts[static_cast<std::size_t>(i)]) > tolerance) return false;
+    }
+    return true;
+}
+
+/// Takes eight bytes at a time: fast enough to be asked for every tick. After MurmurHash3's
+/// finaliser (A. Appleby), public domain.
+class BitHash {
+public:
+    void add(std::uint64_t bits)
+    {
+        hash_ = (hash_ ^ bits) * 0xff51afd7ed558ccdU;
+        hash_ ^= hash_ >> 33U;
+    }
+    void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+    [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+private:
+    std::uint64_t hash_ = 0x9e3779b97f4a7c15U;
+};
+
+Frozen frozen_from(const Description& description, const FreezeOptions& options)
+{
+    return {.planes = description.planes,
+            .hips = description.hips,
+            .gravity = description.gravity,
+            .tick = base::to_seconds(options.tick),
+            .sleeping = options.sleeping};
+}
+
+Stage stage_from(const Description& description)
+{
+    Stage stage{.bodies = Bodies{description}};
+    for (HipInput& hip : stage.hips) hip.present = false;
+    stage.pushes.resize(description.bodies.size());
+    stage.pushed = Bounded<BodyId>{description.bodies.size()};
+    stage.is_pushed.resize(description.bodies.size());
+    return stage;
+}
+
+} // namespace
+
+base::Result<World> World::freeze(const Description& description, const FreezeOptions& options)
+{
+    if (auto checked = check(description); !checked) return tl::unexpected{checked.error()};
+    if (options.tick < tick_min || options.tick > tick_max) {
+        return base::fail("a tick lasts 10 us to 100 ms");
+    }
+    const FeatureSet needed = features_of(needs_of(description, options.sleeping));
+    const Profile profile = options.profile.value_or(profile_for(needed));
+    if (!abilities(profile).covers(needed)) {
+        return base::fail(fmt::format("the tick profile '{}' cannot do what the scene needs; '{}' "
+                                      "can",
+                                      name_of(profile), name_of(profile_for(needed))));
+    }
+    return World{description, options, profile};
+}
+
+World::World(const Description& description, const FreezeOptions& options, Profile profile)
+    : frozen_{frozen_from(description, options)},
+      profile_{profile},
+      stage_{stage_from(description)},
+      ticks_{make_ticks(profile, description, frozen_, stage_)}
+{}
+
+std::optional<Refusal> World::refuse(Refusal refusal)
+{
+    ++refused_[static_cast<std::size_t>(refusal)];
+    return refusal;
+}
+
+std::optional<Refusal> World::hip(std::uint32_t index, const HipInput& input)
+{
+    if (index >= frozen_.hips.count) return refuse(Refusal::no_such_hip);
+    if (const auto why = objection(input.position.value, reach_max_m)) return refuse(*why);
+    if (const auto why = objection(input.velocity.value, speed_max_m_per_s)) return refuse(*why);
+    stage_.hips[index] = input;
+    return std::nullopt;
+}
+
+std::optional<Refusal> World::push(BodyId body, base::Force force)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(force.value, force_max_n)) return refuse(*why);
+    const glm::dvec3 sum = stage_.pushes[body] + force.value;
+    if (const auto why = objection(sum, force_max_n)) return refuse(*why);
+    if (stage_.is_pushed[body] == 0) stage_.pushed.add(body);
+    stage_.is_pushed[body] = 1;
+    stage_.pushes[body] = sum;
+    return std::nullopt;
+}
+
+std::optional<Refusal> World::place(BodyId body, const BodyState& state)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(state.position.value, reach_max_m)) return refuse(*why);
+    if (const auto why = objection(state.orientation)) return refuse(*why);
+    if (const auto why = objection(state.velocity.value, speed_max_m_per_s)) return refuse(*why);
+    if (const auto why = objection(state.angular_velocity, turn_max_rad_per_s)) {
+        return refuse(*why);
+    }
+    const Slot slot = stage_.bodies.slot_of[body];
+    BodyState usable = state;
+    usable.orientation = base::normalized(state.orientation);
+    const Turning turning = stage_.bodies.form[slot].turning;
+    if (!can_turn(turning, stage_.bodies.orientation.at(slot), usable.orientation)) {
+        return refuse(Refusal::out_of_range);
+    }
+    if (turning == Turning::locked) usable.orientation = stage_.bodies.orientation.at(slot);
+    const glm::dvec3 current = stage_.bodies.position.at(slot);
+    const glm::dvec3& light = stage_.bodies.form[slot].inverse_mass;
+    for (const int axis : {0, 1, 2}) {
+        if (light[axis] == 0.0) usable.position.value[axis] = current[axis];
+    }
+    stage_.bodies.put(slot, usable);
+    std::visit([&](auto& tick) { tick.disturbed(stage_, body); }, ticks_);
+    return std::nullopt;
+}
+
+std::optional<Refusal> World::place(BodyId body, base::Position position, base::Velocity velocity)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(position.value, reach_max_m)) return refuse(*why);
+    if (const auto why = objection(velocity.value, speed_max_m_per_s)) return refuse(*why);
+    const Slot slot = stage_.bodies.slot_of[body];
+    const glm::dvec3 current = stage_.bodies.position.at(slot);
+    const glm::dvec3& light = stage_.bodies.form[slot].inverse_mass;
+    for (const int axis : {0, 1, 2}) {
+        if (light[axis] != 0.0) continue;
+        position.value[axis] = current[axis];
+        velocity.value[axis] = 0.0;
+    }
+    stage_.bodies.position.put(slot, position.value);
+    stage_.bodies.velocity.put(slot, velocity.value);
+    std::visit([&](auto& tick) { tick.disturbed(stage_, body); }, ticks_);
+    return std::nullopt;
+}
+
+void World::tick()
+{
+    std::visit([&](auto& tick) { tick.tick(frozen_, stage_); }, ticks_);
+    for (const BodyId body : stage_.pushed) {
+        stage_.pushes[body] = glm::dvec3{0.0};
+        stage_.is_pushed[body] = 0;
+    }
+    stage_.pushed.clear();
+    ++stage_.ticks;
+}
+
+bool World::is_movable(BodyId id) const
+{
+    return id < stage_.bodies.size() && stage_.bodies.slot_of[id] < stage_.bodies.movable;
+}
+
+BodyState World::body(BodyId id) const { return stage_.bodies.state(slot_of(id)); }
+
+bool World::is_awake(BodyId id) const { return slot_of(id) < stage_.bodies.awake; }
+
+void World::restore(const Snapshot& snapshot)
+{
+    base::ensure(snapshot.ticks.index() == ticks_.index() &&
+                 snapshot.stage.bodies.size() == stage_.bodies.size());
+    stage_ = snapshot.stage;
+    ticks_ = snapshot.ticks;
+}
+
+std::uint64_t World::hash() const
+{
+    const Bodies& bodies = stage_.bodies;
+    BitHash hash;
+    hash.add(stage_.ticks);
+    for (const Slot slot : bodies.slot_of) {
+        for (const auto* lanes : {&bodies.position, &bodies.velocity, &bodies.angular_momentum}) {
+            hash.add(lanes->x[slot]);
+            hash.add(lanes->y[slot]);
+            hash.add(lanes->z[slot]);
+        }
+        const glm::dquat turn = bodies.orientation.at(slot);
+        for (const double part : {turn.w, turn.x, turn.y, turn.z}) hash.add(part);
+    }
+    return hash.value();
+}
+
+} // namespace hapnet::scene

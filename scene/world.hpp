@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/ensure.hpp"
+#include "proto/base/time.hpp"
+#include "scene/requirements.hpp"
+#include "scene/state.hpp"
+#include "scene/steppers.hpp"
+
+#include <optional>
+
+namespace hapnet::scene {
+
+inline constexpr base::Duration tick_min{std::chrono::microseconds{10}};
+inline constexpr base::Duration tick_max{std::chrono::milliseconds{100}};
+
+/// How a scene is frozen.
+struct FreezeOptions {
+    base::Duration tick{std::chrono::milliseconds{1}}; // tick_min..tick_max
+    bool sleeping = true;                              // bodies at rest fall asleep
+    std::optional<Profile> profile{}; // instead of the cheapest; it has to do what the scene needs
+};
+
+/// A scene that runs. It does no I/O, reads no clock, and after freeze() takes no memory: feed it
+/// with hip() and push(), advance it with tick(), read what came of it. An input that is not
+/// finite or out of range is refused and counted, and changes nothing.
+///
+/// A World is a value: copies run on their own. Equal inputs give equal bits with every compiler.
+class World {
+public:
+    /// Fails with what is wrong with the description or the options.
+    [[nodiscard]] static base::Result<World> freeze(const Description& description,
+                                                    const FreezeOptions& options = {});
+
+    /// Where a hand is, from the next tick on.
+    std::optional<Refusal> hip(std::uint32_t index, const HipInput& input);
+    /// A force on a movable body's centre, held for the next tick; pushes of one tick add up.
+    std::optional<Refusal> push(BodyId body, base::Force force);
+    /// Puts a movable body somewhere, regardless of what it was doing, and wakes it. Coordinates
+    /// that are locked stay as they are; an orientation that the body cannot have is refused.
+    std::optional<Refusal> place(BodyId body, const BodyState& state);
+    /// The same, with its turn and spin as they are.
+    std::optional<Refusal> place(BodyId body, base::Position position, base::Velocity velocity);
+
+    void tick();
+
+    [[nodiscard]] BodyState body(BodyId id) const;
+    /// body(id)'s, without the rest.
+    [[nodiscard]] base::Position position(BodyId id) const
+    {
+        return {stage_.bodies.position.at(slot_of(id))};
+    }
+    [[nodiscard]] base::Velocity velocity(BodyId id) const
+    {
+        return {stage_.bodies.velocity.at(slot_of(id))};
+    }
+    [[nodiscard]] bool is_awake(BodyId id) const;
+    [[nodiscard]] const HipTouch& touch(std::uint32_t hip) const { return stage_.touches[hip]; }
+    [[nodiscard]] const Stage& stage() const { return stage_; }
+    [[nodiscard]] const Frozen& frozen() const { return frozen_; }
+    [[nodiscard]] Profile profile() const { return profile_; }
+    [[nodiscard]] std::uint64_t ticks() const { return stage_.ticks; }
+    [[nodiscard]] const RefusalCounts& refused() const { return refused_; }
+
+    /// Everything that the next tick depends on.
+    struct Snapshot {
+        Stage stage;
+        Ticks ticks;
+    };
+    [[nodiscard]] Snapshot snapshot() const { return {stage_, ticks_}; }
+    /// The snapshot must be of a world frozen from the same description and options. Takes no
+    /// memory.
+    void restore(const Snapshot& snapshot);
+
+    /// Equal states, equal hashes: over every bit of every body's state, by id.
+    [[nodiscard]] std::uint64_t hash() const;
+
+private:
+    World(const Description& description, const FreezeOptions& options, Profile profile);
+    std::optional<Refusal> refuse(Refusal refusal);
+    [[nodiscard]] Slot slot_of(BodyId id) const
+    {
+        base::ensure(id < stage_.bodies.size());
+        return stage_.bodies.slot_of[id];
+    }
+    [[nodiscard]] bool is_movable(BodyId id) const;
+
+    Frozen frozen_;
+    Profile profile_;
+    Stage stage_;
+    Ticks ticks_;
+    RefusalCounts refused_{};
+};
+
+} // namespace hapnet::scene

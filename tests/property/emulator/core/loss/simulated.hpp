@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/loss/process.hpp"
+#include "emulator/tools/verify/by_law.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator::test {
+
+inline constexpr base::Duration spacing = std::chrono::milliseconds{1};
+inline constexpr double alpha = 1e-6; // each of some hundred tests fails a right law so often
+
+/// How many virtual datagrams: more of them in a soak.
+inline std::uint64_t packets()
+{
+    const char* text = std::getenv("HAPNET_SOAK_PACKETS");
+    return text != nullptr ? std::stoull(text) : 1'000'000;
+}
+
+/// What one law does to datagrams that come 1 ms apart.
+inline LossRecord simulated(const LossLaw& law, std::uint64_t count, std::uint64_t seed = 42,
+                            const std::string& direction = "up")
+{
+    LossProcess process{law, base::Seed{seed}.stream(direction + "/loss")};
+    LossRecord record{.lost = {}, .states = {{}}};
+    record.lost.reserve(count);
+    record.states[0].reserve(count);
+    for (std::uint64_t n = 0; n < count; ++n) {
+        const auto [cause, state] =
+            process.on_packet({n, 96, spacing * static_cast<base::Duration::rep>(n)});
+        record.lost.push_back(cause ? 1 : 0);
+        record.states[0].push_back(state);
+    }
+    return record;
+}
+
+} // namespace hapnet::emulator::test

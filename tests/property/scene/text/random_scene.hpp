@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/random.hpp"
+#include "scene/description.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace hapnet::scene {
+
+/// Draws scenes from anywhere in their space, possible ones only; nothing about them makes sense.
+class RandomScene {
+public:
+    explicit RandomScene(std::uint64_t seed) : stream_{base::Seed{seed}.stream("scenes")} {}
+
+    Description description()
+    {
+        Description drawn;
+        drawn.name = name();
+        for (auto left = below(4); left > 0; --left) drawn.bodies.push_back(body());
+        for (auto left = below(3); left > 0; --left) {
+            drawn.planes.push_back({name(), unit(), within(reach_max_m), material()});
+        }
+        drawn.hips = hips();
+        if (below(2) == 0) drawn.gravity = vector(gravity_max_m_per_s2);
+        return drawn;
+    }
+
+    /// From -most to most: any power of ten, a round number, or a zero of either sign.
+    double within(double most)
+    {
+        const double sign = below(2) == 0 ? 1.0 : -1.0;
+        switch (below(4)) {
+        case 0: return sign * 0.0;
+        case 1: return sign * most * static_cast<double>(below(1001)) / 1000.0;
+        case 2: return sign * most * stream_.uniform(index_++);
+        default: return sign * most * std::ldexp(stream_.uniform(index_++), -power());
+        }
+    }
+
+private:
+    std::uint64_t bits() { return stream_.bits(index_++); }
+    std::uint64_t below(std::uint64_t most) { return bits() % most; }
+    int power() { return static_cast<int>(below(1060)); } // down to what is hardly a number
+
+    double between(double least, double most)
+    {
+        return std::min(std::max(least, std::abs(within(most))), most);
+    }
+
+    std::string name()
+    {
+        constexpr std::array<const char*, 4> names{"", "x", "a \"quoted\" \\ name\n\t\x7f",
+                                                   "\xc3\xa4#="};
+        return names[below(names.size())];
+    }
+
+    glm::dvec3 vector(double most) { return {within(most), within(most), within(most)}; }
+
+    glm::dvec3 unit()
+    {
+        const glm::dvec3 v{within(1.0), within(1.0), 1.0};
+        return v / std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    }
+
+    glm::dquat orientation()
+    {
+        if (below(3) == 0) return {1.0, 0.0, 0.0, 0.0};
+        const glm::dquat q{within(1.0), 1.0, within(1.0), within(1.0)};
+        return q / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    }
+
+    Material material() { return {std::abs(within(friction_max)), std::abs(within(1.0))}; }
+
+    BodyDescription body()
+    {
+        BodyDescription drawn{.name = name()};
+        drawn.movable = below(3) != 0;
+        drawn.half = glm::dvec3{between(size_min_m, size_max_m)};
+        if (below(2) == 0) drawn.half.z = between(size_min_m, size_max_m);
+        drawn.position.value = vector(reach_max_m);
+        drawn.orientation = orientation();
+        drawn.velocity.value = vector(speed_max_m_per_s);
+        drawn.angular_velocity = vector(turn_max_rad_per_s);
+        drawn.mass_kg = between(mass_min_kg, mass_max_kg);
+        drawn.turning = static_cast<Turning>(below(5));
+        drawn.locked_x = below(2) == 0;
+        drawn.locked_y = below(2) == 0;
+        drawn.locked_z = below(2) == 0;
+        drawn.material = material();
+        drawn.drag_ns_per_m = std::abs(within(damping_max_ns_per_m));
+        return drawn;
+    }
+
+    HipDescription hips()
+    {
+        HipDescription drawn;
+        drawn.radius_m = between(size_min_m, size_max_m);
+        drawn.stiffness_n_per_m = std::abs(within(stiffness_max_n_per_m));
+        drawn.damping_ns_per_m = std::abs(within(damping_max_ns_per_m));
+        drawn.force_max_n =
+            below(3) == 0 ? std::numeric_limits<double>::infinity() : std::abs(within(force_max_n));
+        drawn.grip_reach_m = std::abs(within(size_max_m));
+        drawn.count = static_cast<std::uint32_t>(below(hips_max + 1));
+        return drawn;
+    }
+
+    base::RandomStream stream_;
+    std::uint64_t index_ = 0;
+};
+
+} // namespace hapnet::scene

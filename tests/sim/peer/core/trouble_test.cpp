@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What happens when a part dies, and when it comes back.
+#include "tests/sim/peer/core/score.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace hapnet::sim {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace base::literals;
+using device::Task;
+using peer::Event;
+using peer::Phase;
+
+constexpr base::Duration delay = 40ms;
+
+bool told(const Side& side, Event event)
+{
+    return std::find(side.events.begin(), side.events.end(), event) != side.events.end();
+}
+
+/// A squeeze under way, with both hands feeling it.
+World squeezing()
+{
+    World world{under(Task::t3, {.delay = emulator::constant(delay)})};
+    run_until_started(world);
+    world.run_for(3s);
+    for (const std::size_t i : {0U, 1U}) {
+        EXPECT_GT(base::norm(world.side(i).applied), 0.1) << i;
+    }
+    return world;
+}
+
+/// From the last arrival on the force holds for 250 ms and is zero after 300.
+void expect_fade(World& world, std::size_t side)
+{
+    world.run_for(delay + 250ms - 2ms);
+    EXPECT_TRUE(world.side(side).last.permitted);
+    EXPECT_FALSE(told(world.side(side), Event::lost));
+    world.run_for(50ms + 4ms);
+    EXPECT_EQ(world.side(side).applied, base::Force{});
+    EXPECT_TRUE(told(world.side(side), Event::lost));
+    for (int ms = 0; ms < 1000; ++ms) {
+        world.step();
+        ASSERT_EQ(world.side(side).applied, base::Force{}) << ms;
+    }
+    EXPECT_EQ(world.side(side).last.phase, Phase::running); // and goes on
+}
+
+class Death : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Death, OfASideFadesTheForceOfTheOtherToZeroWithin300Ms)
+{
+    World world = squeezing();
+    world.kill(GetParam());
+    expect_fade(world, 1 - GetParam());
+}
+
+TEST_P(Death, OfASideIsOverWhenItComesBackAndItTakesTheCubeOfTheOneThatStayed)
+{
+    const std::size_t restarted = GetParam();
+    const std::size_t stayed = 1 - restarted;
+    World world = squeezing();
+    world.kill(restarted);
+    world.run_for(2s);
+    const base::TimePoint start = world.side(stayed).peer->session()->start;
+    const auto sequence = world.side(stayed).last.sequence;
+    world.revive(restarted);
+    int ms = 0;
+    while (world.side(restarted).last.touched.touching || !world.side(restarted).last.permitted) {
+        world.step();
+        // Until it has seen the cube it touches nothing; then it has it where the other has it,
+        // up to what that one moved meanwhile.
+        ASSERT_LT(++ms, 1000);
+    }
+    EXPECT_LT(discrepancy_x(world), 0.33 * base::to_seconds(2 * delay));
+    world.run_for(3s);
+    EXPECT_TRUE(told(world.side(restarted), Event::joined));
+    EXPECT_TRUE(told(world.side(stayed), Event::restarted));
+    EXPECT_EQ(world.side(stayed).peer->session()->start, start);
+    EXPECT_EQ(world.side(restarted).peer->session()->start, start);
+    EXPECT_LT(world.side(stayed).last.sequence, sequence); // a new session, counted from 1
+    for (const std::size_t i : {0U, 1U}) {
+        // Both may feel again; whether they find the cube is another matter: hands that play a
+        // script do not look for one that was dropped.
+        EXPECT_TRUE(world.side(i).last.permitted) << i;
+        EXPECT_EQ(world.side(i).last.phase, Phase::running) << i;
+    }
+    while (world.side(0).last.phase == Phase::running) world.step();
+    world.run_for(2s);
+    EXPECT_LE(discrepancy_x(world), 0.1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfSide, Death, testing::Values(0, 1));
+
+TEST(Cut, FadesBothForcesToZeroAndHeals)
+{
+    World world = squeezing();
+    world.cut(true);
+    expect_fade(world, 0);
+    EXPECT_EQ(world.side(1).applied, base::Force{});
+    EXPECT_TRUE(told(world.side(1), Event::lost));
+    const auto session = world.side(0).peer->session()->number;
+    world.cut(false);
+    world.run_for(delay + 2ms);
+    for (const std::size_t i : {0U, 1U}) {
+        EXPECT_TRUE(told(world.side(i), Event::back)) << i;
+        EXPECT_FALSE(told(world.side(i), Event::restarted)) << i;
+        EXPECT_LT(base::norm(world.side(i).applied), 0.1) << i; // ramps in, no kick
+    }
+    world.run_for(1500ms);
+    for (const std::size_t i : {0U, 1U}) {
+        EXPECT_GT(base::norm(world.side(i).applied), 0.1) << i;
+        EXPECT_EQ(world.side(i).peer->session()->number, session) << i;
+    }
+    while (world.side(0).last.phase == Phase::running) world.step();
+    world.run_for(2s);
+    EXPECT_LE(discrepancy_x(world), 0.1e-3);
+}
+
+TEST(Cut, BeforeTheStartOnlyDelaysIt)
+{
+    World world{under(Task::t3, {.delay = emulator::constant(delay)})};
+    world.cut(true);
+    world.run_for(5s);
+    EXPECT_EQ(world.side(0).last.phase, Phase::waiting);
+    world.cut(false);
+    world.run_for(2s);
+    EXPECT_EQ(world.side(0).last.phase, Phase::running);
+    EXPECT_EQ(world.side(1).last.phase, Phase::running);
+}
+
+TEST(Goodbye, FadesTheOthersForceWithin50MsOfItsArrival)
+{
+    World world = squeezing();
+    world.side(0).peer->leave(wire::ByeReason::interrupted);
+    world.run_for(delay + 50ms + 4ms);
+    EXPECT_TRUE(told(world.side(1), Event::left));
+    EXPECT_EQ(world.side(1).applied, base::Force{});
+    EXPECT_EQ(world.side(0).applied, base::Force{});
+    EXPECT_TRUE(world.side(0).peer->finished());
+}
+
+} // namespace
+} // namespace hapnet::sim

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/control/core/conversation.hpp"
+
+#include "tests/unit/emulator/control/emulation_fake.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace hapnet::emulator {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+const base::TimePoint start{100s};
+constexpr const char* toml = "name = \"plain\"\n[both]\ndelay = \"160ms\"\n";
+
+struct Talk : testing::Test {
+    /// The one reply to one request.
+    json ask(const json& request, base::TimePoint now = start)
+    {
+        const auto said = said_to(conversation, request.dump() + "\n", fake, now);
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+        return json::parse(said, nullptr, false);
+    }
+
+    std::string refused(const json& request)
+    {
+        const auto reply = ask(request);
+        EXPECT_EQ(reply["ok"], false) << reply;
+        EXPECT_FALSE(fake.enacted);
+        return reply["error"];
+    }
+
+    EmulationFake fake{toml, start};
+    Conversation conversation;
+};
+
+json set(const json& settings) { return {{"command", "set"}, {"settings", settings}}; }
+
+TEST_F(Talk, AnswersAChangeWithTheTimeTheGenerationAndTheDatagramsFromWhichItHolds)
+{
+    fake.next = {12345, 12340};
+    const auto reply = ask(set({{"both.delay", "80ms"}}), start + 1s);
+    EXPECT_EQ(reply, (json{{"ok", true},
+                           {"generation", 2},
+                           {"elapsed_s", 1.0},
+                           {"effective_at_ns", 101'000'000'000},
+                           {"effective_at", {{"up", 12345}, {"down", 12340}}}}));
+    ASSERT_TRUE(fake.enacted);
+    EXPECT_EQ(fake.enacted->up.delay.law, DelayLaw{ConstantLaw{80ms}});
+    EXPECT_EQ(fake.enacted->down.delay.law, DelayLaw{ConstantLaw{80ms}});
+}
+
+TEST_F(Talk, LetsOneWayWinOverBothWaysInOneRequest)
+{
+    ask(json::parse(R"({"command":"set","settings":{"up.delay":"10ms","both.delay":"20ms"}})"));
+    ASSERT_TRUE(fake.enacted);
+    EXPECT_EQ(fake.enacted->up.delay.law, DelayLaw{ConstantLaw{10ms}});
+    EXPECT_EQ(fake.enacted->down.delay.law, DelayLaw{ConstantLaw{20ms}});
+}
+
+TEST_F(Talk, MakesAllSettingsOfARequestOrNone)
+{
+    const auto error = refused(set({{"both.delay", "80ms"}, {"both.loss", "101%"}}));
+    EXPECT_NE(error.find("both.loss"), std::string::npos) << error;
+    EXPECT_EQ(fake.director.path().up.delay.law, DelayLaw{ConstantLaw{160ms}});
+}
+
+TEST_F(Talk, NamesWhatItRefuses)
+{
+    EXPECT_NE(refused({{"command", "shwo"}}).find("show, set"), std::string::npos);
+    EXPECT_NE(refused({{"command", "stop"}}).find("SIGTERM"), std::string::npos);
+    EXPECT_NE(refused({{"command", "show"}, {"x", 1}}).find("\"x\""), std::string::npos);
+    EXPECT_NE(refused({{"comand", "show"}}).find("\"command\" is missing"), std::string::npos);
+    EXPECT_NE(refused({{"command", 1}}).find("text"), std::string::npos);
+    EXPECT_NE(refused({1, 2}).find("JSON object"), std::string::npos);
+    EXPECT_NE(refused(set({})).find("\"settings\""), std::string::npos);
+    EXPECT_NE(refused(set({{"both.delay", 80}})).find("both.delay"), std::string::npos);
+    EXPECT_NE(refused(set({{"both.dealy", "80ms"}})).find("both.dealy"), std::string::npos);
+    EXPECT_NE(refused(set({{"both.delay", "80"}})).find("both.delay"), std::string::npos);
+    auto brief = set({{"both.delay", "80ms"}});
+    brief["for"] = "0";
+    EXPECT_NE(refused(brief).find("\"for\""), std::string::npos);
+    EXPECT_NE(refused({{"command", "apply"}}).find("\"profile\""), std::string::npos);
+    EXPECT_NE(refused({{"command", "apply"}, {"profile", "delay = "}, {"file", "bad.toml"}})
+                  .find("bad.toml:1"),
+              std::string::npos);
+}
+
+TEST_F(Talk, RefusesLinesThatAreNoRequestAndGoesOn)
+{
+    const std::string deep(5000, '[');
+    for (const std::string& line :
+         {std::string{""}, std::string{"{"}, std::string{"null"}, std::string{"\xff\xfe"}, deep,
+          std::string{R"({"command":"reset","command":"show"})"}}) {
+        const auto reply = json::parse(said_to(conversation, line + "\n", fake, start));
+        EXPECT_EQ(reply["ok"], false) << line;
+        EXPECT_LT(reply.dump().size(), 2100U);
+    }
+    EXPECT_EQ(ask({{"command", "show"}})["ok"], true);
+}
+
+TEST_F(Talk, ShowsAProfileThatChangesNothingWhenApplied)
+{
+    ask(set({{"up.loss", "5%"}}));
+    const auto shown = ask({{"command", "show"}});
+    EXPECT_EQ(shown["live"][0]["settings"], (json{{"up.loss", "5%"}}));
+    EXPECT_EQ(shown["live"][0]["remaining_s"], nullptr);
+    const auto before = fake.director.path();
+    const auto diff = ask({{"command", "diff"}, {"profile", shown["profile"]}});
+    EXPECT_EQ(diff["changes"], json::array());
+    EXPECT_EQ(diff["is_other_timeline"], false);
+    ASSERT_EQ(ask({{"command", "apply"}, {"profile", shown["profile"]}})["ok"], true);
+    EXPECT_EQ(fake.director.path(), before);
+}
+
+TEST_F(Talk, SaysHowLongASettingStillHolds)
+{
+    auto request = set({{"up.delay", "1s"}});
+    request["for"] = "30s";
+    ask(request);
+    fake.director.advance(start + 10s);
+    const auto shown = ask({{"command", "show"}}, start + 10s);
+    EXPECT_EQ(shown["live"][0]["remaining_s"], 20.0);
+    EXPECT_EQ(shown["timeline"]["next_change_in_s"], 20.0);
+}
+
+TEST_F(Talk, SaysWhatApplyWouldChangeAndChangesNothing)
+{
+    const auto reply = ask({{"command", "diff"},
+                            {"profile", "[both]\ndelay = \"160ms\"\n[down]\nloss = \"5%\"\n"
+                                        "[[at]]\ntime = \"1s\"\nup.delay = \"0\"\n"}});
+    EXPECT_EQ(reply["changes"], (json{{{"key", "down.loss"}, {"from", "none"}, {"to", "5%"}}}));
+    EXPECT_EQ(reply["timeline"], (json{{"from", 0}, {"to", 1}}));
+    EXPECT_EQ(reply["is_other_timeline"], true);
+    EXPECT_EQ(fake.director.generation(), 1U);
+}
+
+TEST_F(Talk, GoesBackToTheBeginningOnReset)
+{
+    ask(set({{"both.delay", "80ms"}}));
+    EXPECT_EQ(ask({{"command", "reset"}})["generation"], 3);
+    EXPECT_EQ(fake.enacted->up.delay.law, DelayLaw{ConstantLaw{160ms}});
+}
+
+TEST_F(Talk, GivesTheStatisticsWithTheGeneration)
+{
+    const auto reply = ask({{"command", "stats"}});
+    EXPECT_EQ(reply["up"]["received"], 0);
+    EXPECT_EQ(reply["generation"], 1);
+    EXPECT_EQ(reply["elapsed_s"], 0.0);
+}
+
+TEST_F(Talk, AnswersAWaitOnceItsConditionHolds)
+{
+    const json wait{{"command", "wait"}, {"until", "up.received>1000"}};
+    EXPECT_EQ(said_to(conversation, wait.dump() + "\n", fake, start), "");
+    const auto look = conversation.next_deadline();
+    ASSERT_TRUE(look);
+    fake.statistics["up"]["received"] = 1001;
+    EXPECT_FALSE(conversation.advance(fake.subject, *look - 1ns));
+    EXPECT_TRUE(conversation.advance(fake.subject, *look));
+    const auto reply = json::parse(said_by(conversation, *look));
+    EXPECT_EQ(reply["ok"], true);
+    EXPECT_EQ(reply["met"], true);
+    EXPECT_EQ(conversation.next_deadline(), std::nullopt);
+}
+
+TEST_F(Talk, AnswersAWaitWhoseTimeIsOver)
+{
+    const json wait{{"command", "wait"}, {"until", "up.lateness_us.p50<1"}, {"timeout", "1234us"}};
+    EXPECT_EQ(said_to(conversation, wait.dump() + "\n", fake, start), "");
+    EXPECT_EQ(conversation.next_deadline(), start + 1234us);
+    EXPECT_TRUE(conversation.advance(fake.subject, start + 1234us));
+    EXPECT_EQ(json::parse(said_by(conversation, start))["met"], false);
+}
+
+TEST_F(Talk, RefusesAConditionOnWhatIsNotThereSayingWhatIs)
+{
+    const auto error = [&](const char* until) {
+        return refused({{"command", "wait"}, {"until", until}});
+    };
+    EXPECT_NE(error("up.recieved>1").find("received"), std::string::npos);
+    EXPECT_NE(error("x>1").find("down"), std::string::npos);
+    EXPECT_NE(error("up>1").find("received"), std::string::npos);
+    EXPECT_NE(error("up.received.x>1").find("up.received"), std::string::npos);
+    EXPECT_NE(error("program>1").find("not a number"), std::string::npos);
+    EXPECT_NE(error("up.received").find("up.received>1000"), std::string::npos);
+    EXPECT_NE(error("up.received>x").find("a number"), std::string::npos);
+    EXPECT_NE(error(">1").find("up.received>1000"), std::string::npos);
+    EXPECT_NE(error("up.received>nan").find("a number"), std::string::npos);
+}
+
+TEST_F(Talk, KnowsSixComparisons)
+{
+    fake.statistics["up"]["received"] = 5;
+    const auto met = [&](const char* until) {
+        return ask({{"command", "wait"}, {"until", until}, {"timeout", "0"}})["met"] == true;
+    };
+    EXPECT_TRUE(met("up.received>=5") && met("up.received <= 5") && met("up.received==5"));
+    EXPECT_TRUE(met("up.received!=4") && met("up.received>4") && met("up.received<6"));
+    EXPECT_FALSE(met("up.received>5") || met("up.received<5") || met("up.received!=5"));
+    EXPECT_TRUE(met("valid==true") && met("elapsed_s==0"));
+}
+
+TEST_F(Talk, WatchesUntilTheNextRequest)
+{
+    const auto first = said_to(conversation, "{\"command\":\"watch\"}\n", fake, start);
+    EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 1);
+    EXPECT_EQ(conversation.next_deadline(), start + 500ms);
+    conversation.advance(fake.subject, start + 500ms);
+    EXPECT_TRUE(json::parse(said_by(conversation, start))["up"].is_object());
+    EXPECT_TRUE(ask({{"command", "show"}}).contains("profile"));
+    EXPECT_EQ(conversation.next_deadline(), std::nullopt);
+}
+
+TEST_F(Talk, SkipsLinesOfAWatchThatItsReaderHasNoTimeFor)
+{
+    conversation.on_bytes("{\"command\":\"watch\",\"every\":\"50ms\"}\n");
+    for (int i = 0; i < 1000; ++i) conversation.advance(fake.subject, start + i * 50ms);
+    const auto said = said_by(conversation, start);
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
+}
+
+TEST_F(Talk, RefusesALineThatIsTooLongAndHearsNoMore)
+{
+    const std::string line(Conversation::line_bytes_max + 1, ' ');
+    const auto reply = json::parse(said_to(conversation, line, fake, start));
+    EXPECT_EQ(reply["ok"], false);
+    EXPECT_TRUE(conversation.is_over());
+    EXPECT_EQ(conversation.room(), 0U);
+}
+
+TEST_F(Talk, AnswersNothingMoreWhileItsRepliesAreNotRead)
+{
+    std::string many;
+    for (int i = 0; i < 10'000; ++i) many += "{\"command\":\"show\"}\n";
+    conversation.on_bytes(many);
+    while (conversation.advance(fake.subject, start)) {}
+    EXPECT_LT(conversation.output().size(), Conversation::unread_bytes_max + 1000);
+    EXPECT_FALSE(conversation.is_stuck(start + Conversation::patience - 1ns));
+    EXPECT_TRUE(conversation.is_stuck(start + Conversation::patience));
+    EXPECT_EQ(conversation.next_deadline(), start + Conversation::patience);
+}
+
+TEST_F(Talk, AnswersWhatWasAskedBeforeTheClientEnded)
+{
+    conversation.on_bytes("{\"command\":\"show\"}\n{\"command\":\"stats\"}");
+    conversation.on_end();
+    EXPECT_FALSE(conversation.is_over());
+    while (conversation.advance(fake.subject, start)) {}
+    EXPECT_TRUE(conversation.is_over());
+    const auto said = said_by(conversation, start);
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2);
+}
+
+TEST_F(Talk, DoesWhatAClientAskedThatHasGone)
+{
+    conversation.on_bytes("{\"command\":\"wait\",\"until\":\"elapsed_s>9\"}\n" +
+                          set({{"up.delay", "1ms"}}).dump() + "\n");
+    conversation.advance(fake.subject, start);
+    conversation.on_gone();
+    while (conversation.advance(fake.subject, start)) {}
+    EXPECT_TRUE(fake.enacted);
+    EXPECT_TRUE(conversation.is_over());
+    EXPECT_EQ(conversation.output(), "");
+}
+
+} // namespace
+} // namespace hapnet::emulator

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What an experiment's text says, and what is said of texts that are none.
+#include "lab/experiment/criteria_text.hpp"
+#include "lab/experiment/text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hapnet::lab {
+
+namespace {
+
+constexpr std::string_view smallest = "kind = \"table1\"\ntasks = \"T1\"\n";
+
+std::string with(std::string_view more) { return std::string{smallest} + std::string{more}; }
+
+std::string limits(std::string_view range)
+{
+    return "kind = \"limits\"\ntasks = [\"T1\"]\n[limit.delay]\n" + std::string{range};
+}
+
+/// The complaint; empty when there is none.
+std::string complaint(const std::string& text, const std::vector<std::string>& settings = {})
+{
+    const auto experiment = parse_experiment(text, "mine.toml", {false, settings});
+    return experiment ? "" : experiment.error().message;
+}
+
+void expect_words(const std::string& text, std::initializer_list<std::string_view> words)
+{
+    for (const std::string_view word : words) {
+        EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
+    }
+}
+
+} // namespace
+
+TEST(ExperimentText, EveryBuiltInExperimentReadsBackAsItIsPrinted)
+{
+    ASSERT_EQ(built_in_experiments().size(), 7U);
+    for (const auto& built_in : built_in_experiments()) {
+        for (const bool quick : {false, true}) {
+            const auto read = parse_experiment(built_in.text, "it", {quick, {}});
+            ASSERT_TRUE(read) << read.error().message;
+            const auto printed = to_text(*read);
+            const auto again = parse_experiment(printed, "again");
+            ASSERT_TRUE(again) << again.error().message << "\n" << printed;
+            EXPECT_EQ(to_text(*again), printed);
+            EXPECT_TRUE(again->kind == read->kind && again->path == read->path &&
+                        again->hands == read->hands && again->tasks == read->tasks);
+        }
+    }
+}
+
+TEST(ExperimentText, PrintsAsymmetricHandsOwnOperatorsAndOwnAlgorithms)
+{
+    const auto text = with(R"(
+algorithms = ["mine", "base"]
+hands = [{ preset = "firm", name = "strong" }, "relaxed"]
+[algorithm.mine]
+algorithm = "dead-reckoning"
+velocity = "sender"
+)");
+    const auto read = parse_experiment(text, "mine.toml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(name_of(read->hands), "strong/relaxed");
+    EXPECT_EQ(read->algorithms[0].name, "mine");
+    const auto again = parse_experiment(to_text(*read), "again");
+    ASSERT_TRUE(again) << again.error().message << to_text(*read);
+    EXPECT_EQ(again->hands, read->hands);
+    expect_words(to_text(*again), {"velocity = \"sender\"", "[algorithm.\"mine\"]"});
+    EXPECT_EQ(to_text(*again), to_text(*read));
+}
+
+TEST(ExperimentText, QuickCountsOnlyWhenItIsAskedFor)
+{
+    const auto text = with("seeds = 9\n[both]\ndelay = \"160ms\"\nloss = \"1%\"\n[quick]\n"
+                           "seeds = 2\nboth.delay = \"80ms\"\n");
+    const auto slow = parse_experiment(text, "it");
+    const auto quick = parse_experiment(text, "it", {true, {}});
+    ASSERT_TRUE(slow && quick);
+    EXPECT_EQ(slow->seeds, 9U);
+    EXPECT_EQ(quick->seeds, 2U);
+    EXPECT_EQ(quick->path.up.delay, emulator::constant(std::chrono::milliseconds{80}));
+    EXPECT_EQ(quick->path.up.loss.size(), 1U); // the rest of [both] stays
+}
+
+TEST(ExperimentText, SettingsAreTheLastWordAndNeedNoQuotes)
+{
+    const auto read = parse_experiment(with("[quick]\nseeds = 2\n"), "it",
+                                       {true,
+                                        {"seeds=4", "both.delay=100ms", "tasks=[\"T2\", \"T3\"]",
+                                         "algorithm.dead-reckoning.velocity=sender"}});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->seeds, 4U);
+    EXPECT_EQ(read->tasks.size(), 2U);
+    EXPECT_EQ(read->path.down.delay, emulator::constant(std::chrono::milliseconds{100}));
+    expect_words(to_text(*read), {"velocity = \"sender\""});
+}
+
+TEST(ExperimentText, SettingsThatDependOnEachOtherMayComeInAnyOrder)
+{
+    const auto text = limits("to = \"100ms\"\nstep = \"10ms\"\nresolution = \"5ms\"\n");
+    EXPECT_EQ(complaint(text, {"limit.delay.from=200ms", "limit.delay.to=300ms"}), "");
+}
+
+TEST(ExperimentText, ABadSettingIsNamedWithWhatWouldBeRight)
+{
+    const std::string text{smallest};
+    expect_words(complaint(text, {"duration=20s", "seeds=many"}),
+                 {"--set seeds=many: ", "\"many\"", "whole number from 1 to 1000"});
+    expect_words(complaint(text, {"seedz=3"}), {"--set seedz=3: ", "did you mean 'seeds'?"});
+    expect_words(complaint(text, {"both.delay=5"}), {"--set both.delay=5: ", "160ms"});
+    expect_words(complaint(text, {"seeds"}), {"--set seeds: ", "KEY=VALUE"});
+    expect_words(complaint(text, {"tasks=[T1]"}), {"--set tasks=[T1]: ", "[\"T1\", \"T3\"]"});
+    expect_words(complaint(text, {".=1"}), {"--set .=1: ", "KEY=VALUE"});
+}
+
+TEST(ExperimentText, ComplaintsSayWhereAndWhatWouldBeRight)
+{
+    expect_words(complaint("tasks = \"T1\"\n"), {"mine.toml:1:", "'kind' is missing"});
+    expect_words(complaint("kind = \"limit\"\ntasks = \"T1\"\n"),
+                 {"mine.toml:1:8: ", "did you mean 'limits'?"});
+    expect_words(complaint("kind = \"table1\"\ntaks = \"T1\"\n"),
+                 {"mine.toml:2:1: ", "did you mean 'tasks'?"});
+    expect_words(complaint("kind = \"table1\"\n"), {"'tasks' is missing"});
+    expect_words(complaint("kind = \"table1\"\ntasks = [\"T9\"]\n"), {"mine.toml:2:9: ", "T9"});
+    expect_words(complaint(with("tasks = [\n")), {"mine.toml:3:"});
+    expect_words(complaint(with("algorithms = [\"bse\"]\n")), {"mine.toml:3:14: ", "bse"});
+    expect_words(complaint(with("algorithms = [\"a,b\"]\n")), {"letters, digits"});
+    expect_words(complaint(with("algorithms = [\"base\", \"base\"]\n")), {"there already"});
+    expect_words(complaint(with("seeds = 0\n")), {"mine.toml:3:9: ", "from 1 to 1000"});
+    expect_words(complaint(with("duration = \"1s\"\n")), {"mine.toml:3:12: ", "5s", "600s"});
+    expect_words(complaint(with("hands = \"weak\"\n")), {"mine.toml:3:9: ", "weak"});
+    expect_words(complaint(with("hands = [\"firm\"]\n")), {"a list of two"});
+    expect_words(complaint(with("[quick]\nseedz = 1\n")), {"seedz"});
+    expect_words(complaint(limits("to = \"100ms\"\nstep = \"10ms\"\nresolution = \"3ms\"\n")),
+                 {"mine.toml:3:", "the resolution"});
+    expect_words(complaint(limits("to = \"0ms\"\nstep = \"10ms\"\nresolution = \"5ms\"\n")),
+                 {"'from' has to be less than 'to'"});
+    expect_words(complaint(limits("to = 100\nstep = \"10ms\"\nresolution = \"5ms\"\n")),
+                 {"mine.toml:4:6: ", "160ms"});
+    expect_words(complaint("kind = \"limits\"\ntasks = \"T1\"\nlimit = {}\n"), {"[limit.delay]"});
+}
+
+TEST(CriteriaText, ThePapersAreTheDefault)
+{
+    const auto no_file = [](const std::string&) -> base::Result<std::string> {
+        return base::fail("no such file");
+    };
+    const auto paper = load_criteria("paper", no_file);
+    ASSERT_TRUE(paper) << paper.error().message;
+    EXPECT_EQ(*paper, Criteria{});
+    const auto misspelt = load_criteria("papr", no_file);
+    ASSERT_FALSE(misspelt);
+    expect_words(misspelt.error().message, {"'papr'", "did you mean 'paper'?"});
+}
+
+TEST(ExperimentText, ANameThatIsNeitherAFileNorAnExperimentIsNamed)
+{
+    const auto no_file = [](const std::string& name) -> base::Result<std::string> {
+        return base::fail("cannot open " + name);
+    };
+    EXPECT_TRUE(load_experiment("fig6a", no_file, {}));
+    const auto misspelt = load_experiment("figg6a", no_file, {});
+    ASSERT_FALSE(misspelt);
+    expect_words(misspelt.error().message, {"'figg6a'", "did you mean 'fig6a'?"});
+    const auto missing = load_experiment("mine.toml", no_file, {});
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().message, "cannot open mine.toml");
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/records/analysis_report.hpp"
+
+#include "lab/records/csv.hpp"
+#include "tests/unit/lab/records/recording.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace hapnet::lab {
+namespace {
+
+using nlohmann::json;
+
+/// Two ticks, one message each way, forces on both sides.
+Analysis small_run()
+{
+    const auto touch = [](double x, double newtons) {
+        return [=](record::TickRow& row, base::Duration time) {
+            row.cube = {{x, 0.0, 0.0}};
+            row.touching = true;
+            row.contact = {{newtons, 0.0, 0.0}};
+            row.late = 15us;
+            row.sent_sequence = static_cast<std::uint32_t>(1 + time / 1ms);
+        };
+    };
+    Recording a{1};
+    Recording b{2};
+    a.session(2ms).ticks(0ms, 2ms, Phase::running, touch(0.0, 1.0));
+    b.session(2ms).ticks(0ms, 2ms, Phase::running, touch(0.25, 1.5));
+    b.message(1, start, start + 160ms).message(2, start + 1ms, start + 162ms);
+    return analysis_of(a, b);
+}
+
+TEST(Report, HasTheKeysAndUnitsThatProgramsReadInJson)
+{
+    EXPECT_EQ(json(to_json(small_run())), json::parse(R"({
+        "discrepancy_x_mm": {"mean": 250.0, "min": 250.0, "max": 250.0, "std": 0.0},
+        "force_discrepancy_n": {"mean": 0.5, "max": 0.5},
+        "settled_discrepancy_mm": null,
+        "touching": {"a": 1.0, "b": 1.0, "either": 1.0, "both": 1.0},
+        "scored_s": 0.002,
+        "overlap": 1.0,
+        "a_to_b": {
+            "sent": 2, "received": 2, "duplicates": 0, "reordered": 0, "loss": 0.0,
+            "packets_per_s": 1000.0,
+            "delay_ms": {"p50": 160.0, "p99": 161.0, "max": 161.0},
+            "jitter_ms": {"p50": 1.0, "p99": 1.0, "max": 1.0}},
+        "b_to_a": {
+            "sent": 2, "received": 0, "duplicates": 0, "reordered": 0, "loss": null,
+            "packets_per_s": 1000.0, "delay_ms": null, "jitter_ms": null},
+        "a": {"tick": {"rate_hz": 1000.0, "missed": 0,
+                       "late_us": {"p50": 15.0, "p99": 15.0, "max": 15.0}}},
+        "b": {"tick": {"rate_hz": 1000.0, "missed": 0,
+                       "late_us": {"p50": 15.0, "p99": 15.0, "max": 15.0}}},
+        "clock": {"method": "same-boot", "offset_ms": 0.0, "uncertainty_ms": 0.0},
+        "valid": true,
+        "invalid_because": []
+    })"));
+}
+
+TEST(Report, SaysNullInJsonWhereThereIsNothingOrNothingFinite)
+{
+    Analysis analysis;
+    analysis.agreement.settled_discrepancy = std::numeric_limits<double>::quiet_NaN();
+    const json report = to_json(analysis);
+    EXPECT_TRUE(report["discrepancy_x_mm"].is_null());
+    EXPECT_TRUE(report["force_discrepancy_n"].is_null());
+    EXPECT_TRUE(report["settled_discrepancy_mm"].is_null());
+    EXPECT_TRUE(report["a"]["tick"]["late_us"].is_null());
+}
+
+TEST(Report, SaysInTheTableWhetherAndWhyARunDoesNotCount)
+{
+    Analysis analysis = small_run();
+    EXPECT_NE(to_table(analysis).find("\nvalid\n"), std::string::npos);
+    analysis.invalid_because = {"the dog ate it"};
+    EXPECT_NE(to_table(analysis).find("\nNOT VALID\n  the dog ate it\n"), std::string::npos);
+}
+
+TEST(Csv, NamesEveryColumnOfATickWithItsUnit)
+{
+    EXPECT_EQ(tick_csv_header(),
+              "time_s,tick,late_us,missed_before,sent_sequence,phase,touching,remote_touching,"
+              "remote_fresh,hip_x_mm,hip_y_mm,hip_z_mm,hip_velocity_x_mm_per_s,"
+              "hip_velocity_y_mm_per_s,hip_velocity_z_mm_per_s,cube_x_mm,cube_y_mm,cube_z_mm,"
+              "cube_velocity_x_mm_per_s,cube_velocity_y_mm_per_s,cube_velocity_z_mm_per_s,"
+              "contact_x_n,contact_y_n,contact_z_n,device_x_n,device_y_n,device_z_n,remote_x_n,"
+              "remote_y_n,remote_z_n,gripping,docked,calibrated,buttons,fault,presses,"
+              "sample_sequence,governor");
+}
+
+TEST(Csv, ShowsATickInMillimetresNewtonsAndSecondsSinceZero)
+{
+    record::TickRow row;
+    row.tick = 7;
+    row.due = start - 1ms;
+    row.late = 15500ns;
+    row.sent_sequence = 3;
+    row.phase = Phase::hands_off;
+    row.touching = true;
+    row.hip = {{0.0225, 0.0, -0.001}};
+    row.remote = {{std::numeric_limits<double>::infinity(), 0.0, 0.5}};
+    const std::string line = csv_line(row, start);
+    EXPECT_TRUE(line.starts_with(
+        "-0.000984500,7,15.500,0,3,hands_off,1,0,0,22.500000,0.000000,-1.000000,"));
+    EXPECT_TRUE(line.ends_with(",,0.000000,0.500000,0,0,1,0,0,0,0,0"));
+    EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(tick_csv_header(), ','));
+}
+
+TEST(Csv, CountsTimeFromT0OrElseFromTheFirstTick)
+{
+    Recording recording{1};
+    EXPECT_EQ(csv_zero(recording.content()), epoch);
+    recording.ticks(3ms, 5ms);
+    EXPECT_EQ(csv_zero(recording.content()), start + 3ms);
+    recording.session(1s);
+    EXPECT_EQ(csv_zero(recording.content()), start);
+}
+
+TEST(Csv, ShowsAMessageAndLeavesCellsEmptyForWhatIsNone)
+{
+    Recording recording{1};
+    recording.session(1s).message(9, epoch + 2s, start + 3ms);
+    auto row = recording.content().messages.front();
+    EXPECT_EQ(message_csv_header(), "time_s,tick,size_bytes,session,sequence,sent_s");
+    EXPECT_EQ(csv_line(row, start), "0.003000000,0,70,1,9,2.000000000");
+    row.bytes.fill(std::byte{0});
+    EXPECT_EQ(csv_line(row, start), "0.003000000,0,70,,,");
+}
+
+} // namespace
+} // namespace hapnet::lab

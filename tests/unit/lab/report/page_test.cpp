@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/page.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab::report {
+namespace {
+
+/// What is open at the end of a script or a style sheet: brackets, a text, a comment. Knows the
+/// comments and texts of both; templates are texts whose ${} hold no texts of their own.
+std::string left_open(std::string_view source)
+{
+    std::string open;
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        const char c = source[i];
+        const auto rest = source.substr(i);
+        if (rest.starts_with("//") || rest.starts_with("/*")) {
+            const std::string_view end = rest[1] == '/' ? "\n" : "*/";
+            const auto length = rest.find(end, 2);
+            if (length == std::string_view::npos) return open + std::string{rest.substr(0, 2)};
+            i += length + end.size() - 1;
+        } else if (c == '"' || c == '\'' || c == '`') {
+            const auto length = rest.find(c, 1);
+            if (length == std::string_view::npos) return open + c;
+            i += length;
+        } else if (c == '(' || c == '[' || c == '{') {
+            open += c;
+        } else if (c == ')' || c == ']' || c == '}') {
+            const char begin = c == ')' ? '(' : c == ']' ? '[' : '{';
+            if (open.empty() || open.back() != begin) return open + c;
+            open.pop_back();
+        }
+    }
+    return open;
+}
+
+TEST(LeftOpen, SeesWhatIsNotClosed)
+{
+    EXPECT_EQ(left_open("f({a: [1, ')', \"]\"] /* ( */}); // {"), "//");
+    EXPECT_EQ(left_open("f({a: [1]});\n"), "");
+    EXPECT_EQ(left_open("f({a: 1)"), "({)");
+    EXPECT_EQ(left_open("`a"), "`");
+}
+
+TEST(Page, ScriptsAndStyleSheetAreBalanced)
+{
+    for (const auto source : {style_sheet(), zoom_script(), player_script()}) {
+        EXPECT_GT(source.size(), 1000U);
+        EXPECT_EQ(left_open(source), "");
+        EXPECT_EQ(source.find("</"), std::string_view::npos); // would end its element
+    }
+}
+
+TEST(Page, EveryColourThatIsUsedIsDefinedForLightAndDark)
+{
+    const std::string sheet{style_sheet()};
+    std::vector<std::string> names;
+    for (std::size_t at = 0; (at = sheet.find("var(--", at)) != std::string::npos; ++at) {
+        names.push_back(sheet.substr(at + 4, sheet.find(')', at) - at - 4));
+    }
+    EXPECT_FALSE(names.empty());
+    for (const std::string& name : names) {
+        const std::string definition = name + ": ";
+        const auto first = sheet.find(definition);
+        ASSERT_NE(first, std::string::npos) << name;
+        EXPECT_NE(sheet.find(definition, first + 1), std::string::npos) << name;
+    }
+}
+
+TEST(Page, HeadTakesTextAndFootEndsIt)
+{
+    const std::string head = page_head("a <b> & c");
+    EXPECT_NE(head.find("<title>a &lt;b&gt; &amp; c</title>"), std::string::npos);
+    EXPECT_NE(head.find("name=\"viewport\""), std::string::npos);
+    EXPECT_TRUE(page_foot().ends_with("</html>\n"));
+    EXPECT_EQ(page_foot().find("<script>"), std::string::npos);
+}
+
+TEST(Standalone, TakesTheLightColoursOfTheStyleSheet)
+{
+    const std::string svg = standalone("<svg viewBox='0 0 1 1'><path fill='var(--missed)'/></svg>");
+    EXPECT_NE(svg.find("fill='#c40d1e'"), std::string::npos) << svg;
+    EXPECT_NE(svg.find("viewBox='0 0 1 1'"), std::string::npos);
+}
+
+} // namespace
+} // namespace hapnet::lab::report

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/section.hpp"
+#include "tests/unit/lab/report/sample.hpp"
+
+#include <algorithm>
+
+namespace hapnet::lab::report {
+namespace {
+
+TEST(Report, HasASectionExactlyIfTheFolderHasItsData)
+{
+    struct Expected {
+        File file;
+        std::string section;
+    };
+    const std::vector<Expected> expected{
+        {sample_table1(), "table1"},       {sample_tasks(), "tasks"},
+        {sample_limits(), "fig6a"},        {sample_loss_limits(), "fig6b"},
+        {sample_curves(), "curves"},       {sample_conventions(), "trust"},
+        {sample_trajectories(), "fig7"},   {sample_qos(), "qos"},
+        {sample_real_time(), "real-time"}, {sample_replay(), "replay"},
+        {sample_manifest(), "runs"}};
+    const auto opening = [](const std::string& id) { return "<section id='" + id + "'"; };
+    const std::string whole = page_of(whole_sample());
+    for (const Expected& one : expected) {
+        const std::string page = page_of({one.file});
+        for (const Expected& other : expected) {
+            EXPECT_EQ(holds(page, opening(other.section)), other.section == one.section)
+                << other.section << " from " << one.file.path;
+        }
+        EXPECT_TRUE(holds(whole, opening(one.section))) << one.section;
+    }
+    EXPECT_TRUE(holds(whole, opening("claims")));
+    EXPECT_FALSE(holds(whole, opening("missing")));
+}
+
+TEST(Report, SaysWhichCommandMakesWhatIsMissing)
+{
+    const std::string page = page_of({sample_table1()});
+    EXPECT_TRUE(holds(page, "<code>scripts/fig6b.sh --out r/fig6b</code>"));
+    EXPECT_TRUE(holds(page, "<code>scripts/table1.sh --real-time --out r/table1</code>"));
+    EXPECT_FALSE(holds(page, "<code>scripts/table1.sh --out r/table1</code></li>\n<li>Table 1"));
+}
+
+TEST(Report, ShowsNumbersBesideThePapersWithTheirBandsAndMissesInRed)
+{
+    const std::string page = page_of({sample_table1()});
+    EXPECT_TRUE(holds(page, "<td class='ours'>13.61</td><td class='paper'>13.79</td>"
+                            "<td class='band'>12.41 to 15.17</td>"));
+    EXPECT_TRUE(holds(page, "<td class='ours missed'>66.61</td><td class='paper'>58.85</td>"
+                            "<td class='band'>40.00 to 65.00</td>"));
+    EXPECT_TRUE(holds(page, "<span class='badge calibrated'>calibrated</span>"));
+    EXPECT_TRUE(holds(page, "fill='var(--missed)' font-weight='bold'>66.6</text>"));
+    EXPECT_FALSE(holds(page, "fill='var(--missed)' font-weight='bold'>3.4</text>"));
+}
+
+TEST(Report, EndsACurveWhereTheFirstTaskFailsAndKeepsTheOthersForThemselves)
+{
+    File curves = sample_curves();
+    curves.text += "base,delay,T2,120,ms,1,6.8,0.30,0.5,0.0200,usable\n";
+    const std::string page = page_of({curves});
+    const auto details = page.find("<summary>Each task on its own");
+    ASSERT_NE(details, std::string::npos);
+    const std::string worst = page.substr(0, details), each = page.substr(details);
+    EXPECT_TRUE(holds(worst, ">80</text>"));
+    EXPECT_FALSE(holds(worst, "Stiffness felt at 1 Hz")); // T2 was played only beyond T1's failure
+    EXPECT_TRUE(holds(each, "T2: vibration"));
+    const std::string_view unmeasured = "none can have failed by it: stiffness.</p>";
+    EXPECT_FALSE(holds(worst, unmeasured));
+    EXPECT_TRUE(holds(page_of({sample_curves()}), unmeasured));
+    EXPECT_TRUE(holds(worst, "m-6-6l12 12m0-12l-12 12' stroke='var(--base)'"));
+}
+
+TEST(Report, DrawsABoundOpenAndWritesIt)
+{
+    const std::string page = page_of({sample_limits()});
+    EXPECT_TRUE(holds(page, "&gt; 320 ms"));
+    EXPECT_TRUE(holds(page, ">&gt; 320</text>"));
+    EXPECT_TRUE(holds(page, "<td class='ours'>145 ms</td><td class='paper'>150 ms</td>"
+                            "<td class='band'>130 to 155, less than base</td>"));
+    EXPECT_TRUE(holds(page_of({sample_loss_limits()}), "&gt; 95 of 100"));
+}
+
+TEST(Report, SortsWhatStandsAgainstThePaperByTheFilesAlone)
+{
+    const auto results = read_results(whole_sample());
+    ASSERT_TRUE(results);
+    const Claims main = main_claims(*results);
+    EXPECT_EQ(main.calibrated.size(), 2U); // Table 1 and the delay of base
+    EXPECT_EQ(main.met.size(), 2U);
+    ASSERT_EQ(main.missed.size(), 3U);
+    EXPECT_EQ(main.missed[2], "Limit of jitter, <b>dead-reckoning</b>, worst of the tasks: 2.5 ms "
+                              "(paper: 5 ms)");
+    const Claims of_tasks = task_claims(*results);
+    ASSERT_EQ(of_tasks.missed.size(), 1U);
+    EXPECT_TRUE(holds(of_tasks.missed[0], "in T1: &gt; 320 ms"));
+    EXPECT_TRUE(holds(page_of(whole_sample()), "<b>3</b> missed</a>"));
+}
+
+TEST(Report, EscapesWhatComesFromFiles)
+{
+    std::vector<File> files{{"r/<b>/manifest.json", R"({"title": "<img src=x>", "valid": false,
+            "<img src=x>": "<img src=x>", "invalid_because": ["<img src=x>"],
+            "configuration": "<img src=x>"})"}};
+    for (File file : whole_sample()) {
+        for (std::size_t at = 0; (at = file.text.find("T1", at)) != std::string::npos;) {
+            file.text.replace(at, 2, "<img src=x>");
+        }
+        for (std::size_t at = 0; (at = file.text.find("\nbase", at)) != std::string::npos;) {
+            file.text.replace(at + 1, 4, "<img src=x>");
+        }
+        if (!file.path.ends_with(".json")) files.push_back(std::move(file));
+    }
+    const auto out = report_files(files);
+    const std::string page = text_of(out, "report.html");
+    EXPECT_FALSE(holds(page, "<img"));
+    EXPECT_TRUE(holds(page, "&lt;img src=x&gt;"));
+    for (const File& file : out) {
+        EXPECT_FALSE(holds(file.path, "<") || holds(file.path, "..")) << file.path;
+        EXPECT_FALSE(file.path.ends_with(".svg") && holds(file.text, "<img")) << file.path;
+    }
+    EXPECT_FALSE(holds(text_of(out, "gnuplot/table1.dat"), "<"));
+}
+
+TEST(Report, SaysWhetherItIsValidAndWhyNot)
+{
+    EXPECT_TRUE(holds(page_of({sample_manifest()}), "<b>Valid.</b>"));
+    EXPECT_TRUE(holds(page_of({sample_table1()}), "No manifest.json"));
+    const std::string page =
+        page_of({{"r/fig7/manifest.json", R"({"valid": false, "invalid_because": ["stopped"]})"}});
+    EXPECT_TRUE(holds(page, "<b>Not valid.</b>"));
+    EXPECT_TRUE(holds(page, "<li>r/fig7: stopped</li>"));
+    EXPECT_TRUE(holds(page_of({{"r/manifest.json", "{}"}}), "r: does not say why"));
+    EXPECT_TRUE(holds(page_of({{"r/manifest.json", R"({"kind": "real-time", "valid": false})"}}),
+                      "r: not every session over real UDP kept its timing"));
+}
+
+TEST(Report, ExcludesARealTimeRunThatIsNotValid)
+{
+    const std::string page = page_of({sample_real_time()});
+    EXPECT_TRUE(holds(page, "<td class='ours'>-4.5 %</td>"));
+    EXPECT_TRUE(holds(page, "<td class='excluded'>9.99</td>"));
+    EXPECT_TRUE(holds(page, "excluded: late ticks"));
+    EXPECT_FALSE(holds(page, "-26.6"));
+    EXPECT_FALSE(holds(page, ">9.99</text>")); // no bar
+}
+
+TEST(Report, MarksTheWorstOfTheTasksInThePlane)
+{
+    const std::string page = page_of({sample_qos()});
+    EXPECT_TRUE(holds(page, "0 ms, ± 0 ms, 0 %\nT1: good, vibration 0.010 mm, stiffness –, force "
+                            "vibration 0.010 N\nT2: usable"));
+    EXPECT_FALSE(holds(page, "fill='var(--good)'")); // T2 is only usable there
+    EXPECT_TRUE(holds(page, "fill='var(--usable)'"));
+}
+
+TEST(Report, CarriesTheReplayAsJsonThatCannotCloseItsElement)
+{
+    File replay = sample_replay();
+    replay.path = "r/replay/<!--<script>-T3.csv";
+    EXPECT_TRUE(holds(page_of({replay}), R"("algorithm":"\u003c!--\u003cscript>")"));
+    EXPECT_TRUE(holds(page_of({sample_replay()}), R"("lx":{"step":)"));
+    EXPECT_TRUE(holds(page_of({sample_replay()}), R"("ly":0.0,)"));
+    // 0 and -3 in 16 bits: 0000 and 0180, low byte first.
+    EXPECT_TRUE(holds(page_of({sample_replay()}), R"("data":"AAABgA==")"));
+}
+
+TEST(Report, IsTheSameForTheSameFilesInAnyOrder)
+{
+    auto files = whole_sample();
+    const auto first = report_files(files);
+    std::reverse(files.begin(), files.end());
+    const auto second = report_files(files);
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        EXPECT_EQ(first[i].path, second[i].path);
+        EXPECT_EQ(first[i].text, second[i].text) << first[i].path;
+    }
+}
+
+TEST(Report, FetchesNothing)
+{
+    std::string page = page_of(whole_sample());
+    constexpr std::string_view name_of_svg = "http://www.w3.org/2000/svg";
+    for (std::size_t at = 0; (at = page.find(name_of_svg)) != std::string::npos;) {
+        page.erase(at, name_of_svg.size());
+    }
+    for (const char* word : {"http", "src=", "@import", "url(", "<link", "fetch("}) {
+        EXPECT_FALSE(holds(page, word)) << word;
+    }
+}
+
+TEST(Figures, StandAloneInLightColours)
+{
+    const auto files = report_files(whole_sample());
+    const std::string svg = text_of(files, "figures/limit-delay.svg");
+    EXPECT_TRUE(svg.starts_with("<svg font-family="));
+    EXPECT_FALSE(holds(svg, "var("));
+    EXPECT_TRUE(holds(svg, "fill='#0072b2'")); // base
+    EXPECT_FALSE(text_of(files, "figures/fig7-sep.svg").empty());
+    EXPECT_FALSE(text_of(files, "figures/qos-base-0.svg").empty());
+}
+
+TEST(Gnuplot, HasTheFiguresOfThePaper)
+{
+    const auto files = report_files(whole_sample());
+    EXPECT_TRUE(holds(text_of(files, "gnuplot/table1.dat"),
+                      "dead-reckoning 3.341 3.402 3.84 4.19 58.85 66.61\n"));
+    EXPECT_TRUE(holds(text_of(files, "gnuplot/fig6a.dat"), "base 160 160 0\n"));
+    EXPECT_TRUE(holds(text_of(files, "gnuplot/fig6b.dat"), "base 40 95 1\n"));
+    EXPECT_TRUE(holds(text_of(files, "gnuplot/fig7.dat"), "0.005 1 -3\n"));
+    for (const char* name : {"table1", "fig6a", "fig6b", "fig7"}) {
+        const auto script = text_of(files, std::string{"gnuplot/"} + name + ".gp");
+        EXPECT_TRUE(holds(script, "set output '" + std::string{name} + ".'.format")) << name;
+    }
+}
+
+} // namespace
+} // namespace hapnet::lab::report

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/report/report.hpp"
+
+#include <gtest/gtest.h>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab::report {
+
+// A small result folder "r" as experiments write it.
+
+inline File sample_manifest()
+{
+    return {"r/table1/manifest.json",
+            R"({"command": "scripts/table1.sh --out r/table1", "version": "0.4.0",
+                "compiler": "GCC 12.2.0", "wall_time_s": 61.53, "title": "160 ms & more",
+                "configuration": "seeds = 2\n", "seeds": [1, 2], "valid": true,
+                "invalid_because": [], "sessions": {"played": 42, "reused": 0},
+                "simulated_s": 1260.0, "speed_ratio": 612.25})"};
+}
+
+inline File sample_table1()
+{
+    return {"r/table1/table1.csv",
+            "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,"
+            "verdict\n"
+            "base,13.611,0.000,47.251,10.683,13.789,46.010,10.986,calibrated\n"
+            "sep,13.620,0.000,47.200,10.690,13.991,50.120,10.808,met\n"
+            "dead-reckoning,3.402,0.000,66.610,4.190,3.341,58.850,3.840,missed\n"};
+}
+
+inline File sample_tasks()
+{
+    return {"r/table1/tasks.csv",
+            "algorithm,task,seeds,mean_mm,std_mm,max_mm,vibration_mm,stiffness_ratio,"
+            "force_vibration_n,force_discrepancy,contact_lost,force_step_n,drag_n,energy_mj,tier,"
+            "limited_by\n"
+            "base,T2,10,1.250,0.500,3.000,0.012,0.1130,0.0150,0.2500,,0.4000,,0.100,usable,"
+            "\"stiffness 0.11, not 0.77\"\n"};
+}
+
+inline File sample_limits()
+{
+    return {"r/fig6a/limits.csv", "algorithm,impairment,task,limit,bound,unit,paper_limit,status\n"
+                                  "base,delay,T1,320,>,ms,160,predicted-missed\n"
+                                  "base,delay,worst,160,=,ms,160,calibrated\n"
+                                  "dead-reckoning,delay,worst,145,=,ms,150,predicted-met\n"
+                                  "dead-reckoning,jitter,worst,2.5,=,ms,5,predicted-missed\n"};
+}
+
+inline File sample_loss_limits()
+{
+    return {"r/fig6b/limits.csv", "algorithm,impairment,task,limit,bound,unit,paper_limit,status\n"
+                                  "base,burst-loss,worst,95,>,of_100,40,predicted-missed\n"};
+}
+
+inline File sample_curves()
+{
+    return {"r/fig6a/curves.csv",
+            "algorithm,impairment,task,level,unit,seed,mean_mm,vibration_mm,stiffness_ratio,"
+            "force_vibration_n,tier\n"
+            "base,delay,T1,40,ms,1,3.4,0.10,,0.0100,usable\n"
+            "base,delay,T1,80,ms,1,6.8,1.20,,0.0200,unusable\n"};
+}
+
+inline File sample_conventions()
+{
+    return {"r/fig6a/limits_by_convention.csv",
+            "algorithm,impairment,task,filter_order,hand,limit,bound,unit\n"
+            "base,delay,T1,1,nominal,145,=,ms\n"
+            "base,delay,T1,4,nominal,182,>,ms\n"};
+}
+
+inline File sample_trajectories()
+{
+    return {"r/fig7/trajectories.csv",
+            "algorithm,time_s,cube_l_mm,cube_r_mm,hand_l_mm,hand_r_mm,force_l_n,force_r_n\n"
+            "sep,0.000,0.0,0.0,-25,25,0.1,-0.1\n"
+            "sep,0.005,1.0,-3.0,-24,25,0.1,-0.1\n"};
+}
+
+inline File sample_qos()
+{
+    return {"r/qos/qos.csv", "algorithm,task,delay_ms,jitter_ms,loss_percent,mean_mm,vibration_mm,"
+                             "stiffness_ratio,force_vibration_n,tier\n"
+                             "base,T1,0,0,0,0.1,0.010,,0.0100,good\n"
+                             "base,T2,0,0,0,0.1,0.010,0.90,0.0100,usable\n"
+                             "base,T1,160,5,0,13,0.500,,0.0400,unusable\n"};
+}
+
+inline File sample_real_time()
+{
+    return {"r/table1/real_time.csv",
+            "algorithm,where,mean_mm,std_mm,max_mm,virtual_mean_mm,virtual_std_mm,virtual_max_mm,"
+            "difference_percent,valid,invalid_because\n"
+            "base,loopback,13.00,10.60,44.6,13.61,10.68,47.25,-4.5,true,\n"
+            "base,namespaces,9.99,10.60,44.6,13.61,10.68,47.25,-26.6,false,late ticks\n"};
+}
+
+inline File sample_replay()
+{
+    return {"r/table1/replay/dead-reckoning-T3.csv",
+            "time_s,lx,ly,lz,lhx,lhy,lhz,lfx,rx,ry,rz,rhx,rhy,rhz,rfx\n"
+            "0.00,0,0,0,-25,0,0,-0.5,0,0,0,25,0,0,0.5\n"
+            "0.01,1,0,0,-24,0,0,-0.5,-3,0,0,25,0,0,0.5\n"};
+}
+
+inline std::vector<File> whole_sample()
+{
+    return {sample_manifest(),    sample_table1(),    sample_tasks(),       sample_limits(),
+            sample_loss_limits(), sample_curves(),    sample_conventions(), sample_trajectories(),
+            sample_qos(),         sample_real_time(), sample_replay()};
+}
+
+/// The files of the report of these; must be readable.
+inline std::vector<File> report_files(const std::vector<File>& files)
+{
+    const auto results = read_results(files);
+    EXPECT_TRUE(results) << results.error().message;
+    return results ? report_of(*results, "r") : std::vector<File>{};
+}
+
+inline std::string text_of(const std::vector<File>& files, std::string_view path)
+{
+    for (const File& file : files) {
+        if (file.path == path) return file.text;
+    }
+    return "";
+}
+
+inline std::string page_of(const std::vector<File>& files)
+{
+    return text_of(report_files(files), "report.html");
+}
+
+inline bool holds(std::string_view text, std::string_view part)
+{
+    return text.find(part) != std::string_view::npos;
+}
+
+} // namespace hapnet::lab::report

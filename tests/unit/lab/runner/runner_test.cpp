@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// What a run keeps, reuses and finds, on however many threads.
+#include "lab/experiment/text.hpp"
+#include "lab/results/results.hpp"
+#include "lab/runner/progress.hpp"
+#include "lab/runner/runner.hpp"
+#include "tests/unit/lab/experiment/known_law.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace hapnet::lab {
+
+namespace {
+
+/// A file of sessions of its own for each test.
+class SessionFile : public testing::Test {
+protected:
+    SessionFile()
+        : path{(std::filesystem::temp_directory_path() /
+                (std::string{"hapnet-sessions-"} +
+                 testing::UnitTest::GetInstance()->current_test_info()->name()))
+                   .string()}
+    {
+        std::filesystem::remove(path);
+    }
+    ~SessionFile() override { std::filesystem::remove(path); }
+
+    [[nodiscard]] std::unique_ptr<SessionStore> open(const std::string& program = "this") const
+    {
+        return SessionStore::open(path, {"limits", "known"}, program).value();
+    }
+
+    [[nodiscard]] std::string text() const
+    {
+        std::ostringstream out;
+        out << std::ifstream{path}.rdbuf();
+        return out.str();
+    }
+
+    std::string path;
+    net::StopSignal stop;
+};
+
+Experiment known_limits(const std::vector<std::string>& settings = {})
+{
+    return *parse_experiment(R"(
+kind = "limits"
+title = "known"
+seeds = 3
+tasks = ["T1", "T3"]
+[limit.delay]
+to = "200ms"
+step = "50ms"
+resolution = "5ms"
+)",
+                             "test.toml", {false, settings});
+}
+
+base::Result<Played> play_known(const SessionSpec& spec, const std::atomic<bool>&)
+{
+    return known_session(spec);
+}
+
+Runner runner_of(SessionStore& store, unsigned jobs)
+{
+    return {store, play_known, jobs, [](const RunProgress&) {}};
+}
+
+std::string limits_of(const Experiment& experiment, const std::vector<Finding>& findings)
+{
+    return results_of(experiment, known_criteria(), findings)->front().text;
+}
+
+} // namespace
+
+TEST_F(SessionFile, GivesTheSameResultsForAnyNumberOfJobsAndPlaysNoSessionTwice)
+{
+    const auto experiment = known_limits();
+    std::string one_thread;
+    SessionStore::Counts counts;
+    for (const unsigned jobs : {1U, 2U, 5U}) {
+        std::filesystem::remove(path);
+        const auto store = open();
+        const auto findings =
+            carry_out_all(experiment, known_criteria(), runner_of(*store, jobs), stop);
+        ASSERT_TRUE(findings && *findings);
+        const auto limits = limits_of(experiment, **findings);
+        if (jobs == 1) {
+            one_thread = limits;
+            counts = store->counts();
+        }
+        EXPECT_EQ(limits, one_thread);
+        EXPECT_EQ(store->counts().played, counts.played);
+        EXPECT_EQ(store->counts().reused, 0U);
+    }
+    EXPECT_GT(counts.played, 50U);
+}
+
+TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
+{
+    const auto run = [&](const Experiment& experiment) {
+        const auto store = open();
+        const auto findings =
+            carry_out_all(experiment, known_criteria(), runner_of(*store, 2), stop);
+        EXPECT_TRUE(findings && *findings);
+        return store->counts();
+    };
+    const auto first = run(known_limits());
+    const auto again = run(known_limits());
+    EXPECT_EQ(again.played, 0U);
+    EXPECT_EQ(again.reused, first.played);
+    const auto larger = run(known_limits({"seeds=4"}));
+    EXPECT_GT(larger.played, 0U);
+    EXPECT_EQ(larger.reused, first.played);
+}
+
+TEST_F(SessionFile, DoesNotReuseTheSessionsOfAnotherProgram)
+{
+    std::ignore = carry_out_all(known_limits(), known_criteria(), runner_of(*open(), 1), stop);
+    const auto store = open("that");
+    std::ignore = carry_out_all(known_limits(), known_criteria(), runner_of(*store, 1), stop);
+    EXPECT_EQ(store->counts().reused, 0U);
+}
+
+TEST_F(SessionFile, LosesOnlyTheLineThatWasCutOff)
+{
+    std::ignore = carry_out_all(known_limits(), known_criteria(), runner_of(*open(), 1), stop);
+    const auto whole = text();
+    const auto lines = static_cast<std::size_t>(std::count(whole.begin(), whole.end(), '\n'));
+    std::filesystem::resize_file(path, whole.size() - 20);
+    for (const std::size_t played : {std::size_t{1}, std::size_t{0}}) {
+        const auto store = open();
+        EXPECT_EQ(store->damaged_lines(), 1U);
+        const auto findings =
+            carry_out_all(known_limits(), known_criteria(), runner_of(*store, 1), stop);
+        ASSERT_TRUE(findings && *findings);
+        EXPECT_EQ(store->counts().played, played);
+        EXPECT_EQ(store->counts().reused, lines - 1 - played); // the first is a header
+    }
+}
+
+TEST_F(SessionFile, RefusesAnotherExperimentASecondRunAndAFileOfSomethingElse)
+{
+    const auto refusal = [&](const FolderIdentity& identity) {
+        const auto store = SessionStore::open(path, identity, "this");
+        return store ? std::string{} : store.error().message;
+    };
+    {
+        const auto store = open();
+        EXPECT_NE(refusal({"limits", "known"}).find("in use by another run"), std::string::npos);
+    }
+    EXPECT_EQ(refusal({"limits", "known"}), "");
+    EXPECT_NE(refusal({"limits", "other"}).find("another experiment, 'known'"), std::string::npos);
+    EXPECT_NE(refusal({"plane", "known"}).find("choose another --out"), std::string::npos);
+    std::ofstream{path} << "a,b\n";
+    EXPECT_NE(refusal({"limits", "known"}).find("something else"), std::string::npos);
+}
+
+TEST_F(SessionFile, KeepsWhatWasPlayedBeforeASessionFailed)
+{
+    const auto store = open();
+    Runner runner = runner_of(*store, 1);
+    std::size_t played = 0;
+    runner.play = [&](const SessionSpec& spec, const std::atomic<bool>&) -> base::Result<Played> {
+        if (++played > 5) return base::fail("the scene cannot be shared");
+        return known_session(spec);
+    };
+    const auto findings = carry_out_all(known_limits(), known_criteria(), runner, stop);
+    ASSERT_FALSE(findings);
+    EXPECT_EQ(findings.error().message, "the scene cannot be shared");
+    EXPECT_EQ(store->counts().played, 5U);
+}
+
+TEST_F(SessionFile, PassesOnWhatAThreadHasThrown)
+{
+    const auto store = open();
+    Runner runner = runner_of(*store, 2);
+    runner.play = [](const SessionSpec&, const std::atomic<bool>&) -> base::Result<Played> {
+        throw std::runtime_error{"disk full"};
+    };
+    EXPECT_THROW(std::ignore = carry_out_all(known_limits(), known_criteria(), runner, stop),
+                 std::runtime_error);
+}
+
+TEST(ProgressText, SaysHowMuchIsLeftOnceAPartIsDone)
+{
+    using namespace std::chrono_literals;
+    EXPECT_EQ(progress_text({10, 0, {30, 0}}, 2s), "30 sessions, 15.0/s");
+    EXPECT_EQ(progress_text({10, 2, {60, 40}}, 6s), "100/~500 sessions (20 %), 10.0/s, 40 s left");
+    EXPECT_EQ(progress_text({10, 1, {60, 0}}, 6s), "60/~600 sessions (10 %), 10.0/s, 54 s left");
+    EXPECT_EQ(progress_text({10, 10, {60, 40}}, 6s), "100/100 sessions (100 %), 10.0/s");
+}
+
+} // namespace hapnet::lab

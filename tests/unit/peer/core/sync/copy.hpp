@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/core/sync/situation.hpp"
+
+#include <chrono>
+#include <optional>
+
+namespace hapnet::peer {
+
+using namespace std::chrono_literals;
+
+inline constexpr base::TimePoint start{1h};
+inline constexpr double force_max = 3.3;
+inline constexpr scene::HipInput away{.present = false};
+
+[[nodiscard]] inline scene::World paper_world()
+{
+    return scene::World::freeze(scene::paper_scene()).value();
+}
+
+/// A hand from the left, so deep in the cube at the origin: 2 mm are 1 N.
+[[nodiscard]] inline scene::HipInput pushing_hip(double depth)
+{
+    return {.position = {{-0.025 + depth, 0.0, 0.0}}};
+}
+
+/// A message as the tests write it: millimetres, and milliseconds of the sender's clock.
+struct Word {
+    std::uint32_t sequence = 1;
+    double sent_ms = 0.0;
+    double body_mm = 0.0;
+    double speed_m_per_s = 0.0;
+    bool touching = true;
+    double force_n = 0.0;
+    double hip_mm = 0.0;
+    bool has_body = true;
+};
+
+[[nodiscard]] inline base::TimePoint at_ms(double ms)
+{
+    return start + base::from_seconds(1e-3 * ms);
+}
+
+/// A copy of the scene, the other side's words, and the algorithm between them.
+template <typename Algorithm>
+class Copy {
+public:
+    explicit Copy(const Algorithm& value, Stale stale = Stale::drop)
+        : algorithm{value}, remote{{}, stale}
+    {}
+
+    void hear(const Word& word, double arrived_ms)
+    {
+        wire::State state;
+        state.sequence = word.sequence;
+        state.sent = at_ms(word.sent_ms);
+        state.touching = word.touching;
+        state.contact_force = {{word.force_n, 0.0, 0.0}};
+        state.hip = {{1e-3 * word.hip_mm, 0.0, 0.0}};
+        if (word.has_body) {
+            state.body = wire::BodyState{};
+            state.body->position = {{1e-3 * word.body_mm, 0.0, 0.0}};
+            state.body->velocity = {{word.speed_m_per_s, 0.0, 0.0}};
+        }
+        const bool taken = remote.update(state, at_ms(arrived_ms));
+        algorithm.hear({.state = state,
+                        .arrived = at_ms(arrived_ms),
+                        .taken = taken,
+                        .clock = clock,
+                        .force_max_n = force_max});
+    }
+
+    Outcome tick(double now_ms, const scene::HipInput& hand = away, double freshness = 1.0)
+    {
+        world.hip(own_hand, hand);
+        return algorithm.tick(world, {.now = at_ms(now_ms),
+                                      .remote = remote,
+                                      .freshness = freshness,
+                                      .yields = yields,
+                                      .clock = clock,
+                                      .force_max_n = force_max});
+    }
+    [[nodiscard]] double x_mm() const { return 1e3 * world.body(0).position.x(); }
+    [[nodiscard]] double speed() const { return world.body(0).velocity.x(); }
+
+    Algorithm algorithm;
+    Remote remote;
+    scene::World world = paper_world();
+    bool yields = true;
+    std::optional<ClockOffset::Estimate> clock = ClockOffset::Estimate{};
+};
+
+/// What happens without the other side, but for a push along x.
+inline void tick(scene::World& world, const scene::HipInput& hand, double push_x = 0.0)
+{
+    world.hip(own_hand, hand);
+    world.push(0, {{push_x, 0.0, 0.0}});
+    world.tick();
+}
+
+} // namespace hapnet::peer

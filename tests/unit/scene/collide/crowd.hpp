@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/random.hpp"
+#include "scene/collide/neighbours.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace hapnet::scene {
+
+/// Bodies and who is near whom, without a tick that moves them: tests do.
+template <Search search>
+struct Crowd {
+    explicit Crowd(const Description& description)
+        : frozen{description.planes, description.hips, description.gravity},
+          bodies{description},
+          neighbours{frozen, bodies}
+    {}
+
+    /// Puts a body elsewhere.
+    void place(BodyId id, const glm::dvec3& position)
+    {
+        bodies.position.put(bodies.slot_of[id], position);
+    }
+    void sleep(BodyId id)
+    {
+        const Slot from = bodies.slot_of[id];
+        bodies.put_to_sleep(from);
+        neighbours.has_fallen_asleep(bodies, id, from);
+        neighbours.settle();
+    }
+    void wake(BodyId id)
+    {
+        bodies.wake(bodies.slot_of[id]);
+        neighbours.has_woken(bodies, id);
+        neighbours.settle();
+    }
+    [[nodiscard]] std::vector<std::pair<BodyId, BodyId>> pairs()
+    {
+        std::vector<std::pair<BodyId, BodyId>> all;
+        for (const PairIndex i : neighbours.pairs())
+            all.emplace_back(neighbours.pair(i).a, neighbours.pair(i).b);
+        return all;
+    }
+    [[nodiscard]] std::vector<std::pair<BodyId, BodyId>> plane_pairs()
+    {
+        std::vector<std::pair<BodyId, BodyId>> all;
+        for (const PairIndex i : neighbours.plane_pairs())
+            all.emplace_back(neighbours.plane_pair(i).a, neighbours.plane_pair(i).b);
+        return all;
+    }
+
+    Frozen frozen;
+    Bodies bodies;
+    Neighbours<search> neighbours;
+};
+
+/// Movable cubes with edges of 4 cm, in a row along x, so far from centre to centre.
+inline Description row_of_cubes(std::size_t count, double distance_m)
+{
+    Description description;
+    for (std::size_t i = 0; i < count; ++i) {
+        BodyDescription cube;
+        cube.position = base::Position{{static_cast<double>(i) * distance_m, 0.0, 0.0}};
+        description.bodies.push_back(cube);
+    }
+    return description;
+}
+
+} // namespace hapnet::scene
