@@ -13,8 +13,9 @@ Installs what is missing, builds hapnet-lab, carries out the experiments of thes
 report.html to DIR (results/NAME-<time> when not given; several: one folder each in it). Run again
 with the same --out after an interruption: nothing is computed twice. --quick is rougher, with fewer
 seeds; --jobs is the number of threads (all processors) and does not change the results; --real-time
-lets table1 play its cells in real time, too (scripts/real-time.sh: 30 s each). Exits 0 when done, 1 when
-stopped, 2 for an unknown name or argument, 3 when something that it needs cannot be installed."
+lets table1 play its cells in real time, too (scripts/real-time.sh: 30 s each). Exits 0 when done, 1
+when stopped, 2 for an unknown name or argument, 3 when something that it needs cannot be
+installed."
 
 refuse() {
     echo "experiment: $1"$'\n'"$usage" >&2

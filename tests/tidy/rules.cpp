@@ -12,7 +12,7 @@ namespace hapnet::tidy {
 
 namespace {
 
-constexpr std::size_t file_lines_max = 400;
+constexpr std::size_t file_lines_max = 600;
 constexpr std::size_t line_characters_max = 100;
 constexpr std::size_t function_lines_max = 60;
 

@@ -81,11 +81,11 @@ TEST(Purity, ACoreMayFormatTextAndSpeakOfDurations)
     EXPECT_EQ(impure_includes(source_file("peer/core/x.cpp", text)).size(), 0U);
 }
 
-TEST(Lengths, AFileOf401LinesIsTooLong)
+TEST(Lengths, AFileOf601LinesIsTooLong)
 {
-    EXPECT_EQ(lengths(source_file("peer/x.cpp", repeated(400, "\n"))).size(), 0U);
-    EXPECT_EQ(lengths(source_file("peer/x.cpp", repeated(401, "\n"))).size(), 1U);
-    EXPECT_EQ(lengths(source_file("README.md", repeated(401, "\n"))).size(), 0U);
+    EXPECT_EQ(lengths(source_file("peer/x.cpp", repeated(600, "\n"))).size(), 0U);
+    EXPECT_EQ(lengths(source_file("peer/x.cpp", repeated(601, "\n"))).size(), 1U);
+    EXPECT_EQ(lengths(source_file("README.md", repeated(601, "\n"))).size(), 0U);
 }
 
 TEST(Lengths, ALineOf101CharactersIsTooLongAndNotOneOf101Bytes)
