@@ -69,6 +69,26 @@ std::vector<std::string> targets_of(std::string_view line)
     return targets;
 }
 
+/// What stands in backquotes in a line.
+std::vector<std::string> code_of(std::string_view line)
+{
+    std::vector<std::string> code;
+    for (auto begin = line.find('`'); begin != std::string_view::npos;) {
+        const auto end = line.find('`', begin + 1);
+        if (end == std::string_view::npos) break;
+        code.emplace_back(line.substr(begin + 1, end - begin - 1));
+        begin = line.find('`', end + 1);
+    }
+    return code;
+}
+
+bool is_path(std::string_view name)
+{
+    return std::all_of(name.begin(), name.end(), [](char c) {
+        return is_word_character(c) || c == '/' || c == '.' || c == '-';
+    });
+}
+
 /// Where a link of a page leads, from the root.
 std::string resolved(std::string_view page, std::string_view path)
 {
@@ -168,6 +188,24 @@ std::vector<std::string> dead_page_names(const SourceFile& file, const std::set<
     return complaints;
 }
 
+std::vector<std::string> dead_file_names(const SourceFile& page, const std::set<std::string>& paths)
+{
+    std::vector<std::string> complaints;
+    const auto lines = prose_of(page);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        for (const std::string& name : code_of(lines[i])) {
+            const auto slash = name.find('/');
+            const bool is_ours =
+                slash != std::string::npos && is_path(name) && exists(paths, name.substr(0, slash));
+            const bool is_folder = name.ends_with('/');
+            if (!is_ours || (!is_folder && name.find('.', slash) == std::string::npos)) continue;
+            const std::string path = is_folder ? name.substr(0, name.size() - 1) : name;
+            if (!exists(paths, path)) complaints.push_back(at(i, name + ": no such file"));
+        }
+    }
+    return complaints;
+}
+
 std::vector<std::string> commands_not_run(const SourceFile& page, const SourceFile& cmake)
 {
     bool is_left_out = false;
@@ -198,6 +236,29 @@ std::vector<std::string> words_below(const SourceFile& page, std::string_view he
         if (end != std::string::npos) words.push_back(line.substr(3, end - 3));
     }
     return words;
+}
+
+SourceFile literals_of(const SourceFile& file)
+{
+    SourceFile literals = file;
+    for (std::string& line : literals.lines) {
+        std::string inside;
+        bool is_inside = false;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            if (is_inside && line[i] == '\\') {
+                ++i; // what is escaped ends nothing
+            } else if (line[i] == '"' && (i == 0 || line[i - 1] != '\'')) {
+                is_inside = !is_inside;
+                inside += ' ';
+            } else if (is_inside) {
+                inside += line[i];
+            } else if (line.compare(i, 2, "//") == 0) {
+                break;
+            }
+        }
+        line = inside;
+    }
+    return literals;
 }
 
 std::vector<std::string> words_in(const SourceFile& file, const std::vector<std::string>& words)

@@ -26,6 +26,11 @@ namespace hapnet::tidy {
 [[nodiscard]] std::vector<std::string> dead_page_names(const SourceFile& file,
                                                        const std::set<std::string>& paths);
 
+/// Files and folders of the project that a page names in backquotes ("peer/main.cpp",
+/// "lab/metrics/") and that do not exist.
+[[nodiscard]] std::vector<std::string> dead_file_names(const SourceFile& page,
+                                                       const std::set<std::string>& paths);
+
 /// Pages with commands to run that tests/e2e/CMakeLists.txt does not name.
 [[nodiscard]] std::vector<std::string> commands_not_run(const SourceFile& page,
                                                         const SourceFile& cmake);
@@ -33,6 +38,9 @@ namespace hapnet::tidy {
 /// The first column of the table below a heading: the texts in backquotes.
 [[nodiscard]] std::vector<std::string> words_below(const SourceFile& page,
                                                    std::string_view heading);
+
+/// A C++ file with nothing left but the insides of its string literals, line by line.
+[[nodiscard]] SourceFile literals_of(const SourceFile& file);
 
 /// Whole words or phrases of `words` in a file; case matters.
 [[nodiscard]] std::vector<std::string> words_in(const SourceFile& file,

@@ -47,6 +47,16 @@ TEST(Markdown, PagesNamedFromTheRootExist)
     EXPECT_EQ(complaints("// see docs/gone.md and docs/a.md"), 1U);
 }
 
+TEST(Markdown, FilesAndFoldersNamedInBackquotesExist)
+{
+    const auto complaints = [](const std::string& text) {
+        return dead_file_names(source_file("README.md", text), paths).size();
+    };
+    EXPECT_EQ(complaints("`docs/a.md` in `docs/images/`, drawn from `docs/ID/wander`"), 0U);
+    EXPECT_EQ(complaints("`docs/gone.hpp` and `docs/gone/` and `docs/a.md`"), 2U);
+    EXPECT_EQ(complaints("`up/jitter`, `a.md`, `docs/*.cpp`, docs/gone.hpp"), 0U);
+}
+
 TEST(Markdown, CommandsAreRunOrSayWhyNot)
 {
     const auto cmake = source_file("tests/e2e/CMakeLists.txt", "foreach(page docs/a)\n");
@@ -76,6 +86,16 @@ TEST(Markdown, WordsAreWhole)
     EXPECT_EQ(complaints("a Seat there"), 1U);
     EXPECT_EQ(complaints("Seats, Seat_, seat"), 0U);
     EXPECT_EQ(complaints("also many; so many"), 1U);
+}
+
+TEST(Markdown, LiteralsAreWithoutTheirCodeAndComments)
+{
+    const auto inside = [](const std::string& line) {
+        return literals_of(source_file("a.cpp", line)).lines.front();
+    };
+    EXPECT_EQ(inside(R"(say("one", x, "two"); // "three")"), " one  two ");
+    EXPECT_EQ(inside(R"(say("a \"b\" // c");)"), " a b // c ");
+    EXPECT_EQ(inside("quote = '\"'; say(\"x\");"), " x ");
 }
 
 } // namespace

@@ -92,6 +92,15 @@ TEST(Pages, ThatAFileNamesExist)
     });
 }
 
+TEST(Pages, NameNoFileThatIsGone)
+{
+    const auto paths = paths_below(HAPNET_SOURCE_DIR);
+    expect_none([&](const SourceFile& file) {
+        return is_page(file) && file.path != "CHANGELOG.md" ? dead_file_names(file, paths)
+                                                            : std::vector<std::string>{};
+    });
+}
+
 TEST(Pages, HaveNoCommandThatNoTestRuns)
 {
     expect_none([](const SourceFile& file) {
