@@ -38,10 +38,12 @@ Examples:
   hapnet-ctl /tmp/emulator.sock stats
   hapnet-ctl /tmp/peer.sock wait --until 'messages.states_received>0'
   export HAPNET_SOCKET=/tmp/peer.sock; hapnet-ctl watch
-  hapnet-ctl /tmp/peer.sock stop
+  hapnet-ctl /tmp/peer.sock stop)";
 
-Exit codes: 0 done, 1 the condition was not met in time or the program ended, 2 bad usage or
-refused by the program, 3 no program answers on the socket.)";
+constexpr const char* exit_codes = R"(  0  done
+  1  the condition was not met in time, or the program ended
+  2  bad usage, or refused by the program
+  3  no program answers on the socket)";
 
 using Words = std::vector<std::string>;
 
@@ -105,6 +107,7 @@ net::CommandLine<Options> parse_options(std::span<char*> words, const char* defa
     std::string named;
     cli::Command program{"hapnet-ctl", description};
     program.add_footer(footer);
+    program.add_exit_codes(exit_codes);
     program.require_command();
     program
         .positional("SOCKET", "The path that the program was given as --control",

@@ -216,7 +216,13 @@ private:
     /// After everything else: a mistyped option is not a missing one.
     [[nodiscard]] static base::Result<void> nothing_missing(const Command& command)
     {
-        for (const Option& option : command.options()) {
+        const auto& options = command.options();
+        if (std::any_of(options.begin(), options.end(), [](const Option& option) {
+                return option.is_instead && option.is_given;
+            })) {
+            return {};
+        }
+        for (const Option& option : options) {
             if (!option.is_required() || option.is_given) continue;
             return base::fail(
                 option.is_positional()

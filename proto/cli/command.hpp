@@ -30,6 +30,9 @@ public:
     /// width of the terminal; those that begin with a space stay as they are.
     void describe(std::string text) { description_ = std::move(text); }
     void add_footer(std::string text) { footer_ = std::move(text); }
+    /// A line each, "  0  done". Those of the program hold for commands that have none of their
+    /// own.
+    void add_exit_codes(std::string text) { exit_codes_ = std::move(text); }
 
     Option& option(std::string names, std::string value, std::string help, Take take);
     Option& flag(std::string names, std::string help, bool& target);
@@ -59,6 +62,10 @@ public:
     [[nodiscard]] const std::string& summary() const { return summary_; }
     [[nodiscard]] const std::string& description() const { return description_; }
     [[nodiscard]] const std::string& footer() const { return footer_; }
+    [[nodiscard]] const std::string& exit_codes() const
+    {
+        return exit_codes_.empty() && parent_ != nullptr ? parent_->exit_codes() : exit_codes_;
+    }
     [[nodiscard]] bool needs_command() const { return needs_command_; }
     [[nodiscard]] const Command* parent() const { return parent_; }
     [[nodiscard]] const std::vector<std::string>& aliases() const { return aliases_; }
@@ -73,6 +80,7 @@ private:
     std::string summary_;
     std::string description_;
     std::string footer_;
+    std::string exit_codes_;
     bool needs_command_ = false;
     bool is_chosen_ = false;
     const Command* parent_ = nullptr;

@@ -206,7 +206,8 @@ std::string help_text(const Command& command, std::size_t columns)
         text += group_text(command, group, columns);
     }
     if (!command.footer().empty()) text += "\n" + filled(command.footer(), 0, columns) + "\n";
-    return text;
+    if (command.exit_codes().empty()) return text;
+    return text + "\nExit codes:\n" + filled(command.exit_codes(), 0, columns) + "\n";
 }
 
 } // namespace hapnet::cli

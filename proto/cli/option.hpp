@@ -53,8 +53,9 @@ struct Option {
     std::string group = "Options"; // its heading in --help
     std::string example{};         // of a required option: a value that could be given
     bool is_repeated = false;
-    bool is_hidden = false; // left out of --help, which says in its group's heading how it is made
-    bool is_given = false;  // after parse()
+    bool is_instead = false; // something is printed instead of running: nothing else is required
+    bool is_hidden = false;  // left out of --help, which says in its group's heading how it is made
+    bool is_given = false;   // after parse()
 
     Option& required(std::string value_to_show)
     {
@@ -64,6 +65,11 @@ struct Option {
     Option& repeated()
     {
         is_repeated = true;
+        return *this;
+    }
+    Option& instead()
+    {
+        is_instead = true;
         return *this;
     }
     Option& under(std::string heading)

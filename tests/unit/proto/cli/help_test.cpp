@@ -30,7 +30,8 @@ TEST(Help, HasUsageCommandsOptionsAndFooter)
 {
     Command program{"relay"};
     program.describe("Relays datagrams.");
-    program.add_footer("Exit codes: 0 done.");
+    program.add_footer("Units are mandatory.");
+    program.add_exit_codes("  0  done");
     program.option("--place", "ADDRESS", "Where it listens", nothing()).required("here");
     program.option("-d,--delay", "TIME", "How long each datagram waits (default 0)", nothing());
     program.option("--up.delay", "TIME", "One way", nothing()).hidden();
@@ -55,8 +56,13 @@ Options:
 Chance:
   --seed NUMBER           Seed for every random draw
 
-Exit codes: 0 done.
+Units are mandatory.
+
+Exit codes:
+  0  done
 )");
+    const std::string of_check = help_text(program.commands().front(), 60);
+    EXPECT_NE(of_check.find("\nExit codes:\n  0  done\n"), std::string::npos) << of_check;
 }
 
 } // namespace
