@@ -108,7 +108,7 @@ endfunction()
 option(HAPNET_PROGRAMS "Build the programs, which the tests end to end need" ON)
 
 # hapnet_program(NAME [COLD] [FOLDERS ...] [SOURCES ...] DEPENDS ...): one binary that is installed.
-# Where several files are read as one, all of it is: CLI11 alone is seven seconds of each.
+# Where several files are read as one, all of it is.
 function(hapnet_program name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "COLD" "" "FOLDERS;SOURCES;DEPENDS")
     hapnet_sources(sources ${arg_FOLDERS})

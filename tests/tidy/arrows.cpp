@@ -20,6 +20,7 @@ const std::vector<Folder>& map()
 {
     static const std::vector<Folder> folders{
         {"proto/base", true, {}},
+        {"proto/cli", false, {"proto/base"}},
         {"proto/wire", true, {"proto/base"}},
         {"proto/record", false, {"proto/base"}},
         {"proto/net", false, {"proto/base"}},
@@ -29,8 +30,8 @@ const std::vector<Folder>& map()
         {"emulator/core", true, {"proto/base"}},
         {"emulator/tools", true, {"emulator/core"}},
         {"emulator/control", true, {"emulator/core", "proto/control/core"}},
-        {"emulator", false, {"emulator/tools", "emulator/control", "proto/control"}},
-        {"ctl", false, {"proto/net"}},
+        {"emulator", false, {"emulator/tools", "emulator/control", "proto/control", "proto/cli"}},
+        {"ctl", false, {"proto/net", "proto/cli"}},
         {"device/catalogue",
          false,
          {"device/falcon/transport", "device/hdapi/transport", "device/hid/transport",
@@ -44,8 +45,9 @@ const std::vector<Folder>& map()
         {"peer/control", true, {"proto/control/core"}},
         {"peer",
          false,
-         {"peer/core", "peer/control", "device/catalogue", "proto/record", "proto/control"}},
-        {"lab/cli", false, {"lab/runner"}},
+         {"peer/core", "peer/control", "device/catalogue", "proto/record", "proto/control",
+          "proto/cli"}},
+        {"lab/cli", false, {"lab/runner", "proto/cli"}},
         {"lab/runner", false, {"lab", "proto/net"}},
         {"lab", true, {"emulator/tools", "peer/core", "proto/record", "device"}},
     };
