@@ -14,7 +14,7 @@ using BodyId = std::uint32_t;
 
 /// Where a hand is at the start of a tick. During the tick it moves on at its velocity (first-order
 /// hold), so that a steady push has no lag of one tick.
-struct HipInput {
+struct HandInput {
     base::Position position{};
     base::Velocity velocity{};
     bool present = true; // false: it touches nothing
@@ -22,21 +22,21 @@ struct HipInput {
 };
 
 /// Why an input was not taken; the world is as it was.
-enum class Refusal : std::uint8_t { not_finite, out_of_range, no_such_body, no_such_hip };
+enum class Refusal : std::uint8_t { not_finite, out_of_range, no_such_body, no_such_hand };
 inline constexpr std::size_t refusals = 4;
 
 /// How many inputs were refused, by cause.
 using RefusalCounts = std::array<std::uint64_t, refusals>;
 
 /// What a hand did and felt in the last tick.
-struct HipTouch {
+struct HandTouch {
     bool touching = false; // pushed or held a movable body
     bool holding = false;
-    BodyId body = 0;               // the movable one that it touched
-    base::Force on_body{};         // on the movable body: the mean over the tick
-    base::Force on_hip{};          // by everything it touched: the mean over the tick
-    double depth_m = 0.0;          // at the start of the tick, of the deepest contact
-    base::Force on_hip_at_start{}; // the spring and damper at the start of the tick
+    BodyId body = 0;                // the movable one that it touched
+    base::Force on_body{};          // on the movable body: the mean over the tick
+    base::Force on_hand{};          // by everything it touched: the mean over the tick
+    double depth_m = 0.0;           // at the start of the tick, of the deepest contact
+    base::Force on_hand_at_start{}; // the spring and damper at the start of the tick
 };
 
 /// A rigid body's place and motion.

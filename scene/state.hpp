@@ -11,9 +11,9 @@
 namespace hapnet::scene {
 
 /// What holds for a frozen scene from its first tick to its last.
-struct Frozen {
+struct WorldConfig {
     std::vector<PlaneDescription> planes{};
-    HipDescription hips{};
+    HandDescription hands{};
     glm::dvec3 gravity{0.0};
     double tick = 1e-3;   // seconds
     bool sleeping = true; // whether bodies at rest may fall asleep
@@ -22,10 +22,10 @@ struct Frozen {
 /// What every tick profile works on: the bodies, what the hands do, and what they feel of it.
 /// Everything that changes and that the next tick depends on lies here or in the profile's own
 /// memory: a copy of both is a snapshot.
-struct Stage {
+struct WorldState {
     Bodies bodies;
-    std::array<HipInput, hips_max> hips{};
-    std::array<HipTouch, hips_max> touches{};
+    std::array<HandInput, hands_max> hands{};
+    std::array<HandTouch, hands_max> touches{};
     std::vector<glm::dvec3> pushes{};      // newtons by id, held for the next tick, then cleared
     Bounded<BodyId> pushed{};              // those of whom there is a push, each once
     std::vector<std::uint8_t> is_pushed{}; // by id

@@ -4,18 +4,18 @@
 
 namespace hapnet::scene {
 
-Ticks make_ticks(Profile profile, const Description& description, const Frozen& frozen,
-                 const Stage& stage)
+Stepper make_stepper(StepperKind kind, const Description& description, const WorldConfig& config,
+                     const WorldState& state)
 {
-    switch (profile) {
-    case Profile::flight: return FlightTick{description, frozen, stage};
-    case Profile::sliding: return SlidingTick<false>{description, frozen, stage};
-    case Profile::sliding_coulomb: return SlidingTick<true>{description, frozen, stage};
-    case Profile::lone: return LoneTick{description, frozen, stage};
-    case Profile::few: return FewTick{description, frozen, stage};
-    case Profile::many: break;
+    switch (kind) {
+    case StepperKind::flight: return FreeFlightStepper{description, config, state};
+    case StepperKind::sliding: return OneBoxStepper<false>{description, config, state};
+    case StepperKind::sliding_coulomb: return OneBoxStepper<true>{description, config, state};
+    case StepperKind::lone: return RigidStepper<BroadPhase::none>{description, config, state};
+    case StepperKind::few: return RigidStepper<BroadPhase::all_pairs>{description, config, state};
+    case StepperKind::many: break;
     }
-    return ManyTick{description, frozen, stage};
+    return RigidStepper<BroadPhase::grid>{description, config, state};
 }
 
 } // namespace hapnet::scene

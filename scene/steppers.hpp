@@ -13,11 +13,12 @@ namespace hapnet::scene {
 
 /// The tick of a world: one of the profiles, chosen when the scene is frozen. Each is a value with
 /// two verbs: tick(frozen, stage) and disturbed(stage, body), which says that a body was put
-/// somewhere from outside. The order is that of Profile.
-using Ticks =
-    std::variant<FlightTick, SlidingTick<false>, SlidingTick<true>, LoneTick, FewTick, ManyTick>;
+/// somewhere from outside. The order is that of StepperKind.
+using Stepper = std::variant<FreeFlightStepper, OneBoxStepper<false>, OneBoxStepper<true>,
+                             RigidStepper<BroadPhase::none>, RigidStepper<BroadPhase::all_pairs>,
+                             RigidStepper<BroadPhase::grid>>;
 
-[[nodiscard]] Ticks make_ticks(Profile profile, const Description& description,
-                               const Frozen& frozen, const Stage& stage);
+[[nodiscard]] Stepper make_stepper(StepperKind kind, const Description& description,
+                                   const WorldConfig& config, const WorldState& state);
 
 } // namespace hapnet::scene

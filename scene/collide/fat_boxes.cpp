@@ -43,8 +43,8 @@ glm::dvec3 extent(const glm::dquat& q, const glm::dvec3& half)
 
 } // namespace
 
-FatBoxes::FatBoxes(const Frozen& frozen, const Bodies& bodies)
-    : tick_{frozen.tick}, gravity_{frozen.gravity}, leashes_(bodies.size())
+FatBoxes::FatBoxes(const WorldConfig& config, const Bodies& bodies)
+    : tick_{config.tick}, gravity_{config.gravity}, leashes_(bodies.size())
 {
     for (std::vector<double>& lane : lanes_) lane.resize(bodies.size());
 }

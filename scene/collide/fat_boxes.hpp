@@ -21,7 +21,7 @@ inline constexpr double nearby_margin = 0.05;
 /// centre with a region, and not a box with a box.
 class FatBoxes {
 public:
-    FatBoxes(const Frozen& frozen, const Bodies& bodies);
+    FatBoxes(const WorldConfig& config, const Bodies& bodies);
 
     /// Adds the slots of the awake bodies that leave their boxes within this tick, or have.
     void find_left(const Bodies& bodies, Bounded<Slot>& left) const;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t pairs_per_body_max = 32;
 // Planes that a body lies near at the same time: the corners of a room, and some more.
 constexpr std::uint64_t planes_per_body_max = 8;
-// Ticks for which a hand that keeps its velocity stays in its box.
+// Stepper for which a hand that keeps its velocity stays in its box.
 constexpr double hand_look_ahead_ticks = 32.0;
 // ... which reaches no farther ahead than this times its radius, unless it is faster.
 constexpr double hand_stretch_max = 16.0;
@@ -54,24 +54,24 @@ bool reaches(const Box& box, const PlaneDescription& plane)
 
 } // namespace
 
-template <Search search>
-Neighbours<search>::Neighbours(const Frozen& frozen, const Bodies& bodies)
-    : surfaces_{frozen.planes},
-      fat_{frozen, bodies},
+template <BroadPhase broad_phase>
+Neighbours<broad_phase>::Neighbours(const WorldConfig& config, const Bodies& bodies)
+    : surfaces_{config.planes},
+      fat_{config, bodies},
       found_{first_boxes(fat_, bodies)},
       pairs_{room_for_bodies(bodies)},
-      planes_{room_for_planes(bodies, frozen.planes.size())},
+      planes_{room_for_planes(bodies, config.planes.size())},
       left_{bodies.movable},
       stamps_(bodies.size(), 0)
 {
-    for (std::uint32_t hand = 0; hand < frozen.hips.count; ++hand)
+    for (std::uint32_t hand = 0; hand < config.hands.count; ++hand)
         hands_.push_back({Box{glm::dvec3{1.0}, glm::dvec3{-1.0}}, Bounded<BodyId>{bodies.size()}});
     for (Slot slot = 0; slot < bodies.movable; ++slot) meet(bodies, bodies.form[slot].id);
     settle();
 }
 
-template <Search search>
-void Neighbours<search>::update(const Bodies& bodies)
+template <BroadPhase broad_phase>
+void Neighbours<broad_phase>::update(const Bodies& bodies)
 {
     if (has_unmet_) {
         has_unmet_ = false;
@@ -90,8 +90,8 @@ void Neighbours<search>::update(const Bodies& bodies)
 }
 
 /// Renews the pairs of a body after its box.
-template <Search search>
-void Neighbours<search>::meet(const Bodies& bodies, BodyId id)
+template <BroadPhase broad_phase>
+void Neighbours<broad_phase>::meet(const Bodies& bodies, BodyId id)
 {
     const Box box = found_.box(id);
     const bool is_awake = bodies.slot_of[id] < bodies.awake;
@@ -112,8 +112,8 @@ void Neighbours<search>::meet(const Bodies& bodies, BodyId id)
     meet_planes(box, id, is_awake);
 }
 
-template <Search search>
-void Neighbours<search>::meet_planes(const Box& box, BodyId id, bool is_awake)
+template <BroadPhase broad_phase>
+void Neighbours<broad_phase>::meet_planes(const Box& box, BodyId id, bool is_awake)
 {
     std::uint64_t known = 0;
     planes_.for_first(id, [&](PairIndex index) {
@@ -129,8 +129,8 @@ void Neighbours<search>::meet_planes(const Box& box, BodyId id, bool is_awake)
 }
 
 /// Adds a body to those in a hand's box, or takes it away.
-template <Search search>
-void Neighbours<search>::show(Hand& hand, BodyId id)
+template <BroadPhase broad_phase>
+void Neighbours<broad_phase>::show(Hand& hand, BodyId id)
 {
     Bounded<BodyId>& bodies = hand.bodies;
     BodyId* const place = std::lower_bound(bodies.begin(), bodies.end(), id);
@@ -146,8 +146,9 @@ void Neighbours<search>::show(Hand& hand, BodyId id)
     }
 }
 
-template <Search search>
-std::span<const BodyId> Neighbours<search>::reached_by(std::uint32_t hand, const HandPath& path)
+template <BroadPhase broad_phase>
+std::span<const BodyId> Neighbours<broad_phase>::reached_by(std::uint32_t hand,
+                                                            const HandPath& path)
 {
     Hand& known = hands_[hand];
     const Box needed = grown(hull(path.from, path.to), glm::dvec3{path.radius});
@@ -168,8 +169,8 @@ std::span<const BodyId> Neighbours<search>::reached_by(std::uint32_t hand, const
     return known.bodies.all();
 }
 
-template <Search search>
-void Neighbours<search>::has_woken(const Bodies& bodies, BodyId body)
+template <BroadPhase broad_phase>
+void Neighbours<broad_phase>::has_woken(const Bodies& bodies, BodyId body)
 {
     fat_.follow(bodies, bodies.slot_of[body]);
     if (counts().pairs_left_out != 0) has_unmet_ = true; // perhaps its own, while it slept
@@ -179,8 +180,8 @@ void Neighbours<search>::has_woken(const Bodies& bodies, BodyId body)
     planes_.for_first(body, [this](PairIndex index) { planes_.set_active(index, true); });
 }
 
-template <Search search>
-void Neighbours<search>::has_fallen_asleep(const Bodies& bodies, BodyId body, Slot was_in)
+template <BroadPhase broad_phase>
+void Neighbours<broad_phase>::has_fallen_asleep(const Bodies& bodies, BodyId body, Slot was_in)
 {
     if (was_in < bodies.awake) fat_.follow(bodies, was_in);
     const auto park = [&](PairIndex index, BodyId other) {
@@ -191,15 +192,15 @@ void Neighbours<search>::has_fallen_asleep(const Bodies& bodies, BodyId body, Sl
     planes_.for_first(body, [this](PairIndex index) { planes_.set_active(index, false); });
 }
 
-template <Search search>
-void Neighbours<search>::settle()
+template <BroadPhase broad_phase>
+void Neighbours<broad_phase>::settle()
 {
     pairs_.settle();
     planes_.settle();
 }
 
-template <Search search>
-void Neighbours<search>::forget(BodyId body)
+template <BroadPhase broad_phase>
+void Neighbours<broad_phase>::forget(BodyId body)
 {
     const auto forget_it = [this](PairIndex index) { pairs_[index].memory = {}; };
     pairs_.for_first(body, forget_it);
@@ -207,13 +208,13 @@ void Neighbours<search>::forget(BodyId body)
     planes_.for_first(body, [this](PairIndex index) { planes_[index].memory = {}; });
 }
 
-template <Search search>
-typename Neighbours<search>::Counts Neighbours<search>::counts() const
+template <BroadPhase broad_phase>
+typename Neighbours<broad_phase>::Counts Neighbours<broad_phase>::counts() const
 {
     return {renewed_, hands_renewed_, pairs_.left_out() + planes_.left_out()};
 }
 
-template class Neighbours<Search::scan>;
-template class Neighbours<Search::grid>;
+template class Neighbours<BroadPhase::all_pairs>;
+template class Neighbours<BroadPhase::grid>;
 
 } // namespace hapnet::scene

@@ -14,8 +14,12 @@
 
 namespace hapnet::scene {
 
-/// How a body's neighbours are found: by a look at every body, or through a grid.
-enum class Search : std::uint8_t { scan, grid };
+/// How the movable bodies of a scene find each other.
+enum class BroadPhase : std::uint8_t {
+    none,      // there is only one
+    all_pairs, // each is compared with each
+    grid,
+};
 
 /// Where a hand's sphere goes within a tick.
 struct HandPath {
@@ -31,10 +35,10 @@ struct HandPath {
 /// its own) within the tick are a pair: within the tick means on the straight line of their
 /// velocities, or one tick of gravity off it. Bodies up to the fat boxes' extent farther apart may
 /// be pairs too.
-template <Search search>
+template <BroadPhase broad_phase>
 class Neighbours {
 public:
-    Neighbours(const Frozen& frozen, const Bodies& bodies);
+    Neighbours(const WorldConfig& config, const Bodies& bodies);
 
     /// Looks at the awake bodies' positions, orientations and velocities, at the start of a tick
     /// and after anything put a body elsewhere. Afterwards the lists of pairs are up to date.
@@ -44,7 +48,7 @@ public:
     /// until the next update(); so is the list, but for activate().
     [[nodiscard]] std::span<const PairIndex> pairs() const { return pairs_.active(); }
     [[nodiscard]] Pair& pair(PairIndex index) { return pairs_[index]; }
-    /// Awake bodies (`a`) near planes (`b`, an index into Frozen::planes).
+    /// Awake bodies (`a`) near planes (`b`, an index into WorldConfig::planes).
     [[nodiscard]] std::span<const PairIndex> plane_pairs() const { return planes_.active(); }
     [[nodiscard]] Pair& plane_pair(PairIndex index) { return planes_[index]; }
 
@@ -83,7 +87,7 @@ private:
         Box box;
         Bounded<BodyId> bodies;
     };
-    using Finder = std::conditional_t<search == Search::scan, Scan, Grid>;
+    using Finder = std::conditional_t<broad_phase == BroadPhase::all_pairs, Scan, Grid>;
 
     void meet(const Bodies& bodies, BodyId id);
     void meet_planes(const Box& box, BodyId id, bool is_awake);
@@ -103,7 +107,7 @@ private:
     std::uint64_t hands_renewed_ = 0;
 };
 
-extern template class Neighbours<Search::scan>;
-extern template class Neighbours<Search::grid>;
+extern template class Neighbours<BroadPhase::all_pairs>;
+extern template class Neighbours<BroadPhase::grid>;
 
 } // namespace hapnet::scene

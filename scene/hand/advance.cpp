@@ -17,13 +17,13 @@ namespace {
 
 /// How far the body and the hands may come towards each other in the tick: what they do already,
 /// twice, and what is stored in the springs that are pressed.
-double reach(const MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
+double reach(const MovingBody& body, const Answer& answer, std::span<const HandSpring> springs,
              double tick)
 {
     double speed = 0.0;
     double stored = 0.0;
     double arm = 0.0;
-    for (const HipSpring& spring : springs) {
+    for (const HandSpring& spring : springs) {
         speed += length(body.velocity - spring.velocity);
         if (spring.gap < 0.0) stored -= spring.gap;
         arm = std::max(arm, length(spring.arm));
@@ -39,15 +39,15 @@ struct Picked {
     std::size_t count = 0;
     bool is_closed = true;
 };
-Picked pick(const MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
+Picked pick(const MovingBody& body, const Answer& answer, std::span<const HandSpring> springs,
             double tick)
 {
     bool is_near = false;
-    for (const HipSpring& spring : springs) is_near = is_near || spring.gap > 0.0;
+    for (const HandSpring& spring : springs) is_near = is_near || spring.gap > 0.0;
     const double within = is_near ? reach(body, answer, springs, tick) : 0.0;
     Picked picked;
     for (std::size_t i = 0; i < springs.size(); ++i) {
-        const HipSpring& spring = springs[i];
+        const HandSpring& spring = springs[i];
         const bool is_idle = spring.stiffness <= 0.0 && spring.damping <= 0.0;
         if (is_idle || (!spring.holds && spring.gap > within)) continue;
         if (spring.holds || picked.count == 2) {
@@ -62,8 +62,8 @@ Picked pick(const MovingBody& body, const Answer& answer, std::span<const HipSpr
 struct Task {
     MovingBody& body;
     const Answer& answer;
-    std::span<const HipSpring> springs;
-    std::span<HipWork> work;
+    std::span<const HandSpring> springs;
+    std::span<SpringImpulse> work;
 };
 template <std::size_t count>
 void pass(const Task& task, const Picked& picked, double tick)
@@ -74,7 +74,7 @@ void pass(const Task& task, const Picked& picked, double tick)
     if (passage.pass()) return;
 
     const auto now = passage.current();
-    std::array<HipWork, count> rest;
+    std::array<SpringImpulse, count> rest;
     Answer turned = task.answer;
     turned.inverse_inertia = passage.inverse_inertia();
     Midpoint{task.body, turned, now, rest}.pass(passage.left());
@@ -83,8 +83,8 @@ void pass(const Task& task, const Picked& picked, double tick)
 
 } // namespace
 
-void advance(MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
-             std::span<HipWork> work, double tick)
+void advance(MovingBody& body, const Answer& answer, std::span<const HandSpring> springs,
+             std::span<SpringImpulse> work, double tick)
 {
     base::ensure(work.size() >= springs.size());
     if (springs.empty()) {
@@ -92,7 +92,7 @@ void advance(MovingBody& body, const Answer& answer, std::span<const HipSpring> 
         return;
     }
     if (press_steadily(body, answer, springs, work, tick)) return;
-    for (HipWork& each : work) each = {};
+    for (SpringImpulse& each : work) each = {};
     const Picked picked = pick(body, answer, springs, tick);
     if (!picked.is_closed) {
         Midpoint{body, answer, springs, work}.pass(tick);

@@ -35,7 +35,7 @@ Elastic elastic(double depth, double bend)
 }
 
 /// The mean force of a unilateral spring whose depth grows evenly from `depth` at `closing`.
-Mean mean_force(const HipSpring& spring, double depth, double closing, double part)
+Mean mean_force(const HandSpring& spring, double depth, double closing, double part)
 {
     const double bend = spring.force_max / spring.stiffness;
     const double way = part * closing;
@@ -65,8 +65,8 @@ Mean mean_force(const HipSpring& spring, double depth, double closing, double pa
 
 } // namespace
 
-Midpoint::Midpoint(MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
-                   std::span<HipWork> work)
+Midpoint::Midpoint(MovingBody& body, const Answer& answer, std::span<const HandSpring> springs,
+                   std::span<SpringImpulse> work)
     : body_{body},
       answer_{answer},
       work_{work},
@@ -76,7 +76,7 @@ Midpoint::Midpoint(MovingBody& body, const Answer& answer, std::span<const HipSp
 {
     base::ensure(springs.size() <= springs_max && springs.size() <= work.size());
     const glm::dmat3 axes = axes_of(body.orientation);
-    for (const HipSpring& form : springs) {
+    for (const HandSpring& form : springs) {
         Spring& spring = spring_[springs_++];
         spring.form = &form;
         spring.depth = -form.gap;
@@ -172,7 +172,7 @@ void Midpoint::answer_forces(double part)
 {
     for (std::size_t i = 0; i < rows_; ++i) {
         Row& row = row_[i];
-        const HipSpring& spring = *spring_[row.spring].form;
+        const HandSpring& spring = *spring_[row.spring].form;
         if (spring.holds) {
             row.slope = 0.5 * spring.stiffness * part + spring.damping;
             row.force = spring.stiffness * row.depth + row.slope * row.mean;

@@ -16,8 +16,8 @@ namespace hapnet::scene {
 /// however stiff. Forces add to what is in `work`.
 class Midpoint {
 public:
-    Midpoint(MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
-             std::span<HipWork> work);
+    Midpoint(MovingBody& body, const Answer& answer, std::span<const HandSpring> springs,
+             std::span<SpringImpulse> work);
 
     void pass(double time);
 
@@ -38,7 +38,7 @@ private:
         double slope = 0.0;    // of the force over the mean closing
     };
     struct Spring {
-        const HipSpring* form = nullptr;
+        const HandSpring* form = nullptr;
         Surface surface;
         glm::dvec3 hand{0.0};   // seen from the body's centre; of one that holds, where it pulls
         glm::dvec3 anchor{0.0}; // of one that holds, in the body's frame
@@ -56,7 +56,7 @@ private:
 
     MovingBody& body_;
     const Answer& answer_;
-    std::span<HipWork> work_;
+    std::span<SpringImpulse> work_;
     bool turns_;
     glm::dmat3 inverse_inertia_; // halfway, of the sub-tick
     glm::dmat3 inertia_now_;     // inverse

@@ -52,7 +52,7 @@ Passage<count>::Passage(MovingBody& body, const Answer& answer, double tick)
 {}
 
 template <std::size_t count>
-void Passage<count>::set(std::size_t i, const HipSpring& spring, HipWork& work)
+void Passage<count>::set(std::size_t i, const HandSpring& spring, SpringImpulse& work)
 {
     springs_[i] = &spring;
     works_[i] = &work;
@@ -236,11 +236,11 @@ void Passage<count>::meet(std::size_t i)
 }
 
 template <std::size_t count>
-std::array<HipSpring, count> Passage<count>::current() const
+std::array<HandSpring, count> Passage<count>::current() const
 {
-    std::array<HipSpring, count> springs;
+    std::array<HandSpring, count> springs;
     for (std::size_t i = 0; i < count; ++i) {
-        HipSpring& spring = springs[i];
+        HandSpring& spring = springs[i];
         spring = *springs_[i];
         spring.normal = holds_[i].normal;
         spring.gap = -presses_[i].depth;

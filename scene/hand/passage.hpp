@@ -22,14 +22,14 @@ public:
     Passage(MovingBody& body, const Answer& answer, double tick);
 
     /// The i-th spring; all have to be set before the tick.
-    void set(std::size_t i, const HipSpring& spring, HipWork& work);
+    void set(std::size_t i, const HandSpring& spring, SpringImpulse& work);
     /// Goes through the tick. False, with how much is left in `left()`, when there is no closed
     /// form, or phases end again and again.
     [[nodiscard]] bool pass();
     [[nodiscard]] double left() const { return left_; }
     [[nodiscard]] const glm::dmat3& inverse_inertia() const { return inverse_inertia_; }
     /// The springs as they are now.
-    [[nodiscard]] std::array<HipSpring, count> current() const;
+    [[nodiscard]] std::array<HandSpring, count> current() const;
 
 private:
     /// What is held for a time.
@@ -53,8 +53,8 @@ private:
     double turned_ = 0.0;        // the farthest that a normal turned in a phase, squared
     glm::dmat3 inverse_inertia_; // now
     glm::dmat3 axes_;            // of the body, now
-    std::array<const HipSpring*, count> springs_{};
-    std::array<HipWork*, count> works_{};
+    std::array<const HandSpring*, count> springs_{};
+    std::array<SpringImpulse*, count> works_{};
     std::array<Surface, count> surfaces_;
     std::array<glm::dvec3, count> hands_{}; // seen from the body's centre, now
     std::array<Hold, count> holds_;         // now

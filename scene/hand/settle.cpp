@@ -11,7 +11,7 @@ namespace hapnet::scene {
 namespace {
 
 /// The energy of a spring; beyond its greatest force it grows evenly.
-double energy(const HipSpring& spring, double depth)
+double energy(const HandSpring& spring, double depth)
 {
     if (depth <= 0.0) return 0.0;
     const double bend = spring.force_max / spring.stiffness;
@@ -42,7 +42,8 @@ glm::dvec3 mass_of(const Answer& answer)
 
 } // namespace
 
-void settle(const Settling& settling, const HipSpring& spring, const Depths& depths, HipWork& work)
+void settle(const Settling& settling, const HandSpring& spring, const Depths& depths,
+            SpringImpulse& work)
 {
     MovingBody& body = settling.body;
     const double missed = energy(spring, depths.true_m) - energy(spring, depths.followed);

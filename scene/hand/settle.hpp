@@ -22,6 +22,7 @@ struct Depths {
 
 /// Scales the speed relative to the hand by the little that makes the spring's energy what the
 /// true depth says; no more than the spring can give in the tick.
-void settle(const Settling& settling, const HipSpring& spring, const Depths& depths, HipWork& work);
+void settle(const Settling& settling, const HandSpring& spring, const Depths& depths,
+            SpringImpulse& work);
 
 } // namespace hapnet::scene

@@ -48,7 +48,7 @@ struct Contact {
 template <std::size_t count>
 class Steady {
 public:
-    Steady(MovingBody& body, const Answer& answer, const HipSpring* springs, double tick)
+    Steady(MovingBody& body, const Answer& answer, const HandSpring* springs, double tick)
         : body_{body},
           answer_{answer},
           springs_{springs},
@@ -57,7 +57,7 @@ public:
     {}
 
     /// False: it is not steady.
-    bool pass(HipWork* work)
+    bool pass(SpringImpulse* work)
     {
         if (!hold_halfway()) return false;
         couple();
@@ -68,12 +68,12 @@ private:
     bool hold_halfway();
     void couple();
     bool press();
-    bool finish(HipWork* work);
+    bool finish(SpringImpulse* work);
     [[nodiscard]] double depth_change(std::size_t i) const;
 
     MovingBody& body_;
     const Answer& answer_;
-    const HipSpring* springs_;
+    const HandSpring* springs_;
     double tick_;
     glm::dvec3 ease_; // 1/(kg m^2), about each axis
     std::array<Contact, count> contacts_;
@@ -89,7 +89,7 @@ bool Steady<count>::hold_halfway()
     const glm::dvec3 angle = half * (ease_ * body_.angular_momentum);
     if (!(sum_of_sizes(angle) <= half_turn_max)) return false;
     for (std::size_t i = 0; i < count; ++i) {
-        const HipSpring& spring = springs_[i];
+        const HandSpring& spring = springs_[i];
         Contact& contact = contacts_[i];
         contact.hand = spring.arm + (spring.radius + spring.gap) * spring.normal;
         contact.away = body_.velocity - spring.velocity;
@@ -196,7 +196,7 @@ double Steady<count>::depth_change(std::size_t i) const
 }
 
 template <std::size_t count>
-bool Steady<count>::finish(HipWork* work)
+bool Steady<count>::finish(SpringImpulse* work)
 {
     const double t = tick_;
     glm::dvec3 impulse{0.0};
@@ -229,7 +229,7 @@ bool Steady<count>::finish(HipWork* work)
     body_.orientation = unit_again(turn * body_.orientation);
     if (glm::dot(angle, angle) < kept_turn * kept_turn) return true;
     for (std::size_t i = 0; i < count; ++i) {
-        const HipSpring& spring = springs_[i];
+        const HandSpring& spring = springs_[i];
         const Contact& contact = contacts_[i];
         const glm::dvec3 hand = contact.hand + t * spring.velocity - moved;
         const double above =
@@ -243,11 +243,11 @@ bool Steady<count>::finish(HipWork* work)
 
 } // namespace
 
-bool press_steadily(MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
-                    std::span<HipWork> work, double tick)
+bool press_steadily(MovingBody& body, const Answer& answer, std::span<const HandSpring> springs,
+                    std::span<SpringImpulse> work, double tick)
 {
     if (!answer.turns_evenly) return false;
-    for (const HipSpring& spring : springs) {
+    for (const HandSpring& spring : springs) {
         if (!spring.is_amid_face || spring.gap > 0.0 || !(spring.stiffness > 0.0)) return false;
     }
     if (springs.size() == 1) return Steady<1>{body, answer, springs.data(), tick}.pass(work.data());

@@ -14,7 +14,7 @@ namespace hapnet::scene {
 /// to rounding. False, and the body has not changed, when it is not so; `work` is set and not added
 /// to.
 [[nodiscard]] bool press_steadily(MovingBody& body, const Answer& answer,
-                                  std::span<const HipSpring> springs, std::span<HipWork> work,
-                                  double tick);
+                                  std::span<const HandSpring> springs,
+                                  std::span<SpringImpulse> work, double tick);
 
 } // namespace hapnet::scene

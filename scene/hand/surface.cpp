@@ -6,7 +6,7 @@
 
 namespace hapnet::scene {
 
-Surface::Surface(const HipSpring& spring, const glm::dvec3& half, const glm::dmat3& axes)
+Surface::Surface(const HandSpring& spring, const glm::dvec3& half, const glm::dmat3& axes)
     : half_{half}, radius_{spring.radius}
 {
     const glm::dvec3 normal = spring.normal * axes;

@@ -22,7 +22,7 @@ class Surface {
 public:
     Surface() = default;
     /// `axes` are the box's, in the world.
-    Surface(const HipSpring& spring, const glm::dvec3& half, const glm::dmat3& axes);
+    Surface(const HandSpring& spring, const glm::dvec3& half, const glm::dmat3& axes);
 
     /// Whether it was a face at the start.
     [[nodiscard]] bool is_face() const { return is_face_; }

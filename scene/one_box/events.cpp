@@ -20,8 +20,8 @@ Watch of_depth(const Spring& spring, double factor)
 /// `factor` times what a spring's force is without limits, plus `level`.
 Watch of_tension(const Slide& slide, const Spring& spring, double factor, double level)
 {
-    const double k = factor * slide.hips.stiffness_n_per_m;
-    const double c = factor * slide.hips.damping_ns_per_m;
+    const double k = factor * slide.hands.stiffness_n_per_m;
+    const double c = factor * slide.hands.damping_ns_per_m;
     const auto axis = spring.axis;
     Watch watch{.level = level + k * spring.depth + c * spring.closing,
                 .slope = k * spring.closing};
@@ -34,16 +34,16 @@ Watch of_tension(const Slide& slide, const Spring& spring, double factor, double
 bool keeps_acting(const Slide& slide, const Spring& spring, double time)
 {
     if (spring.phase != Phase::active) return false;
-    const HipDescription& hips = slide.hips;
+    const HandDescription& hands = slide.hands;
     const SlideAxis& axis = slide.axes[spring.axis];
     const double closing = spring.closing_at(slide.velocity[spring.axis]);
-    const double k = hips.stiffness_n_per_m;
-    const double c = hips.damping_ns_per_m;
+    const double k = hands.stiffness_n_per_m;
+    const double c = hands.damping_ns_per_m;
     const double tension = k * spring.depth + c * closing;
     const double rate = std::abs(k * closing + c * spring.sign * axis.acceleration);
     const double bend = k * axis.most.acceleration + c * axis.most.jerk;
     const double change = time * (rate + 0.5 * time * bend);
-    return tension >= change && hips.force_max_n - tension >= change;
+    return tension >= change && hands.force_max_n - tension >= change;
 }
 
 struct SpringWatcher {
@@ -61,11 +61,11 @@ struct SpringWatcher {
     void look() const
     {
         const Spring& spring = slide.springs[index];
-        const HipDescription& hips = slide.hips;
+        const HandDescription& hands = slide.hands;
         const SlideAxis& axis = slide.axes[spring.axis];
         const double closing = spring.closing_at(slide.velocity[spring.axis]);
-        const double k = hips.stiffness_n_per_m;
-        const double c = hips.damping_ns_per_m;
+        const double k = hands.stiffness_n_per_m;
+        const double c = hands.damping_ns_per_m;
         const double left = first.time;
         if (spring.phase == Phase::apart || spring.phase == Phase::slack) {
             const double away = spring.phase == Phase::apart ? -1.0 : 1.0;
@@ -85,10 +85,10 @@ struct SpringWatcher {
             }
             return;
         }
-        const double room = hips.force_max_n - tension;
+        const double room = hands.force_max_n - tension;
         if (spring.phase == Phase::limited) {
             if (!stays_positive(-room, rate, bend, left)) {
-                expect(of_tension(slide, spring, 1.0, -hips.force_max_n), Phase::active);
+                expect(of_tension(slide, spring, 1.0, -hands.force_max_n), Phase::active);
             }
             return;
         }
@@ -96,7 +96,7 @@ struct SpringWatcher {
             expect(of_tension(slide, spring, 1.0, 0.0), c > 0.0 ? Phase::slack : Phase::apart);
         }
         if (!stays_positive(room, -rate, bend, left)) {
-            expect(of_tension(slide, spring, -1.0, hips.force_max_n), Phase::limited);
+            expect(of_tension(slide, spring, -1.0, hands.force_max_n), Phase::limited);
         }
     }
 };
@@ -249,7 +249,7 @@ void look_for_event(const Slide& slide, SlideEvent& first)
 
 void apply(Slide& slide, const SlideEvent& event, double tick)
 {
-    const HipDescription& hips = slide.hips;
+    const HandDescription& hands = slide.hands;
     switch (event.kind) {
     case Kind::none: break;
     case Kind::spring: {
@@ -257,7 +257,7 @@ void apply(Slide& slide, const SlideEvent& event, double tick)
         const bool touches = spring.phase == Phase::apart;
         spring.phase = event.phase;
         const double speed = slide.velocity[spring.axis];
-        if (touches && spring.tension(hips, speed) >= hips.force_max_n) {
+        if (touches && spring.tension(hands, speed) >= hands.force_max_n) {
             spring.phase = Phase::limited;
         }
         break;

@@ -49,43 +49,43 @@ auto& part(Vector& v, std::size_t axis)
 }
 
 /// The spring and damper alone, at one moment.
-double spring_force(const HipDescription& hips, double depth, double closing)
+double spring_force(const HandDescription& hands, double depth, double closing)
 {
     if (depth <= 0.0) return 0.0;
-    return std::clamp(hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing, 0.0,
-                      hips.force_max_n);
+    return std::clamp(hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing, 0.0,
+                      hands.force_max_n);
 }
 
 /// A hand that holds with the same force throughout the tick.
-void hold_steadily(HipTouch& touch, Slide& slide, base::Force force)
+void hold_steadily(HandTouch& touch, Slide& slide, base::Force force)
 {
     touch.on_body = force;
-    touch.on_hip += -force;
+    touch.on_hand += -force;
     const PerAxis held = per_axis(force.value);
     for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.laws.inverse_mass() * held[i];
 }
 
 /// Adds the spring between a hand and a face of the box.
-void push_face(Stage& stage, Slide& slide, const FaceTouch& found)
+void push_face(WorldState& state, Slide& slide, const FaceTouch& found)
 {
     const std::size_t axis = found.face.axis;
     const double speed = slide.velocity[axis];
     Spring& spring = slide.springs[slide.spring_count++];
-    spring.hip = found.hip;
+    spring.hand = found.hand;
     spring.axis = axis;
     spring.sign = found.face.sign;
     spring.depth = found.depth;
-    spring.closing = -spring.sign * part(stage.hips[found.hip].velocity.value, axis);
+    spring.closing = -spring.sign * part(state.hands[found.hand].velocity.value, axis);
     spring.impulse = 0.0;
-    const double force = spring.settle(slide.hips, speed);
-    HipTouch& touch = stage.touches[found.hip];
+    const double force = spring.settle(slide.hands, speed);
+    HandTouch& touch = state.touches[found.hand];
     touch.depth_m = std::max(touch.depth_m, found.depth);
-    part(touch.on_hip_at_start.value, axis) += spring.sign * force;
+    part(touch.on_hand_at_start.value, axis) += spring.sign * force;
 }
 
 } // namespace
 
-SlidingHands::SlidingHands(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable)
+SlidingHands::SlidingHands(const WorldConfig& config, const Bodies& bodies, const BodyForm& movable)
     : body_{movable.id},
       half_{per_axis(movable.half)},
       margin_{std::min(std::min(movable.half.x, movable.half.y), movable.half.z)}
@@ -94,57 +94,58 @@ SlidingHands::SlidingHands(const Frozen& frozen, const Bodies& bodies, const Bod
         if (bodies.form[slot].mass > 0.0) continue;
         fixed_.push_back({per_axis(bodies.position.at(slot)), per_axis(bodies.form[slot].half)});
     }
-    entered_fixed_.resize(frozen.hips.count * fixed_.size());
+    entered_fixed_.resize(config.hands.count * fixed_.size());
 }
 
-void SlidingHands::gather(const Frozen& frozen, Stage& stage, Slide& slide)
+void SlidingHands::gather(const WorldConfig& config, WorldState& state, Slide& slide)
 {
-    for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
-        const HipInput& hip = stage.hips[i];
-        stage.touches[i] = HipTouch{.body = body_};
+    for (std::uint32_t i = 0; i < config.hands.count; ++i) {
+        const HandInput& input = state.hands[i];
+        state.touches[i] = HandTouch{.body = body_};
         Memory& memory = memory_[i];
-        if (!hip.present) {
+        if (!input.present) {
             memory.entered = {};
             memory.held_at.reset();
             continue;
         }
-        if (!memory.is_clear(frozen, hip)) touch_fixed(frozen, stage, i);
-        if (!hip.gripping) {
+        if (!memory.is_clear(config, input)) touch_fixed(config, state, i);
+        if (!input.gripping) {
             memory.held_at.reset();
         } else if (!memory.held_at) {
-            const PerAxis from_centre = difference(hip.position.value, slide.place);
-            const double reach = frozen.hips.radius_m + frozen.hips.grip_reach_m;
+            const PerAxis from_centre = difference(input.position.value, slide.place);
+            const double reach = config.hands.radius_m + config.hands.grip_reach_m;
             if (distance(from_centre, half_) <= reach) memory.held_at = from_centre;
         }
         if (memory.held_at) {
-            hold(frozen, stage, slide, i);
+            hold(config, state, slide, i);
         } else {
-            touch_box(frozen, stage, slide, i);
+            touch_box(config, state, slide, i);
         }
     }
 }
 
-void SlidingHands::hold(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index)
+void SlidingHands::hold(const WorldConfig& config, WorldState& state, Slide& slide,
+                        std::uint32_t index)
 {
-    const HipDescription& hips = frozen.hips;
-    const HipInput& hip = stage.hips[index];
+    const HandDescription& hands = config.hands;
+    const HandInput& input = state.hands[index];
     Memory& memory = memory_[index];
     memory.entered = {};
-    const PerAxis from_centre = difference(hip.position.value, slide.place);
-    Grip grip{index, from_centre, per_axis(hip.velocity.value), {}};
+    const PerAxis from_centre = difference(input.position.value, slide.place);
+    Grip grip{index, from_centre, per_axis(input.velocity.value), {}};
     base::Force wanted;
     for (std::size_t i = 0; i < 3; ++i) {
         grip.stretch[i] -= (*memory.held_at)[i];
         wanted.value[static_cast<int>(i)] =
-            hips.stiffness_n_per_m * grip.stretch[i] +
-            hips.damping_ns_per_m * (grip.velocity[i] - slide.velocity[i]);
+            hands.stiffness_n_per_m * grip.stretch[i] +
+            hands.damping_ns_per_m * (grip.velocity[i] - slide.velocity[i]);
     }
-    const base::Force force = base::limited(wanted, hips.force_max_n);
-    HipTouch& touch = stage.touches[index];
+    const base::Force force = base::limited(wanted, hands.force_max_n);
+    HandTouch& touch = state.touches[index];
     touch.holding = touch.touching = true;
     touch.depth_m =
-        std::max(touch.depth_m, std::max(hips.radius_m - distance(from_centre, half_), 0.0));
-    touch.on_hip_at_start += -force;
+        std::max(touch.depth_m, std::max(hands.radius_m - distance(from_centre, half_), 0.0));
+    touch.on_hand_at_start += -force;
     if (force == wanted) {
         slide.grips[slide.grip_count++] = grip;
         return;
@@ -152,11 +153,11 @@ void SlidingHands::hold(const Frozen& frozen, Stage& stage, Slide& slide, std::u
     hold_steadily(touch, slide, force);
 }
 
-inline void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& slide,
+inline void SlidingHands::touch_box(const WorldConfig& config, WorldState& state, Slide& slide,
                                     std::uint32_t index)
 {
-    const double radius = frozen.hips.radius_m;
-    const PerAxis from_centre = difference(stage.hips[index].position.value, slide.place);
+    const double radius = config.hands.radius_m;
+    const PerAxis from_centre = difference(state.hands[index].position.value, slide.place);
     const PerAxis out = beyond(from_centre, half_);
     const std::size_t axis = before_face(out, radius);
     FaceTouch found{index, {}, 0.0};
@@ -164,24 +165,24 @@ inline void SlidingHands::touch_box(const Frozen& frozen, Stage& stage, Slide& s
         found.face = memory_[index].entered = face_at(axis, from_centre[axis]);
         found.depth = radius - out[axis];
     } else {
-        found = meet_box(frozen, stage, slide, index);
+        found = meet_box(config, state, slide, index);
     }
-    if (found.face.axis != no_axis) push_face(stage, slide, found);
+    if (found.face.axis != no_axis) push_face(state, slide, found);
 }
 
-FaceTouch SlidingHands::meet_box(const Frozen& frozen, Stage& stage, Slide& slide,
+FaceTouch SlidingHands::meet_box(const WorldConfig& config, WorldState& state, Slide& slide,
                                  std::uint32_t index)
 {
-    const HipDescription& hips = frozen.hips;
-    const HipInput& hip = stage.hips[index];
+    const HandDescription& hands = config.hands;
+    const HandInput& input = state.hands[index];
     EnteredFace& entered = memory_[index].entered;
-    const Approach approach{.from_centre = difference(hip.position.value, slide.place),
-                            .velocity = difference(hip.velocity.value, slide.velocity),
-                            .radius = hips.radius_m,
-                            .tick = frozen.tick};
-    const double far = hips.radius_m + margin_;
+    const Approach approach{.from_centre = difference(input.position.value, slide.place),
+                            .velocity = difference(input.velocity.value, slide.velocity),
+                            .radius = hands.radius_m,
+                            .tick = config.tick};
+    const double far = hands.radius_m + margin_;
     for (std::size_t i = 0; i < 3; ++i) {
-        const double swept = 2.0 * frozen.tick * std::abs(approach.velocity[i]);
+        const double swept = 2.0 * config.tick * std::abs(approach.velocity[i]);
         if (std::abs(approach.from_centre[i]) > half_[i] + far + swept) {
             entered = {};
             return {index, {}, 0.0};
@@ -190,32 +191,32 @@ FaceTouch SlidingHands::meet_box(const Frozen& frozen, Stage& stage, Slide& slid
     const auto meeting = meet(approach, half_, entered);
     if (!meeting) return {index, {}, 0.0};
     if (meeting->face.axis != no_axis) return {index, meeting->face, meeting->depth};
-    HipTouch& touch = stage.touches[index];
+    HandTouch& touch = state.touches[index];
     const PerAxis& normal = meeting->oblique;
-    const double closing = -dot(normal, per_axis(hip.velocity.value));
+    const double closing = -dot(normal, per_axis(input.velocity.value));
     slide.slanted[slide.slanted_count++] = {index, normal, meeting->depth, closing, 0.0};
     touch.depth_m = std::max(touch.depth_m, meeting->depth);
-    touch.on_hip_at_start.value +=
-        spring_force(hips, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
+    touch.on_hand_at_start.value +=
+        spring_force(hands, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
     return {index, {}, 0.0};
 }
 
-void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index)
+void SlidingHands::touch_fixed(const WorldConfig& config, WorldState& state, std::uint32_t index)
 {
-    const HipDescription& hips = frozen.hips;
-    const HipInput& hip = stage.hips[index];
-    HipTouch& touch = stage.touches[index];
+    const HandDescription& hands = config.hands;
+    const HandInput& input = state.hands[index];
+    HandTouch& touch = state.touches[index];
     Memory& memory = memory_[index];
-    const PerAxis place = per_axis(hip.position.value);
-    const PerAxis velocity = per_axis(hip.velocity.value);
-    const double sweep = frozen.tick * largest(beyond(velocity, {})) + hips.radius_m;
+    const PerAxis place = per_axis(input.position.value);
+    const PerAxis velocity = per_axis(input.velocity.value);
+    const double sweep = config.tick * largest(beyond(velocity, {})) + hands.radius_m;
     memory.seen_from = place;
     memory.clear = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < fixed_.size(); ++i) {
-        const Approach approach{.from_centre = difference(hip.position.value, fixed_[i].centre),
+        const Approach approach{.from_centre = difference(input.position.value, fixed_[i].centre),
                                 .velocity = velocity,
-                                .radius = hips.radius_m,
-                                .tick = frozen.tick};
+                                .radius = hands.radius_m,
+                                .tick = config.tick};
         EnteredFace& entered = entered_fixed_[index * fixed_.size() + i];
         const double apart = largest(beyond(approach.from_centre, fixed_[i].half));
         memory.clear = std::min(memory.clear, apart);
@@ -229,16 +230,17 @@ void SlidingHands::touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t
         if (meeting->face.axis != no_axis) normal[meeting->face.axis] = meeting->face.sign;
         const double closing = -dot(normal, velocity);
         const double mean =
-            steady_impulse(hips, meeting->depth, closing, frozen.tick) / frozen.tick;
+            steady_impulse(hands, meeting->depth, closing, config.tick) / config.tick;
         touch.depth_m = std::max(touch.depth_m, meeting->depth);
-        touch.on_hip.value += mean * vector(normal);
-        touch.on_hip_at_start.value += spring_force(hips, meeting->depth, closing) * vector(normal);
+        touch.on_hand.value += mean * vector(normal);
+        touch.on_hand_at_start.value +=
+            spring_force(hands, meeting->depth, closing) * vector(normal);
     }
 }
 
 void SlidingHands::press_slanted(Slide& slide)
 {
-    const HipDescription& hips = slide.hips;
+    const HandDescription& hands = slide.hands;
     const double half_tick = 0.5 * slide.left;
     const bool is_stuck = slide.rubbing.state == Rubbing::State::stuck;
     const auto is_kept = [&](std::size_t i) { return is_stuck || slide.axes[i].is_held(); };
@@ -255,11 +257,11 @@ void SlidingHands::press_slanted(Slide& slide)
         }
         // depth and closing speed in the middle: linear in the force that acts meanwhile.
         const double answer =
-            hips.stiffness_n_per_m * half_tick * half_tick + hips.damping_ns_per_m * half_tick;
+            hands.stiffness_n_per_m * half_tick * half_tick + hands.damping_ns_per_m * half_tick;
         const double depth = spring.depth + half_tick * closing;
         const double free_force =
-            hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing + answer * bend;
-        spring.force = std::clamp(free_force / (1.0 + answer * ease), 0.0, hips.force_max_n);
+            hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing + answer * bend;
+        spring.force = std::clamp(free_force / (1.0 + answer * ease), 0.0, hands.force_max_n);
         if (depth + half_tick * half_tick * (bend - ease * spring.force) <= 0.0) spring.force = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
             const double change = -slide.laws.inverse_mass() * spring.force * normal[i];
@@ -269,44 +271,45 @@ void SlidingHands::press_slanted(Slide& slide)
     }
 }
 
-bool SlidingHands::weaken(const Frozen& frozen, Stage& stage, const Slide& slide, Slide& again)
+bool SlidingHands::weaken(const WorldConfig& config, WorldState& state, const Slide& slide,
+                          Slide& again)
 {
     constexpr double rounding = 1e-12;
-    const double most = frozen.tick * frozen.hips.force_max_n;
+    const double most = config.tick * config.hands.force_max_n;
     for (std::uint32_t n = 0; n < slide.grip_count; ++n) {
         const PerAxis& impulse = slide.grips[n].impulse;
         const double size = std::sqrt(dot(impulse, impulse));
         if (size <= (1.0 + rounding) * most) continue;
-        const base::Force force{(frozen.hips.force_max_n / size) * vector(impulse)};
-        hold_steadily(stage.touches[slide.grips[n].hip], again, force);
+        const base::Force force{(config.hands.force_max_n / size) * vector(impulse)};
+        hold_steadily(state.touches[slide.grips[n].hand], again, force);
         again.grips[n] = again.grips[--again.grip_count];
         return true;
     }
     return false;
 }
 
-void SlidingHands::report(const Frozen& frozen, Stage& stage, const Slide& slide)
+void SlidingHands::report(const WorldConfig& config, WorldState& state, const Slide& slide)
 {
-    const double per_tick = 1.0 / frozen.tick;
+    const double per_tick = 1.0 / config.tick;
     for (const Spring& spring : slide.active_springs()) {
         if (spring.impulse <= 0.0) continue;
-        HipTouch& touch = stage.touches[spring.hip];
+        HandTouch& touch = state.touches[spring.hand];
         const double force = spring.sign * (spring.impulse * per_tick);
         touch.touching = true;
         part(touch.on_body.value, spring.axis) -= force;
-        part(touch.on_hip.value, spring.axis) += force;
+        part(touch.on_hand.value, spring.axis) += force;
     }
     for (const SlantedSpring& spring : slide.active_slanted()) {
         if (spring.force <= 0.0) continue;
-        HipTouch& touch = stage.touches[spring.hip];
+        HandTouch& touch = state.touches[spring.hand];
         touch.touching = true;
         touch.on_body.value -= spring.force * vector(spring.normal);
-        touch.on_hip.value += spring.force * vector(spring.normal);
+        touch.on_hand.value += spring.force * vector(spring.normal);
     }
     for (const Grip& grip : slide.active_grips()) {
-        HipTouch& touch = stage.touches[grip.hip];
+        HandTouch& touch = state.touches[grip.hand];
         touch.on_body.value += per_tick * vector(grip.impulse);
-        touch.on_hip.value -= per_tick * vector(grip.impulse);
+        touch.on_hand.value -= per_tick * vector(grip.impulse);
     }
 }
 

@@ -13,7 +13,7 @@ namespace hapnet::scene {
 
 /// A hand at a face of the box; at none: it does not touch, or at an edge or a corner.
 struct FaceTouch {
-    std::uint32_t hip = 0;
+    std::uint32_t hand = 0;
     EnteredFace face;
     double depth = 0.0;
 };
@@ -21,19 +21,20 @@ struct FaceTouch {
 /// The hands at the box and at the fixed boxes, and what has to be remembered of them.
 class SlidingHands {
 public:
-    SlidingHands(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable);
+    SlidingHands(const WorldConfig& config, const Bodies& bodies, const BodyForm& movable);
 
     /// Adds the springs between the hands and the box to `slide`. What the hands feel of the fixed
     /// boxes is told at once.
-    void gather(const Frozen& frozen, Stage& stage, Slide& slide);
+    void gather(const WorldConfig& config, WorldState& state, Slide& slide);
     /// Adds the forces of hands at edges and corners, once the courses of the axes are known.
     /// Midpoint rule: second order, and it neither makes nor loses energy.
     static void press_slanted(Slide& slide);
     /// Whether a hand held with more than its greatest force in the tick that `slide` has run. Then
     /// `again`, the tick before it ran, has that force held throughout instead.
-    static bool weaken(const Frozen& frozen, Stage& stage, const Slide& slide, Slide& again);
+    static bool weaken(const WorldConfig& config, WorldState& state, const Slide& slide,
+                       Slide& again);
     /// Tells what the springs did in the tick.
-    static void report(const Frozen& frozen, Stage& stage, const Slide& slide);
+    static void report(const WorldConfig& config, WorldState& state, const Slide& slide);
     /// The box has been put somewhere else.
     void forget_box();
 
@@ -49,32 +50,33 @@ private:
         double clear = -1.0; // no fixed box is nearer to `seen_from`, along every axis
 
         /// Whether no fixed box is within reach of the hand in this tick.
-        [[nodiscard]] bool is_clear(const Frozen& frozen, const HipInput& hip) const
+        [[nodiscard]] bool is_clear(const WorldConfig& config, const HandInput& input) const
         {
-            const PerAxis place = per_axis(hip.position.value);
-            const PerAxis velocity = per_axis(hip.velocity.value);
+            const PerAxis place = per_axis(input.position.value);
+            const PerAxis velocity = per_axis(input.velocity.value);
             double reach = 0.0;
             for (std::size_t i = 0; i < 3; ++i) {
                 const double gone = std::abs(place[i] - seen_from[i]);
-                reach = std::max(gone + frozen.tick * std::abs(velocity[i]), reach);
+                reach = std::max(gone + config.tick * std::abs(velocity[i]), reach);
             }
-            return reach + frozen.hips.radius_m < clear;
+            return reach + config.hands.radius_m < clear;
         }
     };
 
-    void hold(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
-    void touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
+    void hold(const WorldConfig& config, WorldState& state, Slide& slide, std::uint32_t index);
+    void touch_box(const WorldConfig& config, WorldState& state, Slide& slide, std::uint32_t index);
     /// Where nothing is as simple as a hand straight before a face. Hands at edges and corners are
     /// added to `slide`; what pushes a face is returned.
-    FaceTouch meet_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
-    void touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index);
+    FaceTouch meet_box(const WorldConfig& config, WorldState& state, Slide& slide,
+                       std::uint32_t index);
+    void touch_fixed(const WorldConfig& config, WorldState& state, std::uint32_t index);
 
     BodyId body_;
     PerAxis half_;
     double margin_; // how far the box may come in a tick beyond what the speeds at its start say
     std::vector<FixedBox> fixed_;
     std::vector<EnteredFace> entered_fixed_; // by hand, then by box
-    std::array<Memory, hips_max> memory_{};
+    std::array<Memory, hands_max> memory_{};
 };
 
 } // namespace hapnet::scene

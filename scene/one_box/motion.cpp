@@ -64,7 +64,7 @@ std::array<std::size_t, 3> add_springs(Slide& slide)
             course.ramp -= spring.sign * (stiffness * spring.closing);
             ++count[spring.axis];
         } else if (spring.phase == Phase::limited) {
-            course.push -= spring.sign * (slide.hips.force_max_n * slide.laws.inverse_mass());
+            course.push -= spring.sign * (slide.hands.force_max_n * slide.laws.inverse_mass());
         }
     }
     for (const Grip& grip : slide.active_grips()) {
@@ -79,14 +79,14 @@ std::array<std::size_t, 3> add_springs(Slide& slide)
 
 } // namespace
 
-SlideLaws::SlideLaws(const HipDescription& hips, const BodyForm& body, double tick)
+SlideLaws::SlideLaws(const HandDescription& hands, const BodyForm& body, double tick)
     : inverse_mass_{1.0 / body.mass}
 {
     for (const bool with_drag : {false, true}) {
-        for (std::size_t n = 0; n <= hips_max; ++n) {
+        for (std::size_t n = 0; n <= hands_max; ++n) {
             const auto springs = static_cast<double>(n);
-            const double damping = springs * hips.damping_ns_per_m + (with_drag ? body.drag : 0.0);
-            const double stiffness = springs * hips.stiffness_n_per_m;
+            const double damping = springs * hands.damping_ns_per_m + (with_drag ? body.drag : 0.0);
+            const double stiffness = springs * hands.stiffness_n_per_m;
             kernels_[with_drag ? 1 : 0][n] =
                 Kernel{{.damping = damping / body.mass, .stiffness = stiffness / body.mass}, tick};
         }
@@ -95,7 +95,7 @@ SlideLaws::SlideLaws(const HipDescription& hips, const BodyForm& body, double ti
 
 Slide Slide::copy() const
 {
-    Slide other{hips, laws, obstacles};
+    Slide other{hands, laws, obstacles};
     other.near = near;
     other.room = room;
     other.left = left;
@@ -174,8 +174,8 @@ void advance(Slide& slide, double time)
         slide.place[i] += motion.way;
         slide.velocity[i] = motion.speed;
     }
-    const double k = slide.hips.stiffness_n_per_m;
-    const double c = slide.hips.damping_ns_per_m;
+    const double k = slide.hands.stiffness_n_per_m;
+    const double c = slide.hands.damping_ns_per_m;
     for (Spring& spring : slide.active_springs()) {
         const double closed = spring.closing * time + spring.sign * way[spring.axis];
         if (spring.phase == Phase::active) {
@@ -183,7 +183,7 @@ void advance(Slide& slide, double time)
                                   spring.sign * way_integral[spring.axis];
             spring.impulse += k * depths + c * closed;
         } else if (spring.phase == Phase::limited) {
-            spring.impulse += slide.hips.force_max_n * time;
+            spring.impulse += slide.hands.force_max_n * time;
         }
         spring.depth += closed;
     }

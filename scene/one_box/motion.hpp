@@ -15,7 +15,7 @@ namespace hapnet::scene {
 /// The laws that an axis can be under: with any number of springs, with or without drag.
 class SlideLaws {
 public:
-    SlideLaws(const HipDescription& hips, const BodyForm& body, double tick);
+    SlideLaws(const HandDescription& hands, const BodyForm& body, double tick);
 
     [[nodiscard]] double inverse_mass() const { return inverse_mass_; }
     /// Of one spring.
@@ -28,7 +28,7 @@ public:
 
 private:
     double inverse_mass_;
-    std::array<std::array<Kernel, hips_max + 1>, 2> kernels_;
+    std::array<std::array<Kernel, hands_max + 1>, 2> kernels_;
 };
 
 /// What one axis of the box does.
@@ -66,14 +66,14 @@ struct Rubbing {
 struct Slide {
     // Without values until they are set: clearing all of them would cost more than the tick.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
-    Slide(const HipDescription& of_hips, const SlideLaws& of_laws, Obstacles& those)
-        : hips{of_hips}, laws{of_laws}, obstacles{those}
+    Slide(const HandDescription& of_hips, const SlideLaws& of_laws, Obstacles& those)
+        : hands{of_hips}, laws{of_laws}, obstacles{those}
     {}
 
     /// Another one like it, to try the tick again.
     [[nodiscard]] Slide copy() const;
 
-    const HipDescription& hips;
+    const HandDescription& hands;
     const SlideLaws& laws;
     Obstacles& obstacles;
     std::span<const std::uint32_t> near{};
@@ -90,9 +90,9 @@ struct Slide {
     std::uint32_t spring_count = 0;
     std::uint32_t grip_count = 0;
     std::uint32_t slanted_count = 0;
-    std::array<Spring, hips_max> springs;
-    std::array<Grip, hips_max> grips;
-    std::array<SlantedSpring, hips_max> slanted;
+    std::array<Spring, hands_max> springs;
+    std::array<Grip, hands_max> grips;
+    std::array<SlantedSpring, hands_max> slanted;
 
     [[nodiscard]] std::span<Spring> active_springs() { return {springs.data(), spring_count}; }
     [[nodiscard]] std::span<const Spring> active_springs() const

@@ -37,10 +37,10 @@ Obstacle in_the_way(const PlaneDescription& plane, const BodyForm& movable)
 
 } // namespace
 
-Obstacles::Obstacles(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable)
+Obstacles::Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyForm& movable)
     : usual_margin_{std::min(std::min(movable.half.x, movable.half.y), movable.half.z)}
 {
-    for (const PlaneDescription& plane : frozen.planes) {
+    for (const PlaneDescription& plane : config.planes) {
         all_.push_back(in_the_way(plane, movable));
     }
     for (const Slot slot : bodies.slot_of) {

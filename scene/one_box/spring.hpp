@@ -21,7 +21,7 @@ enum class Phase : std::uint8_t {
 
 /// A hand's spring on one face of the box, along one axis.
 struct Spring {
-    std::uint32_t hip;
+    std::uint32_t hand;
     std::size_t axis;
     double sign;    // of the normal, from the box to the hand
     double depth;   // at the start of the stretch of time that is looked at
@@ -31,19 +31,19 @@ struct Spring {
 
     /// `speed` is the box's along the axis.
     [[nodiscard]] double closing_at(double speed) const { return closing + sign * speed; }
-    [[nodiscard]] double tension(const HipDescription& hips, double speed) const
+    [[nodiscard]] double tension(const HandDescription& hands, double speed) const
     {
-        return hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing_at(speed);
+        return hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing_at(speed);
     }
     /// Takes the phase that belongs to the present state; returns the force.
-    double settle(const HipDescription& hips, double speed)
+    double settle(const HandDescription& hands, double speed)
     {
         phase = Phase::apart;
         if (depth <= 0.0) return 0.0;
-        const double wanted = tension(hips, speed);
-        if (wanted >= hips.force_max_n) {
+        const double wanted = tension(hands, speed);
+        if (wanted >= hands.force_max_n) {
             phase = Phase::limited;
-            return hips.force_max_n;
+            return hands.force_max_n;
         }
         phase = wanted > 0.0 ? Phase::active : Phase::slack;
         return std::max(wanted, 0.0);
@@ -52,7 +52,7 @@ struct Spring {
 
 /// A hand that holds the box: a spring and a damper in all directions, which also pull.
 struct Grip {
-    std::uint32_t hip;
+    std::uint32_t hand;
     PerAxis stretch; // from where it is held to the hand, at the start of the stretch of time
     PerAxis velocity;
     PerAxis impulse; // on the box, so far in the tick
@@ -60,7 +60,7 @@ struct Grip {
 
 /// A hand at an edge or a corner: its force is the midpoint rule's, held for the tick.
 struct SlantedSpring {
-    std::uint32_t hip;
+    std::uint32_t hand;
     PerAxis normal; // unit, from the box to the hand
     double depth;   // along it, at the start of the tick
     double closing; // the hand's share of the closing speed
@@ -69,7 +69,7 @@ struct SlantedSpring {
 
 /// The impulse of the force of a hand on something that stands still, over `time`: exact, since
 /// the depth is linear. N s.
-[[nodiscard]] double steady_impulse(const HipDescription& hips, double depth, double closing,
+[[nodiscard]] double steady_impulse(const HandDescription& hands, double depth, double closing,
                                     double time);
 
 } // namespace hapnet::scene

@@ -26,79 +26,80 @@ void arrange(Slide& slide)
 } // namespace
 
 template <bool coulomb>
-SlidingTick<coulomb>::SlidingTick(const Description& /*description*/, const Frozen& frozen,
-                                  const Stage& stage)
-    : body_{the_movable(stage.bodies).id},
-      laws_{frozen.hips, the_movable(stage.bodies), frozen.tick},
-      obstacles_{frozen, stage.bodies, the_movable(stage.bodies)},
-      hands_{frozen, stage.bodies, the_movable(stage.bodies)}
+OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const WorldConfig& config,
+                                      const WorldState& state)
+    : body_{the_movable(state.bodies).id},
+      laws_{config.hands, the_movable(state.bodies), config.tick},
+      obstacles_{config, state.bodies, the_movable(state.bodies)},
+      hands_{config, state.bodies, the_movable(state.bodies)}
 {
-    const PerAxis mobility = per_axis(the_movable(stage.bodies).inverse_mass);
+    const PerAxis mobility = per_axis(the_movable(state.bodies).inverse_mass);
     for (std::size_t i = 0; i < 3; ++i) locked_[i] = mobility[i] == 0.0;
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
+void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 {
-    const Slot slot = stage.bodies.slot_of[body_];
-    Slide slide{frozen.hips, laws_, obstacles_};
-    slide.left = frozen.tick;
-    slide.place = per_axis(stage.bodies.position.at(slot));
-    slide.velocity = per_axis(stage.bodies.velocity.at(slot));
-    const PerAxis gravity = per_axis(frozen.gravity);
+    const Slot slot = state.bodies.slot_of[body_];
+    Slide slide{config.hands, laws_, obstacles_};
+    slide.left = config.tick;
+    slide.place = per_axis(state.bodies.position.at(slot));
+    slide.velocity = per_axis(state.bodies.velocity.at(slot));
+    const PerAxis gravity = per_axis(config.gravity);
     for (std::size_t i = 0; i < 3; ++i) {
         if (locked_[i]) slide.velocity[i] = 0.0;
         slide.axes[i].stopped = locked_[i];
         slide.axes[i].leaving = false;
         slide.axes[i].steady = gravity[i];
     }
-    if (!stage.pushed.is_empty()) {
-        const PerAxis push = per_axis(stage.pushes[body_]);
+    if (!state.pushed.is_empty()) {
+        const PerAxis push = per_axis(state.pushes[body_]);
         for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += laws_.inverse_mass() * push[i];
     }
     see(slide, 0.0);
     if (obstacles_.put_out(slide.near, slide.place)) see(slide, 0.0);
 
-    hands_.gather(frozen, stage, slide);
+    hands_.gather(config, state, slide);
     if (slide.grip_count == 0) {
-        run(frozen, slide);
-        conclude(frozen, stage, slide);
+        run(config, slide);
+        conclude(config, state, slide);
     } else {
-        try_holding(frozen, stage, slide);
+        try_holding(config, state, slide);
     }
 }
 
 template <bool coulomb>
-inline void SlidingTick<coulomb>::see(Slide& slide, double reach)
+inline void OneBoxStepper<coulomb>::see(Slide& slide, double reach)
 {
     slide.near = obstacles_.near(slide.place, reach);
     slide.room = obstacles_.room(slide.place);
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::try_holding(const Frozen& frozen, Stage& stage, Slide& start)
+void OneBoxStepper<coulomb>::try_holding(const WorldConfig& config, WorldState& state, Slide& start)
 {
     for (;;) { // each time a hand holds less
         Slide slide = start.copy();
         see(slide, 0.0); // what is near may have been looked for elsewhere meanwhile
-        run(frozen, slide);
-        if (SlidingHands::weaken(frozen, stage, slide, start)) continue;
-        conclude(frozen, stage, slide);
+        run(config, slide);
+        if (SlidingHands::weaken(config, state, slide, start)) continue;
+        conclude(config, state, slide);
         return;
     }
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const
+void OneBoxStepper<coulomb>::conclude(const WorldConfig& config, WorldState& state,
+                                      const Slide& slide) const
 {
-    const Slot slot = stage.bodies.slot_of[body_];
-    stage.bodies.position.put(slot, vector(slide.place));
-    stage.bodies.velocity.put(slot, vector(slide.velocity));
-    SlidingHands::report(frozen, stage, slide);
+    const Slot slot = state.bodies.slot_of[body_];
+    state.bodies.position.put(slot, vector(slide.place));
+    state.bodies.velocity.put(slot, vector(slide.velocity));
+    SlidingHands::report(config, state, slide);
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::run(const Frozen& frozen, Slide& slide)
+void OneBoxStepper<coulomb>::run(const WorldConfig& config, Slide& slide)
 {
     arrange<coulomb>(slide);
     if (slide.slanted_count > 0) {
@@ -114,7 +115,7 @@ void SlidingTick<coulomb>::run(const Frozen& frozen, Slide& slide)
         if constexpr (coulomb) friction_event(slide, event);
         advance(slide, event.time);
         if (event.kind == SlideEvent::Kind::none) return;
-        apply(slide, event, frozen.tick);
+        apply(slide, event, config.tick);
         if (events == events_max) {
             slide.calm = true;
             ++crowded_ticks_;
@@ -126,12 +127,12 @@ void SlidingTick<coulomb>::run(const Frozen& frozen, Slide& slide)
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::disturbed(Stage& /*stage*/, BodyId /*body*/)
+void OneBoxStepper<coulomb>::on_body_placed(WorldState& /*state*/, BodyId /*body*/)
 {
     hands_.forget_box();
 }
 
-template class SlidingTick<false>;
-template class SlidingTick<true>;
+template class OneBoxStepper<false>;
+template class OneBoxStepper<true>;
 
 } // namespace hapnet::scene

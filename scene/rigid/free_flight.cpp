@@ -166,8 +166,8 @@ glm::dvec3 falling(const BodyForm& form, const glm::dvec3& gravity)
             form.inverse_mass.z > 0.0 ? gravity.z : 0.0};
 }
 
-Fliers::Fliers(const Frozen& frozen, const Bodies& bodies)
-    : tick_{frozen.tick}, gravity_{frozen.gravity}
+Fliers::Fliers(const WorldConfig& config, const Bodies& bodies)
+    : tick_{config.tick}, gravity_{config.gravity}
 {
     for (Slot slot = 0; slot < bodies.movable; ++slot) {
         const BodyForm& form = bodies.form[slot];
@@ -190,24 +190,25 @@ void Fliers::move(Bodies& bodies, SlotRange range) const
     }
 }
 
-FlightTick::FlightTick(const Description& /*description*/, const Frozen& frozen, const Stage& stage)
+FreeFlightStepper::FreeFlightStepper(const Description& /*description*/, const WorldConfig& config,
+                                     const WorldState& state)
 {
-    for (Slot slot = 0; slot < stage.bodies.movable; ++slot) {
-        const BodyForm& form = stage.bodies.form[slot];
+    for (Slot slot = 0; slot < state.bodies.movable; ++slot) {
+        const BodyForm& form = state.bodies.form[slot];
         const Kind kind = form.turning == Turning::locked ? Kind::locked
                           : turns_evenly(form)            ? Kind::even
                                                           : Kind::wobbling;
-        const glm::dvec3 acceleration = falling(form, frozen.gravity);
+        const glm::dvec3 acceleration = falling(form, config.gravity);
         if (runs_.empty() || runs_.back().kind != kind || runs_.back().acceleration != acceleration)
             runs_.push_back({kind, {slot, slot}, acceleration});
         runs_.back().range.end = slot + 1;
     }
 }
 
-void FlightTick::tick(const Frozen& frozen, Stage& stage)
+void FreeFlightStepper::step(const WorldConfig& config, WorldState& state)
 {
-    Bodies& bodies = stage.bodies;
-    const double tick = frozen.tick;
+    Bodies& bodies = state.bodies;
+    const double tick = config.tick;
     for (const Run& run : runs_) {
         fall(bodies, run.range, run.acceleration, tick);
         switch (run.kind) {
@@ -219,14 +220,14 @@ void FlightTick::tick(const Frozen& frozen, Stage& stage)
             break;
         }
     }
-    for (const BodyId id : stage.pushed) {
+    for (const BodyId id : state.pushed) {
         const Slot slot = bodies.slot_of[id];
-        const glm::dvec3 gained = tick * (bodies.form[slot].inverse_mass * stage.pushes[id]);
+        const glm::dvec3 gained = tick * (bodies.form[slot].inverse_mass * state.pushes[id]);
         bodies.position.put(slot, bodies.position.at(slot) + (0.5 * tick) * gained);
         bodies.velocity.put(slot, bodies.velocity.at(slot) + gained);
     }
 }
 
-void FlightTick::disturbed(Stage& /*stage*/, BodyId /*body*/) {}
+void FreeFlightStepper::on_body_placed(WorldState& /*state*/, BodyId /*body*/) {}
 
 } // namespace hapnet::scene

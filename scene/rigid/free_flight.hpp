@@ -35,7 +35,7 @@ void turn_freely(Bodies& bodies, Slot slot, double tick);
 /// the scene turn evenly and fall alike, else one by one.
 class Fliers {
 public:
-    Fliers(const Frozen& frozen, const Bodies& bodies);
+    Fliers(const WorldConfig& config, const Bodies& bodies);
 
     void move(Bodies& bodies, SlotRange range) const;
 
@@ -47,12 +47,13 @@ private:
 };
 
 /// Bodies that nothing touches: exact parabolas, and rotations that keep the angular momentum.
-class FlightTick {
+class FreeFlightStepper {
 public:
-    FlightTick(const Description& description, const Frozen& frozen, const Stage& stage);
+    FreeFlightStepper(const Description& description, const WorldConfig& config,
+                      const WorldState& state);
 
-    void tick(const Frozen& frozen, Stage& stage);
-    void disturbed(Stage& stage, BodyId body);
+    void step(const WorldConfig& config, WorldState& state);
+    void on_body_placed(WorldState& state, BodyId body);
 
 private:
     /// Bodies side by side that are alike in what keeps them from turning and falling.

@@ -19,7 +19,7 @@ inline constexpr std::size_t touched_per_hand_max = 8;
 /// The hands' springs of one tick, and what has to be remembered of whom they touch.
 class HandSprings {
 public:
-    explicit HandSprings(const Frozen& frozen);
+    explicit HandSprings(const WorldConfig& config);
 
     /// A hand's spring on a movable body.
     struct Spring {
@@ -29,7 +29,7 @@ public:
     };
 
     /// Begins a tick: whom did the hands touch, nobody.
-    void begin(const Frozen& frozen, Stage& stage);
+    void begin(const WorldConfig& config, WorldState& state);
 
     /// Where a body is and how it moves.
     struct Target {
@@ -40,21 +40,22 @@ public:
         glm::dvec3 spin{0.0};
     };
     /// Sees what the hand does to one of the bodies that it may reach.
-    void touch(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
+    void touch(const WorldConfig& config, WorldState& state, std::uint32_t hand,
+               const Target& target);
     /// Forgets whom the hand has left.
     void end(std::uint32_t index);
 
     [[nodiscard]] std::span<const Spring> springs() const { return springs_.all(); }
     /// Those on one body, and where they tell their work; until the next question.
     struct OnBody {
-        std::span<const HipSpring> springs;
-        std::span<HipWork> work;
+        std::span<const HandSpring> springs;
+        std::span<SpringImpulse> work;
     };
     [[nodiscard]] OnBody on(BodyId body);
     /// Takes what was told for them.
     void worked(BodyId body);
     /// Tells the hands what the springs did.
-    void report(const Frozen& frozen, Stage& stage);
+    void report(const WorldConfig& config, WorldState& state);
 
     void forget(BodyId body);
 
@@ -76,17 +77,19 @@ private:
         std::optional<Holding> holding;
     };
 
-    HipSpring& add(std::uint32_t hand, BodyId body);
-    bool hold(const Frozen& frozen, Stage& stage, std::uint32_t index, const Target& target);
-    void press(const Frozen& frozen, Stage& stage, std::uint32_t index, const Target& target);
+    HandSpring& add(std::uint32_t hand, BodyId body);
+    bool hold(const WorldConfig& config, WorldState& state, std::uint32_t index,
+              const Target& target);
+    void press(const WorldConfig& config, WorldState& state, std::uint32_t index,
+               const Target& target);
     [[nodiscard]] Near* near(Hand& hand, BodyId body);
 
-    std::array<Hand, hips_max> hands_;
+    std::array<Hand, hands_max> hands_;
     double fall_; // what gravity adds to a way in a tick from rest, twice, metres
     Scratch<Spring> springs_;
-    Scratch<HipSpring> forms_; // in the order of springs_
-    Scratch<HipSpring> own_;   // of one body
-    Scratch<HipWork> work_;    // of one body
+    Scratch<HandSpring> forms_;   // in the order of springs_
+    Scratch<HandSpring> own_;     // of one body
+    Scratch<SpringImpulse> work_; // of one body
 };
 
 } // namespace hapnet::scene

@@ -48,17 +48,17 @@ glm::dvec3 along_plane(const glm::dvec3& v, const glm::dvec3& normal)
 }
 
 /// Of everything but the hands and the drag.
-glm::dvec3 acceleration(const BodyCourse& course, const Stage& stage, Slot slot,
-                        const Frozen& frozen)
+glm::dvec3 acceleration(const BodyCourse& course, const WorldState& state, Slot slot,
+                        const WorldConfig& config)
 {
-    const BodyForm& form = stage.bodies.form[slot];
-    return falling(form, frozen.gravity) +
-           form.inverse_mass * ((1.0 / frozen.tick) * course.impulse + stage.pushes[form.id]);
+    const BodyForm& form = state.bodies.form[slot];
+    return falling(form, config.gravity) +
+           form.inverse_mass * ((1.0 / config.tick) * course.impulse + state.pushes[form.id]);
 }
 
-void start(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response)
+void start(BodyCourse& course, const WorldState& state, Slot slot, const BodyResponse& response)
 {
-    const Bodies& bodies = stage.bodies;
+    const Bodies& bodies = state.bodies;
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
     course.angular_impulse = about_free_axes(bodies.form[slot], course.angular_impulse);
     course.start = {bodies.velocity.at(slot), response.inverse_inertia * momentum, glm::dvec3{0.0}};
@@ -87,7 +87,7 @@ void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion&
 
 } // namespace
 
-Scales scales_of(const Frozen& frozen, const Bodies& bodies)
+Scales scales_of(const WorldConfig& config, const Bodies& bodies)
 {
     double size = std::numeric_limits<double>::infinity();
     double least = size;
@@ -97,9 +97,9 @@ Scales scales_of(const Frozen& frozen, const Bodies& bodies)
         if (slot < bodies.movable) size = least;
     }
     constexpr double hardly = 1e-6;
-    const double fall = frozen.tick * std::sqrt(glm::dot(frozen.gravity, frozen.gravity));
-    return {frozen.tick,      size, least, fall, std::max(fall, hardly * size / frozen.tick),
-            1.0 / frozen.tick};
+    const double fall = config.tick * std::sqrt(glm::dot(config.gravity, config.gravity));
+    return {config.tick,      size, least, fall, std::max(fall, hardly * size / config.tick),
+            1.0 / config.tick};
 }
 
 OrientedBox box_of(const Bodies& bodies, Slot slot)
@@ -138,16 +138,16 @@ void begin(BodyCourse& course)
     course.has_hands = false;
 }
 
-void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
-            const Frozen& frozen)
+void follow(BodyCourse& course, const WorldState& state, Slot slot, const BodyResponse& response,
+            const WorldConfig& config)
 {
-    const double tick = frozen.tick;
-    start(course, stage, slot, response);
-    const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
+    const double tick = config.tick;
+    start(course, state, slot, response);
+    const glm::dvec3 rate = acceleration(course, state, slot, config);
     const glm::dvec3& before = course.start.velocity;
     course.tentative = {before + tick * rate, response.inverse_inertia * course.angular_momentum,
                         glm::dvec3{0.0}};
-    if (!turns_evenly(stage.bodies.form[slot])) {
+    if (!turns_evenly(state.bodies.form[slot])) {
         // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
         // Of what turns far in a tick that rate says nothing: it fades out.
         constexpr double far = 0.3; // radians
@@ -161,7 +161,7 @@ void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyRespons
                    glm::dvec3{0.0}};
     if (course.drag == 0.0) return;
     // Against the drag the velocity along the plane goes exponentially to where it would stay.
-    const BodyForm& form = stage.bodies.form[slot];
+    const BodyForm& form = state.bodies.form[slot];
     const double keeps = base::exp(-course.drag * tick);
     const glm::dvec3 driven = free_part(form, along_plane(rate, course.carrier));
     const glm::dvec3 excess =
@@ -171,14 +171,14 @@ void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyRespons
     course.mean.velocity += lost / (course.drag * tick) - excess - (0.5 * tick) * driven;
 }
 
-void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
-                  const HandsOn& hands)
+void follow_hands(BodyCourse& course, const WorldState& state, Slot slot,
+                  const BodyResponse& response, const HandsOn& hands)
 {
-    const Frozen& frozen = hands.frozen;
-    const Bodies& bodies = stage.bodies;
-    start(course, stage, slot, response);
-    const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
-    const double per_second = 1.0 / frozen.tick;
+    const WorldConfig& config = hands.config;
+    const Bodies& bodies = state.bodies;
+    start(course, state, slot, response);
+    const glm::dvec3 rate = acceleration(course, state, slot, config);
+    const double per_second = 1.0 / config.tick;
     Answer answer{bodies.form[slot].half,
                   response.inverse_mass,
                   response.inverse_inertia,
@@ -192,21 +192,21 @@ void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyR
         body.velocity = course.start.velocity;
         body.angular_momentum = bodies.angular_momentum.at(slot);
         answer.acceleration = rate - free_part(bodies.form[slot], drag);
-        advance(body, answer, hands.springs, hands.work, frozen.tick);
+        advance(body, answer, hands.springs, hands.work, config.tick);
     };
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
     // says when it is too strong for that.
     constexpr double strong = 0.5;
     if (course.drag == 0.0) {
         advance_against(glm::dvec3{0.0});
-    } else if (course.drag * frozen.tick < strong) {
+    } else if (course.drag * config.tick < strong) {
         const glm::dvec3 before = along_plane(course.start.velocity, course.carrier);
         advance_against(course.drag * before);
         const glm::dvec3 after = along_plane(body.velocity, course.carrier);
         advance_against((0.5 * course.drag) * (before + after));
     } else {
         const glm::dvec3 before = along_plane(course.start.velocity, course.carrier);
-        advance_against((per_second * (1.0 - base::exp(-course.drag * frozen.tick))) * before);
+        advance_against((per_second * (1.0 - base::exp(-course.drag * config.tick))) * before);
     }
     course.has_hands = true;
     course.position = body.position;

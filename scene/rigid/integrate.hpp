@@ -20,7 +20,7 @@ struct Scales {
     double speed = 1e-2; // m/s: the above, or what crosses a millionth of the size in a tick
     double rate = 1e3;   // 1/s: ticks per second
 };
-[[nodiscard]] Scales scales_of(const Frozen& frozen, const Bodies& bodies);
+[[nodiscard]] Scales scales_of(const WorldConfig& config, const Bodies& bodies);
 
 /// A body's way through a tick.
 struct BodyCourse {
@@ -51,18 +51,18 @@ void begin(BodyCourse& course);
 
 /// The springs on one body.
 struct HandsOn {
-    std::span<const HipSpring> springs;
-    std::span<HipWork> work;
-    const Frozen& frozen;
+    std::span<const HandSpring> springs;
+    std::span<SpringImpulse> work;
+    const WorldConfig& config;
 };
 
 /// Gravity, pushes and last tick's contact impulses, without hands: a parabola.
-void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
-            const Frozen& frozen);
+void follow(BodyCourse& course, const WorldState& state, Slot slot, const BodyResponse& response,
+            const WorldConfig& config);
 
 /// The same with the hands' springs on it, which tell their work.
-void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
-                  const HandsOn& hands);
+void follow_hands(BodyCourse& course, const WorldState& state, Slot slot,
+                  const BodyResponse& response, const HandsOn& hands);
 
 /// A contact that stops slipping within the tick does so at its moment: until then friction has
 /// its full strength, and not a mean one until the end. For a body whose only friction it is.

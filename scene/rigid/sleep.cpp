@@ -17,11 +17,11 @@ constexpr double looks_per_rest = 4.0;
 constexpr double gravity_share = 0.1;
 constexpr double size_share = 1e-3;
 
-double rest_speed(const Frozen& frozen, const BodyForm& form)
+double rest_speed(const WorldConfig& config, const BodyForm& form)
 {
-    const double gravity = std::sqrt(glm::dot(frozen.gravity, frozen.gravity));
+    const double gravity = std::sqrt(glm::dot(config.gravity, config.gravity));
     const double size = 2.0 * std::min({form.half.x, form.half.y, form.half.z});
-    return gravity_share * gravity * frozen.tick + size_share * std::sqrt(gravity * size);
+    return gravity_share * gravity * config.tick + size_share * std::sqrt(gravity * size);
 }
 
 /// The angular momentum at which no corner is faster than a speed.
@@ -35,9 +35,9 @@ double rest_momentum(const BodyForm& form, double speed)
 
 } // namespace
 
-Sleep::Sleep(const Frozen& frozen, const Bodies& bodies)
-    : sleeping_{frozen.sleeping},
-      rest_ticks_{std::max(1.0, std::ceil(rest_s / frozen.tick))},
+Sleep::Sleep(const WorldConfig& config, const Bodies& bodies)
+    : sleeping_{config.sleeping},
+      rest_ticks_{std::max(1.0, std::ceil(rest_s / config.tick))},
       interval_{static_cast<std::uint64_t>(std::max(1.0, rest_ticks_ / looks_per_rest))},
       speed2_(bodies.movable),
       momentum2_(bodies.movable),
@@ -48,23 +48,23 @@ Sleep::Sleep(const Frozen& frozen, const Bodies& bodies)
       queue_{bodies.movable}
 {
     for (Slot slot = 0; slot < bodies.movable; ++slot) {
-        const double speed = rest_speed(frozen, bodies.form[slot]);
+        const double speed = rest_speed(config, bodies.form[slot]);
         const double momentum = rest_momentum(bodies.form[slot], speed);
         speed2_[slot] = speed * speed;
         momentum2_[slot] = momentum * momentum;
     }
 }
 
-template <Search search>
-void Sleep::wake(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::wake(BodyId body, Bodies& bodies, Neighbours<broad_phase>& neighbours)
 {
     rouse(body, bodies, neighbours);
     neighbours.settle();
 }
 
 /// Wakes everything in the body's island that sleeps, from neighbour to neighbour.
-template <Search search>
-void Sleep::rouse(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::rouse(BodyId body, Bodies& bodies, Neighbours<broad_phase>& neighbours)
 {
     if (bodies.slot_of[body] >= bodies.movable) return;
     if (bodies.slot_of[body] >= bodies.awake) get_up(body, bodies, neighbours);
@@ -86,8 +86,8 @@ void Sleep::rouse(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
     }
 }
 
-template <Search search>
-void Sleep::get_up(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::get_up(BodyId body, Bodies& bodies, Neighbours<broad_phase>& neighbours)
 {
     const Slot from = bodies.slot_of[body];
     const Slot to = bodies.wake(from);
@@ -96,8 +96,8 @@ void Sleep::get_up(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
     neighbours.has_woken(bodies, body);
 }
 
-template <Search search>
-void Sleep::lie_down(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::lie_down(BodyId body, Bodies& bodies, Neighbours<broad_phase>& neighbours)
 {
     const Slot from = bodies.slot_of[body];
     bodies.velocity.put(from, glm::dvec3{0.0});
@@ -117,8 +117,8 @@ BodyId Sleep::disturbed_sleeper(const Bodies& bodies, const Pair& pair) const
     return sleeper == a ? pair.a : pair.b;
 }
 
-template <Search search>
-void Sleep::rest(Bodies& bodies, Neighbours<search>& neighbours, std::uint64_t ticks)
+template <BroadPhase broad_phase>
+void Sleep::rest(Bodies& bodies, Neighbours<broad_phase>& neighbours, std::uint64_t ticks)
 {
     if (!sleeping_) return;
     if (!count(bodies) || ticks % interval_ != 0) return;
@@ -151,8 +151,8 @@ bool Sleep::count(const Bodies& bodies)
     return any != 0.0;
 }
 
-template <Search search>
-void Sleep::find_islands(const Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::find_islands(const Bodies& bodies, Neighbours<broad_phase>& neighbours)
 {
     for (Slot slot = 0; slot < bodies.awake; ++slot) islands_.part(bodies.form[slot].id);
     for (const PairIndex index : neighbours.pairs()) {
@@ -176,11 +176,11 @@ void Sleep::swap(Slot a, Slot b)
     std::swap(rested_[a], rested_[b]);
 }
 
-template void Sleep::wake(BodyId, Bodies&, Neighbours<Search::scan>&);
-template void Sleep::wake(BodyId, Bodies&, Neighbours<Search::grid>&);
-template void Sleep::rouse(BodyId, Bodies&, Neighbours<Search::scan>&);
-template void Sleep::rouse(BodyId, Bodies&, Neighbours<Search::grid>&);
-template void Sleep::rest(Bodies&, Neighbours<Search::scan>&, std::uint64_t);
-template void Sleep::rest(Bodies&, Neighbours<Search::grid>&, std::uint64_t);
+template void Sleep::wake(BodyId, Bodies&, Neighbours<BroadPhase::all_pairs>&);
+template void Sleep::wake(BodyId, Bodies&, Neighbours<BroadPhase::grid>&);
+template void Sleep::rouse(BodyId, Bodies&, Neighbours<BroadPhase::all_pairs>&);
+template void Sleep::rouse(BodyId, Bodies&, Neighbours<BroadPhase::grid>&);
+template void Sleep::rest(Bodies&, Neighbours<BroadPhase::all_pairs>&, std::uint64_t);
+template void Sleep::rest(Bodies&, Neighbours<BroadPhase::grid>&, std::uint64_t);
 
 } // namespace hapnet::scene

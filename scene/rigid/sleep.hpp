@@ -23,18 +23,18 @@ namespace hapnet::scene {
 /// known; at the end of the tick, with the contacts' memories written, rest().
 class Sleep {
 public:
-    Sleep(const Frozen& frozen, const Bodies& bodies);
+    Sleep(const WorldConfig& config, const Bodies& bodies);
 
     /// Wakes a body and all that touches it, one through the other, and starts its time at rest
     /// anew. Slots change.
-    template <Search search>
-    void wake(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
+    template <BroadPhase broad_phase>
+    void wake(BodyId body, Bodies& bodies, Neighbours<broad_phase>& neighbours);
 
     /// Wakes those asleep whom an awake body that is not at rest touches, and what touches them.
     /// `touching(index)`: whether the pair's manifold of this tick has points. Returns whether it
     /// woke anybody: then neighbours.pairs_added() are to be looked at and this to be called again.
-    template <Search search, typename Touching>
-    bool wake_touched(Bodies& bodies, Neighbours<search>& neighbours, Touching touching)
+    template <BroadPhase broad_phase, typename Touching>
+    bool wake_touched(Bodies& bodies, Neighbours<broad_phase>& neighbours, Touching touching)
     {
         if (bodies.awake == bodies.movable) return false;
         touched_.clear();
@@ -49,13 +49,13 @@ public:
     }
 
     /// Counts the time at rest of those awake and puts islands to sleep. `ticks`: of the world.
-    template <Search search>
-    void rest(Bodies& bodies, Neighbours<search>& neighbours, std::uint64_t ticks);
+    template <BroadPhase broad_phase>
+    void rest(Bodies& bodies, Neighbours<broad_phase>& neighbours, std::uint64_t ticks);
 
     /// Starts the time at rest of an awake body anew: a hand touches it.
     void keep_awake(const Bodies& bodies, BodyId body) { rested_[bodies.slot_of[body]] = 0.0; }
 
-    /// Ticks for which an awake body has been at rest.
+    /// Stepper for which an awake body has been at rest.
     [[nodiscard]] double rested(Slot slot) const { return rested_[slot]; }
 
 private:
@@ -63,16 +63,16 @@ private:
 
     /// The one of a pair that is asleep while the other is awake and not at rest; or nobody.
     [[nodiscard]] BodyId disturbed_sleeper(const Bodies& bodies, const Pair& pair) const;
-    template <Search search>
-    void rouse(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
-    template <Search search>
-    void get_up(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
-    template <Search search>
-    void lie_down(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
+    template <BroadPhase broad_phase>
+    void rouse(BodyId body, Bodies& bodies, Neighbours<broad_phase>& neighbours);
+    template <BroadPhase broad_phase>
+    void get_up(BodyId body, Bodies& bodies, Neighbours<broad_phase>& neighbours);
+    template <BroadPhase broad_phase>
+    void lie_down(BodyId body, Bodies& bodies, Neighbours<broad_phase>& neighbours);
     /// Counts; whether anybody has been at rest long enough.
     [[nodiscard]] bool count(const Bodies& bodies);
-    template <Search search>
-    void find_islands(const Bodies& bodies, Neighbours<search>& neighbours);
+    template <BroadPhase broad_phase>
+    void find_islands(const Bodies& bodies, Neighbours<broad_phase>& neighbours);
     void swap(Slot a, Slot b);
 
     bool sleeping_;

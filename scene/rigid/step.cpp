@@ -56,85 +56,85 @@ double friction_of(const Material& a, const Material& b)
     return std::sqrt(a.friction * b.friction);
 }
 
-std::size_t blocks_for(const Frozen& frozen, const Bodies& bodies)
+std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
 {
-    const std::size_t others = bodies.size() - 1 + frozen.planes.size();
+    const std::size_t others = bodies.size() - 1 + config.planes.size();
     return bodies.movable * std::min(others, contacts_per_body_max);
 }
 
-bool any_bounces(const Frozen& frozen, const Bodies& bodies)
+bool any_bounces(const WorldConfig& config, const Bodies& bodies)
 {
     const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
     return std::any_of(bodies.form.begin(), bodies.form.end(), bounces) ||
-           std::any_of(frozen.planes.begin(), frozen.planes.end(), bounces);
+           std::any_of(config.planes.begin(), config.planes.end(), bounces);
 }
 
 } // namespace
 
-template <Crowd crowd>
-RigidTick<crowd>::RigidTick(const Description& /*description*/, const Frozen& frozen,
-                            const Stage& stage)
-    : scales_{scales_of(frozen, stage.bodies)},
-      bounces_{any_bounces(frozen, stage.bodies)},
-      neighbours_{frozen, stage.bodies},
-      sleep_{frozen, stage.bodies},
-      hands_{frozen},
-      boxes_{stage.bodies, scales_},
-      fliers_{frozen, stage.bodies},
-      engaged_{stage.bodies.movable},
-      courses_{stage.bodies.movable + std::size_t{1}},
-      solver_{stage.bodies.movable, blocks_for(frozen, stage.bodies)}
+template <BroadPhase broad_phase>
+RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
+                                        const WorldConfig& config, const WorldState& state)
+    : scales_{scales_of(config, state.bodies)},
+      bounces_{any_bounces(config, state.bodies)},
+      neighbours_{config, state.bodies},
+      sleep_{config, state.bodies},
+      hands_{config},
+      boxes_{state.bodies, scales_},
+      fliers_{config, state.bodies},
+      engaged_{state.bodies.movable},
+      courses_{state.bodies.movable + std::size_t{1}},
+      solver_{state.bodies.movable, blocks_for(config, state.bodies)}
 {}
 
-template <Crowd crowd>
-void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& state)
 {
-    Bodies& bodies = stage.bodies;
+    Bodies& bodies = state.bodies;
     neighbours_.update(bodies);
     boxes_.begin_tick();
-    feel(frozen, stage);
-    if constexpr (sleeps) wake(stage);
+    feel(config, state);
+    if constexpr (sleeps) wake(state);
     look(bodies);
-    meet_planes(frozen, stage);
-    meet_bodies(stage);
+    meet_planes(config, state);
+    meet_bodies(state);
     carry();
-    set_out(frozen, stage);
-    solve(stage);
+    set_out(config, state);
+    solve(state);
     move_apart();
     for (const Slot slot : engaged_.slots()) {
         arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
     }
     engaged_.for_others(bodies.awake, [&](SlotRange range) { fliers_.move(bodies, range); });
     engaged_.clear();
-    hands_.report(frozen, stage);
-    if constexpr (sleeps) sleep_.rest(bodies, neighbours_, stage.ticks);
+    hands_.report(config, state);
+    if constexpr (sleeps) sleep_.rest(bodies, neighbours_, state.ticks);
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::disturbed(Stage& stage, BodyId body)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 {
     // What it left and what it meets wakes.
-    if constexpr (sleeps) sleep_.wake(body, stage.bodies, neighbours_);
+    if constexpr (sleeps) sleep_.wake(body, state.bodies, neighbours_);
     neighbours_.forget(body);
     hands_.forget(body);
 }
 
 /// What the hands touch; they wake it.
-template <Crowd crowd>
-void RigidTick<crowd>::feel(const Frozen& frozen, Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::feel(const WorldConfig& config, WorldState& state)
 {
-    Bodies& bodies = stage.bodies;
-    hands_.begin(frozen, stage);
-    for (std::uint32_t hand = 0; hand < frozen.hips.count; ++hand) {
-        const HipInput& hip = stage.hips[hand];
-        if (hip.present) {
-            const glm::dvec3& from = hip.position.value;
+    Bodies& bodies = state.bodies;
+    hands_.begin(config, state);
+    for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
+        const HandInput& input = state.hands[hand];
+        if (input.present) {
+            const glm::dvec3& from = input.position.value;
             const double radius =
-                frozen.hips.radius_m + (hip.gripping ? frozen.hips.grip_reach_m : 0.0);
+                config.hands.radius_m + (input.gripping ? config.hands.grip_reach_m : 0.0);
             for (const BodyId id : neighbours_.reached_by(
-                     hand, {from, from + scales_.tick * hip.velocity.value, radius})) {
+                     hand, {from, from + scales_.tick * input.velocity.value, radius})) {
                 const Slot slot = bodies.slot_of[id];
-                hands_.touch(frozen, stage, hand,
+                hands_.touch(config, state, hand,
                              {id, slot < bodies.movable, boxes_.at(bodies, id).box,
                               bodies.velocity.at(slot), bodies.angular_velocity(slot)});
             }
@@ -149,21 +149,21 @@ void RigidTick<crowd>::feel(const Frozen& frozen, Stage& stage)
 }
 
 /// What is pushed, or hit by who is awake, wakes.
-template <Crowd crowd>
-void RigidTick<crowd>::wake(Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::wake(WorldState& state)
 {
-    Bodies& bodies = stage.bodies;
+    Bodies& bodies = state.bodies;
     if constexpr (sleeps) {
-        for (const BodyId body : stage.pushed) sleep_.wake(body, bodies, neighbours_);
+        for (const BodyId body : state.pushed) sleep_.wake(body, bodies, neighbours_);
         const auto meet_now = [&](PairIndex index) {
-            return between(stage, neighbours_.pair(index)).manifold.count > 0;
+            return between(state, neighbours_.pair(index)).manifold.count > 0;
         };
         while (sleep_.wake_touched(bodies, neighbours_, meet_now)) {}
     }
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::look(const Bodies& bodies)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::look(const Bodies& bodies)
 {
     solver_.begin(bodies.awake);
     courses_.resize(bodies.awake + std::size_t{1});
@@ -171,8 +171,8 @@ void RigidTick<crowd>::look(const Bodies& bodies)
 }
 
 /// Begins the tick for an awake body that something acts on.
-template <Crowd crowd>
-void RigidTick<crowd>::engage(const Bodies& bodies, Slot slot)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::engage(const Bodies& bodies, Slot slot)
 {
     if (!engaged_.add(slot)) return;
     const BodyForm& form = bodies.form[slot];
@@ -180,9 +180,9 @@ void RigidTick<crowd>::engage(const Bodies& bodies, Slot slot)
     begin(courses_[slot + 1]);
 }
 
-template <Crowd crowd>
-ContactBlock* RigidTick<crowd>::meet(const Manifold& manifold, const ContactPlaces& centres,
-                                     ContactMemory& memory)
+template <BroadPhase broad_phase>
+ContactBlock* RigidStepper<broad_phase>::meet(const Manifold& manifold,
+                                              const ContactPlaces& centres, ContactMemory& memory)
 {
     if (manifold.count == 0) {
         memory.count = 0;
@@ -202,13 +202,13 @@ ContactBlock* RigidTick<crowd>::meet(const Manifold& manifold, const ContactPlac
     return &block;
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::meet_planes(const WorldConfig& config, const WorldState& state)
 {
-    const Bodies& bodies = stage.bodies;
+    const Bodies& bodies = state.bodies;
     for (const PairIndex index : neighbours_.plane_pairs()) {
         Pair& pair = neighbours_.plane_pair(index);
-        const PlaneDescription& plane = frozen.planes[pair.b];
+        const PlaneDescription& plane = config.planes[pair.b];
         const Slot slot = bodies.slot_of[pair.a];
         const BoxNow& now = boxes_.at(bodies, pair.a);
         const OrientedBox& box = now.box;
@@ -230,10 +230,10 @@ void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
     }
 }
 
-template <Crowd crowd>
-BoxMeeting RigidTick<crowd>::between(const Stage& stage, Pair& pair)
+template <BroadPhase broad_phase>
+BoxMeeting RigidStepper<broad_phase>::between(const WorldState& state, Pair& pair)
 {
-    const Bodies& bodies = stage.bodies;
+    const Bodies& bodies = state.bodies;
     const auto box_path = [&](BodyId id) {
         const BoxNow& now = boxes_.at(bodies, id);
         const Slot slot = bodies.slot_of[id];
@@ -243,10 +243,10 @@ BoxMeeting RigidTick<crowd>::between(const Stage& stage, Pair& pair)
     return meeting(box_path(pair.a), box_path(pair.b), scales_.tick, pair.memory.axis);
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::meet_bodies(const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::meet_bodies(const WorldState& state)
 {
-    const Bodies& bodies = stage.bodies;
+    const Bodies& bodies = state.bodies;
     const auto index_of = [&](Slot slot) -> SolverIndex {
         if (slot >= bodies.awake) return 0;
         engage(bodies, slot);
@@ -256,7 +256,7 @@ void RigidTick<crowd>::meet_bodies(const Stage& stage)
         Pair& pair = neighbours_.pair(index);
         const Slot a = bodies.slot_of[pair.a];
         const Slot b = bodies.slot_of[pair.b];
-        const BoxMeeting meeting = between(stage, pair);
+        const BoxMeeting meeting = between(state, pair);
         ContactBlock* const block = meet(meeting.manifold, meeting.centres, pair.memory);
         if (block == nullptr) continue;
         const Material& one = bodies.form[a].material;
@@ -269,8 +269,8 @@ void RigidTick<crowd>::meet_bodies(const Stage& stage)
 }
 
 /// Sums up what last tick's contacts do to each body.
-template <Crowd crowd>
-void RigidTick<crowd>::carry()
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::carry()
 {
     for (const ContactBlock& block : solver_.blocks()) {
         const Wrench push = wrench(block, modal(block, block.impulse));
@@ -284,16 +284,16 @@ void RigidTick<crowd>::carry()
 }
 
 /// Where everyone that something acts on would go.
-template <Crowd crowd>
-void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::set_out(const WorldConfig& config, const WorldState& state)
 {
-    for (const BodyId body : stage.pushed) engage(stage.bodies, stage.bodies.slot_of[body]);
-    push_by_hands(frozen, stage);
+    for (const BodyId body : state.pushed) engage(state.bodies, state.bodies.slot_of[body]);
+    push_by_hands(config, state);
     solver_.ending(0) = {};
     solver_.mean(0) = {};
     for (const Slot slot : engaged_.slots()) {
         BodyCourse& course = courses_[slot + 1];
-        if (!course.has_hands) follow(course, stage, slot, solver_.response(slot + 1), frozen);
+        if (!course.has_hands) follow(course, state, slot, solver_.response(slot + 1), config);
         if (bounces_) course.rebound = course.start;
     }
     if (bounces_) bounce(solver_, courses_.all(), scales_);
@@ -305,25 +305,25 @@ void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
     }
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::push_by_hands(const WorldConfig& config, const WorldState& state)
 {
     for (const HandSprings::Spring& spring : hands_.springs()) {
-        const Slot slot = stage.bodies.slot_of[spring.body];
-        engage(stage.bodies, slot);
+        const Slot slot = state.bodies.slot_of[spring.body];
+        engage(state.bodies, slot);
         BodyCourse& course = courses_[slot + 1];
         if (course.has_hands) continue;
         const auto [springs, work] = hands_.on(spring.body);
-        follow_hands(course, stage, slot, solver_.response(slot + 1), {springs, work, frozen});
+        follow_hands(course, state, slot, solver_.response(slot + 1), {springs, work, config});
         hands_.worked(spring.body);
     }
 }
 
 /// Finds the velocities at the end, and from them the mean ones.
-template <Crowd crowd>
-void RigidTick<crowd>::solve(const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::solve(const WorldState& state)
 {
-    const Bodies& bodies = stage.bodies;
+    const Bodies& bodies = state.bodies;
     const std::span<ContactBlock> blocks = solver_.blocks();
     const SolverOutcome outcome =
         solver_.solve({quiet * scales_.speed, enough * scales_.speed, sweeps_max, visits_max});
@@ -358,8 +358,8 @@ void RigidTick<crowd>::solve(const Stage& stage)
 }
 
 /// Changes the ways so that nothing overlaps at the end, without a change of velocities.
-template <Crowd crowd>
-void RigidTick<crowd>::move_apart()
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::move_apart()
 {
     for (ContactBlock& block : solver_.blocks()) {
         for (std::uint32_t i = 0; i < block.count; ++i) {
@@ -380,8 +380,8 @@ void RigidTick<crowd>::move_apart()
     keep();
 }
 
-template class RigidTick<Crowd::lone>;
-template class RigidTick<Crowd::few>;
-template class RigidTick<Crowd::many>;
+template class RigidStepper<BroadPhase::none>;
+template class RigidStepper<BroadPhase::all_pairs>;
+template class RigidStepper<BroadPhase::grid>;
 
 } // namespace hapnet::scene

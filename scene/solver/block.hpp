@@ -138,7 +138,7 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
 
 /// Finds the impulses for which no point is slower than its least normal speed, none pulls, and
 /// friction holds or opposes the slip at its limit: directly where the contact sticks or slides
-/// without friction, by iterations where it slips. Needs the matrix. Returns the change.
+/// without friction, by iterations where it slips. Requirements the matrix. Returns the change.
 [[nodiscard]] Modal solve(ContactBlock& block, const Modal& velocity, double quiet);
 
 /// Comes nearer to that at less cost: one iteration where it slips.

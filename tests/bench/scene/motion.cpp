@@ -34,7 +34,7 @@ scene::Description lone_cube(scene::Turning turning)
     scene.bodies = {cube()};
     scene.bodies[0].turning = turning;
     scene.gravity = glm::dvec3{0.0};
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     return scene;
 }
 
@@ -112,11 +112,11 @@ Scenario off_centre_push()
 {
     scene::Description scene = lone_cube(scene::Turning::free);
     scene.bodies[0].velocity = {{-0.1, 0.0, 0.0}};
-    scene.hips = {
+    scene.hands = {
         .stiffness_n_per_m = 1000.0, .damping_ns_per_m = 0.0, .force_max_n = 1e6, .count = 1};
     Scenario scenario{"h off-centre push", "rk4", {scene, 0.05, {}}, {}};
     scenario.course.hands = [](std::uint32_t, double) {
-        return scene::HipInput{{{-0.0251, 0.006, 0.004}}, {}};
+        return scene::HandInput{{{-0.0251, 0.006, 0.004}}, {}};
     };
     scenario.measure = [reference = reference_end(scenario.course)](
                            Engine& engine, const Course& course, double tick_s) {

@@ -53,7 +53,7 @@ Description random_scene(const base::RandomStream& chance, std::uint64_t& draw)
     description.planes = {
         PlaneDescription{.name = "floor", .offset_m = -0.2},
         PlaneDescription{.name = "slope", .normal = {0.6, 0.8, 0.0}, .offset_m = -0.2}};
-    description.hips.count = 2;
+    description.hands.count = 2;
     return description;
 }
 
@@ -77,8 +77,8 @@ void turn(Bodies& bodies, Slot slot)
 }
 
 /// What outside influences do: hits, places, falling asleep and waking.
-template <Search search>
-void disturb(Crowd<search>& crowd, const base::RandomStream& chance, std::uint64_t& draw)
+template <BroadPhase broad_phase>
+void disturb(Crowd<broad_phase>& crowd, const base::RandomStream& chance, std::uint64_t& draw)
 {
     Bodies& bodies = crowd.bodies;
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
@@ -95,8 +95,8 @@ void disturb(Crowd<search>& crowd, const base::RandomStream& chance, std::uint64
         crowd.wake(bodies.form[bodies.awake].id);
 }
 
-template <Search search>
-void expect_all_found(Crowd<search>& crowd)
+template <BroadPhase broad_phase>
+void expect_all_found(Crowd<broad_phase>& crowd)
 {
     const Bodies& bodies = crowd.bodies;
     const auto pairs = crowd.pairs();
@@ -117,15 +117,15 @@ void expect_all_found(Crowd<search>& crowd)
 }
 
 /// The lowest corner of a swept box is below a plane.
-template <Search search>
-void expect_planes_found(Crowd<search>& crowd)
+template <BroadPhase broad_phase>
+void expect_planes_found(Crowd<broad_phase>& crowd)
 {
     const auto pairs = crowd.plane_pairs();
     ASSERT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
     for (Slot slot = 0; slot < crowd.bodies.awake; ++slot) {
         const Box box = swept(crowd.bodies, slot);
-        for (std::uint32_t plane = 0; plane < crowd.frozen.planes.size(); ++plane) {
-            const PlaneDescription& p = crowd.frozen.planes[plane];
+        for (std::uint32_t plane = 0; plane < crowd.config.planes.size(); ++plane) {
+            const PlaneDescription& p = crowd.config.planes[plane];
             double lowest = -p.offset_m;
             for (int axis : {0, 1, 2})
                 lowest += std::min(p.normal[axis] * box.low[axis], p.normal[axis] * box.high[axis]);
@@ -135,8 +135,8 @@ void expect_planes_found(Crowd<search>& crowd)
     }
 }
 
-template <Search search>
-void expect_hands_find(Crowd<search>& crowd, std::uint32_t hand, const HandPath& path)
+template <BroadPhase broad_phase>
+void expect_hands_find(Crowd<broad_phase>& crowd, std::uint32_t hand, const HandPath& path)
 {
     const auto reached = crowd.neighbours.reached_by(hand, path);
     ASSERT_TRUE(std::is_sorted(reached.begin(), reached.end()));
@@ -146,12 +146,12 @@ void expect_hands_find(Crowd<search>& crowd, std::uint32_t hand, const HandPath&
                     std::binary_search(reached.begin(), reached.end(), crowd.bodies.form[slot].id));
 }
 
-template <Search search>
+template <BroadPhase broad_phase>
 void expect_nobody_is_missed(std::uint64_t seed)
 {
     const base::RandomStream chance = base::Seed{seed}.stream("broadphase");
     std::uint64_t draw = 0;
-    Crowd<search> crowd{random_scene(chance, draw)};
+    Crowd<broad_phase> crowd{random_scene(chance, draw)};
     std::array<HandPath, 2> hands{HandPath{{}, {}, 0.005}, HandPath{{}, {}, 0.005}};
     std::array<glm::dvec3, 2> step{};
     for (int tick = 0; tick < ticks; ++tick) {
@@ -181,12 +181,14 @@ void expect_nobody_is_missed(std::uint64_t seed)
 
 TEST(Scan, MissesNobodyInRandomScenesUpTo1000MetresPerSecond)
 {
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) expect_nobody_is_missed<Search::scan>(seed);
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+        expect_nobody_is_missed<BroadPhase::all_pairs>(seed);
 }
 
 TEST(Grid, MissesNobodyInRandomScenesUpTo1000MetresPerSecond)
 {
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) expect_nobody_is_missed<Search::grid>(seed);
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+        expect_nobody_is_missed<BroadPhase::grid>(seed);
 }
 
 TEST(Neighbours, AreTheSameByAScanAndByAGrid)
@@ -194,8 +196,8 @@ TEST(Neighbours, AreTheSameByAScanAndByAGrid)
     const base::RandomStream chance = base::Seed{7}.stream("both");
     std::uint64_t draw = 0;
     const Description scene = random_scene(chance, draw);
-    Crowd<Search::scan> scan{scene};
-    Crowd<Search::grid> grid{scene};
+    Crowd<BroadPhase::all_pairs> scan{scene};
+    Crowd<BroadPhase::grid> grid{scene};
     for (int tick = 0; tick < ticks; ++tick) {
         std::uint64_t same = draw;
         disturb(scan, chance, same);

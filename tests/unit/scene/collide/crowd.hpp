@@ -11,12 +11,12 @@
 namespace hapnet::scene {
 
 /// Bodies and who is near whom, without a tick that moves them: tests do.
-template <Search search>
+template <BroadPhase broad_phase>
 struct Crowd {
     explicit Crowd(const Description& description)
-        : frozen{description.planes, description.hips, description.gravity},
+        : config{description.planes, description.hands, description.gravity},
           bodies{description},
-          neighbours{frozen, bodies}
+          neighbours{config, bodies}
     {}
 
     /// Puts a body elsewhere.
@@ -52,9 +52,9 @@ struct Crowd {
         return all;
     }
 
-    Frozen frozen;
+    WorldConfig config;
     Bodies bodies;
-    Neighbours<search> neighbours;
+    Neighbours<broad_phase> neighbours;
 };
 
 /// Movable cubes with edges of 4 cm, in a row along x, so far from centre to centre.

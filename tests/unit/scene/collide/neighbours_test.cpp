@@ -15,8 +15,8 @@ class NeighboursOf : public testing::Test {
 protected:
     using Subject = Crowd<Kind::value>;
 };
-using Kinds = testing::Types<std::integral_constant<Search, Search::scan>,
-                             std::integral_constant<Search, Search::grid>>;
+using Kinds = testing::Types<std::integral_constant<BroadPhase, BroadPhase::all_pairs>,
+                             std::integral_constant<BroadPhase, BroadPhase::grid>>;
 TYPED_TEST_SUITE(NeighboursOf, Kinds);
 
 TYPED_TEST(NeighboursOf, AreThoseNextToEachOtherByTheirIds)

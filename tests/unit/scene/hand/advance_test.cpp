@@ -192,10 +192,10 @@ TEST(Advance, ASpringThatHoldsPullsAsWellAndSwingsAsTheFormulaSays)
     MovingBody body;
     Answer answer;
     answer.inverse_mass = glm::dvec3{10.0};
-    HipSpring spring;
+    HandSpring spring;
     spring.holds = true;
     spring.stiffness = 1000.0;
-    std::array<HipWork, 1> work;
+    std::array<SpringImpulse, 1> work;
     const glm::dvec3 hand{0.001, -0.002, 0.0005};
     for (int i = 0; i < 500; ++i) {
         spring.stretch = hand - body.position;

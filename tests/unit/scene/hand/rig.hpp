@@ -32,7 +32,7 @@ struct Rig {
     MovingBody body{};
     std::vector<Hand> hands{};
     glm::dvec3 acceleration{0.0};
-    std::array<HipWork, 8> work{};
+    std::array<SpringImpulse, 8> work{};
 
     [[nodiscard]] glm::dmat3 inverse_inertia(const MovingBody& of) const
     {
@@ -43,7 +43,7 @@ struct Rig {
         return scaled * glm::transpose(axes);
     }
 
-    [[nodiscard]] HipSpring touch(const MovingBody& of, const Hand& hand) const
+    [[nodiscard]] HandSpring touch(const MovingBody& of, const Hand& hand) const
     {
         const glm::dmat3 axes = axes_of(of.orientation);
         const glm::dvec3 centre = (hand.position - of.position) * axes;
@@ -62,7 +62,7 @@ struct Rig {
             nearest[axis] = normal[axis] * half[axis];
             distance = -depth[axis];
         }
-        HipSpring spring;
+        HandSpring spring;
         for (int axis = 0; axis < 3; ++axis) {
             const glm::dvec3 others = glm::abs(centre) * (1.0 - glm::abs(normal));
             if (std::abs(normal[axis]) == 1.0)
@@ -92,7 +92,7 @@ struct Rig {
 
     void tick(double seconds)
     {
-        std::vector<HipSpring> springs;
+        std::vector<HandSpring> springs;
         for (const Hand& hand : hands) springs.push_back(touch(body, hand));
         advance(body, answer(), springs, work, seconds);
         for (Hand& hand : hands) hand.position += seconds * hand.velocity;
@@ -164,7 +164,7 @@ private:
         rate.turning = rig_.inverse_inertia(body) * body.angular_momentum;
         for (Hand hand : rig_.hands) {
             hand.position += time * hand.velocity;
-            const HipSpring spring = rig_.touch(body, hand);
+            const HandSpring spring = rig_.touch(body, hand);
             if (spring.gap >= 0.0) continue;
             const double closing =
                 glm::dot(spring.normal,

@@ -115,10 +115,10 @@ TEST(SlidingObstacles, PressedIntoAWallByAHandItStaysAtTheWall)
     scene.bodies.push_back(fixed_at({0.05, 0.0, 0.0}));
     scene.bodies[0].material.restitution = 0.8;
     Rig<false> rig{scene};
-    rig.hip(0, {-0.03, 0.0, 0.0}, {0.1, 0.0, 0.0});
+    rig.set_hand(0, {-0.03, 0.0, 0.0}, {0.1, 0.0, 0.0});
     for (int i = 0; i < 500; ++i) {
         rig.carry(1);
-        if (i == 200) rig.stage.hips[0].velocity = {};
+        if (i == 200) rig.state.hands[0].velocity = {};
         EXPECT_LE(rig.position().x, 0.05 - 0.04);
     }
     EXPECT_EQ(rig.position().x, 0.05 - 0.04);

@@ -27,7 +27,7 @@ inline BodyDescription cube_at(const glm::dvec3& place, double mass_kg = 0.1)
 inline Description platform()
 {
     Description scene;
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     scene.planes.push_back({.name = "platform", .material = {.friction = friction}});
     return scene;
 }
@@ -55,7 +55,7 @@ inline double turned(const BodyState& state)
 
 inline double energy(const World& world)
 {
-    const Bodies& bodies = world.stage().bodies;
+    const Bodies& bodies = world.state().bodies;
     double sum = 0.0;
     for (Slot slot = 0; slot < bodies.movable; ++slot) {
         const glm::dvec3 v = bodies.velocity.at(slot);

@@ -11,10 +11,10 @@ namespace {
 constexpr int rest_ticks = 100; // a tenth of a second
 
 /// A crowd that sleeps and wakes, and whose contacts a test makes.
-template <Search search>
-struct Sleepers : Crowd<search> {
+template <BroadPhase broad_phase>
+struct Sleepers : Crowd<broad_phase> {
     explicit Sleepers(const Description& description)
-        : Crowd<search>{description}, sleep{this->frozen, this->bodies}
+        : Crowd<broad_phase>{description}, sleep{this->config, this->bodies}
     {
         for (BodyId id = 0; id < this->bodies.movable; ++id) speed(id, 1.0);
     }
@@ -56,8 +56,8 @@ class SleepOf : public testing::Test {
 protected:
     using Subject = Sleepers<Kind::value>;
 };
-using Kinds = testing::Types<std::integral_constant<Search, Search::scan>,
-                             std::integral_constant<Search, Search::grid>>;
+using Kinds = testing::Types<std::integral_constant<BroadPhase, BroadPhase::all_pairs>,
+                             std::integral_constant<BroadPhase, BroadPhase::grid>>;
 TYPED_TEST_SUITE(SleepOf, Kinds);
 
 TYPED_TEST(SleepOf, ABodyComesAfterATenthOfASecondAtRestAndNotBefore)
@@ -161,8 +161,8 @@ TYPED_TEST(SleepOf, DoesNotComeToABodyThatIsKeptAwake)
 TYPED_TEST(SleepOf, IsNotWhenItIsOff)
 {
     typename TestFixture::Subject crowd{row_of_cubes(2, 1.0)};
-    crowd.frozen.sleeping = false;
-    crowd.sleep = Sleep{crowd.frozen, crowd.bodies};
+    crowd.config.sleeping = false;
+    crowd.sleep = Sleep{crowd.config, crowd.bodies};
     for (BodyId id : {0U, 1U}) crowd.still(id);
     crowd.rest(3 * rest_ticks);
     EXPECT_EQ(crowd.awake(), "aa");
