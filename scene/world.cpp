@@ -144,13 +144,13 @@ std::optional<Refusal> World::place(BodyId body, const BodyState& state)
     const Slot slot = state_.bodies.slot_of[body];
     BodyState usable = state;
     usable.orientation = base::normalized(state.orientation);
-    const Turning turning = state_.bodies.form[slot].turning;
+    const Turning turning = state_.bodies.properties[slot].turning;
     if (!can_turn(turning, state_.bodies.orientation.at(slot), usable.orientation)) {
         return refuse(Refusal::out_of_range);
     }
     if (turning == Turning::locked) usable.orientation = state_.bodies.orientation.at(slot);
     const glm::dvec3 current = state_.bodies.position.at(slot);
-    const glm::dvec3& light = state_.bodies.form[slot].inverse_mass;
+    const glm::dvec3& light = state_.bodies.properties[slot].inverse_mass;
     for (const int axis : {0, 1, 2}) {
         if (light[axis] == 0.0) usable.position.value[axis] = current[axis];
     }
@@ -166,7 +166,7 @@ std::optional<Refusal> World::place(BodyId body, base::Position position, base::
     if (const auto why = objection(velocity.value, speed_max_m_per_s)) return refuse(*why);
     const Slot slot = state_.bodies.slot_of[body];
     const glm::dvec3 current = state_.bodies.position.at(slot);
-    const glm::dvec3& light = state_.bodies.form[slot].inverse_mass;
+    const glm::dvec3& light = state_.bodies.properties[slot].inverse_mass;
     for (const int axis : {0, 1, 2}) {
         if (light[axis] != 0.0) continue;
         position.value[axis] = current[axis];

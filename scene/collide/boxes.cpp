@@ -13,10 +13,10 @@ namespace hapnet::scene {
 Boxes::Boxes(const Bodies& bodies, const Scales& scales) : scales_{scales}, entries_(bodies.size())
 {
     for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        const glm::dvec3& half = bodies.form[slot].half;
+        const glm::dvec3& half = bodies.properties[slot].half;
         const BoxNow now{box_of(bodies, slot), std::sqrt(glm::dot(half, half)),
                          reach_of(bodies, slot, scales)};
-        entries_[bodies.form[slot].id] = {now, bodies.orientation.at(slot), 0};
+        entries_[bodies.properties[slot].id] = {now, bodies.orientation.at(slot), 0};
     }
 }
 

@@ -180,23 +180,23 @@ Faces facing(const OrientedBox& reference, const OrientedBox& incident, int axis
     const glm::dvec3 heights{glm::dot(faces.normal, incident.axes[0]),
                              glm::dot(faces.normal, incident.axes[1]),
                              glm::dot(faces.normal, incident.axes[2])};
-    int turned = 0;
-    if (std::abs(heights.y) > std::abs(heights.x)) turned = 1;
-    if (std::abs(heights.z) > std::abs(heights[turned])) turned = 2;
-    faces.turned_axis = turned;
+    int rotated = 0;
+    if (std::abs(heights.y) > std::abs(heights.x)) rotated = 1;
+    if (std::abs(heights.z) > std::abs(heights[rotated])) rotated = 2;
+    faces.turned_axis = rotated;
     const auto seen = [&](int k) {
         return glm::dvec3{glm::dot(u, incident.axes[k]), glm::dot(v, incident.axes[k]), heights[k]};
     };
-    const int next = (turned + 1) % 3;
-    const int last = (turned + 2) % 3;
-    const bool looks_down = heights[turned] < 0.0;
-    faces.incident = face_bit(turned, looks_down);
-    const glm::dvec3 outward = looks_down ? seen(turned) : -seen(turned);
+    const int next = (rotated + 1) % 3;
+    const int last = (rotated + 2) % 3;
+    const bool looks_down = heights[rotated] < 0.0;
+    faces.incident = face_bit(rotated, looks_down);
+    const glm::dvec3 outward = looks_down ? seen(rotated) : -seen(rotated);
     faces.first = incident.half[next] * seen(next);
     faces.second = incident.half[last] * seen(last);
     const glm::dvec3 centre{glm::dot(u, offset), glm::dot(v, offset),
                             std::abs(along) - reference.half[axis]};
-    const glm::dvec3 depth = incident.half[turned] * outward;
+    const glm::dvec3 depth = incident.half[rotated] * outward;
     faces.centre = centre + depth;
     faces.beside =
         std::max(std::abs(centre.x) - (faces.half_u + (std::abs(depth.x) + std::abs(faces.first.x) +

@@ -49,25 +49,26 @@ FatBoxes::FatBoxes(const WorldConfig& config, const Bodies& bodies)
     for (std::vector<double>& lane : lanes_) lane.resize(bodies.size());
 }
 
-FatBoxes::Size FatBoxes::size_of(const BodyForm& form) const
+FatBoxes::Size FatBoxes::size_of(const BodyProperties& properties) const
 {
-    const glm::dvec3& half = form.half;
-    return {.nearby = nearby_margin * std::min({half.x, half.y, half.z}),
-            .wander = form.mass == 0.0 ? 0.0 : wander_share * (half.x + half.y + half.z) / 3.0,
-            .radius = std::sqrt(glm::dot(half, half)),
-            .ease = form.turning == Turning::locked ? 0.0 : largest(form.inverse_inertia)};
+    const glm::dvec3& half = properties.half;
+    return {
+        .nearby = nearby_margin * std::min({half.x, half.y, half.z}),
+        .wander = properties.mass == 0.0 ? 0.0 : wander_share * (half.x + half.y + half.z) / 3.0,
+        .radius = std::sqrt(glm::dot(half, half)),
+        .ease = properties.turning == Turning::locked ? 0.0 : largest(properties.inverse_inertia)};
 }
 
 /// Where the centre will be within the look-ahead, but not too far from where it is.
 Box FatBoxes::path(const Bodies& bodies, Slot slot, double wander) const
 {
     const glm::dvec3 position = bodies.position.at(slot);
-    const BodyForm& form = bodies.form[slot];
+    const BodyProperties& properties = bodies.properties[slot];
     const double ahead = look_ahead_ticks * tick_;
     const glm::dvec3 way = bodies.velocity.at(slot) * ahead;
     const double length = largest(glm::abs(way));
-    if (!(length > wander) || form.mass == 0.0) return {position, position};
-    const double edge = 2.0 * (form.half.x + form.half.y + form.half.z) / 3.0;
+    if (!(length > wander) || properties.mass == 0.0) return {position, position};
+    const double edge = 2.0 * (properties.half.x + properties.half.y + properties.half.z) / 3.0;
     const glm::dvec3 edges = glm::abs(way) / edge;
     constexpr double share_min = stretch_ticks_min / look_ahead_ticks;
     double share = std::min(1.0, (stretch_max - 1.0) * edge / length);
@@ -78,20 +79,20 @@ Box FatBoxes::path(const Bodies& bodies, Slot slot, double wander) const
     const glm::dvec3 straight = share * way;
     glm::dvec3 end = straight;
     for (int axis = 0; axis < 3; ++axis)
-        if (form.inverse_mass[axis] != 0.0) end[axis] += drop[axis];
+        if (properties.inverse_mass[axis] != 0.0) end[axis] += drop[axis];
     const Box around = hull(straight, end);
     return {position + glm::min(around.low, 0.0), position + glm::max(around.high, 0.0)};
 }
 
 Box FatBoxes::renew(const Bodies& bodies, Slot slot)
 {
-    const BodyForm& form = bodies.form[slot];
-    const Size size = size_of(form);
+    const BodyProperties& properties = bodies.properties[slot];
+    const Size size = size_of(properties);
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
     const double turn = std::sqrt(glm::dot(momentum, momentum)) * size.ease * size.radius; // m/s
     const bool spins = turn * tick_ * look_ahead_ticks > size.wander;
 
-    Leash& leash = leashes_[form.id];
+    Leash& leash = leashes_[properties.id];
     const glm::dvec3 step = glm::abs(bodies.velocity.at(slot)) * tick_;
     const Box region = grown(path(bodies, slot, size.wander), glm::dvec3{size.wander} + step);
     leash.middle = region.centre();
@@ -100,8 +101,8 @@ Box FatBoxes::renew(const Bodies& bodies, Slot slot)
     leash.likeness_min = -1.0;
     leash.angular_momentum2 = std::numeric_limits<double>::infinity();
     glm::dvec3 margin = glm::dvec3{size.nearby} + glm::abs(gravity_) * (tick_ * tick_);
-    if (form.mass == 0.0 || size.ease == 0.0) {
-        margin += extent(leash.orientation, form.half);
+    if (properties.mass == 0.0 || size.ease == 0.0) {
+        margin += extent(leash.orientation, properties.half);
     } else if (spins) {
         margin += size.radius;
     } else {
@@ -111,7 +112,7 @@ Box FatBoxes::renew(const Bodies& bodies, Slot slot)
         leash.likeness_min = 1.0 - sine * sine;
         const double fastest = turn_share * size.wander / (tick_ * size.radius * size.ease);
         leash.angular_momentum2 = fastest * fastest;
-        margin += extent(leash.orientation, form.half) + (1.0 + turn_share) * size.wander;
+        margin += extent(leash.orientation, properties.half) + (1.0 + turn_share) * size.wander;
     }
     if (slot < bodies.awake) follow(bodies, slot);
     return grown(region, margin);
@@ -119,7 +120,7 @@ Box FatBoxes::renew(const Bodies& bodies, Slot slot)
 
 void FatBoxes::follow(const Bodies& bodies, Slot slot)
 {
-    const Leash& leash = leashes_[bodies.form[slot].id];
+    const Leash& leash = leashes_[bodies.properties[slot].id];
     const glm::dvec3& middle = leash.middle;
     const glm::dvec3& room = leash.room;
     const glm::dquat& q = leash.orientation;
@@ -190,7 +191,7 @@ bool any_left(const Lanes& lanes, std::size_t first)
 /// For a few bodies, one after the other: without the lanes' addresses.
 bool FatBoxes::has_left(const Bodies& bodies, Slot slot) const
 {
-    const Leash& leash = leashes_[bodies.form[slot].id];
+    const Leash& leash = leashes_[bodies.properties[slot].id];
     const glm::dvec3 away = glm::abs(bodies.position.at(slot) - leash.middle) +
                             tick_ * glm::abs(bodies.velocity.at(slot));
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);

@@ -49,7 +49,7 @@ private:
     };
 
     [[nodiscard]] bool has_left(const Bodies& bodies, Slot slot) const;
-    [[nodiscard]] Size size_of(const BodyForm& form) const;
+    [[nodiscard]] Size size_of(const BodyProperties& properties) const;
     [[nodiscard]] Box path(const Bodies& bodies, Slot slot, double wander) const;
 
     double tick_;

@@ -23,7 +23,7 @@ double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.
 
 double reach_of(const Bodies& bodies, Slot slot, const Scales& scales)
 {
-    const glm::dvec3& half = bodies.form[slot].half;
+    const glm::dvec3& half = bodies.properties[slot].half;
     const double turning = length(bodies.angular_velocity(slot)) * length(half);
     return scales.tick * (length(bodies.velocity.at(slot)) + turning + scales.fall) +
            look_ahead * shortest(half);

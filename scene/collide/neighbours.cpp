@@ -40,7 +40,7 @@ std::vector<Box> first_boxes(FatBoxes& fat, const Bodies& bodies)
 {
     std::vector<Box> boxes(bodies.size());
     for (Slot slot = 0; slot < bodies.size(); ++slot)
-        boxes[bodies.form[slot].id] = fat.renew(bodies, slot);
+        boxes[bodies.properties[slot].id] = fat.renew(bodies, slot);
     return boxes;
 }
 
@@ -66,7 +66,7 @@ Neighbours<broad_phase>::Neighbours(const WorldConfig& config, const Bodies& bod
 {
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand)
         hands_.push_back({Box{glm::dvec3{1.0}, glm::dvec3{-1.0}}, Bounded<BodyId>{bodies.size()}});
-    for (Slot slot = 0; slot < bodies.movable; ++slot) meet(bodies, bodies.form[slot].id);
+    for (Slot slot = 0; slot < bodies.movable; ++slot) meet(bodies, bodies.properties[slot].id);
     settle();
 }
 
@@ -75,12 +75,12 @@ void Neighbours<broad_phase>::update(const Bodies& bodies)
 {
     if (has_unmet_) {
         has_unmet_ = false;
-        for (Slot slot = 0; slot < bodies.awake; ++slot) meet(bodies, bodies.form[slot].id);
+        for (Slot slot = 0; slot < bodies.awake; ++slot) meet(bodies, bodies.properties[slot].id);
     }
     left_.clear();
     fat_.find_left(bodies, left_);
     for (const Slot slot : left_) {
-        const BodyId id = bodies.form[slot].id;
+        const BodyId id = bodies.properties[slot].id;
         found_.move(id, fat_.renew(bodies, slot));
         meet(bodies, id);
         for (Hand& hand : hands_) show(hand, id);

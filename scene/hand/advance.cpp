@@ -75,9 +75,9 @@ void pass(const Task& task, const Picked& picked, double tick)
 
     const auto now = passage.current();
     std::array<SpringImpulse, count> rest;
-    Answer turned = task.answer;
-    turned.inverse_inertia = passage.inverse_inertia();
-    Midpoint{task.body, turned, now, rest}.pass(passage.left());
+    Answer rotated = task.answer;
+    rotated.inverse_inertia = passage.inverse_inertia();
+    Midpoint{task.body, rotated, now, rest}.pass(passage.left());
     for (std::size_t i = 0; i < count; ++i) task.work[picked.which[i]].impulse += rest[i].impulse;
 }
 

@@ -23,7 +23,7 @@ struct Answer {
     glm::dvec3 half{0.0}; // half the edges of the box, on which its hands slide and turn
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame, at the start of the tick
-    bool turns_evenly =
+    bool rotates_uniformly =
         false; // turning does not change it, and it is diagonal: a cube, or one axis
     glm::dvec3 acceleration{0.0}; // of everything but the hands
     glm::dvec3 torque{0.0};       // of everything but the hands, N m

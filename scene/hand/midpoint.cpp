@@ -124,12 +124,12 @@ void Midpoint::place_rows(double part)
     const glm::dvec3 moved = half * body_.velocity;
     const glm::dvec3 angle = half * (inertia_now_ * body_.angular_momentum);
     inverse_inertia_ = inertia_now_;
-    if (turns_ && !answer_.turns_evenly) {
-        const glm::dmat3 turn = axes_of(turn_by(angle));
+    if (turns_ && !answer_.rotates_uniformly) {
+        const glm::dmat3 turn = axes_of(rotation_by(angle));
         inverse_inertia_ = turn * inertia_now_ * glm::transpose(turn);
     }
     const glm::dmat3 now = axes_of(body_.orientation);
-    const glm::dmat3 axes = axes_of(turn_by(angle) * body_.orientation);
+    const glm::dmat3 axes = axes_of(rotation_by(angle) * body_.orientation);
     rows_ = 0;
     const auto add = [&](std::size_t i, const glm::dvec3& normal, const glm::dvec3& arm,
                          double depth) {
@@ -278,9 +278,9 @@ void Midpoint::apply(double part)
         const glm::dvec3 mean = body_.angular_momentum + (0.5 * part) * torque;
         const glm::dvec3 angle = part * (inverse_inertia_ * mean);
         body_.angular_momentum += part * torque;
-        body_.orientation = turned(body_.orientation, angle);
-        if (!answer_.turns_evenly) {
-            const glm::dmat3 turn = axes_of(turn_by(angle));
+        body_.orientation = rotated(body_.orientation, angle);
+        if (!answer_.rotates_uniformly) {
+            const glm::dmat3 turn = axes_of(rotation_by(angle));
             inertia_now_ = turn * inertia_now_ * glm::transpose(turn);
         }
     }

@@ -19,7 +19,7 @@ constexpr double normal_turn_max = 0.01;
 
 glm::dmat3 turned_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& angle)
 {
-    const glm::dmat3 turn = axes_of(turn_by(angle));
+    const glm::dmat3 turn = axes_of(rotation_by(angle));
     return turn * inverse_inertia * glm::transpose(turn);
 }
 
@@ -34,9 +34,9 @@ void advance_freely(MovingBody& body, const Answer& answer, double tick)
     if (is_zero(answer.inverse_inertia)) return;
     const glm::dvec3 mean = body.angular_momentum + (0.5 * tick) * answer.torque;
     glm::dvec3 angle = tick * (answer.inverse_inertia * mean);
-    if (!answer.turns_evenly)
+    if (!answer.rotates_uniformly)
         angle = tick * (turned_inertia(answer.inverse_inertia, 0.5 * angle) * mean);
-    body.orientation = turned(body.orientation, angle);
+    body.orientation = rotated(body.orientation, angle);
     body.angular_momentum += tick * answer.torque;
 }
 
@@ -89,7 +89,7 @@ typename Passage<count>::Setting Passage<count>::halfway(double time) const
     glm::dvec3 angle{0.0};
     if (turns_) {
         angle = half * (inverse_inertia_ * (body_.angular_momentum + (0.5 * half) * torque));
-        if (!answer_.turns_evenly)
+        if (!answer_.rotates_uniformly)
             setting.inverse_inertia = turned_inertia(inverse_inertia_, angle);
     }
     const bool turns_little = glm::dot(angle, angle) <= normal_turn_max * normal_turn_max;
@@ -104,10 +104,10 @@ typename Passage<count>::Setting Passage<count>::halfway(double time) const
             hold.normal = holds_[i].normal + once + 0.5 * glm::cross(angle, once);
             hold.lever = glm::cross(hand, hold.normal);
         } else {
-            hold = surfaces_[i].at(axes_of(turn_by(angle) * body_.orientation), hand);
+            hold = surfaces_[i].at(axes_of(rotation_by(angle) * body_.orientation), hand);
         }
         const glm::dvec3 change = hold.normal - holds_[i].normal;
-        setting.turned = std::max(setting.turned, glm::dot(change, change));
+        setting.rotated = std::max(setting.rotated, glm::dot(change, change));
     }
     return setting;
 }
@@ -145,8 +145,8 @@ bool Passage<count>::pass()
             const Setting setting = halfway(predicted);
             const Coupling coupling = couple(setting);
             double shorter = time;
-            if (setting.turned > normal_turn_max * normal_turn_max)
-                shorter = predicted * normal_turn_max / std::sqrt(setting.turned);
+            if (setting.rotated > normal_turn_max * normal_turn_max)
+                shorter = predicted * normal_turn_max / std::sqrt(setting.rotated);
             for (std::size_t i = 0; i < count && turns_; ++i) {
                 const double square = coupling.own[i] * presses_[i].stiffness;
                 if (presses_[i].phase == PressPhase::pressing && square * time * time > 1.0)
@@ -208,9 +208,9 @@ void Passage<count>::apply(const Setting& setting, const Pressed<count>& pressed
             t * (body_.angular_momentum + (0.5 * t) * answer_.torque) + twist_moment;
         const glm::dvec3 angle = setting.inverse_inertia * swept;
         body_.angular_momentum += t * answer_.torque + twist;
-        body_.orientation = turned(body_.orientation, angle);
+        body_.orientation = rotated(body_.orientation, angle);
         axes_ = axes_of(body_.orientation);
-        if (!answer_.turns_evenly) inverse_inertia_ = turned_inertia(inverse_inertia_, angle);
+        if (!answer_.rotates_uniformly) inverse_inertia_ = turned_inertia(inverse_inertia_, angle);
     }
     for (std::size_t i = 0; i < count; ++i) {
         if (!turns_ && surfaces_[i].is_face()) continue;

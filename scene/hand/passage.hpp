@@ -36,7 +36,7 @@ private:
     struct Setting {
         glm::dmat3 inverse_inertia{0.0};
         std::array<Hold, count> holds;
-        double turned = 0.0; // of the normal that turned farthest since the start, squared
+        double rotated = 0.0; // of the normal that turned farthest since the start, squared
     };
 
     [[nodiscard]] Setting halfway(double time) const;

@@ -11,33 +11,34 @@ namespace {
 
 /// A course at a moment, with its integrals from the start.
 struct Passed {
-    Motion motion;
+    TrajectoryPoint motion;
     double once = 0.0;  // the integral of the way
     double twice = 0.0; // the integral of that
 };
 
-Passed pass_along(const Course& course, double time)
+Passed pass_along(const Trajectory& trajectory, double time)
 {
-    const Response r = course.kernel->after(time);
-    Passed passed{course.at(r), course.speed * r.push + course.push * r.ramp, 0.0};
-    const Law& law = course.kernel->law;
+    const StepResponse r = trajectory.propagator->after(time);
+    Passed passed{trajectory.at(r), trajectory.speed * r.push + trajectory.push * r.ramp, 0.0};
+    const Oscillator& oscillator = trajectory.propagator->oscillator;
     const double t2 = time * time;
     // From the law itself; where it hardly acts, that would be the difference of almost equal
     // numbers, and four terms of Taylor's series are exact to 1e-12.
     constexpr double hardly = 1e-3;
-    if (law.stiffness * t2 > hardly || law.damping * time > hardly * 100.0) {
-        if (law.stiffness > 0.0) {
-            passed.twice = (0.5 * course.push * t2 + course.speed * time - passed.motion.way -
-                            law.damping * passed.once) /
-                           law.stiffness;
+    if (oscillator.stiffness * t2 > hardly || oscillator.damping * time > hardly * 100.0) {
+        if (oscillator.stiffness > 0.0) {
+            passed.twice = (0.5 * trajectory.push * t2 + trajectory.speed * time -
+                            passed.motion.displacement - oscillator.damping * passed.once) /
+                           oscillator.stiffness;
             return passed;
         }
     }
-    const double acceleration = course.push - law.damping * course.speed;
-    const double jerk = -law.damping * acceleration - law.stiffness * course.speed;
-    const double snap = -law.damping * jerk - law.stiffness * acceleration;
+    const double acceleration = trajectory.push - oscillator.damping * trajectory.speed;
+    const double jerk =
+        -oscillator.damping * acceleration - oscillator.stiffness * trajectory.speed;
+    const double snap = -oscillator.damping * jerk - oscillator.stiffness * acceleration;
     passed.twice = t2 * time *
-                   (course.speed / 6.0 +
+                   (trajectory.speed / 6.0 +
                     time * (acceleration / 24.0 + time * (jerk / 120.0 + time * snap / 720.0)));
     return passed;
 }
@@ -105,8 +106,8 @@ void Presses<count>::solve_parabolas()
         const Press& press = presses_[i];
         double push = press.acceleration - coupling_.own[i] * press.force();
         if constexpr (count == 2) push -= coupling_.mutual * presses_[1 - i].force();
-        kernels_[i] = Kernel{Law{}, time_};
-        courses_[i] = {&kernels_[i], press.closing, push, 0.0};
+        propagators_[i] = Propagator{Oscillator{}, time_};
+        trajectories_[i] = {&propagators_[i], press.closing, push, 0.0};
         share_[i][i] = 1.0;
     }
 }
@@ -118,8 +119,9 @@ void Presses<count>::solve_one(std::size_t pressing)
     const double own = coupling_.own[pressing];
     double driven = press.acceleration;
     if constexpr (count == 2) driven -= coupling_.mutual * presses_[1 - pressing].force();
-    kernels_[0] = Kernel{{own * press.damping, own * press.stiffness}, time_};
-    courses_[0] = {&kernels_[0], press.closing, driven - own * press.stiffness * press.depth, 0.0};
+    propagators_[0] = Propagator{{own * press.damping, own * press.stiffness}, time_};
+    trajectories_[0] = {&propagators_[0], press.closing,
+                        driven - own * press.stiffness * press.depth, 0.0};
     share_[pressing][0] = 1.0;
     modes_ = 1;
     start_[0] = press.depth;
@@ -132,10 +134,10 @@ void Presses<count>::solve_one(std::size_t pressing)
         const std::size_t idle = 1 - pressing;
         const Press& other = presses_[idle];
         const double follows = own > 0.0 ? coupling_.mutual / own : 0.0;
-        kernels_[1] = Kernel{Law{}, time_};
-        courses_[1] = {&kernels_[1], other.closing - follows * press.closing,
-                       other.acceleration - coupling_.own[idle] * other.force() - follows * driven,
-                       0.0};
+        propagators_[1] = Propagator{Oscillator{}, time_};
+        trajectories_[1] = {
+            &propagators_[1], other.closing - follows * press.closing,
+            other.acceleration - coupling_.own[idle] * other.force() - follows * driven, 0.0};
         share_[idle] = {follows, 1.0};
     }
 }
@@ -176,9 +178,9 @@ void Presses<count>::solve_both()
         const auto speed = into_modes(presses_[0].closing, presses_[1].closing);
         const auto driven = into_modes(presses_[0].acceleration, presses_[1].acceleration);
         for (const std::size_t mode : {0U, 1U}) {
-            kernels_[mode] = Kernel{{strength[mode] * lag_, strength[mode]}, time_};
-            courses_[mode] = {&kernels_[mode], speed[mode],
-                              driven[mode] - strength[mode] * start_[mode], 0.0};
+            propagators_[mode] = Propagator{{strength[mode] * lag_, strength[mode]}, time_};
+            trajectories_[mode] = {&propagators_[mode], speed[mode],
+                                   driven[mode] - strength[mode] * start_[mode], 0.0};
         }
         share_ = {{{cosine / root[0], sine / root[0]}, {-sine / root[1], cosine / root[1]}}};
         weight_ = {{{cosine * root[0], sine * root[0]}, {-sine * root[1], cosine * root[1]}}};
@@ -187,13 +189,14 @@ void Presses<count>::solve_both()
 }
 
 template <std::size_t count>
-Watch Presses<count>::watch(std::size_t i, double level, const std::array<double, 2>& weights)
+WatchedQuantity Presses<count>::watch(std::size_t i, double level,
+                                      const std::array<double, 2>& weights)
 {
-    Watch watch;
+    WatchedQuantity watch;
     watch.level = level;
-    for (std::size_t course = 0; course < count; ++course) {
-        watch.way_weight[course] = weights[0] * share_[i][course];
-        watch.speed_weight[course] = weights[1] * share_[i][course];
+    for (std::size_t trajectory = 0; trajectory < count; ++trajectory) {
+        watch.displacement_weight[trajectory] = weights[0] * share_[i][trajectory];
+        watch.speed_weight[trajectory] = weights[1] * share_[i][trajectory];
     }
     return watch;
 }
@@ -204,20 +207,23 @@ bool Presses<count>::is_settled(std::size_t i) const
     const Press& press = presses_[i];
     if (press.phase == PressPhase::apart) {
         if (modes_ > 0) return false;
-        const Course& course = courses_[i];
-        return press.depth + time_ * (std::abs(course.speed) + time_ * std::abs(course.push)) < 0.0;
+        const Trajectory& trajectory = trajectories_[i];
+        return press.depth +
+                   time_ * (std::abs(trajectory.speed) + time_ * std::abs(trajectory.push)) <
+               0.0;
     }
     if (press.phase == PressPhase::capped) return false;
     double change = 0.0;
     for (std::size_t mode = 0; mode < modes_; ++mode) {
-        const Course& course = courses_[mode];
-        const Law& law = course.kernel->law;
-        const double acceleration = course.push - law.damping * course.speed;
-        const double jerk = -law.damping * acceleration - law.stiffness * course.speed;
-        const double rate = std::abs(course.speed + lag_ * acceleration);
+        const Trajectory& trajectory = trajectories_[mode];
+        const Oscillator& oscillator = trajectory.propagator->oscillator;
+        const double acceleration = trajectory.push - oscillator.damping * trajectory.speed;
+        const double jerk =
+            -oscillator.damping * acceleration - oscillator.stiffness * trajectory.speed;
+        const double rate = std::abs(trajectory.speed + lag_ * acceleration);
         const double bend = std::abs(acceleration + lag_ * jerk);
-        change +=
-            std::abs(weight_[i][mode]) * (rate + time_ * (bend + course.kernel->frequency * rate));
+        change += std::abs(weight_[i][mode]) *
+                  (rate + time_ * (bend + trajectory.propagator->frequency * rate));
     }
     change *= time_;
     const double drive = press.drive();
@@ -231,8 +237,8 @@ void Presses<count>::look(End& end, std::size_t i)
     const Press& press = presses_[i];
     const auto look_for = [&](PressPhase then, double level, double sign) {
         const auto found =
-            first_root(watch(i, level, {sign * press.stiffness, sign * press.damping}), courses_,
-                       0.0, end.time);
+            first_root(watch(i, level, {sign * press.stiffness, sign * press.damping}),
+                       trajectories_, 0.0, end.time);
         if (found && *found < end.time) end = {*found, i, then};
     };
     const double pull = press.stiffness * press.depth;
@@ -249,7 +255,8 @@ void Presses<count>::look(End& end, std::size_t i)
         look_for(PressPhase::pressing, -pull, -1.0);
         return;
     }
-    const auto found = first_root(watch(i, -press.depth, {-1.0, 0.0}), courses_, 0.0, end.time);
+    const auto found =
+        first_root(watch(i, -press.depth, {-1.0, 0.0}), trajectories_, 0.0, end.time);
     if (found && *found < end.time) end = {*found, i, PressPhase::pressing};
 }
 
@@ -257,9 +264,9 @@ template <std::size_t count>
 void Presses<count>::add_work(Pressed<count>& pressed) const
 {
     for (std::size_t mode = 0; mode < modes_; ++mode) {
-        const Passed p = pass_along(courses_[mode], pressed.time);
+        const Passed p = pass_along(trajectories_[mode], pressed.time);
         const double t = pressed.time;
-        const double impulse = start_[mode] * t + p.once + lag_ * p.motion.way;
+        const double impulse = start_[mode] * t + p.once + lag_ * p.motion.displacement;
         const double moment = 0.5 * start_[mode] * t * t + p.twice + lag_ * p.once;
         for (std::size_t i = 0; i < count; ++i) {
             pressed.impulse[i] += weight_[i][mode] * impulse;
@@ -276,8 +283,8 @@ Pressed<count> Presses<count>::pass()
 
     Pressed<count> pressed{.time = end.time};
     add_work(pressed);
-    std::array<Motion, count> passed;
-    for (std::size_t j = 0; j < count; ++j) passed[j] = courses_[j].after(end.time);
+    std::array<TrajectoryPoint, count> passed;
+    for (std::size_t j = 0; j < count; ++j) passed[j] = trajectories_[j].after(end.time);
     for (std::size_t i = 0; i < count; ++i) {
         Press& press = presses_[i];
         if (press.phase == PressPhase::capped) {
@@ -287,7 +294,7 @@ Pressed<count> Presses<count>::pass()
         pressed.impulse[i] = std::clamp(pressed.impulse[i], 0.0, press.force_max * end.time);
         press.closing = 0.0;
         for (std::size_t j = 0; j < count; ++j) {
-            press.depth += share_[i][j] * passed[j].way;
+            press.depth += share_[i][j] * passed[j].displacement;
             press.closing += share_[i][j] * passed[j].speed;
         }
     }

@@ -76,7 +76,8 @@ private:
     void solve_parabolas();
     void solve_one(std::size_t pressing);
     void solve_both();
-    [[nodiscard]] Watch watch(std::size_t i, double level, const std::array<double, 2>& weights);
+    [[nodiscard]] WatchedQuantity watch(std::size_t i, double level,
+                                        const std::array<double, 2>& weights);
     /// Whether a bound of how fast the force changes rules out that the phase ends.
     [[nodiscard]] bool is_settled(std::size_t i) const;
     void look(End& end, std::size_t i);
@@ -88,8 +89,8 @@ private:
     bool is_solved_ = true;
 
     // Each depth is its start plus the sum of two courses, weighted.
-    std::array<Kernel, count> kernels_;
-    Courses courses_;
+    std::array<Propagator, count> propagators_;
+    Trajectories trajectories_;
     std::array<std::array<double, count>, count> share_{}; // of depth i in course j
     // Of the springs that press, in the courses that are theirs: one alone, or the two modes.
     std::size_t modes_ = 0;

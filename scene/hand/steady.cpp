@@ -225,7 +225,7 @@ bool Steady<count>::finish(SpringImpulse* work)
     body_.velocity += t * answer_.acceleration + answer_.inverse_mass * impulse;
     body_.angular_momentum += twist;
     if (angle == glm::dvec3{0.0}) return true;
-    const glm::dquat turn = turn_by(angle);
+    const glm::dquat turn = rotation_by(angle);
     body_.orientation = unit_again(turn * body_.orientation);
     if (glm::dot(angle, angle) < kept_turn * kept_turn) return true;
     for (std::size_t i = 0; i < count; ++i) {
@@ -246,7 +246,7 @@ bool Steady<count>::finish(SpringImpulse* work)
 bool press_steadily(MovingBody& body, const Answer& answer, std::span<const HandSpring> springs,
                     std::span<SpringImpulse> work, double tick)
 {
-    if (!answer.turns_evenly) return false;
+    if (!answer.rotates_uniformly) return false;
     for (const HandSpring& spring : springs) {
         if (!spring.is_amid_face || spring.gap > 0.0 || !(spring.stiffness > 0.0)) return false;
     }

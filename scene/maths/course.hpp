@@ -11,63 +11,64 @@
 namespace hapnet::scene {
 
 /// A law with what is derived from it, and its response at the end of a tick: what most ticks need.
-struct Kernel {
-    Law law;
+struct Propagator {
+    Oscillator oscillator;
     double frequency = 0.0; // of the undamped oscillator, 1/s
     double period = 0.0;    // 1/frequency; infinity without stiffness
     double tick = 0.0;      // seconds
-    Response at_tick;
+    StepResponse at_tick;
 
-    Kernel() = default;
-    Kernel(const Law& of, double tick_s)
-        : law{of},
+    Propagator() = default;
+    Propagator(const Oscillator& of, double tick_s)
+        : oscillator{of},
           frequency{std::sqrt(of.stiffness)},
           period{of.stiffness > 0.0 ? 1.0 / frequency : std::numeric_limits<double>::infinity()},
           tick{tick_s},
-          at_tick{respond(of, tick_s)}
+          at_tick{step_response(of, tick_s)}
     {}
-    [[nodiscard]] Response after(double time) const
+    [[nodiscard]] StepResponse after(double time) const
     {
-        return time == tick ? at_tick : respond(law, time);
+        return time == tick ? at_tick : step_response(oscillator, time);
     }
 };
 
 /// How far a coordinate has come, and how fast it is.
-struct Motion {
-    double way = 0.0;
+struct TrajectoryPoint {
+    double displacement = 0.0;
     double speed = 0.0;
 };
 
 /// A coordinate's motion in closed form from a moment on: way'' = push + ramp t - damping way' -
 /// stiffness way. A course without a kernel stays where it is.
-struct Course {
-    const Kernel* kernel;
+struct Trajectory {
+    const Propagator* propagator;
     double speed; // at the start
     double push;  // acceleration at the start, but for the damping
     double ramp;  // by which `push` grows, m/s^3
 
-    [[nodiscard]] bool moves() const { return kernel != nullptr; }
+    [[nodiscard]] bool moves() const { return propagator != nullptr; }
     /// Whether it stays where it is under any kernel.
     [[nodiscard]] bool is_idle() const { return speed == 0.0 && push == 0.0 && ramp == 0.0; }
-    [[nodiscard]] Motion at(const Response& r) const
+    [[nodiscard]] TrajectoryPoint at(const StepResponse& r) const
     {
         return {speed * r.step + push * r.push + ramp * r.ramp,
                 speed * r.rate + push * r.step + ramp * r.push};
     }
-    [[nodiscard]] Motion after(double time) const
+    [[nodiscard]] TrajectoryPoint after(double time) const
     {
-        return moves() ? at(kernel->after(time)) : Motion{};
+        return moves() ? at(propagator->after(time)) : TrajectoryPoint{};
     }
-    [[nodiscard]] double acceleration(double time, const Motion& motion) const
+    [[nodiscard]] double acceleration(double time, const TrajectoryPoint& motion) const
     {
         if (!moves()) return 0.0;
-        return push + ramp * time - kernel->law.damping * motion.speed -
-               kernel->law.stiffness * motion.way;
+        return push + ramp * time - propagator->oscillator.damping * motion.speed -
+               propagator->oscillator.stiffness * motion.displacement;
     }
     [[nodiscard]] double jerk(double acceleration, double speed_then) const
     {
         if (!moves()) return 0.0;
-        return ramp - kernel->law.damping * acceleration - kernel->law.stiffness * speed_then;
+        return ramp - propagator->oscillator.damping * acceleration -
+               propagator->oscillator.stiffness * speed_then;
     }
 };
 
@@ -79,11 +80,11 @@ struct Bounds {
     double jerk;
 };
 
-[[nodiscard]] inline Bounds bounds(const Kernel& kernel, double acceleration, double jerk,
+[[nodiscard]] inline Bounds bounds(const Propagator& propagator, double acceleration, double jerk,
                                    double time)
 {
-    const double most = std::abs(jerk) + kernel.frequency * std::abs(acceleration);
-    return {std::abs(acceleration) + most * std::min(time, kernel.period), most};
+    const double most = std::abs(jerk) + propagator.frequency * std::abs(acceleration);
+    return {std::abs(acceleration) + most * std::min(time, propagator.period), most};
 }
 
 } // namespace hapnet::scene

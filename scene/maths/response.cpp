@@ -30,7 +30,7 @@ constexpr std::array<double, 24> inverse_factorials = [] {
 /// y_n = 1/n! - b y_(n+1) - k y_(n+2) with b = damping time and k = stiffness time^2. From `last`
 /// on they are taken as a free body's 1/n!; every step back from there makes that error smaller.
 template <std::size_t last>
-Response series(double b, double k, double t)
+StepResponse series(double b, double k, double t)
 {
     double ramp = inverse_factorials[last];
     double beyond = inverse_factorials[last + 1];
@@ -51,7 +51,7 @@ Response series(double b, double k, double t)
 
 /// For damping * time <= 1 and stiffness * time^2 <= 1: so many that what is left out is below
 /// 2e-17 of the free body's.
-Response series(double b, double k, double t)
+StepResponse series(double b, double k, double t)
 {
     return b <= 1.0 / 8.0 && k <= 1.0 / 32.0 ? series<12>(b, k, t) : series<19>(b, k, t);
 }
@@ -65,7 +65,7 @@ Decay decay(double rate, double t)
 {
     const double z = rate * t;
     if (z <= 1.0) {
-        const Response all = series(z, 0.0, t); // its step is the decay's integral
+        const StepResponse all = series(z, 0.0, t); // its step is the decay's integral
         return {all.rate, all.step, all.push};
     }
     const double value = base::exp(-std::min(z, 700.0));
@@ -74,10 +74,10 @@ Decay decay(double rate, double t)
 }
 
 /// Two decays of clearly different rates, or one and a constant.
-Response overdamped(const Law& law, double half_width, double t)
+StepResponse overdamped(const Oscillator& oscillator, double half_width, double t)
 {
-    const double fast = 0.5 * law.damping + half_width;
-    const double slow = law.stiffness / fast; // not the difference: it loses digits
+    const double fast = 0.5 * oscillator.damping + half_width;
+    const double slow = oscillator.stiffness / fast; // not the difference: it loses digits
     const Decay a = decay(slow, t);
     const Decay b = decay(fast, t);
     const double width = 2.0 * half_width;
@@ -134,23 +134,23 @@ Wave wave(double decay, double square, double t)
 
 } // namespace
 
-Response respond(const Law& law, double time)
+StepResponse step_response(const Oscillator& oscillator, double time)
 {
-    const double b = law.damping * time;
-    const double k = law.stiffness * time * time;
+    const double b = oscillator.damping * time;
+    const double k = oscillator.stiffness * time * time;
     if (time <= 0.0) return {};
     if (b <= 1.0 && k <= 1.0) return series(b, k, time);
 
-    const double half = 0.5 * law.damping;
-    const double square = law.stiffness - half * half; // of the frequency
-    if (square < -0.25 * half * half) return overdamped(law, std::sqrt(-square), time);
+    const double half = 0.5 * oscillator.damping;
+    const double square = oscillator.stiffness - half * half; // of the frequency
+    if (square < -0.25 * half * half) return overdamped(oscillator, std::sqrt(-square), time);
 
     const Wave w = wave(half, square, time);
-    Response r;
+    StepResponse r;
     r.step = w.sine;
     r.rate = w.cosine - half * w.sine;
-    r.push = (1.0 - r.rate - law.damping * r.step) / law.stiffness;
-    r.ramp = (time - r.step - law.damping * r.push) / law.stiffness;
+    r.push = (1.0 - r.rate - oscillator.damping * r.step) / oscillator.stiffness;
+    r.ramp = (time - r.step - oscillator.damping * r.push) / oscillator.stiffness;
     return r;
 }
 

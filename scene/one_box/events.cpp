@@ -9,23 +9,23 @@ namespace {
 using Kind = SlideEvent::Kind;
 
 /// `factor` times a spring's depth, plus `level`.
-Watch of_depth(const Spring& spring, double factor)
+WatchedQuantity of_depth(const Spring& spring, double factor)
 {
     const auto axis = spring.axis;
-    Watch watch{.level = factor * spring.depth, .slope = factor * spring.closing};
-    watch.way_weight[axis] = factor * spring.sign;
+    WatchedQuantity watch{.level = factor * spring.depth, .slope = factor * spring.closing};
+    watch.displacement_weight[axis] = factor * spring.sign;
     return watch;
 }
 
 /// `factor` times what a spring's force is without limits, plus `level`.
-Watch of_tension(const Slide& slide, const Spring& spring, double factor, double level)
+WatchedQuantity of_tension(const Slide& slide, const Spring& spring, double factor, double level)
 {
     const double k = factor * slide.hands.stiffness_n_per_m;
     const double c = factor * slide.hands.damping_ns_per_m;
     const auto axis = spring.axis;
-    Watch watch{.level = level + k * spring.depth + c * spring.closing,
-                .slope = k * spring.closing};
-    watch.way_weight[axis] = k * spring.sign;
+    WatchedQuantity watch{.level = level + k * spring.depth + c * spring.closing,
+                          .slope = k * spring.closing};
+    watch.displacement_weight[axis] = k * spring.sign;
     watch.speed_weight[axis] = c * spring.sign;
     return watch;
 }
@@ -51,9 +51,9 @@ struct SpringWatcher {
     std::uint32_t index;
     SlideEvent& first;
 
-    void expect(const Watch& watch, Phase next) const
+    void expect(const WatchedQuantity& watch, Phase next) const
     {
-        const auto time = first_root(watch, slide.courses, 0.0, first.time);
+        const auto time = first_root(watch, slide.trajectories, 0.0, first.time);
         if (!time) return;
         first = {.time = *time, .kind = Kind::spring, .spring = index, .phase = next};
     }
@@ -102,10 +102,10 @@ struct SpringWatcher {
 };
 
 /// `side` times how far the centre is from a face.
-Watch of_gap(const Slide& slide, std::size_t axis, double side, double face)
+WatchedQuantity of_gap(const Slide& slide, std::size_t axis, double side, double face)
 {
-    Watch watch{.level = side * (slide.place[axis] - face)};
-    watch.way_weight[axis] = side;
+    WatchedQuantity watch{.level = side * (slide.place[axis] - face)};
+    watch.displacement_weight[axis] = side;
     return watch;
 }
 
@@ -133,10 +133,10 @@ std::size_t keeping_away(const Slide& slide, const Obstacle& obstacle, double ti
     double most = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
         if (i == but) continue;
-        const Motion motion = slide.courses[i].after(time);
-        const double place = slide.place[i] + motion.way;
+        const TrajectoryPoint motion = slide.trajectories[i].after(time);
+        const double place = slide.place[i] + motion.displacement;
         const double gap = obstacle.gap(i, place);
-        const double speed = slide.courses[i].moves() ? motion.speed : 0.0;
+        const double speed = slide.trajectories[i].moves() ? motion.speed : 0.0;
         if (gap < 0.0 || (gap == 0.0 && but != nothing && obstacle.side(i, place) * speed < 0.0)) {
             continue;
         }
@@ -155,11 +155,11 @@ void look_for_impact(const Slide& slide, const Obstacle& obstacle, SlideEvent& f
     std::size_t axis = keeping_away(slide, obstacle, 0.0, nothing);
     double time = 0.0;
     for (int turn = 0; turn < turns_max && axis != nothing; ++turn) {
-        const double place = slide.place[axis] + slide.courses[axis].after(time).way;
+        const double place = slide.place[axis] + slide.trajectories[axis].after(time).displacement;
         const double side = obstacle.side(axis, place);
         const double face = obstacle.face(axis, side);
         const auto root =
-            first_root(of_gap(slide, axis, side, face), slide.courses, time, first.time);
+            first_root(of_gap(slide, axis, side, face), slide.trajectories, time, first.time);
         if (!root) return;
         time = *root;
         const std::size_t other = keeping_away(slide, obstacle, time, axis);
@@ -187,7 +187,7 @@ void look_at_carrier(const Slide& slide, std::size_t i, SlideEvent& first)
         for (const double side : {1.0, -1.0}) {
             const double face = axis.carrier->face(j, side);
             const auto time =
-                first_root(of_gap(slide, j, -side, face), slide.courses, 0.0, first.time);
+                first_root(of_gap(slide, j, -side, face), slide.trajectories, 0.0, first.time);
             if (!time) continue;
             first = {.time = *time, .kind = Kind::edge, .axis = j};
             first.face = face;
@@ -200,9 +200,9 @@ void look_at_carrier(const Slide& slide, std::size_t i, SlideEvent& first)
 void arrive(Slide& slide, const SlideEvent& event, double tick)
 {
     const std::size_t i = event.axis;
-    const Course& course = slide.courses[i];
+    const Trajectory& trajectory = slide.trajectories[i];
     const double closing = -event.side * slide.velocity[i];
-    const double acceleration = course.acceleration(event.time, course.after(event.time));
+    const double acceleration = trajectory.acceleration(event.time, trajectory.after(event.time));
     const double back = slide.calm ? 0.0 : event.obstacle->restitution * closing;
     const double pressing = -event.side * acceleration;
     const bool is_over = 2.0 * back <= pressing * tick;
@@ -270,7 +270,7 @@ void apply(Slide& slide, const SlideEvent& event, double tick)
     case Kind::edge: slide.place[event.axis] = event.face; break;
     case Kind::stop:
         for (std::size_t i = 0; i < 3; ++i) {
-            if (slide.courses[i].moves()) slide.velocity[i] = 0.0;
+            if (slide.trajectories[i].moves()) slide.velocity[i] = 0.0;
         }
         break;
     case Kind::slip: slide.rubbing.slips = true; break;

@@ -36,8 +36,8 @@ Tangential tangential(const Slide& slide)
         const SlideAxis& axis = slide.axes[i];
         if (axis.is_held()) continue;
         found.velocity[i] = slide.velocity[i];
-        found.push[i] = slide.courses[i].push;
-        found.ramp[i] = slide.courses[i].ramp;
+        found.push[i] = slide.trajectories[i].push;
+        found.ramp[i] = slide.trajectories[i].ramp;
         found.all[found.count++] = i;
     }
     return found;
@@ -53,7 +53,7 @@ bool is_straight(const Slide& slide, const Tangential& free)
     for (const std::size_t k : {i, j}) {
         if (free.velocity[k] == 0.0 && free.push[k] == 0.0 && free.ramp[k] == 0.0) return true;
     }
-    if (slide.courses[i].kernel != slide.courses[j].kernel) return false;
+    if (slide.trajectories[i].propagator != slide.trajectories[j].propagator) return false;
     if (free.ramp[i] != 0.0 || free.ramp[j] != 0.0) return false;
     constexpr double rounding = 1e-13;
     const double cross = free.velocity[i] * free.push[j] - free.velocity[j] * free.push[i];
@@ -64,18 +64,18 @@ bool is_straight(const Slide& slide, const Tangential& free)
 void oppose(Slide& slide, const Tangential& free, const PerAxis& direction)
 {
     for (const std::size_t i : free.axes()) {
-        slide.courses[i].push = free.push[i] - slide.rubbing.limit * direction[i];
-        slide.courses[i].ramp = free.ramp[i] - slide.rubbing.limit_ramp * direction[i];
+        slide.trajectories[i].push = free.push[i] - slide.rubbing.limit * direction[i];
+        slide.trajectories[i].ramp = free.ramp[i] - slide.rubbing.limit_ramp * direction[i];
     }
 }
 
 /// The direction in the middle of what is left of the tick, found with the one at its start.
-PerAxis turned(Slide& slide, const Tangential& free, const PerAxis& direction)
+PerAxis rotated(Slide& slide, const Tangential& free, const PerAxis& direction)
 {
     oppose(slide, free, direction);
     PerAxis middle{};
     for (const std::size_t i : free.axes()) {
-        middle[i] = slide.courses[i].after(0.5 * slide.left).speed;
+        middle[i] = slide.trajectories[i].after(0.5 * slide.left).speed;
     }
     if (!(dot(middle, direction) > 0.0)) return direction;
     return unit(middle);
@@ -113,7 +113,7 @@ void with_friction(Slide& slide)
         if (holds || push_squared == 0.0) {
             rubbing.state = State::stuck;
             for (const std::size_t i : free.axes()) {
-                slide.courses[i].kernel = nullptr;
+                slide.trajectories[i].propagator = nullptr;
             }
             return;
         }
@@ -123,7 +123,7 @@ void with_friction(Slide& slide)
         rubbing.direction = unit(free.velocity);
     }
     rubbing.state = State::sliding;
-    if (!is_straight(slide, free)) rubbing.direction = turned(slide, free, rubbing.direction);
+    if (!is_straight(slide, free)) rubbing.direction = rotated(slide, free, rubbing.direction);
     oppose(slide, free, rubbing.direction);
 }
 
@@ -148,19 +148,19 @@ void look_for_slip(const Slide& slide, SlideEvent& first)
 void look_for_stop(const Slide& slide, SlideEvent& first)
 {
     const PerAxis& direction = slide.rubbing.direction;
-    Watch watch{.leaves_zero = slide.rubbing.slips};
+    WatchedQuantity watch{.leaves_zero = slide.rubbing.slips};
     double speed = 0.0;
     double rate = 0.0;
     double bend = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-        if (!slide.courses[i].moves()) continue;
+        if (!slide.trajectories[i].moves()) continue;
         watch.speed_weight[i] = direction[i];
         speed += direction[i] * slide.velocity[i];
         rate += direction[i] * slide.axes[i].acceleration;
         bend += std::abs(direction[i]) * slide.axes[i].most.jerk;
     }
     if (stays_positive(speed, rate, bend, first.time)) return;
-    const auto time = first_root(watch, slide.courses, 0.0, first.time);
+    const auto time = first_root(watch, slide.trajectories, 0.0, first.time);
     if (time) first = {.time = *time, .kind = SlideEvent::Kind::stop};
 }
 

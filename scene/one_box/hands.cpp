@@ -85,14 +85,16 @@ void push_face(WorldState& state, Slide& slide, const FaceTouch& found)
 
 } // namespace
 
-SlidingHands::SlidingHands(const WorldConfig& config, const Bodies& bodies, const BodyForm& movable)
+SlidingHands::SlidingHands(const WorldConfig& config, const Bodies& bodies,
+                           const BodyProperties& movable)
     : body_{movable.id},
       half_{per_axis(movable.half)},
       margin_{std::min(std::min(movable.half.x, movable.half.y), movable.half.z)}
 {
     for (const Slot slot : bodies.slot_of) {
-        if (bodies.form[slot].mass > 0.0) continue;
-        fixed_.push_back({per_axis(bodies.position.at(slot)), per_axis(bodies.form[slot].half)});
+        if (bodies.properties[slot].mass > 0.0) continue;
+        fixed_.push_back(
+            {per_axis(bodies.position.at(slot)), per_axis(bodies.properties[slot].half)});
     }
     entered_fixed_.resize(config.hands.count * fixed_.size());
 }

@@ -21,7 +21,7 @@ struct FaceTouch {
 /// The hands at the box and at the fixed boxes, and what has to be remembered of them.
 class SlidingHands {
 public:
-    SlidingHands(const WorldConfig& config, const Bodies& bodies, const BodyForm& movable);
+    SlidingHands(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
 
     /// Adds the springs between the hands and the box to `slide`. What the hands feel of the fixed
     /// boxes is told at once.

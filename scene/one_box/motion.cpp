@@ -37,18 +37,18 @@ void touch(Slide& slide, const Obstacle& obstacle)
 }
 
 /// Whether the axis rests on what it touches, pressed on it by its accelerations.
-void press(SlideAxis& axis, double speed, const Course& course)
+void press(SlideAxis& axis, double speed, const Trajectory& trajectory)
 {
     if (speed != 0.0 || axis.leaving) return;
-    const bool is_idle = course.push == 0.0;
-    if (axis.below && (course.push < 0.0 || (is_idle && course.ramp <= 0.0))) {
+    const bool is_idle = trajectory.push == 0.0;
+    if (axis.below && (trajectory.push < 0.0 || (is_idle && trajectory.ramp <= 0.0))) {
         axis.carrier = axis.below;
-        axis.load = -course.push;
-        axis.load_ramp = -course.ramp;
-    } else if (axis.above && (course.push > 0.0 || (is_idle && course.ramp >= 0.0))) {
+        axis.load = -trajectory.push;
+        axis.load_ramp = -trajectory.ramp;
+    } else if (axis.above && (trajectory.push > 0.0 || (is_idle && trajectory.ramp >= 0.0))) {
         axis.carrier = axis.above;
-        axis.load = course.push;
-        axis.load_ramp = course.ramp;
+        axis.load = trajectory.push;
+        axis.load_ramp = trajectory.ramp;
     }
 }
 
@@ -58,19 +58,19 @@ std::array<std::size_t, 3> add_springs(Slide& slide)
     const auto [damping, stiffness] = slide.laws.spring();
     std::array<std::size_t, 3> count{};
     for (const Spring& spring : slide.active_springs()) {
-        Course& course = slide.courses[spring.axis];
+        Trajectory& trajectory = slide.trajectories[spring.axis];
         if (spring.phase == Phase::active) {
-            course.push -= spring.sign * (stiffness * spring.depth + damping * spring.closing);
-            course.ramp -= spring.sign * (stiffness * spring.closing);
+            trajectory.push -= spring.sign * (stiffness * spring.depth + damping * spring.closing);
+            trajectory.ramp -= spring.sign * (stiffness * spring.closing);
             ++count[spring.axis];
         } else if (spring.phase == Phase::limited) {
-            course.push -= spring.sign * (slide.hands.force_max_n * slide.laws.inverse_mass());
+            trajectory.push -= spring.sign * (slide.hands.force_max_n * slide.laws.inverse_mass());
         }
     }
     for (const Grip& grip : slide.active_grips()) {
         for (std::size_t i = 0; i < 3; ++i) {
-            slide.courses[i].push += stiffness * grip.stretch[i] + damping * grip.velocity[i];
-            slide.courses[i].ramp += stiffness * grip.velocity[i];
+            slide.trajectories[i].push += stiffness * grip.stretch[i] + damping * grip.velocity[i];
+            slide.trajectories[i].ramp += stiffness * grip.velocity[i];
             ++count[i];
         }
     }
@@ -79,7 +79,7 @@ std::array<std::size_t, 3> add_springs(Slide& slide)
 
 } // namespace
 
-SlideLaws::SlideLaws(const HandDescription& hands, const BodyForm& body, double tick)
+SlideLaws::SlideLaws(const HandDescription& hands, const BodyProperties& body, double tick)
     : inverse_mass_{1.0 / body.mass}
 {
     for (const bool with_drag : {false, true}) {
@@ -87,8 +87,8 @@ SlideLaws::SlideLaws(const HandDescription& hands, const BodyForm& body, double 
             const auto springs = static_cast<double>(n);
             const double damping = springs * hands.damping_ns_per_m + (with_drag ? body.drag : 0.0);
             const double stiffness = springs * hands.stiffness_n_per_m;
-            kernels_[with_drag ? 1 : 0][n] =
-                Kernel{{.damping = damping / body.mass, .stiffness = stiffness / body.mass}, tick};
+            propagators_[with_drag ? 1 : 0][n] = Propagator{
+                {.damping = damping / body.mass, .stiffness = stiffness / body.mass}, tick};
         }
     }
 }
@@ -103,7 +103,7 @@ Slide Slide::copy() const
     other.place = place;
     other.velocity = velocity;
     other.axes = axes;
-    other.courses = courses;
+    other.trajectories = trajectories;
     other.rubbing = rubbing;
     other.spring_count = spring_count;
     other.grip_count = grip_count;
@@ -119,7 +119,7 @@ void set_courses(Slide& slide)
     for (std::size_t i = 0; i < 3; ++i) {
         SlideAxis& axis = slide.axes[i];
         axis.below = axis.above = axis.carrier = nullptr;
-        slide.courses[i] = {nullptr, slide.velocity[i], axis.steady, 0.0};
+        slide.trajectories[i] = {nullptr, slide.velocity[i], axis.steady, 0.0};
     }
     for (const std::uint32_t id : slide.near) touch(slide, slide.obstacles[id]);
     const auto springs = add_springs(slide);
@@ -127,32 +127,34 @@ void set_courses(Slide& slide)
     bool is_on_plane = false;
     for (std::size_t i = 0; i < 3; ++i) {
         SlideAxis& axis = slide.axes[i];
-        if (axis.below || axis.above) press(axis, slide.courses[i].speed, slide.courses[i]);
+        if (axis.below || axis.above)
+            press(axis, slide.trajectories[i].speed, slide.trajectories[i]);
         axis.leaving = false;
         if (axis.carrier && axis.carrier->is_plane) is_on_plane = true;
     }
     for (std::size_t i = 0; i < 3; ++i) {
         const SlideAxis& axis = slide.axes[i];
-        if (axis.is_held() || slide.courses[i].is_idle()) continue;
-        slide.courses[i].kernel = &slide.laws.of(springs[i], is_on_plane);
+        if (axis.is_held() || slide.trajectories[i].is_idle()) continue;
+        slide.trajectories[i].propagator = &slide.laws.of(springs[i], is_on_plane);
     }
 }
 
 void with_bounds(Slide& slide)
 {
     for (std::size_t i = 0; i < 3; ++i) {
-        const Course& course = slide.courses[i];
+        const Trajectory& trajectory = slide.trajectories[i];
         SlideAxis& axis = slide.axes[i];
-        if (!course.moves()) {
+        if (!trajectory.moves()) {
             axis.acceleration = axis.reach = 0.0;
             axis.most = {};
             continue;
         }
-        axis.acceleration = course.push - course.kernel->law.damping * course.speed;
-        const double jerk = course.jerk(axis.acceleration, course.speed);
-        axis.most = bounds(*course.kernel, axis.acceleration, jerk, slide.left);
+        axis.acceleration =
+            trajectory.push - trajectory.propagator->oscillator.damping * trajectory.speed;
+        const double jerk = trajectory.jerk(axis.acceleration, trajectory.speed);
+        axis.most = bounds(*trajectory.propagator, axis.acceleration, jerk, slide.left);
         axis.reach =
-            slide.left * (std::abs(course.speed) + 0.5 * slide.left * axis.most.acceleration);
+            slide.left * (std::abs(trajectory.speed) + 0.5 * slide.left * axis.most.acceleration);
     }
 }
 
@@ -161,17 +163,18 @@ void advance(Slide& slide, double time)
     PerAxis way{};
     PerAxis way_integral{};
     for (std::size_t i = 0; i < 3; ++i) {
-        const Course& course = slide.courses[i];
-        if (!course.moves()) continue;
-        const Motion motion = course.after(time);
-        const Law& law = course.kernel->law;
-        if (law.stiffness > 0.0) { // from the law itself, integrated once
-            const double forces = time * (course.push + 0.5 * time * course.ramp);
-            way_integral[i] =
-                (forces - law.damping * motion.way - (motion.speed - course.speed)) / law.stiffness;
+        const Trajectory& trajectory = slide.trajectories[i];
+        if (!trajectory.moves()) continue;
+        const TrajectoryPoint motion = trajectory.after(time);
+        const Oscillator& oscillator = trajectory.propagator->oscillator;
+        if (oscillator.stiffness > 0.0) { // from the law itself, integrated once
+            const double forces = time * (trajectory.push + 0.5 * time * trajectory.ramp);
+            way_integral[i] = (forces - oscillator.damping * motion.displacement -
+                               (motion.speed - trajectory.speed)) /
+                              oscillator.stiffness;
         }
-        way[i] = motion.way;
-        slide.place[i] += motion.way;
+        way[i] = motion.displacement;
+        slide.place[i] += motion.displacement;
         slide.velocity[i] = motion.speed;
     }
     const double k = slide.hands.stiffness_n_per_m;

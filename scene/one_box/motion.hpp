@@ -15,20 +15,20 @@ namespace hapnet::scene {
 /// The laws that an axis can be under: with any number of springs, with or without drag.
 class SlideLaws {
 public:
-    SlideLaws(const HandDescription& hands, const BodyForm& body, double tick);
+    SlideLaws(const HandDescription& hands, const BodyProperties& body, double tick);
 
     [[nodiscard]] double inverse_mass() const { return inverse_mass_; }
     /// Of one spring.
-    [[nodiscard]] const Law& spring() const { return kernels_[0][1].law; }
+    [[nodiscard]] const Oscillator& spring() const { return propagators_[0][1].oscillator; }
 
-    [[nodiscard]] const Kernel& of(std::size_t springs, bool with_drag) const
+    [[nodiscard]] const Propagator& of(std::size_t springs, bool with_drag) const
     {
-        return kernels_[with_drag ? 1 : 0][springs];
+        return propagators_[with_drag ? 1 : 0][springs];
     }
 
 private:
     double inverse_mass_;
-    std::array<std::array<Kernel, hands_max + 1>, 2> kernels_;
+    std::array<std::array<Propagator, hands_max + 1>, 2> propagators_;
 };
 
 /// What one axis of the box does.
@@ -84,7 +84,7 @@ struct Slide {
     PerAxis place;
     PerAxis velocity;
     std::array<SlideAxis, 3> axes;
-    Courses courses;
+    Trajectories trajectories;
     Rubbing rubbing;
 
     std::uint32_t spring_count = 0;

@@ -20,7 +20,7 @@ Obstacle between(const Material& a, const Material& b)
     return obstacle;
 }
 
-Obstacle in_the_way(const PlaneDescription& plane, const BodyForm& movable)
+Obstacle in_the_way(const PlaneDescription& plane, const BodyProperties& movable)
 {
     Obstacle obstacle = between(plane.material, movable.material);
     obstacle.is_plane = true;
@@ -37,18 +37,18 @@ Obstacle in_the_way(const PlaneDescription& plane, const BodyForm& movable)
 
 } // namespace
 
-Obstacles::Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyForm& movable)
+Obstacles::Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable)
     : usual_margin_{std::min(std::min(movable.half.x, movable.half.y), movable.half.z)}
 {
     for (const PlaneDescription& plane : config.planes) {
         all_.push_back(in_the_way(plane, movable));
     }
     for (const Slot slot : bodies.slot_of) {
-        if (bodies.form[slot].mass > 0.0) continue;
-        Obstacle obstacle = between(bodies.form[slot].material, movable.material);
+        if (bodies.properties[slot].mass > 0.0) continue;
+        Obstacle obstacle = between(bodies.properties[slot].material, movable.material);
         for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<int>(i);
-            const double reach = bodies.form[slot].half[axis] + movable.half[axis];
+            const double reach = bodies.properties[slot].half[axis] + movable.half[axis];
             obstacle.low[i] = bodies.position.at(slot)[axis] - reach;
             obstacle.high[i] = bodies.position.at(slot)[axis] + reach;
         }

@@ -42,7 +42,7 @@ struct Obstacle {
 /// order of the description; the rest is looked at again when the box has gone some way.
 class Obstacles {
 public:
-    Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyForm& movable);
+    Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
 
     /// How far the centre may still go before the list of what is near has to be made again.
     [[nodiscard]] double room(const PerAxis& centre) const

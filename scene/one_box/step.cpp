@@ -9,10 +9,10 @@ namespace hapnet::scene {
 
 namespace {
 
-const BodyForm& the_movable(const Bodies& bodies)
+const BodyProperties& the_movable(const Bodies& bodies)
 {
     base::ensure(bodies.movable == 1);
-    return bodies.form[0];
+    return bodies.properties[0];
 }
 
 template <bool coulomb>

@@ -11,9 +11,9 @@
 namespace hapnet::scene {
 
 /// Which awake bodies something acts on in a tick: a contact, a hand or a push. The others fly.
-class Engaged {
+class ActiveBodies {
 public:
-    explicit Engaged(Slot movable) : slots_{movable}, marks_(movable, 0) {}
+    explicit ActiveBodies(Slot movable) : slots_{movable}, marks_(movable, 0) {}
 
     /// Whether the body was not one of them.
     bool add(Slot slot)
@@ -34,7 +34,7 @@ public:
 
     /// Calls visit(range) for all the others up to `end`.
     template <typename Visit>
-    void for_others(Slot end, Visit visit) const
+    void for_inactive(Slot end, Visit visit) const
     {
         const auto first = marks_.begin();
         const auto last = first + end;

@@ -15,29 +15,30 @@ struct SlotRange {
 };
 
 /// Moves bodies by one tick under one acceleration: parabolas, exact.
-void fall(Bodies& bodies, SlotRange range, const glm::dvec3& acceleration, double tick);
+void integrate_parabola(Bodies& bodies, SlotRange range, const glm::dvec3& acceleration,
+                        double tick);
 
 /// Turns bodies by one tick about the axis of their angular momentum, exactly. For those that turn
 /// evenly: with three equal moments of inertia, or about one axis of the world. What does not turn
 /// keeps its orientation to the last bit.
-void turn_evenly(Bodies& bodies, SlotRange range, double tick);
+void rotate_uniformly(Bodies& bodies, SlotRange range, double tick);
 
 /// Whether a body turns evenly, or not at all.
-[[nodiscard]] bool turns_evenly(const BodyForm& form);
+[[nodiscard]] bool rotates_uniformly(const BodyProperties& properties);
 
 /// Turns one body of any kind by one tick in which nothing touches it.
-void turn_freely(Bodies& bodies, Slot slot, double tick);
+void rotate_freely(Bodies& bodies, Slot slot, double tick);
 
 /// Gravity on what of a body is not locked.
-[[nodiscard]] glm::dvec3 falling(const BodyForm& form, const glm::dvec3& gravity);
+[[nodiscard]] glm::dvec3 gravity_on(const BodyProperties& properties, const glm::dvec3& gravity);
 
 /// Moves bodies that nothing touches, whatever their kinds: many at once when all movable bodies of
 /// the scene turn evenly and fall alike, else one by one.
-class Fliers {
+class FreeBodies {
 public:
-    Fliers(const WorldConfig& config, const Bodies& bodies);
+    FreeBodies(const WorldConfig& config, const Bodies& bodies);
 
-    void move(Bodies& bodies, SlotRange range) const;
+    void integrate(Bodies& bodies, SlotRange range) const;
 
 private:
     double tick_;
@@ -57,7 +58,7 @@ public:
 
 private:
     /// Bodies side by side that are alike in what keeps them from turning and falling.
-    enum class Kind : std::uint8_t { locked, even, wobbling };
+    enum class Kind : std::uint8_t { locked, uniform, tumbling };
     struct Run {
         Kind kind = Kind::locked;
         SlotRange range;

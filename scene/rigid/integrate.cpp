@@ -19,18 +19,18 @@ namespace {
 constexpr double strays_most = 0.5;
 
 /// An angular impulse changes the momentum only about axes that the body may turn about.
-glm::dvec3 about_free_axes(const BodyForm& form, const glm::dvec3& angular)
+glm::dvec3 about_free_axes(const BodyProperties& properties, const glm::dvec3& angular)
 {
-    if (form.turning == Turning::free) return angular;
-    return {form.inverse_inertia.x > 0.0 ? angular.x : 0.0,
-            form.inverse_inertia.y > 0.0 ? angular.y : 0.0,
-            form.inverse_inertia.z > 0.0 ? angular.z : 0.0};
+    if (properties.turning == Turning::free) return angular;
+    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
+            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
+            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
 
 /// What of a way the body can go.
-glm::dvec3 free_part(const BodyForm& form, const glm::dvec3& way)
+glm::dvec3 free_part(const BodyProperties& properties, const glm::dvec3& way)
 {
-    const glm::dvec3& light = form.inverse_mass;
+    const glm::dvec3& light = properties.inverse_mass;
     return {light.x > 0.0 ? way.x : 0.0, light.y > 0.0 ? way.y : 0.0, light.z > 0.0 ? way.z : 0.0};
 }
 
@@ -51,38 +51,39 @@ glm::dvec3 along_plane(const glm::dvec3& v, const glm::dvec3& normal)
 glm::dvec3 acceleration(const BodyCourse& course, const WorldState& state, Slot slot,
                         const WorldConfig& config)
 {
-    const BodyForm& form = state.bodies.form[slot];
-    return falling(form, config.gravity) +
-           form.inverse_mass * ((1.0 / config.tick) * course.impulse + state.pushes[form.id]);
+    const BodyProperties& properties = state.bodies.properties[slot];
+    return gravity_on(properties, config.gravity) +
+           properties.inverse_mass *
+               ((1.0 / config.tick) * course.impulse + state.pushes[properties.id]);
 }
 
 void start(BodyCourse& course, const WorldState& state, Slot slot, const BodyResponse& response)
 {
     const Bodies& bodies = state.bodies;
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
-    course.angular_impulse = about_free_axes(bodies.form[slot], course.angular_impulse);
+    course.angular_impulse = about_free_axes(bodies.properties[slot], course.angular_impulse);
     course.start = {bodies.velocity.at(slot), response.inverse_inertia * momentum, glm::dvec3{0.0}};
     course.angular_momentum = momentum + course.angular_impulse;
 }
 
 void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
 {
-    const BodyForm& form = bodies.form[slot];
+    const BodyProperties& properties = bodies.properties[slot];
     if (course.has_hands) {
         const glm::dvec3 more = tick * (mean.spin - course.mean.spin);
         bodies.orientation.put(slot, is_nothing(more) ? course.orientation
-                                                      : turned(course.orientation, more));
+                                                      : rotated(course.orientation, more));
         return;
     }
     const glm::dquat now = bodies.orientation.at(slot);
     if (is_nothing(tick * mean.spin)) return;
-    if (turns_evenly(form)) {
-        bodies.orientation.put(slot, turned(now, tick * mean.spin));
+    if (rotates_uniformly(properties)) {
+        bodies.orientation.put(slot, rotated(now, tick * mean.spin));
         return;
     }
     const glm::dvec3 momentum =
         bodies.angular_momentum.at(slot) + 0.5 * course.angular_impulse + mean.angular_impulse;
-    bodies.orientation.put(slot, spun(now, {momentum, form.inverse_inertia}, tick));
+    bodies.orientation.put(slot, rotated_freely(now, {momentum, properties.inverse_inertia}, tick));
 }
 
 } // namespace
@@ -92,7 +93,7 @@ Scales scales_of(const WorldConfig& config, const Bodies& bodies)
     double size = std::numeric_limits<double>::infinity();
     double least = size;
     for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        const glm::dvec3& half = bodies.form[slot].half;
+        const glm::dvec3& half = bodies.properties[slot].half;
         least = std::min(least, std::min(half.x, std::min(half.y, half.z)));
         if (slot < bodies.movable) size = least;
     }
@@ -104,14 +105,15 @@ Scales scales_of(const WorldConfig& config, const Bodies& bodies)
 
 OrientedBox box_of(const Bodies& bodies, Slot slot)
 {
-    return {bodies.position.at(slot), axes_of(bodies.orientation.at(slot)), bodies.form[slot].half};
+    return {bodies.position.at(slot), axes_of(bodies.orientation.at(slot)),
+            bodies.properties[slot].half};
 }
 
-BodyResponse response_of(const BodyForm& form, const OrientedBox& box)
+BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box)
 {
-    const glm::dvec3& about = form.inverse_inertia;
-    BodyResponse response{form.inverse_mass, glm::dmat3{0.0}};
-    if (turns_evenly(form)) {
+    const glm::dvec3& about = properties.inverse_inertia;
+    BodyResponse response{properties.inverse_mass, glm::dmat3{0.0}};
+    if (rotates_uniformly(properties)) {
         for (int i = 0; i < 3; ++i) response.inverse_inertia[i][i] = about[i];
         return response;
     }
@@ -147,7 +149,7 @@ void follow(BodyCourse& course, const WorldState& state, Slot slot, const BodyRe
     const glm::dvec3& before = course.start.velocity;
     course.tentative = {before + tick * rate, response.inverse_inertia * course.angular_momentum,
                         glm::dvec3{0.0}};
-    if (!turns_evenly(state.bodies.form[slot])) {
+    if (!rotates_uniformly(state.bodies.properties[slot])) {
         // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
         // Of what turns far in a tick that rate says nothing: it fades out.
         constexpr double far = 0.3; // radians
@@ -161,11 +163,11 @@ void follow(BodyCourse& course, const WorldState& state, Slot slot, const BodyRe
                    glm::dvec3{0.0}};
     if (course.drag == 0.0) return;
     // Against the drag the velocity along the plane goes exponentially to where it would stay.
-    const BodyForm& form = state.bodies.form[slot];
+    const BodyProperties& properties = state.bodies.properties[slot];
     const double keeps = base::exp(-course.drag * tick);
-    const glm::dvec3 driven = free_part(form, along_plane(rate, course.carrier));
+    const glm::dvec3 driven = free_part(properties, along_plane(rate, course.carrier));
     const glm::dvec3 excess =
-        free_part(form, along_plane(before, course.carrier)) - driven / course.drag;
+        free_part(properties, along_plane(before, course.carrier)) - driven / course.drag;
     const glm::dvec3 lost = (1.0 - keeps) * excess;
     course.tentative.velocity += -lost - tick * driven;
     course.mean.velocity += lost / (course.drag * tick) - excess - (0.5 * tick) * driven;
@@ -179,10 +181,10 @@ void follow_hands(BodyCourse& course, const WorldState& state, Slot slot,
     start(course, state, slot, response);
     const glm::dvec3 rate = acceleration(course, state, slot, config);
     const double per_second = 1.0 / config.tick;
-    Answer answer{bodies.form[slot].half,
+    Answer answer{bodies.properties[slot].half,
                   response.inverse_mass,
                   response.inverse_inertia,
-                  turns_evenly(bodies.form[slot]),
+                  rotates_uniformly(bodies.properties[slot]),
                   rate,
                   per_second * course.angular_impulse};
     MovingBody body;
@@ -191,7 +193,7 @@ void follow_hands(BodyCourse& course, const WorldState& state, Slot slot,
         body.orientation = bodies.orientation.at(slot);
         body.velocity = course.start.velocity;
         body.angular_momentum = bodies.angular_momentum.at(slot);
-        answer.acceleration = rate - free_part(bodies.form[slot], drag);
+        answer.acceleration = rate - free_part(bodies.properties[slot], drag);
         advance(body, answer, hands.springs, hands.work, config.tick);
     };
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
@@ -211,7 +213,7 @@ void follow_hands(BodyCourse& course, const WorldState& state, Slot slot,
     course.has_hands = true;
     course.position = body.position;
     course.orientation = body.orientation;
-    course.angular_momentum = about_free_axes(bodies.form[slot], body.angular_momentum);
+    course.angular_momentum = about_free_axes(bodies.properties[slot], body.angular_momentum);
     course.tentative.velocity = body.velocity;
     course.tentative.spin = response.inverse_inertia * body.angular_momentum;
     course.tentative.angular_impulse = glm::dvec3{0.0};
@@ -220,28 +222,29 @@ void follow_hands(BodyCourse& course, const WorldState& state, Slot slot,
     course.mean.angular_impulse = glm::dvec3{0.0};
 }
 
-void stop_in_time(const ContactBlock& block, const BodyCourse& course, const BodyForm& form,
-                  const Scales& scales, BodyMotion& mean)
+void stop_in_time(const ContactBlock& block, const BodyCourse& course,
+                  const BodyProperties& properties, const Scales& scales, BodyMotion& mean)
 {
     const double sign = block.b != 0 ? 1.0 : -1.0;
     const glm::dvec3& start = course.start.velocity;
-    const glm::dvec3 slip = free_part(form, start - glm::dot(start, block.normal) * block.normal);
+    const glm::dvec3 slip =
+        free_part(properties, start - glm::dot(start, block.normal) * block.normal);
     const double speed = std::sqrt(glm::dot(slip, slip));
     constexpr double hardly = 1e-9;
     if (speed <= hardly * scales.speed) return;
     // Of a body that turns, the centre's way says nothing of what slips where it touches.
     constexpr double steadily = 1e-6;
     const double turning2 = glm::dot(course.start.spin, course.start.spin);
-    const double across2 = glm::dot(form.half, form.half);
+    const double across2 = glm::dot(properties.half, properties.half);
     if (turning2 * across2 > steadily * steadily * speed * speed) return;
     const glm::dvec3 along = slip / speed;
     const double held = sign * (block.impulse.tangent_1 * glm::dot(block.tangent_1, along) +
                                 block.impulse.tangent_2 * glm::dot(block.tangent_2, along));
     // What else pushes along the slip: it brought the body to a stop together with the friction.
-    const double other = -form.mass * speed - held;
+    const double other = -properties.mass * speed - held;
     const double braking = block.friction * block.normal_sum() - other;
-    if (!(braking > form.mass * speed)) return;
-    const double share = form.mass * speed / braking; // of the tick, until the stop
+    if (!(braking > properties.mass * speed)) return;
+    const double share = properties.mass * speed / braking; // of the tick, until the stop
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
@@ -286,7 +289,7 @@ void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& 
     }
     bodies.velocity.put(slot, ending.velocity);
     bodies.angular_momentum.put(
-        slot, about_free_axes(bodies.form[slot],
+        slot, about_free_axes(bodies.properties[slot],
                               course.angular_momentum + ending.angular_impulse + course.thrown));
 }
 

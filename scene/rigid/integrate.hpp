@@ -44,7 +44,7 @@ struct BodyCourse {
 };
 
 [[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
-[[nodiscard]] BodyResponse response_of(const BodyForm& form, const OrientedBox& box);
+[[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);
 
 /// Nothing acts on the body yet.
 void begin(BodyCourse& course);
@@ -66,8 +66,8 @@ void follow_hands(BodyCourse& course, const WorldState& state, Slot slot,
 
 /// A contact that stops slipping within the tick does so at its moment: until then friction has
 /// its full strength, and not a mean one until the end. For a body whose only friction it is.
-void stop_in_time(const ContactBlock& block, const BodyCourse& course, const BodyForm& form,
-                  const Scales& scales, BodyMotion& mean);
+void stop_in_time(const ContactBlock& block, const BodyCourse& course,
+                  const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
 /// What a body meets was looked for in the box around its straight way through the tick. When it
 /// is thrown far out of that, it goes only so far that it cannot pass through anything that was

@@ -17,20 +17,20 @@ constexpr double looks_per_rest = 4.0;
 constexpr double gravity_share = 0.1;
 constexpr double size_share = 1e-3;
 
-double rest_speed(const WorldConfig& config, const BodyForm& form)
+double rest_speed(const WorldConfig& config, const BodyProperties& properties)
 {
     const double gravity = std::sqrt(glm::dot(config.gravity, config.gravity));
-    const double size = 2.0 * std::min({form.half.x, form.half.y, form.half.z});
+    const double size = 2.0 * std::min({properties.half.x, properties.half.y, properties.half.z});
     return gravity_share * gravity * config.tick + size_share * std::sqrt(gravity * size);
 }
 
 /// The angular momentum at which no corner is faster than a speed.
-double rest_momentum(const BodyForm& form, double speed)
+double rest_momentum(const BodyProperties& properties, double speed)
 {
-    const glm::dvec3& easy = form.inverse_inertia;
+    const glm::dvec3& easy = properties.inverse_inertia;
     const double ease = std::max({easy.x, easy.y, easy.z});
     if (ease == 0.0) return std::numeric_limits<double>::infinity();
-    return speed / (ease * std::sqrt(glm::dot(form.half, form.half)));
+    return speed / (ease * std::sqrt(glm::dot(properties.half, properties.half)));
 }
 
 } // namespace
@@ -48,8 +48,8 @@ Sleep::Sleep(const WorldConfig& config, const Bodies& bodies)
       queue_{bodies.movable}
 {
     for (Slot slot = 0; slot < bodies.movable; ++slot) {
-        const double speed = rest_speed(config, bodies.form[slot]);
-        const double momentum = rest_momentum(bodies.form[slot], speed);
+        const double speed = rest_speed(config, bodies.properties[slot]);
+        const double momentum = rest_momentum(bodies.properties[slot], speed);
         speed2_[slot] = speed * speed;
         momentum2_[slot] = momentum * momentum;
     }
@@ -125,7 +125,7 @@ void Sleep::rest(Bodies& bodies, Neighbours<broad_phase>& neighbours, std::uint6
     find_islands(bodies, neighbours);
     queue_.clear();
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        const BodyId id = bodies.form[slot].id;
+        const BodyId id = bodies.properties[slot].id;
         if (island_rested_[islands_.of(id)] >= rest_ticks_) queue_.add(id);
     }
     // By their ids, so that the order of the slots has one reason less to depend on the past.
@@ -154,7 +154,7 @@ bool Sleep::count(const Bodies& bodies)
 template <BroadPhase broad_phase>
 void Sleep::find_islands(const Bodies& bodies, Neighbours<broad_phase>& neighbours)
 {
-    for (Slot slot = 0; slot < bodies.awake; ++slot) islands_.part(bodies.form[slot].id);
+    for (Slot slot = 0; slot < bodies.awake; ++slot) islands_.part(bodies.properties[slot].id);
     for (const PairIndex index : neighbours.pairs()) {
         const Pair& pair = neighbours.pair(index);
         const bool are_awake =
@@ -162,9 +162,9 @@ void Sleep::find_islands(const Bodies& bodies, Neighbours<broad_phase>& neighbou
         if (are_awake && touches(pair.memory)) islands_.join(pair.a, pair.b);
     }
     for (Slot slot = 0; slot < bodies.awake; ++slot)
-        island_rested_[bodies.form[slot].id] = std::numeric_limits<double>::infinity();
+        island_rested_[bodies.properties[slot].id] = std::numeric_limits<double>::infinity();
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        double& least = island_rested_[islands_.of(bodies.form[slot].id)];
+        double& least = island_rested_[islands_.of(bodies.properties[slot].id)];
         least = std::min(least, rested_[slot]);
     }
 }

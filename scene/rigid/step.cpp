@@ -65,7 +65,7 @@ std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
 bool any_bounces(const WorldConfig& config, const Bodies& bodies)
 {
     const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
-    return std::any_of(bodies.form.begin(), bodies.form.end(), bounces) ||
+    return std::any_of(bodies.properties.begin(), bodies.properties.end(), bounces) ||
            std::any_of(config.planes.begin(), config.planes.end(), bounces);
 }
 
@@ -80,8 +80,8 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       sleep_{config, state.bodies},
       hands_{config},
       boxes_{state.bodies, scales_},
-      fliers_{config, state.bodies},
-      engaged_{state.bodies.movable},
+      free_bodies_{config, state.bodies},
+      active_{state.bodies.movable},
       courses_{state.bodies.movable + std::size_t{1}},
       solver_{state.bodies.movable, blocks_for(config, state.bodies)}
 {}
@@ -101,11 +101,12 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     set_out(config, state);
     solve(state);
     move_apart();
-    for (const Slot slot : engaged_.slots()) {
+    for (const Slot slot : active_.slots()) {
         arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
     }
-    engaged_.for_others(bodies.awake, [&](SlotRange range) { fliers_.move(bodies, range); });
-    engaged_.clear();
+    active_.for_inactive(bodies.awake,
+                         [&](SlotRange range) { free_bodies_.integrate(bodies, range); });
+    active_.clear();
     hands_.report(config, state);
     if constexpr (sleeps) sleep_.rest(bodies, neighbours_, state.ticks);
 }
@@ -174,9 +175,9 @@ void RigidStepper<broad_phase>::look(const Bodies& bodies)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::engage(const Bodies& bodies, Slot slot)
 {
-    if (!engaged_.add(slot)) return;
-    const BodyForm& form = bodies.form[slot];
-    solver_.response(slot + 1) = response_of(form, boxes_.at(bodies, form.id).box);
+    if (!active_.add(slot)) return;
+    const BodyProperties& properties = bodies.properties[slot];
+    solver_.response(slot + 1) = response_of(properties, boxes_.at(bodies, properties.id).box);
     begin(courses_[slot + 1]);
 }
 
@@ -218,13 +219,13 @@ void RigidStepper<broad_phase>::meet_planes(const WorldConfig& config, const Wor
         ContactBlock* const block = meet(manifold, {box.centre, box.centre}, pair.memory);
         if (block == nullptr) continue;
         engage(bodies, slot);
-        const BodyForm& form = bodies.form[slot];
+        const BodyProperties& properties = bodies.properties[slot];
         block->a = 0;
         block->b = slot + 1;
-        block->friction = friction_of(form.material, plane.material);
-        block->restitution = std::max(form.material.restitution, plane.material.restitution);
-        if (form.drag > 0.0 && is_carried) {
-            courses_[block->b].drag = form.drag / form.mass;
+        block->friction = friction_of(properties.material, plane.material);
+        block->restitution = std::max(properties.material.restitution, plane.material.restitution);
+        if (properties.drag > 0.0 && is_carried) {
+            courses_[block->b].drag = properties.drag / properties.mass;
             courses_[block->b].carrier = plane.normal;
         }
     }
@@ -259,8 +260,8 @@ void RigidStepper<broad_phase>::meet_bodies(const WorldState& state)
         const BoxMeeting meeting = between(state, pair);
         ContactBlock* const block = meet(meeting.manifold, meeting.centres, pair.memory);
         if (block == nullptr) continue;
-        const Material& one = bodies.form[a].material;
-        const Material& other = bodies.form[b].material;
+        const Material& one = bodies.properties[a].material;
+        const Material& other = bodies.properties[b].material;
         block->a = index_of(a);
         block->b = index_of(b);
         block->friction = friction_of(one, other);
@@ -291,13 +292,13 @@ void RigidStepper<broad_phase>::set_out(const WorldConfig& config, const WorldSt
     push_by_hands(config, state);
     solver_.ending(0) = {};
     solver_.mean(0) = {};
-    for (const Slot slot : engaged_.slots()) {
+    for (const Slot slot : active_.slots()) {
         BodyCourse& course = courses_[slot + 1];
         if (!course.has_hands) follow(course, state, slot, solver_.response(slot + 1), config);
         if (bounces_) course.rebound = course.start;
     }
     if (bounces_) bounce(solver_, courses_.all(), scales_);
-    for (const Slot slot : engaged_.slots()) {
+    for (const Slot slot : active_.slots()) {
         solver_.ending(slot + 1) = courses_[slot + 1].tentative;
     }
     for (ContactBlock& block : solver_.blocks()) {
@@ -330,7 +331,7 @@ void RigidStepper<broad_phase>::solve(const WorldState& state)
     counts_.contacts = static_cast<std::uint32_t>(blocks.size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
-    for (const Slot slot : engaged_.slots()) {
+    for (const Slot slot : active_.slots()) {
         const BodyCourse& course = courses_[slot + 1];
         const BodyMotion& ending = solver_.ending(slot + 1);
         solver_.mean(slot + 1) = {course.mean.velocity +
@@ -339,8 +340,8 @@ void RigidStepper<broad_phase>::solve(const WorldState& state)
                                   course.thrown_mean + 0.5 * ending.angular_impulse};
     }
     const auto weight_of = [&](const ContactBlock& block) {
-        const double a = block.a != 0 ? bodies.form[block.a - 1].mass : 0.0;
-        const double b = block.b != 0 ? bodies.form[block.b - 1].mass : 0.0;
+        const double a = block.a != 0 ? bodies.properties[block.a - 1].mass : 0.0;
+        const double b = block.b != 0 ? bodies.properties[block.b - 1].mass : 0.0;
         return (a + b) * scales_.speed;
     };
     for (const ContactBlock& block : blocks) {
@@ -353,7 +354,8 @@ void RigidStepper<broad_phase>::solve(const WorldState& state)
         if (block.friction == 0.0 || (block.a != 0) == (block.b != 0)) continue;
         const SolverIndex index = block.a + block.b;
         if (courses_[index].rubbing != 1) continue;
-        stop_in_time(block, courses_[index], bodies.form[index - 1], scales_, solver_.mean(index));
+        stop_in_time(block, courses_[index], bodies.properties[index - 1], scales_,
+                     solver_.mean(index));
     }
 }
 
@@ -373,7 +375,7 @@ void RigidStepper<broad_phase>::move_apart()
     solver_.separate(limits);
     // Who is thrown out of his way is held back, and the others go as far as that lets them.
     const auto keep = [&] {
-        return keep_to_paths(engaged_.slots(), courses_.all(), solver_, scales_);
+        return keep_to_paths(active_.slots(), courses_.all(), solver_, scales_);
     };
     if (!keep()) return;
     solver_.separate_again(limits);

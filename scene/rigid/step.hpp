@@ -73,8 +73,8 @@ private:
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
     HandSprings hands_;
     Boxes boxes_;
-    Fliers fliers_;
-    Engaged engaged_;
+    FreeBodies free_bodies_;
+    ActiveBodies active_;
     Scratch<BodyCourse> courses_; // by solver index; of those engaged
     ContactSolver solver_;
     std::array<HandSpring, hands_max> springs_{}; // on one body

@@ -116,9 +116,9 @@ void add_body(Square<6>& matrix, const std::array<Jacobian, 6>& rows, const Body
 {
     for (std::size_t i = 0; i < 6; ++i) {
         const glm::dvec3 moved = body.inverse_mass * rows[i].linear;
-        const glm::dvec3 turned = body.inverse_inertia * rows[i].angular;
+        const glm::dvec3 rotated = body.inverse_inertia * rows[i].angular;
         for (std::size_t j = 0; j <= i; ++j) {
-            matrix[i][j] += glm::dot(moved, rows[j].linear) + glm::dot(turned, rows[j].angular);
+            matrix[i][j] += glm::dot(moved, rows[j].linear) + glm::dot(rotated, rows[j].angular);
         }
     }
 }

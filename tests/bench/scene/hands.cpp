@@ -109,14 +109,14 @@ Scenario symmetric_squeeze(scene::Turning turning)
                       {scene, 10.0, squeeze(1e-3, 1e-3)},
                       {}};
     scenario.measure = [](Engine& engine, const Course& course, double tick_s) {
-        double drift = 0.0, turned = 0.0;
+        double drift = 0.0, rotated = 0.0;
         run(engine, course, tick_s, [&](double) {
             const scene::BodyState state = engine.state(0);
             drift = std::max({drift, std::abs(state.position.x()), std::abs(state.position.z())});
-            turned = std::max(turned,
-                              angle_between(course.scene.bodies[0].orientation, state.orientation));
+            rotated = std::max(
+                rotated, angle_between(course.scene.bodies[0].orientation, state.orientation));
         });
-        return std::vector<Measure>{{"drift_m", drift, 0.0}, {"turned_rad", turned, 0.0}};
+        return std::vector<Measure>{{"drift_m", drift, 0.0}, {"turned_rad", rotated, 0.0}};
     };
     return scenario;
 }

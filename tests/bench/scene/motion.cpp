@@ -70,10 +70,10 @@ Scenario slide(double degrees, scene::Turning turning)
         run(engine, course, tick_s);
         constexpr double distance = speed * speed / (2.0 * deceleration);
         const scene::BodyState end = engine.state(0);
-        const double turned = angle_between(course.scene.bodies[0].orientation, end.orientation);
+        const double rotated = angle_between(course.scene.bodies[0].orientation, end.orientation);
         return std::vector<Measure>{
             {"relative_distance_error", glm::length(end.position.value / distance - way), 1e-9},
-            {"turned_rad", turned, 1e-9}};
+            {"turned_rad", rotated, 1e-9}};
     };
     return scenario;
 }

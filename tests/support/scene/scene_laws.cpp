@@ -89,7 +89,7 @@ double spinning_energy(const BodyDescription& form, const glm::dquat& orientatio
     }
     default: break;
     }
-    // About one axis of the world, which is the same axis of the body's: see BodyForm.
+    // About one axis of the world, which is the same axis of the body's: see BodyProperties.
     const int axis = static_cast<int>(form.turning) - static_cast<int>(Turning::about_x);
     return 0.5 * momentum[axis] * momentum[axis] / inertia[axis];
 }
@@ -235,11 +235,11 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     const double mass = form.mass_kg;
     const bool sleeps = !was.is_awake && !now.is_awake;
     const glm::dvec3 force = steady_force(world, id, sleeps);
-    const glm::dquat& turned = was.state.orientation;
+    const glm::dquat& rotated = was.state.orientation;
     balance.kinetic_before +=
-        0.5 * mass * glm::dot(v0, v0) + spinning_energy(form, turned, was.angular_momentum);
+        0.5 * mass * glm::dot(v0, v0) + spinning_energy(form, rotated, was.angular_momentum);
     balance.kinetic_after +=
-        0.5 * mass * glm::dot(v1, v1) + spinning_energy(form, turned, now.angular_momentum);
+        0.5 * mass * glm::dot(v1, v1) + spinning_energy(form, rotated, now.angular_momentum);
     balance.work += std::max(glm::dot(force, steady), glm::dot(force, moved));
     const double radius = length(form.half);
     const double spin =
@@ -314,13 +314,13 @@ std::optional<std::string> SceneLaws::check_momentum(const World& world, const B
         if (form.turning != Turning::free) return std::nullopt;
     }
     // Impulses act at points held for the tick, during which those that push each other pass.
-    const double turned = length(balance.angular_gain);
+    const double rotated = length(balance.angular_gain);
     const double allowed = momentum_tolerance * balance.angular + balance.astray +
                            tick * balance.jolt * balance.fastest;
     if (allowed > 0.0)
-        worst_.angular_momentum = std::max(worst_.angular_momentum, turned / allowed);
-    if (turned <= allowed) return std::nullopt;
-    return fmt::format("{} N m s came from nowhere; {} tolerated", turned, allowed);
+        worst_.angular_momentum = std::max(worst_.angular_momentum, rotated / allowed);
+    if (rotated <= allowed) return std::nullopt;
+    return fmt::format("{} N m s came from nowhere; {} tolerated", rotated, allowed);
 }
 
 PlayOutcome judge(const RandomPlay& play, std::uint64_t seed)

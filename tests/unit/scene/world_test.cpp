@@ -100,9 +100,9 @@ TEST(World, PushesOfOneTickAddUpAndAreGoneInTheNext)
 TEST(World, ALockedBodyCannotBePlacedTurned)
 {
     World world = paper_world();
-    BodyState turned = world.body(0);
-    turned.orientation = {0.8, 0.0, 0.6, 0.0};
-    expect_refused(world, Refusal::out_of_range, world.place(0, turned));
+    BodyState rotated = world.body(0);
+    rotated.orientation = {0.8, 0.0, 0.6, 0.0};
+    expect_refused(world, Refusal::out_of_range, world.place(0, rotated));
 }
 
 TEST(World, ALockedCoordinateStaysWhereItIsWhereverTheBodyIsPut)

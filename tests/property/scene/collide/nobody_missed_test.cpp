@@ -60,7 +60,7 @@ Description random_scene(const base::RandomStream& chance, std::uint64_t& draw)
 /// The upright box in which a body is in this tick, nearby_margin included.
 Box swept(const Bodies& bodies, Slot slot)
 {
-    const glm::dvec3 half = bodies.form[slot].half;
+    const glm::dvec3 half = bodies.properties[slot].half;
     const glm::dmat3 axes = glm::mat3_cast(bodies.orientation.at(slot));
     glm::dvec3 extent{nearby_margin * std::min({half.x, half.y, half.z})};
     for (int axis : {0, 1, 2}) extent += glm::abs(axes[axis]) * half[axis];
@@ -87,12 +87,13 @@ void disturb(Crowd<broad_phase>& crowd, const base::RandomStream& chance, std::u
         if (chance.below(30, draw++) == 0)
             bodies.position.put(slot, vector_within(chance, draw, 0.2));
         if (chance.below(30, draw++) == 0)
-            bodies.spin(slot, vector_within(chance, draw, some_speed(chance, draw)));
+            bodies.set_angular_velocity(slot,
+                                        vector_within(chance, draw, some_speed(chance, draw)));
     }
     if (bodies.awake > 3 && chance.below(3, draw++) == 0)
-        crowd.sleep(bodies.form[chance.below(bodies.awake, draw++)].id);
+        crowd.sleep(bodies.properties[chance.below(bodies.awake, draw++)].id);
     if (bodies.awake < bodies.movable && chance.below(3, draw++) == 0)
-        crowd.wake(bodies.form[bodies.awake].id);
+        crowd.wake(bodies.properties[bodies.awake].id);
 }
 
 template <BroadPhase broad_phase>
@@ -129,7 +130,7 @@ void expect_planes_found(Crowd<broad_phase>& crowd)
             double lowest = -p.offset_m;
             for (int axis : {0, 1, 2})
                 lowest += std::min(p.normal[axis] * box.low[axis], p.normal[axis] * box.high[axis]);
-            const std::pair<BodyId, BodyId> wanted{crowd.bodies.form[slot].id, plane};
+            const std::pair<BodyId, BodyId> wanted{crowd.bodies.properties[slot].id, plane};
             ASSERT_TRUE(lowest > 0.0 || std::binary_search(pairs.begin(), pairs.end(), wanted));
         }
     }
@@ -142,8 +143,9 @@ void expect_hands_find(Crowd<broad_phase>& crowd, std::uint32_t hand, const Hand
     ASSERT_TRUE(std::is_sorted(reached.begin(), reached.end()));
     const Box sphere = grown(hull(path.from, path.to), glm::dvec3{path.radius});
     for (Slot slot = 0; slot < crowd.bodies.size(); ++slot)
-        ASSERT_TRUE(!overlap(swept(crowd.bodies, slot), sphere) ||
-                    std::binary_search(reached.begin(), reached.end(), crowd.bodies.form[slot].id));
+        ASSERT_TRUE(
+            !overlap(swept(crowd.bodies, slot), sphere) ||
+            std::binary_search(reached.begin(), reached.end(), crowd.bodies.properties[slot].id));
 }
 
 template <BroadPhase broad_phase>

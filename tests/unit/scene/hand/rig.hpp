@@ -85,7 +85,7 @@ struct Rig {
         answer.half = half;
         answer.inverse_mass = glm::dvec3{1.0 / mass};
         answer.inverse_inertia = inverse_inertia(body);
-        answer.turns_evenly = half.x == half.y && half.y == half.z;
+        answer.rotates_uniformly = half.x == half.y && half.y == half.z;
         answer.acceleration = acceleration;
         return answer;
     }
@@ -152,7 +152,7 @@ private:
         body.position += step * rate.velocity;
         body.velocity += (step / rig_.mass) * rate.force;
         body.angular_momentum += step * rate.torque;
-        body.orientation = turned(body.orientation, step * rate.turning);
+        body.orientation = rotated(body.orientation, step * rate.turning);
         return body;
     }
 

@@ -16,7 +16,7 @@ double angle_between(const glm::dquat& a, const glm::dquat& b)
 }
 
 /// A box that is thrown about its middle axis, and flips again and again (Dzhanibekov).
-FreeSpin flipping()
+FreeRotation flipping()
 {
     const glm::dvec3 inertia = box_inertia(0.1, {0.01, 0.02, 0.03});
     return {inertia * glm::dvec3{0.01, 10.0, 0.01}, 1.0 / inertia};
@@ -33,7 +33,7 @@ glm::dquat after_2_seconds(Rule rule, double tick)
 
 double energy(const glm::dquat& orientation)
 {
-    const FreeSpin spin = flipping();
+    const FreeRotation spin = flipping();
     const glm::dvec3 momentum = spin.angular_momentum * axes_of(orientation);
     const glm::dvec3 velocity = spin.inverse_inertia * momentum;
     return 0.5 * (momentum.x * velocity.x + momentum.y * velocity.y + momentum.z * velocity.z);
@@ -42,8 +42,8 @@ double energy(const glm::dquat& orientation)
 TEST(Rotation, OfABoxThatFlipsIsOfSecondOrderAndWithin5e_4RadiansAfter2Seconds)
 {
     const glm::dquat truth = after_2_seconds(spun_finely, 1e-4);
-    const double coarse = angle_between(after_2_seconds(spun, 2e-3), truth);
-    const double fine = angle_between(after_2_seconds(spun, 1e-3), truth);
+    const double coarse = angle_between(after_2_seconds(rotated_freely, 2e-3), truth);
+    const double fine = angle_between(after_2_seconds(rotated_freely, 1e-3), truth);
     EXPECT_LE(fine, 5e-5);
     EXPECT_NEAR(coarse / fine, 4.0, 0.1);
 }
@@ -63,7 +63,7 @@ TEST(Rotation, OfABoxThatFlipsKeepsItsEnergyToTheOrderOfTheRule)
     glm::dquat finer = orientation;
     const double before = energy(orientation);
     for (int i = 0; i < 2000; ++i) {
-        orientation = spun(orientation, flipping(), 1e-3);
+        orientation = rotated_freely(orientation, flipping(), 1e-3);
         finer = spun_finely(finer, flipping(), 1e-3);
     }
     EXPECT_NEAR(energy(orientation) / before, 1.0, 1e-5);
@@ -73,7 +73,7 @@ TEST(Rotation, OfABoxThatFlipsKeepsItsEnergyToTheOrderOfTheRule)
 TEST(Rotation, ATurnIsExactForSmallAndLargeAngles)
 {
     for (const double angle : {1e-9, 1e-3, 0.5, 1.5, 1.6, 3.0, 100.0, 1000.0}) {
-        const glm::dquat turn = turn_by({0.0, angle, 0.0});
+        const glm::dquat turn = rotation_by({0.0, angle, 0.0});
         EXPECT_NEAR(turn.w, std::cos(0.5 * angle), 1e-15) << angle;
         EXPECT_NEAR(turn.y, std::sin(0.5 * angle), 1e-15) << angle;
     }
@@ -82,8 +82,8 @@ TEST(Rotation, ATurnIsExactForSmallAndLargeAngles)
 TEST(Rotation, TheShortSeriesHoldUpToTheirLimit)
 {
     for (int i = 0; i <= 100; ++i) {
-        const double z = small_turn_max * i / 100.0;
-        const HalfTurn turn = small_half_turn(z);
+        const double z = small_half_angle_max * i / 100.0;
+        const HalfAngle turn = small_half_angle(z);
         EXPECT_NEAR(turn.cosine, std::cos(std::sqrt(z)), 3e-16) << z;
         EXPECT_NEAR(turn.sinc * std::sqrt(z), std::sin(std::sqrt(z)), 3e-16) << z;
     }
@@ -91,7 +91,7 @@ TEST(Rotation, TheShortSeriesHoldUpToTheirLimit)
 
 TEST(Rotation, BeyondAllSenseNothingTurnsAndNothingBreaks)
 {
-    const glm::dquat still = turned({1.0, 0.0, 0.0, 0.0}, {1e200, 0.0, 0.0});
+    const glm::dquat still = rotated({1.0, 0.0, 0.0, 0.0}, {1e200, 0.0, 0.0});
     EXPECT_EQ(still, (glm::dquat{1.0, 0.0, 0.0, 0.0}));
 }
 

@@ -69,9 +69,9 @@ TEST(SlidingObstacles, ItSlidesOffTheEdgeOfABoxAndFalls)
     Rig<false> rig{scene};
     rig.place({0.0, 0.0, 0.0}, {0.3, 0.0, 0.0});
     rig.tick(200);
-    const double falling = 0.2 - 0.04 / 0.3;
+    const double gravity_on = 0.2 - 0.04 / 0.3;
     EXPECT_NEAR(rig.position().x, 0.06, 1e-15);
-    EXPECT_NEAR(rig.position().y, -0.5 * 9.81 * falling * falling, 1e-15);
+    EXPECT_NEAR(rig.position().y, -0.5 * 9.81 * gravity_on * gravity_on, 1e-15);
 }
 
 TEST(SlidingObstacles, ItCrossesTheSeamsOfATiledFloorWithoutNoticing)

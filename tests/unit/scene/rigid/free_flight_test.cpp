@@ -86,7 +86,7 @@ TEST(Flight, ACubeTurnsAboutItsAxisExactly)
     const glm::dvec3 spin{3.0, -2.0, 6.0};
     Flight flight{with({box(glm::dvec3{0.02}, spin)})};
     flight.run(1000);
-    const glm::dquat expected = turn_by(spin);
+    const glm::dquat expected = rotation_by(spin);
     const glm::dquat found = flight.state.bodies.orientation.at(0);
     EXPECT_NEAR(found.w, expected.w, 1e-13);
     EXPECT_NEAR(found.x, expected.x, 1e-13);
@@ -105,11 +105,11 @@ TEST(Flight, ACubeMayTurnManyTimesInATick)
 TEST(Flight, ATiltedBoxTurnsExactlyAboutTheOnlyAxisThatIsFree)
 {
     BodyDescription tilted = box({0.01, 0.02, 0.03}, {9.0, 2.0, 9.0});
-    tilted.orientation = turn_by({0.4, 0.0, 0.3});
+    tilted.orientation = rotation_by({0.4, 0.0, 0.3});
     tilted.turning = Turning::about_y;
     Flight flight{with({tilted})};
     flight.run(500);
-    const glm::dquat expected = turn_by({0.0, 1.0, 0.0}) * tilted.orientation;
+    const glm::dquat expected = rotation_by({0.0, 1.0, 0.0}) * tilted.orientation;
     EXPECT_NEAR(flight.state.bodies.orientation.w[0], expected.w, 1e-13);
     EXPECT_NEAR(flight.state.bodies.orientation.y[0], expected.y, 1e-13);
 }
@@ -147,7 +147,7 @@ TEST(Flight, BodiesOfEveryKindMoveSideBySideAsEachAlone)
         alone.run(1);
         const glm::dquat lanes = bodies.orientation.at(0);
         bodies.orientation.put(0, before);
-        turn_freely(bodies, 0, 1e-3);
+        rotate_freely(bodies, 0, 1e-3);
         EXPECT_NEAR(bodies.orientation.at(0).w, lanes.w, 4e-16) << i;
         EXPECT_NEAR(bodies.orientation.at(0).z, lanes.z, 4e-16) << i;
     }

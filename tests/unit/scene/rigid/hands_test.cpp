@@ -31,7 +31,7 @@ TEST(RigidHands, ASqueezedCubeDoesNotMoveByABit)
         world.tick();
     }
     EXPECT_EQ(world.body(0).position.value, glm::dvec3(0.0, half, 0.0));
-    EXPECT_EQ(turned(world.body(0)), 0.0);
+    EXPECT_EQ(rotated(world.body(0)), 0.0);
     EXPECT_NEAR(world.touch(0).on_body.x(), 0.5, 1e-12);
     EXPECT_EQ(world.touch(0).on_hand.x(), world.touch(1).on_body.x());
     EXPECT_NEAR(world.touch(1).depth_m, 0.001, 1e-15);
@@ -53,7 +53,7 @@ TEST(RigidHands, ASteadilyPushedCubeFeelsTheFrictionAndNoLag)
     EXPECT_NEAR(world.touch(0).on_body.x(), force, 1e-6);
     EXPECT_NEAR(world.body(0).velocity.x(), speed, 1e-6);
     EXPECT_NEAR(world.body(0).position.y(), half, 1e-9);
-    EXPECT_LT(turned(world.body(0)), 1e-6);
+    EXPECT_LT(rotated(world.body(0)), 1e-6);
     // Where spring and hand have it, at the end of the tick: no k v h.
     EXPECT_NEAR(x + 0.005 - (world.body(0).position.x() - half), force / 500.0, 1e-8);
 }

@@ -31,7 +31,7 @@ TEST(RigidImpact, AFlatHitOnAWallBouncesByItsRestitutionAtItsMoment)
         EXPECT_NEAR(world.body(0).velocity.x(), -restitution * speed, 1e-11);
         EXPECT_NEAR(world.body(0).position.x(), 0.2 - half - restitution * speed * after, 1e-11);
         EXPECT_LE(deepest, 1e-14);
-        EXPECT_LT(turned(world.body(0)), 1e-11);
+        EXPECT_LT(rotated(world.body(0)), 1e-11);
     }
 }
 

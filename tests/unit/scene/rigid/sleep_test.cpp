@@ -76,7 +76,7 @@ TYPED_TEST(SleepOf, WhatCreepsBelowTheLimitStopsExactlyAndWhatIsFasterDoesNot)
     crowd.speed(0, 1e-3); // limit: 0.1 * 9.81e-3 + 1e-3 * sqrt(9.81 * 0.04) = 1.61e-3
     crowd.speed(1, 2e-3);
     crowd.still(2);
-    crowd.bodies.spin(2, {0.0, 0.1, 0.0}); // corners at 3.5e-3
+    crowd.bodies.set_angular_velocity(2, {0.0, 0.1, 0.0}); // corners at 3.5e-3
     crowd.rest(rest_ticks);
     EXPECT_EQ(crowd.awake(), "saa");
     EXPECT_EQ(crowd.bodies.velocity.at(crowd.bodies.slot_of[0]), glm::dvec3{0.0});

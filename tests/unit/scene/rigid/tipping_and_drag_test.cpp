@@ -11,10 +11,10 @@ namespace {
 TEST(RigidStepper, ACubeThatTipsOverAnEdgeThatSticksKeepsTheEdgeWhereItIs)
 {
     const double radius = 0.02 * std::sqrt(2.0); // from the edge to the centre, right above it
-    constexpr double turned = 0.7853981633974483;
+    constexpr double rotated = 0.7853981633974483;
     constexpr double speed = 0.5;
     BodyDescription cube;
-    cube.orientation = {std::cos(turned / 2.0), 0.0, 0.0, std::sin(turned / 2.0)};
+    cube.orientation = {std::cos(rotated / 2.0), 0.0, 0.0, std::sin(rotated / 2.0)};
     cube.position = {{0.0, radius, 0.0}};
     cube.velocity = {{speed * radius, 0.0, 0.0}};
     cube.angular_velocity = {0.0, 0.0, -speed};
@@ -26,7 +26,7 @@ TEST(RigidStepper, ACubeThatTipsOverAnEdgeThatSticksKeepsTheEdgeWhereItIs)
     World world = World::freeze(scene).value();
     for (int i = 0; i < 64; ++i) world.tick();
     const BodyState state = world.body(0);
-    const double tipped = turned - 2.0 * std::atan2(state.orientation.z, state.orientation.w);
+    const double tipped = rotated - 2.0 * std::atan2(state.orientation.z, state.orientation.w);
     EXPECT_GT(tipped, 0.03);
     EXPECT_NEAR(state.position.x() - radius * std::sin(tipped), 0.0, 1e-8);
 }
