@@ -19,7 +19,7 @@ PerAxis beyond(const PerAxis& from_centre, const PerAxis& half)
 
 /// The axis along which a place is outside of a box, by less than `reach`; no_axis when it is
 /// inside, farther away, or outside along more than one.
-std::size_t before_face(const PerAxis& out, double reach)
+std::size_t face_axis(const PerAxis& out, double reach)
 {
     for (std::size_t i = 0; i < 3; ++i) {
         if (!(out[i] > 0.0)) continue;
@@ -57,27 +57,28 @@ double spring_force(const HandDescription& hands, double depth, double closing)
 }
 
 /// A hand that holds with the same force throughout the tick.
-void hold_steadily(HandTouch& touch, Slide& slide, base::Force force)
+void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
 {
     touch.on_body = force;
     touch.on_hand += -force;
     const PerAxis held = per_axis(force.value);
-    for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += slide.laws.inverse_mass() * held[i];
+    for (std::size_t i = 0; i < 3; ++i)
+        box.axes[i].applied_acceleration += box.oscillators.inverse_mass() * held[i];
 }
 
 /// Adds the spring between a hand and a face of the box.
-void push_face(WorldState& state, Slide& slide, const FaceTouch& found)
+void add_face_spring(WorldState& state, BoxMotion& box, const FaceContact& found)
 {
     const std::size_t axis = found.face.axis;
-    const double speed = slide.velocity[axis];
-    Spring& spring = slide.springs[slide.spring_count++];
+    const double speed = box.velocity[axis];
+    FaceSpring& spring = box.springs[box.spring_count++];
     spring.hand = found.hand;
     spring.axis = axis;
     spring.sign = found.face.sign;
     spring.depth = found.depth;
     spring.closing = -spring.sign * part(state.hands[found.hand].velocity.value, axis);
     spring.impulse = 0.0;
-    const double force = spring.settle(slide.hands, speed);
+    const double force = spring.update_phase(box.hands, speed);
     HandTouch& touch = state.touches[found.hand];
     touch.depth_m = std::max(touch.depth_m, found.depth);
     part(touch.on_hand_at_start.value, axis) += spring.sign * force;
@@ -85,8 +86,7 @@ void push_face(WorldState& state, Slide& slide, const FaceTouch& found)
 
 } // namespace
 
-SlidingHands::SlidingHands(const WorldConfig& config, const Bodies& bodies,
-                           const BodyProperties& movable)
+BoxHands::BoxHands(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable)
     : body_{movable.id},
       half_{per_axis(movable.half)},
       margin_{std::min(std::min(movable.half.x, movable.half.y), movable.half.z)}
@@ -99,7 +99,7 @@ SlidingHands::SlidingHands(const WorldConfig& config, const Bodies& bodies,
     entered_fixed_.resize(config.hands.count * fixed_.size());
 }
 
-void SlidingHands::gather(const WorldConfig& config, WorldState& state, Slide& slide)
+void BoxHands::collide(const WorldConfig& config, WorldState& state, BoxMotion& box)
 {
     for (std::uint32_t i = 0; i < config.hands.count; ++i) {
         const HandInput& input = state.hands[i];
@@ -110,37 +110,37 @@ void SlidingHands::gather(const WorldConfig& config, WorldState& state, Slide& s
             memory.held_at.reset();
             continue;
         }
-        if (!memory.is_clear(config, input)) touch_fixed(config, state, i);
+        if (!memory.is_clear(config, input)) collide_fixed_boxes(config, state, i);
         if (!input.gripping) {
             memory.held_at.reset();
         } else if (!memory.held_at) {
-            const PerAxis from_centre = difference(input.position.value, slide.place);
+            const PerAxis from_centre = difference(input.position.value, box.position);
             const double reach = config.hands.radius_m + config.hands.grip_reach_m;
             if (distance(from_centre, half_) <= reach) memory.held_at = from_centre;
         }
         if (memory.held_at) {
-            hold(config, state, slide, i);
+            hold(config, state, box, i);
         } else {
-            touch_box(config, state, slide, i);
+            collide_box(config, state, box, i);
         }
     }
 }
 
-void SlidingHands::hold(const WorldConfig& config, WorldState& state, Slide& slide,
-                        std::uint32_t index)
+void BoxHands::hold(const WorldConfig& config, WorldState& state, BoxMotion& box,
+                    std::uint32_t index)
 {
     const HandDescription& hands = config.hands;
     const HandInput& input = state.hands[index];
     Memory& memory = memory_[index];
     memory.entered = {};
-    const PerAxis from_centre = difference(input.position.value, slide.place);
-    Grip grip{index, from_centre, per_axis(input.velocity.value), {}};
+    const PerAxis from_centre = difference(input.position.value, box.position);
+    GripSpring grip{index, from_centre, per_axis(input.velocity.value), {}};
     base::Force wanted;
     for (std::size_t i = 0; i < 3; ++i) {
         grip.stretch[i] -= (*memory.held_at)[i];
         wanted.value[static_cast<int>(i)] =
             hands.stiffness_n_per_m * grip.stretch[i] +
-            hands.damping_ns_per_m * (grip.velocity[i] - slide.velocity[i]);
+            hands.damping_ns_per_m * (grip.velocity[i] - box.velocity[i]);
     }
     const base::Force force = base::limited(wanted, hands.force_max_n);
     HandTouch& touch = state.touches[index];
@@ -149,39 +149,39 @@ void SlidingHands::hold(const WorldConfig& config, WorldState& state, Slide& sli
         std::max(touch.depth_m, std::max(hands.radius_m - distance(from_centre, half_), 0.0));
     touch.on_hand_at_start += -force;
     if (force == wanted) {
-        slide.grips[slide.grip_count++] = grip;
+        box.grips[box.grip_count++] = grip;
         return;
     }
-    hold_steadily(touch, slide, force);
+    apply_constant_grip(touch, box, force);
 }
 
-inline void SlidingHands::touch_box(const WorldConfig& config, WorldState& state, Slide& slide,
-                                    std::uint32_t index)
+inline void BoxHands::collide_box(const WorldConfig& config, WorldState& state, BoxMotion& box,
+                                  std::uint32_t index)
 {
     const double radius = config.hands.radius_m;
-    const PerAxis from_centre = difference(state.hands[index].position.value, slide.place);
+    const PerAxis from_centre = difference(state.hands[index].position.value, box.position);
     const PerAxis out = beyond(from_centre, half_);
-    const std::size_t axis = before_face(out, radius);
-    FaceTouch found{index, {}, 0.0};
+    const std::size_t axis = face_axis(out, radius);
+    FaceContact found{index, {}, 0.0};
     if (axis != no_axis) { // as nearly always when it pushes
         found.face = memory_[index].entered = face_at(axis, from_centre[axis]);
         found.depth = radius - out[axis];
     } else {
-        found = meet_box(config, state, slide, index);
+        found = collide_near_box(config, state, box, index);
     }
-    if (found.face.axis != no_axis) push_face(state, slide, found);
+    if (found.face.axis != no_axis) add_face_spring(state, box, found);
 }
 
-FaceTouch SlidingHands::meet_box(const WorldConfig& config, WorldState& state, Slide& slide,
-                                 std::uint32_t index)
+FaceContact BoxHands::collide_near_box(const WorldConfig& config, WorldState& state, BoxMotion& box,
+                                       std::uint32_t index)
 {
     const HandDescription& hands = config.hands;
     const HandInput& input = state.hands[index];
-    EnteredFace& entered = memory_[index].entered;
-    const Approach approach{.from_centre = difference(input.position.value, slide.place),
-                            .velocity = difference(input.velocity.value, slide.velocity),
-                            .radius = hands.radius_m,
-                            .tick = config.tick};
+    BoxFace& entered = memory_[index].entered;
+    const SphereMotion approach{.from_centre = difference(input.position.value, box.position),
+                                .velocity = difference(input.velocity.value, box.velocity),
+                                .radius = hands.radius_m,
+                                .tick = config.tick};
     const double far = hands.radius_m + margin_;
     for (std::size_t i = 0; i < 3; ++i) {
         const double swept = 2.0 * config.tick * std::abs(approach.velocity[i]);
@@ -190,20 +190,21 @@ FaceTouch SlidingHands::meet_box(const WorldConfig& config, WorldState& state, S
             return {index, {}, 0.0};
         }
     }
-    const auto meeting = meet(approach, half_, entered);
-    if (!meeting) return {index, {}, 0.0};
-    if (meeting->face.axis != no_axis) return {index, meeting->face, meeting->depth};
+    const auto contact = collide_sphere(approach, half_, entered);
+    if (!contact) return {index, {}, 0.0};
+    if (contact->face.axis != no_axis) return {index, contact->face, contact->depth};
     HandTouch& touch = state.touches[index];
-    const PerAxis& normal = meeting->oblique;
+    const PerAxis& normal = contact->edge_normal;
     const double closing = -dot(normal, per_axis(input.velocity.value));
-    slide.slanted[slide.slanted_count++] = {index, normal, meeting->depth, closing, 0.0};
-    touch.depth_m = std::max(touch.depth_m, meeting->depth);
+    box.edge_springs[box.edge_spring_count++] = {index, normal, contact->depth, closing, 0.0};
+    touch.depth_m = std::max(touch.depth_m, contact->depth);
     touch.on_hand_at_start.value +=
-        spring_force(hands, meeting->depth, -dot(normal, approach.velocity)) * vector(normal);
+        spring_force(hands, contact->depth, -dot(normal, approach.velocity)) * vector(normal);
     return {index, {}, 0.0};
 }
 
-void SlidingHands::touch_fixed(const WorldConfig& config, WorldState& state, std::uint32_t index)
+void BoxHands::collide_fixed_boxes(const WorldConfig& config, WorldState& state,
+                                   std::uint32_t index)
 {
     const HandDescription& hands = config.hands;
     const HandInput& input = state.hands[index];
@@ -212,50 +213,51 @@ void SlidingHands::touch_fixed(const WorldConfig& config, WorldState& state, std
     const PerAxis place = per_axis(input.position.value);
     const PerAxis velocity = per_axis(input.velocity.value);
     const double sweep = config.tick * largest(beyond(velocity, {})) + hands.radius_m;
-    memory.seen_from = place;
+    memory.query_position = place;
     memory.clear = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < fixed_.size(); ++i) {
-        const Approach approach{.from_centre = difference(input.position.value, fixed_[i].centre),
-                                .velocity = velocity,
-                                .radius = hands.radius_m,
-                                .tick = config.tick};
-        EnteredFace& entered = entered_fixed_[index * fixed_.size() + i];
+        const SphereMotion approach{.from_centre =
+                                        difference(input.position.value, fixed_[i].centre),
+                                    .velocity = velocity,
+                                    .radius = hands.radius_m,
+                                    .tick = config.tick};
+        BoxFace& entered = entered_fixed_[index * fixed_.size() + i];
         const double apart = largest(beyond(approach.from_centre, fixed_[i].half));
         memory.clear = std::min(memory.clear, apart);
         if (apart >= sweep) {
             entered = {};
             continue;
         }
-        const auto meeting = meet(approach, fixed_[i].half, entered);
-        if (!meeting) continue;
-        PerAxis normal = meeting->oblique;
-        if (meeting->face.axis != no_axis) normal[meeting->face.axis] = meeting->face.sign;
+        const auto contact = collide_sphere(approach, fixed_[i].half, entered);
+        if (!contact) continue;
+        PerAxis normal = contact->edge_normal;
+        if (contact->face.axis != no_axis) normal[contact->face.axis] = contact->face.sign;
         const double closing = -dot(normal, velocity);
         const double mean =
-            steady_impulse(hands, meeting->depth, closing, config.tick) / config.tick;
-        touch.depth_m = std::max(touch.depth_m, meeting->depth);
+            impulse_at_constant_velocity(hands, contact->depth, closing, config.tick) / config.tick;
+        touch.depth_m = std::max(touch.depth_m, contact->depth);
         touch.on_hand.value += mean * vector(normal);
         touch.on_hand_at_start.value +=
-            spring_force(hands, meeting->depth, closing) * vector(normal);
+            spring_force(hands, contact->depth, closing) * vector(normal);
     }
 }
 
-void SlidingHands::press_slanted(Slide& slide)
+void BoxHands::add_edge_springs(BoxMotion& box)
 {
-    const HandDescription& hands = slide.hands;
-    const double half_tick = 0.5 * slide.left;
-    const bool is_stuck = slide.rubbing.state == Rubbing::State::stuck;
-    const auto is_kept = [&](std::size_t i) { return is_stuck || slide.axes[i].is_held(); };
-    for (SlantedSpring& spring : slide.active_slanted()) {
+    const HandDescription& hands = box.hands;
+    const double half_tick = 0.5 * box.time_left;
+    const bool is_stuck = box.dry_friction.state == DryFriction::State::stuck;
+    const auto is_kept = [&](std::size_t i) { return is_stuck || box.axes[i].is_held(); };
+    for (EdgeSpring& spring : box.active_edge_springs()) {
         const PerAxis& normal = spring.normal;
         double closing = spring.closing;
         double bend = 0.0; // of the depth, without this spring
         double ease = 0.0; // 1/mass along the normal
         for (std::size_t i = 0; i < 3; ++i) {
             if (is_kept(i)) continue;
-            closing += normal[i] * slide.velocity[i];
-            bend += normal[i] * slide.axes[i].acceleration;
-            ease += normal[i] * normal[i] * slide.laws.inverse_mass();
+            closing += normal[i] * box.velocity[i];
+            bend += normal[i] * box.axes[i].acceleration;
+            ease += normal[i] * normal[i] * box.oscillators.inverse_mass();
         }
         // depth and closing speed in the middle: linear in the force that acts meanwhile.
         const double answer =
@@ -266,34 +268,34 @@ void SlidingHands::press_slanted(Slide& slide)
         spring.force = std::clamp(free_force / (1.0 + answer * ease), 0.0, hands.force_max_n);
         if (depth + half_tick * half_tick * (bend - ease * spring.force) <= 0.0) spring.force = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const double change = -slide.laws.inverse_mass() * spring.force * normal[i];
-            slide.axes[i].steady += change;
-            if (!is_kept(i)) slide.axes[i].acceleration += change;
+            const double change = -box.oscillators.inverse_mass() * spring.force * normal[i];
+            box.axes[i].applied_acceleration += change;
+            if (!is_kept(i)) box.axes[i].acceleration += change;
         }
     }
 }
 
-bool SlidingHands::weaken(const WorldConfig& config, WorldState& state, const Slide& slide,
-                          Slide& again)
+bool BoxHands::limit_grip(const WorldConfig& config, WorldState& state, const BoxMotion& box,
+                          BoxMotion& again)
 {
     constexpr double rounding = 1e-12;
     const double most = config.tick * config.hands.force_max_n;
-    for (std::uint32_t n = 0; n < slide.grip_count; ++n) {
-        const PerAxis& impulse = slide.grips[n].impulse;
+    for (std::uint32_t n = 0; n < box.grip_count; ++n) {
+        const PerAxis& impulse = box.grips[n].impulse;
         const double size = std::sqrt(dot(impulse, impulse));
         if (size <= (1.0 + rounding) * most) continue;
         const base::Force force{(config.hands.force_max_n / size) * vector(impulse)};
-        hold_steadily(state.touches[slide.grips[n].hand], again, force);
+        apply_constant_grip(state.touches[box.grips[n].hand], again, force);
         again.grips[n] = again.grips[--again.grip_count];
         return true;
     }
     return false;
 }
 
-void SlidingHands::report(const WorldConfig& config, WorldState& state, const Slide& slide)
+void BoxHands::report(const WorldConfig& config, WorldState& state, const BoxMotion& box)
 {
     const double per_tick = 1.0 / config.tick;
-    for (const Spring& spring : slide.active_springs()) {
+    for (const FaceSpring& spring : box.active_springs()) {
         if (spring.impulse <= 0.0) continue;
         HandTouch& touch = state.touches[spring.hand];
         const double force = spring.sign * (spring.impulse * per_tick);
@@ -301,21 +303,21 @@ void SlidingHands::report(const WorldConfig& config, WorldState& state, const Sl
         part(touch.on_body.value, spring.axis) -= force;
         part(touch.on_hand.value, spring.axis) += force;
     }
-    for (const SlantedSpring& spring : slide.active_slanted()) {
+    for (const EdgeSpring& spring : box.active_edge_springs()) {
         if (spring.force <= 0.0) continue;
         HandTouch& touch = state.touches[spring.hand];
         touch.touching = true;
         touch.on_body.value -= spring.force * vector(spring.normal);
         touch.on_hand.value += spring.force * vector(spring.normal);
     }
-    for (const Grip& grip : slide.active_grips()) {
+    for (const GripSpring& grip : box.active_grips()) {
         HandTouch& touch = state.touches[grip.hand];
         touch.on_body.value += per_tick * vector(grip.impulse);
         touch.on_hand.value -= per_tick * vector(grip.impulse);
     }
 }
 
-void SlidingHands::forget_box()
+void BoxHands::forget_box()
 {
     for (Memory& memory : memory_) {
         memory.entered = {};

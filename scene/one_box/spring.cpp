@@ -26,7 +26,8 @@ double integral(double level, double slope, Interval over)
 
 } // namespace
 
-double steady_impulse(const HandDescription& hands, double depth, double closing, double time)
+double impulse_at_constant_velocity(const HandDescription& hands, double depth, double closing,
+                                    double time)
 {
     const double level = hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing;
     const double slope = hands.stiffness_n_per_m * closing;

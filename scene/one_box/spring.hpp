@@ -12,21 +12,21 @@ namespace hapnet::scene {
 
 /// What the spring and damper between a hand and a face do. The force is
 /// clamp(stiffness depth + damping closing speed, 0, force_max) while they overlap, else 0.
-enum class Phase : std::uint8_t {
-    apart,   // no overlap
-    slack,   // they overlap, but it would have to pull
-    active,  // between nothing and the greatest force
-    limited, // the greatest force
+enum class SpringPhase : std::uint8_t {
+    apart,    // no overlap
+    slack,    // they overlap, but it would have to pull
+    pressing, // between nothing and the greatest force
+    limited,  // the greatest force
 };
 
 /// A hand's spring on one face of the box, along one axis.
-struct Spring {
+struct FaceSpring {
     std::uint32_t hand;
     std::size_t axis;
     double sign;    // of the normal, from the box to the hand
     double depth;   // at the start of the stretch of time that is looked at
     double closing; // the hand's share of the closing speed
-    Phase phase;
+    SpringPhase phase;
     double impulse; // so far in the tick, N s, >= 0
 
     /// `speed` is the box's along the axis.
@@ -36,22 +36,22 @@ struct Spring {
         return hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing_at(speed);
     }
     /// Takes the phase that belongs to the present state; returns the force.
-    double settle(const HandDescription& hands, double speed)
+    double update_phase(const HandDescription& hands, double speed)
     {
-        phase = Phase::apart;
+        phase = SpringPhase::apart;
         if (depth <= 0.0) return 0.0;
         const double wanted = tension(hands, speed);
         if (wanted >= hands.force_max_n) {
-            phase = Phase::limited;
+            phase = SpringPhase::limited;
             return hands.force_max_n;
         }
-        phase = wanted > 0.0 ? Phase::active : Phase::slack;
+        phase = wanted > 0.0 ? SpringPhase::pressing : SpringPhase::slack;
         return std::max(wanted, 0.0);
     }
 };
 
 /// A hand that holds the box: a spring and a damper in all directions, which also pull.
-struct Grip {
+struct GripSpring {
     std::uint32_t hand;
     PerAxis stretch; // from where it is held to the hand, at the start of the stretch of time
     PerAxis velocity;
@@ -59,7 +59,7 @@ struct Grip {
 };
 
 /// A hand at an edge or a corner: its force is the midpoint rule's, held for the tick.
-struct SlantedSpring {
+struct EdgeSpring {
     std::uint32_t hand;
     PerAxis normal; // unit, from the box to the hand
     double depth;   // along it, at the start of the tick
@@ -69,7 +69,7 @@ struct SlantedSpring {
 
 /// The impulse of the force of a hand on something that stands still, over `time`: exact, since
 /// the depth is linear. N s.
-[[nodiscard]] double steady_impulse(const HandDescription& hands, double depth, double closing,
-                                    double time);
+[[nodiscard]] double impulse_at_constant_velocity(const HandDescription& hands, double depth,
+                                                  double closing, double time);
 
 } // namespace hapnet::scene

@@ -38,17 +38,17 @@ public:
 
 private:
     /// Finds what is within `reach`.
-    void see(Slide& slide, double reach);
-    void run(const WorldConfig& config, Slide& slide);
+    void query_obstacles(BoxMotion& box, double reach);
+    void run_events(const WorldConfig& config, BoxMotion& box);
     /// Where hands hold the box: again with less, when one held with more than its greatest force.
-    void try_holding(const WorldConfig& config, WorldState& state, Slide& start);
-    void conclude(const WorldConfig& config, WorldState& state, const Slide& slide) const;
+    void solve_with_grips(const WorldConfig& config, WorldState& state, BoxMotion& start);
+    void commit(const WorldConfig& config, WorldState& state, const BoxMotion& box) const;
 
     BodyId body_;
     std::array<bool, 3> locked_{};
-    SlideLaws laws_;
+    AxisOscillators oscillators_;
     Obstacles obstacles_;
-    SlidingHands hands_;
+    BoxHands hands_;
     std::uint64_t crowded_ticks_ = 0;
 };
 

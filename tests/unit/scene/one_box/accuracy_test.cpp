@@ -101,7 +101,7 @@ TEST(Sliding, ASteadyPushAgainstDryFrictionSettlesAtTheFrictionForce)
         EXPECT_NEAR(rig.position().x - rig.state.hands[0].position.x(), touching - force / 500.0,
                     1e-9);
     }
-    EXPECT_EQ(rig.sliding.crowded_ticks(), 0U);
+    EXPECT_EQ(rig.stepper.crowded_ticks(), 0U);
 }
 
 TEST(Sliding, ASymmetricSqueezeDoesNotDriftAtAll)

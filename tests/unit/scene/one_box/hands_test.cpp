@@ -11,7 +11,7 @@ namespace {
 constexpr double mass = 0.1;
 constexpr double touching = 0.025;
 
-TEST(SlidingHands, GiveTheBoxExactlyTheImpulseThatTheyReport)
+TEST(BoxHands, GiveTheBoxExactlyTheImpulseThatTheyReport)
 {
     Description scene = lone_cube();
     scene.hands.damping_ns_per_m = 2.0;
@@ -27,7 +27,7 @@ TEST(SlidingHands, GiveTheBoxExactlyTheImpulseThatTheyReport)
     }
 }
 
-TEST(SlidingHands, KeepTheFaceThroughWhichTheyCame)
+TEST(BoxHands, KeepTheFaceThroughWhichTheyCame)
 {
     Rig<false> rig{lone_cube()};
     rig.config.hands.force_max_n = 0.0; // so that the box stays where it is
@@ -37,7 +37,7 @@ TEST(SlidingHands, KeepTheFaceThroughWhichTheyCame)
     EXPECT_NEAR(rig.touch(0).depth_m, touching - 0.024 + 0.020, 1e-15);
 }
 
-TEST(SlidingHands, AreFeltAtTheFaceTheyReachedWhenTheyPassRightThrough)
+TEST(BoxHands, AreFeltAtTheFaceTheyReachedWhenTheyPassRightThrough)
 {
     Description scene = lone_cube();
     scene.hands.force_max_n = 3.3;
@@ -48,7 +48,7 @@ TEST(SlidingHands, AreFeltAtTheFaceTheyReachedWhenTheyPassRightThrough)
     EXPECT_EQ(rig.touch(0).on_body.y(), 0.0);
 }
 
-TEST(SlidingHands, PushObliquelyAtAnEdgeWithoutMakingEnergy)
+TEST(BoxHands, PushObliquelyAtAnEdgeWithoutMakingEnergy)
 {
     Rig<false> rig{lone_cube()};
     rig.place({0.0, 0.0, 0.0}, {0.1, 0.1, 0.0});
@@ -61,7 +61,7 @@ TEST(SlidingHands, PushObliquelyAtAnEdgeWithoutMakingEnergy)
     EXPECT_NEAR(rig.velocity().x, rig.velocity().y, 1e-12);
 }
 
-TEST(SlidingHands, WhoHoldsTheBoxSwingsItAboutThePlaceWhereTheyTookIt)
+TEST(BoxHands, WhoHoldsTheBoxSwingsItAboutThePlaceWhereTheyTookIt)
 {
     Description scene = lone_cube();
     Rig<false> rig{scene};
@@ -82,7 +82,7 @@ TEST(SlidingHands, WhoHoldsTheBoxSwingsItAboutThePlaceWhereTheyTookIt)
     EXPECT_FALSE(rig.touch(0).holding);
 }
 
-TEST(SlidingHands, CannotHoldWhatIsOutOfReach)
+TEST(BoxHands, CannotHoldWhatIsOutOfReach)
 {
     Rig<false> rig{lone_cube()};
     rig.set_hand(0, {-0.0301, 0.0, 0.0});
@@ -92,7 +92,7 @@ TEST(SlidingHands, CannotHoldWhatIsOutOfReach)
     EXPECT_FALSE(rig.touch(0).touching);
 }
 
-TEST(SlidingHands, HoldWithNoMoreThanTheGreatestForce)
+TEST(BoxHands, HoldWithNoMoreThanTheGreatestForce)
 {
     Description scene = lone_cube();
     scene.hands.force_max_n = 0.5;
@@ -108,7 +108,7 @@ TEST(SlidingHands, HoldWithNoMoreThanTheGreatestForce)
     EXPECT_NEAR(rig.velocity().z, 0.4 * 1e-3 / mass, 1e-15);
 }
 
-TEST(SlidingHands, FeelFixedBoxesByTheMeanForceButNotPlanes)
+TEST(BoxHands, FeelFixedBoxesByTheMeanForceButNotPlanes)
 {
     Description scene = cube_on_platform();
     scene.hands.damping_ns_per_m = 2.0;
@@ -127,7 +127,7 @@ TEST(SlidingHands, FeelFixedBoxesByTheMeanForceButNotPlanes)
     EXPECT_EQ(rig.touch(1).on_hand, base::Force{});
 }
 
-TEST(SlidingHands, ThatAreAbsentLeaveTheBoxAlone)
+TEST(BoxHands, ThatAreAbsentLeaveTheBoxAlone)
 {
     Rig<false> rig{lone_cube()};
     rig.set_hand(0, {-0.02, 0.0, 0.0});

@@ -34,7 +34,7 @@ TEST(SlidingObstacles, ABouncingBoxComesToRestExactlyOnThePlane)
     }
     EXPECT_EQ(rig.position().y, 0.0);
     EXPECT_EQ(rig.velocity().y, 0.0);
-    EXPECT_EQ(rig.sliding.crowded_ticks(), 0U);
+    EXPECT_EQ(rig.stepper.crowded_ticks(), 0U);
 }
 
 TEST(SlidingObstacles, AnElasticBoxBouncesToTheSameHeightForTenSeconds)

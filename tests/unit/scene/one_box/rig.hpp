@@ -13,12 +13,12 @@ template <bool coulomb>
 struct Rig {
     WorldConfig config;
     WorldState state;
-    OneBoxStepper<coulomb> sliding;
+    OneBoxStepper<coulomb> stepper;
 
     explicit Rig(const Description& scene, double tick = 1e-3)
         : config{scene.planes, scene.hands, scene.gravity, tick, true},
           state{.bodies = Bodies{scene}},
-          sliding{scene, config, state}
+          stepper{scene, config, state}
     {
         for (HandInput& hand : state.hands) hand.present = false;
         state.pushes.resize(scene.bodies.size());
@@ -26,7 +26,7 @@ struct Rig {
     }
     void tick(int times = 1)
     {
-        for (int i = 0; i < times; ++i) sliding.step(config, state);
+        for (int i = 0; i < times; ++i) stepper.step(config, state);
     }
     /// Moves the hands on by their velocities before every tick but the first.
     void carry(int times)
