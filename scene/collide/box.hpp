@@ -8,7 +8,7 @@
 namespace hapnet::scene {
 
 /// A box along the axes of the world, metres.
-struct Box {
+struct Aabb {
     glm::dvec3 low{0.0};
     glm::dvec3 high{0.0};
 
@@ -18,14 +18,14 @@ struct Box {
 
 // Without short cuts: compares are cheaper than branches that nothing predicts.
 
-[[nodiscard]] inline bool overlap(const Box& a, const Box& b)
+[[nodiscard]] inline bool overlap(const Aabb& a, const Aabb& b)
 {
     return static_cast<int>(a.low.x <= b.high.x) & static_cast<int>(b.low.x <= a.high.x) &
            static_cast<int>(a.low.y <= b.high.y) & static_cast<int>(b.low.y <= a.high.y) &
            static_cast<int>(a.low.z <= b.high.z) & static_cast<int>(b.low.z <= a.high.z);
 }
 
-[[nodiscard]] inline bool contains(const Box& outer, const Box& inner)
+[[nodiscard]] inline bool contains(const Aabb& outer, const Aabb& inner)
 {
     return static_cast<int>(outer.low.x <= inner.low.x) &
            static_cast<int>(inner.high.x <= outer.high.x) &
@@ -35,12 +35,12 @@ struct Box {
            static_cast<int>(inner.high.z <= outer.high.z);
 }
 
-[[nodiscard]] inline Box hull(const glm::dvec3& a, const glm::dvec3& b)
+[[nodiscard]] inline Aabb hull(const glm::dvec3& a, const glm::dvec3& b)
 {
     return {glm::min(a, b), glm::max(a, b)};
 }
 
-[[nodiscard]] inline Box grown(const Box& box, const glm::dvec3& by)
+[[nodiscard]] inline Aabb grown(const Aabb& box, const glm::dvec3& by)
 {
     return {box.low - by, box.high + by};
 }

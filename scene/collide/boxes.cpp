@@ -10,17 +10,18 @@
 
 namespace hapnet::scene {
 
-Boxes::Boxes(const Bodies& bodies, const Scales& scales) : scales_{scales}, entries_(bodies.size())
+SweptBoxes::SweptBoxes(const Bodies& bodies, const Scales& scales)
+    : scales_{scales}, entries_(bodies.size())
 {
     for (Slot slot = 0; slot < bodies.size(); ++slot) {
         const glm::dvec3& half = bodies.properties[slot].half;
-        const BoxNow now{box_of(bodies, slot), std::sqrt(glm::dot(half, half)),
-                         reach_of(bodies, slot, scales)};
+        const SweptBox now{box_of(bodies, slot), std::sqrt(glm::dot(half, half)),
+                           reach_of(bodies, slot, scales)};
         entries_[bodies.properties[slot].id] = {now, bodies.orientation.at(slot), 0};
     }
 }
 
-void Boxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
+void SweptBoxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
 {
     const Slot slot = bodies.slot_of[body];
     entry.seen = now_;

@@ -10,7 +10,7 @@
 namespace hapnet::scene {
 
 /// Where a body's box is, and how far it comes.
-struct BoxNow {
+struct SweptBox {
     OrientedBox box;
     double radius = 0.0; // of the corners, m
     double reach = 0.0;  // see reach_of(); of what is asleep, when it were awake
@@ -18,13 +18,13 @@ struct BoxNow {
 
 /// The bodies' boxes at the start of a tick: found when they are asked for, and only of what has
 /// moved since. Nobody asks for a body that flies alone.
-class Boxes {
+class SweptBoxes {
 public:
-    Boxes(const Bodies& bodies, const Scales& scales);
+    SweptBoxes(const Bodies& bodies, const Scales& scales);
 
     void begin_tick() { ++now_; }
     /// The reference is good until the next tick.
-    [[nodiscard]] const BoxNow& at(const Bodies& bodies, BodyId body)
+    [[nodiscard]] const SweptBox& at(const Bodies& bodies, BodyId body)
     {
         Entry& entry = entries_[body];
         if (entry.seen != now_) renew(bodies, body, entry);
@@ -33,7 +33,7 @@ public:
 
 private:
     struct Entry {
-        BoxNow now;
+        SweptBox now;
         glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
         std::uint64_t seen = 0;
     };

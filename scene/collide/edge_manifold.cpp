@@ -63,7 +63,7 @@ Manifold edge_manifold(const OrientedBox& a, const OrientedBox& b, EdgePair edge
         return manifold;
     manifold.points[0] = {.position = 0.5 * (point_a + point_b),
                           .separation = separation,
-                          .feature = meeting(edge_a.feature, edge_b.feature)};
+                          .feature = feature_pair(edge_a.feature, edge_b.feature)};
     manifold.count = 1;
     return manifold;
 }

@@ -274,7 +274,7 @@ Manifold face_manifold(const OrientedBox& reference, const OrientedBox& incident
                                                   vertex.v * reference.axes[faces.axis_v] +
                                                   (0.5 * vertex.separation) * faces.normal),
                               .separation = vertex.separation,
-                              .feature = meeting(vertex.reference, vertex.incident)};
+                              .feature = feature_pair(vertex.reference, vertex.incident)};
     }
     return manifold;
 }

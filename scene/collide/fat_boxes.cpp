@@ -43,31 +43,31 @@ glm::dvec3 extent(const glm::dquat& q, const glm::dvec3& half)
 
 } // namespace
 
-FatBoxes::FatBoxes(const WorldConfig& config, const Bodies& bodies)
-    : tick_{config.tick}, gravity_{config.gravity}, leashes_(bodies.size())
+FatAabbs::FatAabbs(const WorldConfig& config, const Bodies& bodies)
+    : tick_{config.tick}, gravity_{config.gravity}, bounds_(bodies.size())
 {
     for (std::vector<double>& lane : lanes_) lane.resize(bodies.size());
 }
 
-FatBoxes::Size FatBoxes::size_of(const BodyProperties& properties) const
+FatAabbs::Size FatAabbs::size_of(const BodyProperties& properties) const
 {
     const glm::dvec3& half = properties.half;
-    return {
-        .nearby = nearby_margin * std::min({half.x, half.y, half.z}),
-        .wander = properties.mass == 0.0 ? 0.0 : wander_share * (half.x + half.y + half.z) / 3.0,
-        .radius = std::sqrt(glm::dot(half, half)),
-        .ease = properties.turning == Turning::locked ? 0.0 : largest(properties.inverse_inertia)};
+    return {.nearby = pair_margin * std::min({half.x, half.y, half.z}),
+            .stray = properties.mass == 0.0 ? 0.0 : wander_share * (half.x + half.y + half.z) / 3.0,
+            .radius = std::sqrt(glm::dot(half, half)),
+            .ease =
+                properties.turning == Turning::locked ? 0.0 : largest(properties.inverse_inertia)};
 }
 
 /// Where the centre will be within the look-ahead, but not too far from where it is.
-Box FatBoxes::path(const Bodies& bodies, Slot slot, double wander) const
+Aabb FatAabbs::path(const Bodies& bodies, Slot slot, double stray) const
 {
     const glm::dvec3 position = bodies.position.at(slot);
     const BodyProperties& properties = bodies.properties[slot];
     const double ahead = look_ahead_ticks * tick_;
     const glm::dvec3 way = bodies.velocity.at(slot) * ahead;
     const double length = largest(glm::abs(way));
-    if (!(length > wander) || properties.mass == 0.0) return {position, position};
+    if (!(length > stray) || properties.mass == 0.0) return {position, position};
     const double edge = 2.0 * (properties.half.x + properties.half.y + properties.half.z) / 3.0;
     const glm::dvec3 edges = glm::abs(way) / edge;
     constexpr double share_min = stretch_ticks_min / look_ahead_ticks;
@@ -80,53 +80,53 @@ Box FatBoxes::path(const Bodies& bodies, Slot slot, double wander) const
     glm::dvec3 end = straight;
     for (int axis = 0; axis < 3; ++axis)
         if (properties.inverse_mass[axis] != 0.0) end[axis] += drop[axis];
-    const Box around = hull(straight, end);
+    const Aabb around = hull(straight, end);
     return {position + glm::min(around.low, 0.0), position + glm::max(around.high, 0.0)};
 }
 
-Box FatBoxes::renew(const Bodies& bodies, Slot slot)
+Aabb FatAabbs::renew(const Bodies& bodies, Slot slot)
 {
     const BodyProperties& properties = bodies.properties[slot];
     const Size size = size_of(properties);
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
     const double turn = std::sqrt(glm::dot(momentum, momentum)) * size.ease * size.radius; // m/s
-    const bool spins = turn * tick_ * look_ahead_ticks > size.wander;
+    const bool spins = turn * tick_ * look_ahead_ticks > size.stray;
 
-    Leash& leash = leashes_[properties.id];
+    Bounds& bounds = bounds_[properties.id];
     const glm::dvec3 step = glm::abs(bodies.velocity.at(slot)) * tick_;
-    const Box region = grown(path(bodies, slot, size.wander), glm::dvec3{size.wander} + step);
-    leash.middle = region.centre();
-    leash.room = 0.5 * region.size();
-    leash.orientation = bodies.orientation.at(slot);
-    leash.likeness_min = -1.0;
-    leash.angular_momentum2 = std::numeric_limits<double>::infinity();
+    const Aabb region = grown(path(bodies, slot, size.stray), glm::dvec3{size.stray} + step);
+    bounds.centre = region.centre();
+    bounds.room = 0.5 * region.size();
+    bounds.orientation = bodies.orientation.at(slot);
+    bounds.similarity_min = -1.0;
+    bounds.angular_momentum2 = std::numeric_limits<double>::infinity();
     glm::dvec3 margin = glm::dvec3{size.nearby} + glm::abs(gravity_) * (tick_ * tick_);
     if (properties.mass == 0.0 || size.ease == 0.0) {
-        margin += extent(leash.orientation, properties.half);
+        margin += extent(bounds.orientation, properties.half);
     } else if (spins) {
         margin += size.radius;
     } else {
         // A turn by an angle t moves a corner by 2 sin(t/2) r, and cos(t/2) is the scalar product
         // of the two orientations.
-        const double sine = size.wander / (2.0 * size.radius);
-        leash.likeness_min = 1.0 - sine * sine;
-        const double fastest = turn_share * size.wander / (tick_ * size.radius * size.ease);
-        leash.angular_momentum2 = fastest * fastest;
-        margin += extent(leash.orientation, properties.half) + (1.0 + turn_share) * size.wander;
+        const double sine = size.stray / (2.0 * size.radius);
+        bounds.similarity_min = 1.0 - sine * sine;
+        const double fastest = turn_share * size.stray / (tick_ * size.radius * size.ease);
+        bounds.angular_momentum2 = fastest * fastest;
+        margin += extent(bounds.orientation, properties.half) + (1.0 + turn_share) * size.stray;
     }
-    if (slot < bodies.awake) follow(bodies, slot);
+    if (slot < bodies.awake) update_slot(bodies, slot);
     return grown(region, margin);
 }
 
-void FatBoxes::follow(const Bodies& bodies, Slot slot)
+void FatAabbs::update_slot(const Bodies& bodies, Slot slot)
 {
-    const Leash& leash = leashes_[bodies.properties[slot].id];
-    const glm::dvec3& middle = leash.middle;
-    const glm::dvec3& room = leash.room;
-    const glm::dquat& q = leash.orientation;
-    const std::array<double, lanes> values{middle.x,
-                                           middle.y,
-                                           middle.z,
+    const Bounds& bounds = bounds_[bodies.properties[slot].id];
+    const glm::dvec3& centre = bounds.centre;
+    const glm::dvec3& room = bounds.room;
+    const glm::dquat& q = bounds.orientation;
+    const std::array<double, lanes> values{centre.x,
+                                           centre.y,
+                                           centre.z,
                                            room.x,
                                            room.y,
                                            room.z,
@@ -134,8 +134,8 @@ void FatBoxes::follow(const Bodies& bodies, Slot slot)
                                            q.x,
                                            q.y,
                                            q.z,
-                                           leash.likeness_min,
-                                           leash.angular_momentum2};
+                                           bounds.similarity_min,
+                                           bounds.angular_momentum2};
     for (std::size_t lane = 0; lane < lanes; ++lane) lanes_[lane][slot] = values[lane];
 }
 
@@ -147,7 +147,7 @@ struct Lanes {
     const double *vx, *vy, *vz;
     const double *lx, *ly, *lz;
     const double *w, *i, *j, *k;
-    std::array<const double*, 12> leash;
+    std::array<const double*, 12> bounds;
     double tick;
 };
 
@@ -161,14 +161,14 @@ inline double rest_of(double room, double away, double velocity, double tick)
 /// together as bits. Without compares GCC 12 and Clang 14 look at two bodies (or four) at once.
 inline std::uint64_t left_at(const Lanes& l, std::size_t n)
 {
-    const double x = rest_of(l.leash[3][n], l.x[n] - l.leash[0][n], l.vx[n], l.tick);
-    const double y = rest_of(l.leash[4][n], l.y[n] - l.leash[1][n], l.vy[n], l.tick);
-    const double z = rest_of(l.leash[5][n], l.z[n] - l.leash[2][n], l.vz[n], l.tick);
-    const double likeness = l.w[n] * l.leash[6][n] + l.i[n] * l.leash[7][n] +
-                            l.j[n] * l.leash[8][n] + l.k[n] * l.leash[9][n];
-    const double turn = likeness * likeness - l.leash[10][n];
+    const double x = rest_of(l.bounds[3][n], l.x[n] - l.bounds[0][n], l.vx[n], l.tick);
+    const double y = rest_of(l.bounds[4][n], l.y[n] - l.bounds[1][n], l.vy[n], l.tick);
+    const double z = rest_of(l.bounds[5][n], l.z[n] - l.bounds[2][n], l.vz[n], l.tick);
+    const double likeness = l.w[n] * l.bounds[6][n] + l.i[n] * l.bounds[7][n] +
+                            l.j[n] * l.bounds[8][n] + l.k[n] * l.bounds[9][n];
+    const double turn = likeness * likeness - l.bounds[10][n];
     const double momentum2 = l.lx[n] * l.lx[n] + l.ly[n] * l.ly[n] + l.lz[n] * l.lz[n];
-    const double spin = l.leash[11][n] - momentum2;
+    const double spin = l.bounds[11][n] - momentum2;
     return std::bit_cast<std::uint64_t>(x) | std::bit_cast<std::uint64_t>(y) |
            std::bit_cast<std::uint64_t>(z) | std::bit_cast<std::uint64_t>(turn) |
            std::bit_cast<std::uint64_t>(spin);
@@ -189,26 +189,26 @@ bool any_left(const Lanes& lanes, std::size_t first)
 } // namespace
 
 /// For a few bodies, one after the other: without the lanes' addresses.
-bool FatBoxes::has_left(const Bodies& bodies, Slot slot) const
+bool FatAabbs::has_moved_out(const Bodies& bodies, Slot slot) const
 {
-    const Leash& leash = leashes_[bodies.properties[slot].id];
-    const glm::dvec3 away = glm::abs(bodies.position.at(slot) - leash.middle) +
+    const Bounds& bounds = bounds_[bodies.properties[slot].id];
+    const glm::dvec3 away = glm::abs(bodies.position.at(slot) - bounds.centre) +
                             tick_ * glm::abs(bodies.velocity.at(slot));
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
     const glm::dquat now = bodies.orientation.at(slot);
-    const glm::dquat& then = leash.orientation;
+    const glm::dquat& then = bounds.orientation;
     const double likeness = now.w * then.w + now.x * then.x + now.y * then.y + now.z * then.z;
-    return away.x > leash.room.x || away.y > leash.room.y || away.z > leash.room.z ||
-           likeness * likeness < leash.likeness_min ||
-           glm::dot(momentum, momentum) > leash.angular_momentum2;
+    return away.x > bounds.room.x || away.y > bounds.room.y || away.z > bounds.room.z ||
+           likeness * likeness < bounds.similarity_min ||
+           glm::dot(momentum, momentum) > bounds.angular_momentum2;
 }
 
-void FatBoxes::find_left(const Bodies& bodies, Bounded<Slot>& left) const
+void FatAabbs::find_moved_out(const Bodies& bodies, Bounded<Slot>& moved_out) const
 {
     constexpr Slot few = 3;
     if (bodies.awake <= few) {
         for (Slot slot = 0; slot < bodies.awake; ++slot)
-            if (has_left(bodies, slot)) left.add(slot);
+            if (has_moved_out(bodies, slot)) moved_out.add(slot);
         return;
     }
     const Bodies::Lanes3& p = bodies.position;
@@ -218,14 +218,14 @@ void FatBoxes::find_left(const Bodies& bodies, Bounded<Slot>& left) const
     Lanes all{p.x.data(), p.y.data(), p.z.data(), v.x.data(), v.y.data(),
               v.z.data(), l.x.data(), l.y.data(), l.z.data(), q.w.data(),
               q.x.data(), q.y.data(), q.z.data(), {},         tick_};
-    for (std::size_t lane = 0; lane < lanes; ++lane) all.leash[lane] = lanes_[lane].data();
+    for (std::size_t lane = 0; lane < lanes; ++lane) all.bounds[lane] = lanes_[lane].data();
 
     const std::size_t end = bodies.awake;
     for (std::size_t first = 0; first < end; first += block) {
         const std::size_t last = std::min(first + block, end);
         if (last - first == block && !any_left(all, first)) continue;
         for (std::size_t n = first; n < last; ++n)
-            if (left_at(all, n) >> sign != 0) left.add(static_cast<Slot>(n));
+            if (left_at(all, n) >> sign != 0) moved_out.add(static_cast<Slot>(n));
     }
 }
 

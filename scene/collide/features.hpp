@@ -19,16 +19,16 @@ inline constexpr std::uint32_t feature_bits_count = 6;
 }
 
 /// Which features of two boxes meet: as ContactPoint::feature holds it.
-[[nodiscard]] constexpr std::uint32_t meeting(FeatureBits first, FeatureBits second)
+[[nodiscard]] constexpr std::uint32_t feature_pair(FeatureBits first, FeatureBits second)
 {
     return first | second << feature_bits_count;
 }
 
 /// The same meeting with the boxes exchanged.
-[[nodiscard]] constexpr std::uint32_t meeting_exchanged(std::uint32_t feature)
+[[nodiscard]] constexpr std::uint32_t swapped_feature_pair(std::uint32_t feature)
 {
     constexpr std::uint32_t mask = (1U << feature_bits_count) - 1U;
-    return meeting(feature >> feature_bits_count, feature & mask);
+    return feature_pair(feature >> feature_bits_count, feature & mask);
 }
 
 } // namespace hapnet::scene

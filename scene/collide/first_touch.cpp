@@ -34,7 +34,7 @@ public:
     /// One more axis, of any length; false when the boxes do not meet because of it.
     bool consider(const glm::dvec3& direction)
     {
-        const double reach = half_shadow(a_, direction) + half_shadow(b_, direction);
+        const double reach = half_projection(a_, direction) + half_projection(b_, direction);
         const double place = glm::dot(direction, offset_);
         const double speed = glm::dot(direction, velocity_);
         const double apart = std::abs(place) - reach;
@@ -54,11 +54,12 @@ public:
         return enter_ < leave_;
     }
 
-    [[nodiscard]] std::optional<Impact> impact(double time_max) const
+    [[nodiscard]] std::optional<TimeOfImpact> impact(double time_max) const
     {
         if (!is_touching_ || enter_ > time_max) return std::nullopt;
         const glm::dvec3 unit = normal_ / std::sqrt(glm::dot(normal_, normal_));
-        return Impact{.time = enter_, .normal = glm::dot(unit, velocity_) > 0.0 ? -unit : unit};
+        return TimeOfImpact{.time = enter_,
+                            .normal = glm::dot(unit, velocity_) > 0.0 ? -unit : unit};
     }
 
 private:
@@ -84,8 +85,8 @@ private:
 
 } // namespace
 
-std::optional<Impact> first_touch(const OrientedBox& a, const OrientedBox& b,
-                                  const glm::dvec3& relative_velocity, double time_max)
+std::optional<TimeOfImpact> time_of_impact(const OrientedBox& a, const OrientedBox& b,
+                                           const glm::dvec3& relative_velocity, double time_max)
 {
     Sweep sweep{a, b, relative_velocity};
     for (const int i : {0, 1, 2})

@@ -11,7 +11,7 @@
 namespace hapnet::scene {
 
 /// Half the length of a box's shadow along a direction, times the direction's length.
-[[nodiscard]] inline double half_shadow(const OrientedBox& box, const glm::dvec3& direction)
+[[nodiscard]] inline double half_projection(const OrientedBox& box, const glm::dvec3& direction)
 {
     return box.half.x * std::abs(glm::dot(direction, box.axes[0])) +
            box.half.y * std::abs(glm::dot(direction, box.axes[1])) +

@@ -29,7 +29,7 @@ double reach_of(const Bodies& bodies, Slot slot, const Scales& scales)
            look_ahead * shortest(half);
 }
 
-BoxMeeting meeting(const BoxPath& a, const BoxPath& b, double tick, BoxBoxMemory& memory)
+SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, BoxBoxMemory& memory)
 {
     const double margin = a.reach + b.reach;
     const double near = far_share * std::min(shortest(a.box.half), shortest(b.box.half));
@@ -41,7 +41,7 @@ BoxMeeting meeting(const BoxPath& a, const BoxPath& b, double tick, BoxBoxMemory
     if (glm::dot(apart, apart) > nearest * nearest) return {};
     const ContactPlaces here{a.box.centre, b.box.centre};
     if (margin < near) return {collide(a.box, b.box, margin, memory), here};
-    const auto impact = first_touch(a.box, b.box, velocity, tick);
+    const auto impact = time_of_impact(a.box, b.box, velocity, tick);
     if (!impact) return {collide(a.box, b.box, near, memory), here};
     OrientedBox there_a = a.box;
     OrientedBox there_b = b.box;

@@ -11,7 +11,7 @@ namespace hapnet::scene {
 [[nodiscard]] double reach_of(const Bodies& bodies, Slot slot, const Scales& scales);
 
 /// A box and where it is going.
-struct BoxPath {
+struct BoxSweep {
     const OrientedBox& box;
     glm::dvec3 velocity{0.0};
     double reach = 0.0;
@@ -19,7 +19,7 @@ struct BoxPath {
 };
 
 /// Where two boxes touch, and their centres then.
-struct BoxMeeting {
+struct SweptContact {
     Manifold manifold;
     ContactPlaces centres;
 };
@@ -27,7 +27,7 @@ struct BoxMeeting {
 /// Where two boxes touch, or will within the tick. Of boxes that come far in it, where they will
 /// when they meet, with the way that they have until then as the separation: they cannot pass
 /// through each other.
-[[nodiscard]] BoxMeeting meeting(const BoxPath& a, const BoxPath& b, double tick,
-                                 BoxBoxMemory& memory);
+[[nodiscard]] SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick,
+                                         BoxBoxMemory& memory);
 
 } // namespace hapnet::scene

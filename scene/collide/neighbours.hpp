@@ -36,9 +36,9 @@ struct HandPath {
 /// velocities, or one tick of gravity off it. Bodies up to the fat boxes' extent farther apart may
 /// be pairs too.
 template <BroadPhase broad_phase>
-class Neighbours {
+class PairFinder {
 public:
-    Neighbours(const WorldConfig& config, const Bodies& bodies);
+    PairFinder(const WorldConfig& config, const Bodies& bodies);
 
     /// Looks at the awake bodies' positions, orientations and velocities, at the start of a tick
     /// and after anything put a body elsewhere. Afterwards the lists of pairs are up to date.
@@ -49,22 +49,25 @@ public:
     [[nodiscard]] std::span<const PairIndex> pairs() const { return pairs_.active(); }
     [[nodiscard]] Pair& pair(PairIndex index) { return pairs_[index]; }
     /// Awake bodies (`a`) near planes (`b`, an index into WorldConfig::planes).
-    [[nodiscard]] std::span<const PairIndex> plane_pairs() const { return planes_.active(); }
-    [[nodiscard]] Pair& plane_pair(PairIndex index) { return planes_[index]; }
+    [[nodiscard]] std::span<const PairIndex> plane_pairs() const { return plane_pairs_.active(); }
+    [[nodiscard]] Pair& plane_pair(PairIndex index) { return plane_pairs_[index]; }
 
     /// The bodies, movable or fixed, asleep or awake, that a hand may reach within the tick, by
     /// their ids. To be asked after update(). Far from everything it costs a few compares.
-    [[nodiscard]] std::span<const BodyId> reached_by(std::uint32_t hand, const HandPath& path);
+    [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path);
 
     /// To be said after the body was moved over the border between awake and asleep: its pairs
     /// come to the lists or leave them. Sleep says it.
-    void has_woken(const Bodies& bodies, BodyId body);
-    void has_fallen_asleep(const Bodies& bodies, BodyId body, Slot was_in);
+    void on_wake(const Bodies& bodies, BodyId body);
+    void on_sleep(const Bodies& bodies, BodyId body, Slot was_in);
     /// Brings the lists up to date after that. Which pairs it added: for who has to look at them
     /// in the tick that has begun.
     void settle();
     [[nodiscard]] std::span<const PairIndex> pairs_added() const { return pairs_.added(); }
-    [[nodiscard]] std::span<const PairIndex> plane_pairs_added() const { return planes_.added(); }
+    [[nodiscard]] std::span<const PairIndex> plane_pairs_added() const
+    {
+        return plane_pairs_.added();
+    }
 
     /// Forgets a body's contacts: it was put elsewhere.
     void forget(BodyId body);
@@ -84,30 +87,30 @@ public:
 private:
     /// A hand's fat box and who lies in it, by their ids.
     struct Hand {
-        Box box;
+        Aabb box;
         Bounded<BodyId> bodies;
     };
-    using Finder = std::conditional_t<broad_phase == BroadPhase::all_pairs, Scan, Grid>;
+    using Finder = std::conditional_t<broad_phase == BroadPhase::all_pairs, AabbScan, Grid>;
 
-    void meet(const Bodies& bodies, BodyId id);
-    void meet_planes(const Box& box, BodyId id, bool is_awake);
-    void show(Hand& hand, BodyId id);
+    void update_pairs(const Bodies& bodies, BodyId id);
+    void update_plane_pairs(const Aabb& box, BodyId id, bool is_awake);
+    void update_hand(Hand& hand, BodyId id);
 
-    std::vector<PlaneDescription> surfaces_;
-    FatBoxes fat_;
-    Finder found_;
+    std::vector<PlaneDescription> planes_of_scene_;
+    FatAabbs fat_boxes_;
+    Finder boxes_;
     PairSet pairs_;
-    PairSet planes_;
+    PairSet plane_pairs_;
     std::vector<Hand> hands_;
-    Bounded<Slot> left_;
-    bool has_unmet_ = false;            // somebody for whose pairs there was no room
+    Bounded<Slot> moved_out_;
+    bool has_left_out_ = false;         // somebody for whose pairs there was no room
     std::vector<std::uint64_t> stamps_; // by id: who is a pair already with the one that renews
     std::uint64_t stamp_ = 0;
     std::uint64_t renewed_ = 0;
     std::uint64_t hands_renewed_ = 0;
 };
 
-extern template class Neighbours<BroadPhase::all_pairs>;
-extern template class Neighbours<BroadPhase::grid>;
+extern template class PairFinder<BroadPhase::all_pairs>;
+extern template class PairFinder<BroadPhase::grid>;
 
 } // namespace hapnet::scene

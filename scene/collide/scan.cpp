@@ -4,14 +4,14 @@
 
 namespace hapnet::scene {
 
-Scan::Scan(std::span<const Box> boxes) : size_{static_cast<BodyId>(boxes.size())}
+AabbScan::AabbScan(std::span<const Aabb> boxes) : size_{static_cast<BodyId>(boxes.size())}
 {
     for (std::vector<double>& lane : lanes_)
         lane.assign((boxes.size() + block - 1) / block * block, 0.0);
     for (BodyId id = 0; id < size_; ++id) move(id, boxes[id]);
 }
 
-void Scan::move(BodyId id, const Box& box)
+void AabbScan::move(BodyId id, const Aabb& box)
 {
     for (int axis = 0; axis < 3; ++axis) {
         const auto lane = static_cast<std::size_t>(axis);
@@ -20,7 +20,7 @@ void Scan::move(BodyId id, const Box& box)
     }
 }
 
-void Scan::compare(const Box& box, BodyId first, std::array<std::uint64_t, block>& apart) const
+void AabbScan::compare(const Aabb& box, BodyId first, std::array<std::uint64_t, block>& apart) const
 {
     const double* const low_x = lanes_[0].data() + first;
     const double* const low_y = lanes_[1].data() + first;

@@ -34,13 +34,13 @@ public:
 
     /// Calls visit(range) for all the others up to `end`.
     template <typename Visit>
-    void for_inactive(Slot end, Visit visit) const
+    void for_inactive(Slot end, Visit solve_block) const
     {
         const auto first = marks_.begin();
         const auto last = first + end;
         for (auto from = std::find(first, last, 0); from != last;) {
             const auto to = std::find(from, last, 1);
-            visit(SlotRange{static_cast<Slot>(from - first), static_cast<Slot>(to - first)});
+            solve_block(SlotRange{static_cast<Slot>(from - first), static_cast<Slot>(to - first)});
             from = std::find(to, last, 0);
         }
     }

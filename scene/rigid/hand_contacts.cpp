@@ -36,18 +36,19 @@ double mean_limited(double from, double to, double most)
 }
 
 /// The mean force on what does not move, of a hand that comes nearer at a constant speed.
-double steady_force(const HandDescription& hands, double depth, double closing, double tick)
+double mean_force_at_constant_velocity(const HandDescription& hands, double depth, double closing,
+                                       double tick)
 {
-    const double end = depth + closing * tick;
-    if (depth <= 0.0 && end <= 0.0) return 0.0;
+    const double forget_departed = depth + closing * tick;
+    if (depth <= 0.0 && forget_departed <= 0.0) return 0.0;
     double share = 1.0;
     double from = depth;
-    double to = end;
+    double to = forget_departed;
     if (depth < 0.0) {
-        share = end / (end - depth);
+        share = forget_departed / (forget_departed - depth);
         from = 0.0;
-    } else if (end < 0.0) {
-        share = depth / (depth - end);
+    } else if (forget_departed < 0.0) {
+        share = depth / (depth - forget_departed);
         to = 0.0;
     }
     const double damper = hands.damping_ns_per_m * closing;
@@ -57,49 +58,50 @@ double steady_force(const HandDescription& hands, double depth, double closing, 
 
 } // namespace
 
-HandSprings::HandSprings(const WorldConfig& config)
-    : fall_{config.tick * config.tick * std::sqrt(glm::dot(config.gravity, config.gravity))},
+HandContacts::HandContacts(const WorldConfig& config)
+    : gravity_reach_{config.tick * config.tick *
+                     std::sqrt(glm::dot(config.gravity, config.gravity))},
       springs_{config.hands.count * touched_per_hand_max},
-      forms_{config.hands.count * touched_per_hand_max},
+      forces_{config.hands.count * touched_per_hand_max},
       own_{config.hands.count * touched_per_hand_max},
       work_{config.hands.count * touched_per_hand_max}
 {}
 
-void HandSprings::begin(const WorldConfig& config, WorldState& state)
+void HandContacts::begin_step(const WorldConfig& config, WorldState& state)
 {
     springs_.clear();
-    forms_.clear();
+    forces_.clear();
     for (std::uint32_t i = 0; i < config.hands.count; ++i) {
-        for (std::size_t k = 0; k < hands_[i].count; ++k) hands_[i].near[k].is_there = false;
+        for (std::size_t k = 0; k < hands_[i].count; ++k) hands_[i].nearby[k].is_current = false;
         state.touches[i] = {};
         const HandInput& input = state.hands[i];
         if (!input.present || !input.gripping) hands_[i].holding.reset();
     }
 }
 
-HandSprings::Near* HandSprings::near(Hand& hand, BodyId body)
+HandContacts::NearBody* HandContacts::find_near(Hand& hand, BodyId body)
 {
     for (std::size_t i = 0; i < hand.count; ++i) {
-        if (hand.near[i].body == body) return &hand.near[i];
+        if (hand.nearby[i].body == body) return &hand.nearby[i];
     }
-    if (hand.count == hand.near.size()) return nullptr;
-    Near& fresh = hand.near[hand.count++];
+    if (hand.count == hand.nearby.size()) return nullptr;
+    NearBody& fresh = hand.nearby[hand.count++];
     fresh = {};
     fresh.body = body;
     return &fresh;
 }
 
-void HandSprings::touch(const WorldConfig& config, WorldState& state, std::uint32_t hand,
-                        const Target& target)
+void HandContacts::collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
+                           const Target& target)
 {
-    if (target.is_movable && state.hands[hand].gripping && hold(config, state, hand, target))
+    if (target.is_movable && state.hands[hand].gripping && add_grip(config, state, hand, target))
         return;
-    press(config, state, hand, target);
+    add_push(config, state, hand, target);
 }
 
 /// Whether the hand holds the body: then it pulls and pushes in all directions where it took hold.
-bool HandSprings::hold(const WorldConfig& config, WorldState& state, std::uint32_t index,
-                       const Target& target)
+bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
+                            const Target& target)
 {
     const HandDescription& hands = config.hands;
     const HandInput& input = state.hands[index];
@@ -107,7 +109,7 @@ bool HandSprings::hold(const WorldConfig& config, WorldState& state, std::uint32
     const double apart = distance(target.box, input.position.value);
     if (!hand.holding) {
         if (apart > hands.radius_m + hands.grip_reach_m) return false;
-        hand.holding = Holding{target.body, seen_from(target.box, input.position.value)};
+        hand.holding = Holding{target.body, to_local(target.box, input.position.value)};
     }
     if (hand.holding->body != target.body) return false;
     const glm::dvec3 arm = target.box.axes * hand.holding->at;
@@ -131,24 +133,24 @@ bool HandSprings::hold(const WorldConfig& config, WorldState& state, std::uint32
     return true;
 }
 
-void HandSprings::press(const WorldConfig& config, WorldState& state, std::uint32_t index,
-                        const Target& target)
+void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,
+                            const Target& target)
 {
     const HandDescription& hands = config.hands;
     const HandInput& input = state.hands[index];
-    Near* const near_by = near(hands_[index], target.body);
-    if (near_by == nullptr) return;
+    NearBody* const near_body = find_near(hands_[index], target.body);
+    if (near_body == nullptr) return;
     // Looks as far ahead as the two come nearer: a spring may begin to act within the tick.
     const glm::dvec3& centre = input.position.value;
     const double turning = sum_of_sizes(target.spin) * sum_of_sizes(target.box.half);
     const double ahead =
         config.tick * (sum_of_sizes(input.velocity.value - target.velocity) + turning) +
-        0.5 * fall_;
-    const glm::dvec3 place = seen_from(target.box, centre);
-    const auto overlap = near_by->memory.find(target.box.half, place, hands.radius_m + ahead,
-                                              near_by->before ? &*near_by->before : nullptr);
-    near_by->is_there = true;
-    near_by->before = place;
+        0.5 * gravity_reach_;
+    const glm::dvec3 place = to_local(target.box, centre);
+    const auto overlap = near_body->memory.find(target.box.half, place, hands.radius_m + ahead,
+                                                near_body->before ? &*near_body->before : nullptr);
+    near_body->is_current = true;
+    near_body->before = place;
     if (!overlap) return;
     const double depth = overlap->depth - ahead;
     const glm::dvec3 normal = target.box.axes * overlap->normal;
@@ -159,12 +161,13 @@ void HandSprings::press(const WorldConfig& config, WorldState& state, std::uint3
     touch.depth_m = std::max(touch.depth_m, depth);
     touch.on_hand_at_start.value += force_at(hands, depth, closing) * normal;
     if (!target.is_movable) {
-        touch.on_hand.value += steady_force(hands, depth, closing, config.tick) * normal;
+        touch.on_hand.value +=
+            mean_force_at_constant_velocity(hands, depth, closing, config.tick) * normal;
         return;
     }
     // What does not begin to act within the tick is no spring; what acts already is one, also in
     // the tick in which it ends.
-    if (depth < 0.0 && -depth > closing * config.tick + fall_) return;
+    if (depth < 0.0 && -depth > closing * config.tick + gravity_reach_) return;
     HandSpring& spring = add(index, target.body);
     spring.normal = normal;
     spring.arm = arm;
@@ -178,27 +181,27 @@ void HandSprings::press(const WorldConfig& config, WorldState& state, std::uint3
     spring.holds = false;
 }
 
-HandSpring& HandSprings::add(std::uint32_t hand, BodyId body)
+HandSpring& HandContacts::add(std::uint32_t hand, BodyId body)
 {
     springs_.add() = {hand, body, glm::dvec3{0.0}};
-    return forms_.add();
+    return forces_.add();
 }
 
-HandSprings::OnBody HandSprings::on(BodyId body)
+HandContacts::BodySprings HandContacts::springs_on(BodyId body)
 {
     const auto is_on = [body](const Spring& spring) { return spring.body == body; };
     const std::span<const Spring> all = springs();
     work_.resize(all.size());
-    if (std::all_of(all.begin(), all.end(), is_on)) return {forms_.all(), work_.all()};
+    if (std::all_of(all.begin(), all.end(), is_on)) return {forces_.all(), work_.all()};
     own_.clear();
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (is_on(all[i])) own_.add() = forms_[i];
+        if (is_on(all[i])) own_.add() = forces_[i];
     }
     work_.resize(own_.size());
     return {own_.all(), work_.all()};
 }
 
-void HandSprings::worked(BodyId body)
+void HandContacts::store_impulses(BodyId body)
 {
     std::size_t next = 0;
     for (Spring& spring : springs_.all()) {
@@ -206,17 +209,17 @@ void HandSprings::worked(BodyId body)
     }
 }
 
-void HandSprings::end(std::uint32_t index)
+void HandContacts::forget_departed(std::uint32_t index)
 {
     Hand& hand = hands_[index];
     std::size_t kept = 0;
     for (std::size_t i = 0; i < hand.count; ++i) {
-        if (hand.near[i].is_there) hand.near[kept++] = hand.near[i];
+        if (hand.nearby[i].is_current) hand.nearby[kept++] = hand.nearby[i];
     }
     hand.count = kept;
 }
 
-void HandSprings::report(const WorldConfig& config, WorldState& state)
+void HandContacts::report_forces(const WorldConfig& config, WorldState& state)
 {
     const double rate = 1.0 / config.tick;
     for (const Spring& spring : springs()) {
@@ -234,13 +237,13 @@ void HandSprings::report(const WorldConfig& config, WorldState& state)
     }
 }
 
-void HandSprings::forget(BodyId body)
+void HandContacts::forget(BodyId body)
 {
     for (Hand& hand : hands_) {
         if (hand.holding && hand.holding->body == body) hand.holding.reset();
         for (std::size_t i = 0; i < hand.count; ++i) {
-            if (hand.near[i].body != body) continue;
-            hand.near[i] = hand.near[--hand.count];
+            if (hand.nearby[i].body != body) continue;
+            hand.nearby[i] = hand.nearby[--hand.count];
             break;
         }
     }

@@ -52,30 +52,30 @@ private:
         NoSleep(const WorldConfig& /*config*/, const Bodies& /*bodies*/) {}
     };
 
-    void feel(const WorldConfig& config, WorldState& state);
-    void wake(WorldState& state);
-    void look(const Bodies& bodies);
-    void engage(const Bodies& bodies, Slot slot);
-    void meet_planes(const WorldConfig& config, const WorldState& state);
-    void meet_bodies(const WorldState& state);
-    [[nodiscard]] BoxMeeting between(const WorldState& state, Pair& pair);
-    ContactBlock* meet(const Manifold& manifold, const ContactPlaces& centres,
-                       ContactMemory& memory);
-    void carry();
-    void set_out(const WorldConfig& config, const WorldState& state);
-    void push_by_hands(const WorldConfig& config, const WorldState& state);
-    void solve(const WorldState& state);
-    void move_apart();
+    void collide_hands(const WorldConfig& config, WorldState& state);
+    void wake_touched(WorldState& state);
+    void begin_solver(const Bodies& bodies);
+    void activate(const Bodies& bodies, Slot slot);
+    void collide_planes(const WorldConfig& config, const WorldState& state);
+    void collide_bodies(const WorldState& state);
+    [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
+    ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,
+                              ContactMemory& memory);
+    void warm_start();
+    void integrate_velocities(const WorldConfig& config, const WorldState& state);
+    void integrate_hand_springs(const WorldConfig& config, const WorldState& state);
+    void solve_velocities(const WorldState& state);
+    void correct_positions();
 
     Scales scales_;
     bool bounces_ = false;
-    Neighbours<search> neighbours_;
+    PairFinder<search> pairs_;
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
-    HandSprings hands_;
-    Boxes boxes_;
+    HandContacts hand_contacts_;
+    SweptBoxes boxes_;
     FreeBodies free_bodies_;
     ActiveBodies active_;
-    Scratch<BodyCourse> courses_; // by solver index; of those engaged
+    Scratch<BodyIntegration> integrations_; // by solver index; of those engaged
     ContactSolver solver_;
     std::array<HandSpring, hands_max> springs_{}; // on one body
     std::array<SpringImpulse, hands_max> work_{};

@@ -63,7 +63,7 @@ void set_points(ContactBlock& block, const Manifold& manifold)
     block.torsion_arm = even_pressure * arm / manifold.count;
 }
 
-void start_from(ContactBlock& block, const Manifold& manifold, const ContactMemory& memory)
+void set_start_impulse(ContactBlock& block, const Manifold& manifold, const ContactMemory& memory)
 {
     block.impulse = {};
     bool any = false;
@@ -83,7 +83,7 @@ void start_from(ContactBlock& block, const Manifold& manifold, const ContactMemo
     block.impulse.torsion = memory.torsion_impulse;
 }
 
-glm::dvec3 held_by(const ContactBlock& block)
+glm::dvec3 friction_impulse_of(const ContactBlock& block)
 {
     return block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
 }
@@ -95,9 +95,9 @@ glm::dvec3 held_by(const ContactBlock& block)
 double share_to_keep(const ContactBlock& block, double weight, ContactMemory& memory)
 {
     constexpr double small = 1e-8;
-    double change = sum_of_sizes(held_by(block) - memory.friction_impulse);
+    double change = sum_of_sizes(friction_impulse_of(block) - memory.friction_impulse);
     for (std::uint32_t i = 0; i < block.count; ++i) {
-        change += std::abs(block.impulse.normal[i] - block.begun[i]);
+        change += std::abs(block.impulse.normal[i] - block.start_impulse[i]);
     }
     constexpr double rounding = 1e-14;
     ++memory.ticks;
@@ -135,7 +135,7 @@ std::array<Jacobian, 6> jacobian(const ContactBlock& block, const glm::dvec3& ar
 
 /// Whether what a body's locks leave it to give way along the normal is next to nothing. Then it
 /// does not: else it would be thrown aside as by a wedge.
-bool gives_way_by_a_hair(const glm::dvec3& normal, const glm::dvec3& inverse_mass)
+bool is_nearly_locked_along(const glm::dvec3& normal, const glm::dvec3& inverse_mass)
 {
     constexpr double hair = 1e-6; // along the normal, of what it does where it is not locked
     const double most = std::max(inverse_mass.x, std::max(inverse_mass.y, inverse_mass.z));
@@ -151,14 +151,14 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
     block.count = manifold.count;
     block.has_matrix = false;
     set_tangents(block);
-    start_from(block, manifold, memory);
-    block.begun = block.impulse.normal;
+    set_start_impulse(block, manifold, memory);
+    block.start_impulse = block.impulse.normal;
     set_points(block, manifold);
     block.arm_a = block.anchor - centres.a;
     block.arm_b = block.anchor - centres.b;
 }
 
-void remember(const ContactBlock& block, double weight, ContactMemory& memory)
+void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory)
 {
     const double share = share_to_keep(block, weight, memory);
     const auto kept = [share](const auto& before, const auto& now) {
@@ -167,12 +167,13 @@ void remember(const ContactBlock& block, double weight, ContactMemory& memory)
     memory.count = block.count;
     memory.feature = block.feature;
     for (std::uint32_t i = 0; i < block.count; ++i) {
-        memory.normal_impulse[i] = kept(block.begun[i], block.impulse.normal[i]);
+        memory.normal_impulse[i] = kept(block.start_impulse[i], block.impulse.normal[i]);
     }
-    memory.friction_impulse = kept(memory.friction_impulse, held_by(block));
+    memory.friction_impulse = kept(memory.friction_impulse, friction_impulse_of(block));
     memory.torsion_impulse = kept(memory.torsion_impulse, block.impulse.torsion);
-    const double most =
-        2.0 * (block.begun[0] + block.begun[1] + block.begun[2] + block.begun[3]) + weight;
+    const double most = 2.0 * (block.start_impulse[0] + block.start_impulse[1] +
+                               block.start_impulse[2] + block.start_impulse[3]) +
+                        weight;
     const double sum = block.normal_sum();
     if (sum <= most) return;
     const double room = most / sum;
@@ -181,7 +182,7 @@ void remember(const ContactBlock& block, double weight, ContactMemory& memory)
     memory.torsion_impulse *= room;
 }
 
-Modal velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
+ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
 {
     glm::dvec3 velocity{0.0};
     glm::dvec3 spin{0.0};
@@ -198,9 +199,10 @@ Modal velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMoti
             glm::dot(velocity, block.tangent_2), glm::dot(spin, block.normal)};
 }
 
-void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& spin_b, double tick)
+void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
+                              const glm::dvec3& spin_b, double tick)
 {
-    block.bend = {};
+    block.centripetal_velocity = {};
     const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
         // Of what turns far in a tick that term alone says nothing: it fades out.
         constexpr double far = 0.1; // radians
@@ -215,22 +217,23 @@ void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& s
         const glm::dvec3 turn = in_contact(spin);
         const glm::dvec3 at = in_contact(arm);
         const glm::dvec3 anchor = share * (glm::dot(turn, at) * turn - glm::dot(turn, turn) * at);
-        block.bend[0] += anchor.x;
-        block.bend[1] += share * (turn.x * turn.z);
-        block.bend[2] -= share * (turn.x * turn.y);
-        block.bend[3] += anchor.y;
-        block.bend[4] += anchor.z;
+        block.centripetal_velocity[0] += anchor.x;
+        block.centripetal_velocity[1] += share * (turn.x * turn.z);
+        block.centripetal_velocity[2] -= share * (turn.x * turn.y);
+        block.centripetal_velocity[3] += anchor.y;
+        block.centripetal_velocity[4] += anchor.z;
     };
     if (block.b != 0) add(spin_b, block.arm_b, tick);
     if (block.a != 0) add(spin_a, block.arm_a, -tick);
     // What stands still meets every limit: so impulses that contradict each other, as where a body
     // is squeezed while it turns, have an end.
     for (std::size_t i = 0; i < block.count; ++i) {
-        block.least[i] = std::min(block.least[i], block.normal_speed(block.bend, i));
+        block.speed_min[i] =
+            std::min(block.speed_min[i], block.normal_speed(block.centripetal_velocity, i));
     }
 }
 
-bool slips_already(const ContactBlock& block, const Modal& velocity, double quiet)
+bool is_slipping(const ContactBlock& block, const ContactVector& velocity, double tolerance)
 {
     const ContactImpulse& held = block.impulse;
     const double along = held.tangent_1 * velocity[3] + held.tangent_2 * velocity[4];
@@ -238,12 +241,12 @@ bool slips_already(const ContactBlock& block, const Modal& velocity, double quie
     const double limit = block.friction * block.normal_sum();
     constexpr double nearly = 0.99;
     return size2 >= nearly * limit * limit && size2 > 0.0 && along < 0.0 &&
-           along * along > quiet * quiet * size2;
+           along * along > tolerance * tolerance * size2;
 }
 
-Modal modal(const ContactBlock& block, const ContactImpulse& impulse)
+ContactVector contact_vector(const ContactBlock& block, const ContactImpulse& impulse)
 {
-    Modal sum{0.0, 0.0, 0.0, impulse.tangent_1, impulse.tangent_2, impulse.torsion};
+    ContactVector sum{0.0, 0.0, 0.0, impulse.tangent_1, impulse.tangent_2, impulse.torsion};
     for (std::size_t i = 0; i < block.count; ++i) {
         sum[0] += impulse.normal[i];
         sum[1] += block.along_2[i] * impulse.normal[i];
@@ -252,7 +255,7 @@ Modal modal(const ContactBlock& block, const ContactImpulse& impulse)
     return sum;
 }
 
-Wrench wrench(const ContactBlock& block, const Modal& impulse)
+Wrench wrench(const ContactBlock& block, const ContactVector& impulse)
 {
     return {impulse[0] * block.normal + impulse[3] * block.tangent_1 + impulse[4] * block.tangent_2,
             impulse[1] * block.tangent_1 + impulse[2] * block.tangent_2 +
@@ -273,7 +276,8 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
     block.matrix = {};
     const auto rows = [&](const glm::dvec3& arm, const BodyResponse& body) {
         std::array<Jacobian, 6> all = jacobian(block, arm);
-        if (gives_way_by_a_hair(block.normal, body.inverse_mass)) all[0].linear = glm::dvec3{0.0};
+        if (is_nearly_locked_along(block.normal, body.inverse_mass))
+            all[0].linear = glm::dvec3{0.0};
         return all;
     };
     if (block.a != 0) add_body(block.matrix, rows(block.arm_a, a), a);

@@ -33,7 +33,7 @@ using SolverIndex = std::uint32_t;
 /// Six numbers of a contact in its own frame, about its anchor: along the normal, about the first
 /// and the second tangent; along the first and the second tangent, about the normal. The first
 /// three are what points that only push can do, the others are friction.
-using Modal = std::array<double, 6>;
+using ContactVector = std::array<double, 6>;
 
 /// The impulses of a contact, N s and N m s.
 struct ContactImpulse {
@@ -68,20 +68,22 @@ struct ContactBlock {
     glm::dvec3 arm_a{0.0}, arm_b{0.0};                            // from the centres to the anchor
     std::array<double, manifold_points_max> along_1{}, along_2{}; // the points from the anchor
     std::array<double, manifold_points_max> separation{};
-    std::array<double, manifold_points_max> least{}; // the least normal speed of each point
+    std::array<double, manifold_points_max> speed_min{}; // the least normal speed of each point
     std::array<std::uint32_t, manifold_points_max> feature{};
     ContactImpulse impulse;
-    std::array<double, manifold_points_max> begun{}; // the normal impulses that it started from
+    std::array<double, manifold_points_max>
+        start_impulse{}; // the normal impulses that it started from
     double restitution = 0.0;
     ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
-    Modal bend{};        // m/s, what turning adds to its velocity by the end of the tick
-    double change = 0.0; // m/s, what the last sweep changed in its speeds
+    ContactVector
+        centripetal_velocity{}; // m/s, what turning adds to its velocity by the end of the tick
+    double change = 0.0;        // m/s, what the last sweep changed in its speeds
 
     bool has_matrix = false;
     Square<6> matrix{}; // from modal impulses to modal velocities
     BlockFactors factors{};
 
-    [[nodiscard]] double normal_speed(const Modal& velocity, std::size_t point) const
+    [[nodiscard]] double normal_speed(const ContactVector& velocity, std::size_t point) const
     {
         return velocity[0] + along_2[point] * velocity[1] - along_1[point] * velocity[2];
     }
@@ -103,53 +105,61 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
 /// Keeps the impulses for the next tick, to start from: not those of a hit, which will not come
 /// again. So they at most double from tick to tick, but for `weight` (N s), about what carrying the
 /// two bodies takes.
-void remember(const ContactBlock& block, double weight, ContactMemory& memory);
+void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory);
 
-[[nodiscard]] Modal velocity_at(const ContactBlock& block, const BodyMotion& a,
-                                const BodyMotion& b);
+[[nodiscard]] ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a,
+                                        const BodyMotion& b);
 /// While a body turns, the points of it that touch go around its centre: what that adds to their
 /// velocity within a tick. Without it, a box that tips over an edge would gain energy. Second
 /// order; left out for what turns farther than a tenth of a radian. Lowers the least speeds to
 /// what is met by standing still.
-void set_bend(ContactBlock& block, const glm::dvec3& spin_a, const glm::dvec3& spin_b, double tick);
+void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
+                              const glm::dvec3& spin_b, double tick);
 
-[[nodiscard]] Modal modal(const ContactBlock& block, const ContactImpulse& impulse);
+[[nodiscard]] ContactVector contact_vector(const ContactBlock& block,
+                                           const ContactImpulse& impulse);
 
 /// An impulse in the world's frame, about the anchor.
 struct Wrench {
     glm::dvec3 impulse{0.0};
     glm::dvec3 angular{0.0};
 };
-[[nodiscard]] Wrench wrench(const ContactBlock& block, const Modal& impulse);
+[[nodiscard]] Wrench wrench(const ContactBlock& block, const ContactVector& impulse);
 /// On one body: `arm` from its centre to the anchor.
 void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
            BodyMotion& motion);
 
 void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b);
 
-/// Whether the impulses are an answer already, to `quiet` m/s.
-[[nodiscard]] bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet);
+/// Whether the impulses are an answer already, to `tolerance` m/s.
+[[nodiscard]] bool is_solved(const ContactBlock& block, const ContactVector& velocity,
+                             double tolerance);
 
-/// Whether friction is at its limit, or nearly, and opposes a slip faster than `quiet` m/s.
-[[nodiscard]] bool slips_already(const ContactBlock& block, const Modal& velocity, double quiet);
+/// Whether friction is at its limit, or nearly, and opposes a slip faster than `tolerance` m/s.
+[[nodiscard]] bool is_slipping(const ContactBlock& block, const ContactVector& velocity,
+                               double tolerance);
 
 /// The same without regard to friction.
-[[nodiscard]] bool is_separated(const ContactBlock& block, const Modal& velocity, double quiet);
+[[nodiscard]] bool normals_are_solved(const ContactBlock& block, const ContactVector& velocity,
+                                      double tolerance);
 
 /// Finds the impulses for which no point is slower than its least normal speed, none pulls, and
 /// friction holds or opposes the slip at its limit: directly where the contact sticks or slides
 /// without friction, by iterations where it slips. Requirements the matrix. Returns the change.
-[[nodiscard]] Modal solve(ContactBlock& block, const Modal& velocity, double quiet);
+[[nodiscard]] ContactVector solve(ContactBlock& block, const ContactVector& velocity,
+                                  double tolerance);
 
 /// Comes nearer to that at less cost: one iteration where it slips.
-[[nodiscard]] Modal improve(ContactBlock& block, const Modal& velocity, double quiet);
+[[nodiscard]] ContactVector iterate(ContactBlock& block, const ContactVector& velocity,
+                                    double tolerance);
 
 /// The same as `solve` for the normal impulses alone, friction held.
-[[nodiscard]] Modal solve_normals(ContactBlock& block, const Modal& velocity, double quiet);
+[[nodiscard]] ContactVector solve_normals(ContactBlock& block, const ContactVector& velocity,
+                                          double tolerance);
 
-[[nodiscard]] inline Modal times(const Square<6>& matrix, const Modal& impulse)
+[[nodiscard]] inline ContactVector times(const Square<6>& matrix, const ContactVector& impulse)
 {
-    Modal velocity;
+    ContactVector velocity;
     for (std::size_t i = 0; i < 6; ++i) {
         const auto& row = matrix[i];
         velocity[i] = row[0] * impulse[0] + row[1] * impulse[1] + row[2] * impulse[2] +

@@ -16,7 +16,7 @@ Ldl<5> factors_of(const ContactBlock& block, const PointSet& set)
     for (std::size_t i = 0; i < set.count; ++i) {
         const double u = block.along_1[set.at[i]];
         const double v = block.along_2[set.at[i]];
-        Modal answer;
+        ContactVector answer;
         for (std::size_t k = 0; k < 6; ++k) answer[k] = m[k][0] + v * m[k][1] - u * m[k][2];
         for (std::size_t j = 0; j <= i; ++j) part[i][j] = block.normal_speed(answer, set.at[j]);
         for (std::size_t k = 0; k < 3; ++k) part[set.count + k][i] = answer[3 + k];

@@ -11,7 +11,7 @@ namespace {
 
 using Friction = std::array<double, 3>; // along the tangents, and torsion over its arm
 
-Modal minus(Modal a, const Modal& b)
+ContactVector minus(ContactVector a, const ContactVector& b)
 {
     for (std::size_t i = 0; i < 6; ++i) a[i] -= b[i];
     return a;
@@ -20,9 +20,9 @@ Modal minus(Modal a, const Modal& b)
 /// One contact with the velocities that it would have without its own impulses.
 class Trial {
 public:
-    Trial(ContactBlock& block, const Modal& velocity)
+    Trial(ContactBlock& block, const ContactVector& velocity)
         : block_{block},
-          modal_{modal(block, block.impulse)},
+          modal_{contact_vector(block, block.impulse)},
           free_{minus(velocity, times(block.matrix, modal_))},
           now_{velocity},
           answer_{block.impulse}
@@ -31,17 +31,17 @@ public:
     /// Whether slip() has found the answer.
     [[nodiscard]] bool has_settled() const { return has_settled_; }
     [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
-    [[nodiscard]] const Modal& impulse() const { return modal_; }
+    [[nodiscard]] const ContactVector& impulse() const { return modal_; }
 
     /// Sticking contact. False when something would pull or friction would pass its limit.
-    bool stick(double quiet);
+    bool stick(double tolerance);
     /// Slipping or frictionless contact: the normal impulses for the friction as it is.
-    void push(double quiet);
+    void push(double tolerance);
     /// Slipping contact, in so many rounds at most. False when friction does not reach its limit.
-    bool slip(double quiet, int rounds_max);
+    bool slip(double tolerance, int rounds_max);
 
 private:
-    [[nodiscard]] PointSet pushing(double quiet) const;
+    [[nodiscard]] PointSet pushing(double tolerance) const;
     [[nodiscard]] PointSet without_pulling(const PointSet& set) const;
     template <bool sticks>
     void hold_points(const PointSet& set);
@@ -52,10 +52,10 @@ private:
     template <std::size_t points, std::size_t frictions>
     void hold_exactly(const PointSet& set);
     /// The first velocities without the normal impulses.
-    [[nodiscard]] Modal given() const
+    [[nodiscard]] ContactVector given() const
     {
         const auto& m = block_.matrix;
-        Modal velocity{};
+        ContactVector velocity{};
         for (std::size_t i = 0; i < 3; ++i) {
             velocity[i] =
                 free_[i] + (m[i][3] * modal_[3] + m[i][4] * modal_[4] + m[i][5] * modal_[5]);
@@ -83,20 +83,20 @@ private:
     double slip_once(double step);
 
     ContactBlock& block_;
-    Modal modal_; // the answer
-    Modal free_;
-    Modal now_; // with the answer
+    ContactVector modal_; // the answer
+    ContactVector free_;
+    ContactVector now_; // with the answer
     ContactImpulse answer_;
     bool is_at_limit_ = false;
     bool has_settled_ = false;
 };
 
-PointSet Trial::pushing(double quiet) const
+PointSet Trial::pushing(double tolerance) const
 {
     PointSet set;
     for (std::uint32_t i = 0; i < block_.count; ++i) {
-        const double speed = block_.normal_speed(now_, i) - block_.least[i];
-        if (answer_.normal[i] > 0.0 || speed < -quiet) set.add(i);
+        const double speed = block_.normal_speed(now_, i) - block_.speed_min[i];
+        if (answer_.normal[i] > 0.0 || speed < -tolerance) set.add(i);
     }
     return set;
 }
@@ -123,7 +123,7 @@ void Trial::set_normals(const PointSet& set)
 
 void Trial::move_normals()
 {
-    const Modal before = given();
+    const ContactVector before = given();
     for (std::size_t i = 0; i < 3; ++i) {
         const auto& row = block_.matrix[i];
         now_[i] = before[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2]);
@@ -142,10 +142,10 @@ void Trial::move_tangents()
 template <std::size_t points, std::size_t frictions>
 void Trial::hold_exactly(const PointSet& set)
 {
-    const Modal before = frictions > 0 ? free_ : given();
+    const ContactVector before = frictions > 0 ? free_ : given();
     std::array<double, points + frictions> wanted{};
     for (std::size_t i = 0; i < points; ++i) {
-        wanted[i] = block_.least[set.at[i]] - block_.normal_speed(before, set.at[i]);
+        wanted[i] = block_.speed_min[set.at[i]] - block_.normal_speed(before, set.at[i]);
     }
     for (std::size_t i = 0; i < frictions; ++i) wanted[points + i] = -before[3 + i];
     const auto unknown = few_factors(block_, set).solve(wanted);
@@ -172,15 +172,15 @@ void Trial::hold_few(const PointSet& set)
 template <bool sticks>
 void Trial::hold_all(const PlaneFit& fit)
 {
-    const std::array<double, 3> least = fit.modal_least(block_.least);
+    const std::array<double, 3> least = fit.modal_least(block_.speed_min);
     const Ldl<6>& factors = whole_factors(block_);
-    const Modal before = sticks ? free_ : given();
+    const ContactVector before = sticks ? free_ : given();
     const std::array<double, 3> wanted{least[0] - before[0], least[1] - before[1],
                                        least[2] - before[2]};
     answer_.normal = {};
     if constexpr (sticks) {
         const auto unknown = factors.solve(
-            Modal{wanted[0], wanted[1], wanted[2], -before[3], -before[4], -before[5]});
+            ContactVector{wanted[0], wanted[1], wanted[2], -before[3], -before[4], -before[5]});
         fit.spread({unknown[0], unknown[1], unknown[2]}, answer_.normal);
         set_friction(unknown[3], unknown[4], unknown[5]);
     } else {
@@ -204,9 +204,9 @@ void Trial::hold_points(const PointSet& set)
     }
 }
 
-bool Trial::stick(double quiet)
+bool Trial::stick(double tolerance)
 {
-    PointSet set = pushing(quiet);
+    PointSet set = pushing(tolerance);
     for (std::uint32_t round = 0; round < manifold_points_max; ++round) {
         hold_points<true>(set);
         if (set.count == 0) return true;
@@ -219,14 +219,14 @@ bool Trial::stick(double quiet)
     if (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] > limit * limit) return false;
     move_normals();
     for (std::uint32_t i = 0; i < block_.count; ++i) {
-        if (block_.normal_speed(now_, i) - block_.least[i] < -quiet) return false;
+        if (block_.normal_speed(now_, i) - block_.speed_min[i] < -tolerance) return false;
     }
     return true;
 }
 
-void Trial::push(double quiet)
+void Trial::push(double tolerance)
 {
-    PointSet set = pushing(quiet);
+    PointSet set = pushing(tolerance);
     for (std::uint32_t round = 0; round < 2 * manifold_points_max; ++round) {
         hold_points<false>(set);
         const PointSet rest = without_pulling(set);
@@ -236,12 +236,12 @@ void Trial::push(double quiet)
         }
         move_normals();
         if (set.count == 0) return;
-        const PointSet more = pushing(quiet);
+        const PointSet more = pushing(tolerance);
         if (more.count == set.count) return;
         set = more;
     }
     for (double& impulse : answer_.normal) impulse = std::max(impulse, 0.0);
-    modal_ = modal(block_, answer_);
+    modal_ = contact_vector(block_, answer_);
     move_normals();
 }
 
@@ -264,17 +264,17 @@ double Trial::slip_once(double step)
     return std::max({std::abs(f[0] - was[0]), std::abs(f[1] - was[1]), std::abs(f[2] - was[2])});
 }
 
-bool Trial::slip(double quiet, int rounds_max)
+bool Trial::slip(double tolerance, int rounds_max)
 {
     const double most = slip_answer(block_);
     const double step = most > 0.0 ? 1.0 / most : 0.0;
     constexpr double settled = 1e-14; // of the impulses: rounding
-    push(quiet);
+    push(tolerance);
     bool reached = false;
     for (int round = 0; round < rounds_max; ++round) {
         const double change = slip_once(step);
         reached = is_at_limit_;
-        push(quiet);
+        push(tolerance);
         has_settled_ = change <= settled * normal_sum();
         if (has_settled_) return reached;
     }
@@ -283,7 +283,7 @@ bool Trial::slip(double quiet, int rounds_max)
 }
 
 /// What of such speeds may be rounding, m/s.
-double rounding_of(const ContactBlock& block, const Modal& velocity)
+double rounding_of(const ContactBlock& block, const ContactVector& velocity)
 {
     constexpr double share = 1e-13;
     return share * (std::abs(velocity[0]) + std::abs(velocity[3]) + std::abs(velocity[4]) +
@@ -291,27 +291,28 @@ double rounding_of(const ContactBlock& block, const Modal& velocity)
                         (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
 }
 
-Modal finish(ContactBlock& block, const Trial& trial, const Trial& begun)
+ContactVector finish(ContactBlock& block, const Trial& trial, const Trial& start)
 {
     block.impulse = trial.answer();
-    return minus(trial.impulse(), begun.impulse());
+    return minus(trial.impulse(), start.impulse());
 }
 
 } // namespace
 
-bool is_separated(const ContactBlock& block, const Modal& velocity, double quiet)
+bool normals_are_solved(const ContactBlock& block, const ContactVector& velocity, double tolerance)
 {
     for (std::size_t i = 0; i < block.count; ++i) {
-        const double excess = block.normal_speed(velocity, i) - block.least[i];
-        if (excess < -quiet || (excess > quiet && block.impulse.normal[i] > 0.0)) return false;
+        const double excess = block.normal_speed(velocity, i) - block.speed_min[i];
+        if (excess < -tolerance || (excess > tolerance && block.impulse.normal[i] > 0.0))
+            return false;
         if (block.impulse.normal[i] < 0.0) return false;
     }
     return true;
 }
 
-bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet)
+bool is_solved(const ContactBlock& block, const ContactVector& velocity, double tolerance)
 {
-    if (!is_separated(block, velocity, quiet)) return false;
+    if (!normals_are_solved(block, velocity, tolerance)) return false;
     if (block.friction == 0.0) return true;
     const double arm = block.torsion_arm;
     const double limit = block.friction * block.normal_sum();
@@ -322,7 +323,7 @@ bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet)
     const double held2 = held[0] * held[0] + held[1] * held[1] + held[2] * held[2];
     constexpr double rounding = 1e-12;
     if (held2 > limit * limit * (1.0 + rounding)) return false;
-    if (speed2 <= quiet * quiet) return true;
+    if (speed2 <= tolerance * tolerance) return true;
     const double speed = std::sqrt(speed2);
     double miss2 = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -332,48 +333,48 @@ bool is_solved(const ContactBlock& block, const Modal& velocity, double quiet)
     return miss2 <= rounding * rounding * limit * limit * speed2;
 }
 
-Modal solve(ContactBlock& block, const Modal& velocity, double quiet)
+ContactVector solve(ContactBlock& block, const ContactVector& velocity, double tolerance)
 {
-    if (block.friction == 0.0) return solve_normals(block, velocity, quiet);
-    const double still = std::max(quiet, rounding_of(block, velocity));
-    const Trial begun{block, velocity};
+    if (block.friction == 0.0) return solve_normals(block, velocity, tolerance);
+    const double still = std::max(tolerance, rounding_of(block, velocity));
+    const Trial start{block, velocity};
     constexpr int rounds = 8;
     // What slipped at the end of the last tick mostly slips on.
-    const bool slips = slips_already(block, velocity, still);
-    Trial slipping = begun;
+    const bool slips = is_slipping(block, velocity, still);
+    Trial slipping = start;
     if (slips && slipping.slip(still, rounds) && slipping.has_settled())
-        return finish(block, slipping, begun);
-    Trial sticking = begun;
-    if (sticking.stick(still)) return finish(block, sticking, begun);
+        return finish(block, slipping, start);
+    Trial sticking = start;
+    if (sticking.stick(still)) return finish(block, sticking, start);
     if (!slips) slipping.slip(still, rounds);
-    return finish(block, slipping, begun);
+    return finish(block, slipping, start);
 }
 
-Modal improve(ContactBlock& block, const Modal& velocity, double quiet)
+ContactVector iterate(ContactBlock& block, const ContactVector& velocity, double tolerance)
 {
-    if (block.friction == 0.0) return solve_normals(block, velocity, quiet);
-    const double still = std::max(quiet, rounding_of(block, velocity));
-    const Trial begun{block, velocity};
-    Trial slipping = begun;
+    if (block.friction == 0.0) return solve_normals(block, velocity, tolerance);
+    const double still = std::max(tolerance, rounding_of(block, velocity));
+    const Trial start{block, velocity};
+    Trial slipping = start;
     // What slipped slips.
     bool& slipped = block.factors.slipped;
-    if (slipped && slipping.slip(still, 1)) return finish(block, slipping, begun);
-    Trial sticking = begun;
+    if (slipped && slipping.slip(still, 1)) return finish(block, slipping, start);
+    Trial sticking = start;
     if (sticking.stick(still)) {
         slipped = false;
-        return finish(block, sticking, begun);
+        return finish(block, sticking, start);
     }
     if (!slipped) slipping.slip(still, 1);
     slipped = true;
-    return finish(block, slipping, begun);
+    return finish(block, slipping, start);
 }
 
-Modal solve_normals(ContactBlock& block, const Modal& velocity, double quiet)
+ContactVector solve_normals(ContactBlock& block, const ContactVector& velocity, double tolerance)
 {
-    const Trial begun{block, velocity};
-    Trial trial = begun;
-    trial.push(std::max(quiet, rounding_of(block, velocity)));
-    return finish(block, trial, begun);
+    const Trial start{block, velocity};
+    Trial trial = start;
+    trial.push(std::max(tolerance, rounding_of(block, velocity)));
+    return finish(block, trial, start);
 }
 
 } // namespace hapnet::scene

@@ -8,12 +8,12 @@ namespace hapnet::scene {
 
 void Islands::join(BodyId a, BodyId b)
 {
-    const BodyId one = of(a);
-    const BodyId other = of(b);
+    const BodyId one = root_of(a);
+    const BodyId other = root_of(b);
     parents_[std::max(one, other)] = std::min(one, other);
 }
 
-BodyId Islands::of(BodyId body)
+BodyId Islands::root_of(BodyId body)
 {
     while (parents_[body] != body) {
         parents_[body] = parents_[parents_[body]];

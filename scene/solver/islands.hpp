@@ -15,10 +15,10 @@ public:
     explicit Islands(BodyId bodies) : parents_(bodies) {}
 
     /// The body is an island of its own. To be said of every body before it is joined.
-    void part(BodyId body) { parents_[body] = body; }
+    void reset(BodyId body) { parents_[body] = body; }
     void join(BodyId a, BodyId b);
     /// The lowest id of its island.
-    [[nodiscard]] BodyId of(BodyId body);
+    [[nodiscard]] BodyId root_of(BodyId body);
 
 private:
     std::vector<BodyId> parents_;

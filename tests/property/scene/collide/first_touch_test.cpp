@@ -47,8 +47,8 @@ Flight draw(std::uint64_t seed)
 long double bisected(const Flight& flight, long double apart, long double overlapping)
 {
     for (int k = 0; k < 60; ++k) {
-        const long double middle = 0.5L * (apart + overlapping);
-        (flight.separation_at(middle) > 0.0L ? apart : overlapping) = middle;
+        const long double centre = 0.5L * (apart + overlapping);
+        (flight.separation_at(centre) > 0.0L ? apart : overlapping) = centre;
     }
     return 0.5L * (apart + overlapping);
 }
@@ -58,7 +58,7 @@ TEST(FirstTouch, IsWhereBisectionFindsIt)
     std::uint64_t touched = 0;
     for (std::uint64_t seed = 0; seed < pairs; ++seed) {
         const Flight flight = draw(seed);
-        const auto impact = first_touch(flight.a, flight.b, flight.velocity, 2.0);
+        const auto impact = time_of_impact(flight.a, flight.b, flight.velocity, 2.0);
         if (!impact) continue;
         ++touched;
         const long double deeper = impact->time * (1.0L + 1e-6L);
@@ -79,7 +79,7 @@ TEST(FirstTouch, IsNotMissed)
 {
     for (std::uint64_t seed = 0; seed < pairs; ++seed) {
         const Flight flight = draw(seed);
-        if (first_touch(flight.a, flight.b, flight.velocity, 2.0)) continue;
+        if (time_of_impact(flight.a, flight.b, flight.velocity, 2.0)) continue;
         for (int k = 0; k <= 50; ++k) ASSERT_GE(flight.separation_at(0.04L * k), -1e-12L) << seed;
     }
 }

@@ -31,7 +31,7 @@ double some_speed(const base::RandomStream& chance, std::uint64_t& draw)
     return speeds[chance.below(speeds.size(), draw++)];
 }
 
-/// Boxes of very different sizes, turned anyhow, some fixed, in a room of 40 cm.
+/// SweptBoxes of very different sizes, turned anyhow, some fixed, in a room of 40 cm.
 Description random_scene(const base::RandomStream& chance, std::uint64_t& draw)
 {
     Description description;
@@ -58,11 +58,11 @@ Description random_scene(const base::RandomStream& chance, std::uint64_t& draw)
 }
 
 /// The upright box in which a body is in this tick, nearby_margin included.
-Box swept(const Bodies& bodies, Slot slot)
+Aabb swept(const Bodies& bodies, Slot slot)
 {
     const glm::dvec3 half = bodies.properties[slot].half;
     const glm::dmat3 axes = glm::mat3_cast(bodies.orientation.at(slot));
-    glm::dvec3 extent{nearby_margin * std::min({half.x, half.y, half.z})};
+    glm::dvec3 extent{pair_margin * std::min({half.x, half.y, half.z})};
     for (int axis : {0, 1, 2}) extent += glm::abs(axes[axis]) * half[axis];
     const glm::dvec3 from = bodies.position.at(slot);
     return grown(hull(from, from + bodies.velocity.at(slot) * tick_s), extent);
@@ -103,7 +103,7 @@ void expect_all_found(Crowd<broad_phase>& crowd)
     const auto pairs = crowd.pairs();
     ASSERT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
     ASSERT_EQ(std::adjacent_find(pairs.begin(), pairs.end()), pairs.end());
-    std::vector<Box> boxes(bodies.size());
+    std::vector<Aabb> boxes(bodies.size());
     for (BodyId id = 0; id < bodies.size(); ++id) boxes[id] = swept(bodies, bodies.slot_of[id]);
     std::size_t found = 0;
     for (BodyId a = 0; a < bodies.size(); ++a)
@@ -124,7 +124,7 @@ void expect_planes_found(Crowd<broad_phase>& crowd)
     const auto pairs = crowd.plane_pairs();
     ASSERT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
     for (Slot slot = 0; slot < crowd.bodies.awake; ++slot) {
-        const Box box = swept(crowd.bodies, slot);
+        const Aabb box = swept(crowd.bodies, slot);
         for (std::uint32_t plane = 0; plane < crowd.config.planes.size(); ++plane) {
             const PlaneDescription& p = crowd.config.planes[plane];
             double lowest = -p.offset_m;
@@ -139,9 +139,9 @@ void expect_planes_found(Crowd<broad_phase>& crowd)
 template <BroadPhase broad_phase>
 void expect_hands_find(Crowd<broad_phase>& crowd, std::uint32_t hand, const HandPath& path)
 {
-    const auto reached = crowd.neighbours.reached_by(hand, path);
+    const auto reached = crowd.pair_finder.near_hand(hand, path);
     ASSERT_TRUE(std::is_sorted(reached.begin(), reached.end()));
-    const Box sphere = grown(hull(path.from, path.to), glm::dvec3{path.radius});
+    const Aabb sphere = grown(hull(path.from, path.to), glm::dvec3{path.radius});
     for (Slot slot = 0; slot < crowd.bodies.size(); ++slot)
         ASSERT_TRUE(
             !overlap(swept(crowd.bodies, slot), sphere) ||
@@ -158,7 +158,7 @@ void expect_nobody_is_missed(std::uint64_t seed)
     std::array<glm::dvec3, 2> step{};
     for (int tick = 0; tick < ticks; ++tick) {
         disturb(crowd, chance, draw);
-        crowd.neighbours.update(crowd.bodies);
+        crowd.pair_finder.update(crowd.bodies);
         expect_all_found(crowd);
         expect_planes_found(crowd);
         for (std::uint32_t hand : {0U, 1U}) {
@@ -178,10 +178,10 @@ void expect_nobody_is_missed(std::uint64_t seed)
             turn(crowd.bodies, slot);
         }
     }
-    EXPECT_EQ(crowd.neighbours.counts().pairs_left_out, 0U);
+    EXPECT_EQ(crowd.pair_finder.counts().pairs_left_out, 0U);
 }
 
-TEST(Scan, MissesNobodyInRandomScenesUpTo1000MetresPerSecond)
+TEST(AabbScan, MissesNobodyInRandomScenesUpTo1000MetresPerSecond)
 {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed)
         expect_nobody_is_missed<BroadPhase::all_pairs>(seed);
@@ -193,7 +193,7 @@ TEST(Grid, MissesNobodyInRandomScenesUpTo1000MetresPerSecond)
         expect_nobody_is_missed<BroadPhase::grid>(seed);
 }
 
-TEST(Neighbours, AreTheSameByAScanAndByAGrid)
+TEST(PairFinder, AreTheSameByAScanAndByAGrid)
 {
     const base::RandomStream chance = base::Seed{7}.stream("both");
     std::uint64_t draw = 0;
@@ -204,8 +204,8 @@ TEST(Neighbours, AreTheSameByAScanAndByAGrid)
         std::uint64_t same = draw;
         disturb(scan, chance, same);
         disturb(grid, chance, draw);
-        scan.neighbours.update(scan.bodies);
-        grid.neighbours.update(grid.bodies);
+        scan.pair_finder.update(scan.bodies);
+        grid.pair_finder.update(grid.bodies);
         ASSERT_EQ(scan.pairs(), grid.pairs());
         ASSERT_EQ(scan.plane_pairs(), grid.plane_pairs());
     }

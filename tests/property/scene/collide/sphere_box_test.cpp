@@ -50,7 +50,7 @@ TEST(SphereBox, ChangesItsDepthNoFasterThanTheSphereMovesOutside)
         const glm::dvec3 step = 1e-4 * drawn.direction();
         SphereBoxMemory memory;
         const auto depth = [&](const glm::dvec3& centre) {
-            const auto overlap = memory.find(box, centre, radius, seen_from(box, centre - step));
+            const auto overlap = memory.find(box, centre, radius, to_local(box, centre - step));
             return overlap ? overlap->depth : 0.0;
         };
         double last = depth(from);

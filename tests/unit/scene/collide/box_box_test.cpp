@@ -88,7 +88,7 @@ TEST(BoxBox, OnASlabTouchWithTheSmallBoxesCornersWhicheverIsFirst)
     for (std::uint32_t k = 0; k < 4; ++k) {
         const std::uint32_t feature = below.points[k].feature;
         EXPECT_EQ(feature & 63U, face_bit(1, true));
-        EXPECT_EQ(above.points[k].feature, meeting_exchanged(feature));
+        EXPECT_EQ(above.points[k].feature, swapped_feature_pair(feature));
         EXPECT_EQ(above.points[k].position, below.points[k].position);
     }
 }

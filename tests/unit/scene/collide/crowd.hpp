@@ -16,7 +16,7 @@ struct Crowd {
     explicit Crowd(const Description& description)
         : config{description.planes, description.hands, description.gravity},
           bodies{description},
-          neighbours{config, bodies}
+          pair_finder{config, bodies}
     {}
 
     /// Puts a body elsewhere.
@@ -28,33 +28,33 @@ struct Crowd {
     {
         const Slot from = bodies.slot_of[id];
         bodies.put_to_sleep(from);
-        neighbours.has_fallen_asleep(bodies, id, from);
-        neighbours.settle();
+        pair_finder.on_sleep(bodies, id, from);
+        pair_finder.settle();
     }
     void wake(BodyId id)
     {
         bodies.wake(bodies.slot_of[id]);
-        neighbours.has_woken(bodies, id);
-        neighbours.settle();
+        pair_finder.on_wake(bodies, id);
+        pair_finder.settle();
     }
     [[nodiscard]] std::vector<std::pair<BodyId, BodyId>> pairs()
     {
         std::vector<std::pair<BodyId, BodyId>> all;
-        for (const PairIndex i : neighbours.pairs())
-            all.emplace_back(neighbours.pair(i).a, neighbours.pair(i).b);
+        for (const PairIndex i : pair_finder.pairs())
+            all.emplace_back(pair_finder.pair(i).a, pair_finder.pair(i).b);
         return all;
     }
     [[nodiscard]] std::vector<std::pair<BodyId, BodyId>> plane_pairs()
     {
         std::vector<std::pair<BodyId, BodyId>> all;
-        for (const PairIndex i : neighbours.plane_pairs())
-            all.emplace_back(neighbours.plane_pair(i).a, neighbours.plane_pair(i).b);
+        for (const PairIndex i : pair_finder.plane_pairs())
+            all.emplace_back(pair_finder.plane_pair(i).a, pair_finder.plane_pair(i).b);
         return all;
     }
 
     WorldConfig config;
     Bodies bodies;
-    Neighbours<broad_phase> neighbours;
+    PairFinder<broad_phase> pair_finder;
 };
 
 /// Movable cubes with edges of 4 cm, in a row along x, so far from centre to centre.

@@ -10,9 +10,10 @@ namespace {
 
 OrientedBox cube(const glm::dvec3& centre) { return {.centre = centre, .half = glm::dvec3{0.5}}; }
 
-std::optional<Impact> touch(const glm::dvec3& centre, const glm::dvec3& velocity, double time_max)
+std::optional<TimeOfImpact> touch(const glm::dvec3& centre, const glm::dvec3& velocity,
+                                  double time_max)
 {
-    return first_touch(cube({0.0, 0.0, 0.0}), cube(centre), velocity, time_max);
+    return time_of_impact(cube({0.0, 0.0, 0.0}), cube(centre), velocity, time_max);
 }
 
 TEST(FirstTouch, IsWhenTheGapIsUsedUp)
@@ -27,7 +28,7 @@ TEST(FirstTouch, IsFoundAtAThousandMetresPerSecondThroughAThinWall)
 {
     const OrientedBox wall{.half{0.0005, 1.0, 1.0}};
     const OrientedBox bullet{.centre{-0.5, 0.1, 0.1}, .half = glm::dvec3{0.02}};
-    const auto impact = first_touch(wall, bullet, {1000.0, 0.0, 0.0}, 1e-3);
+    const auto impact = time_of_impact(wall, bullet, {1000.0, 0.0, 0.0}, 1e-3);
     ASSERT_TRUE(impact);
     EXPECT_NEAR(impact->time, (0.5 - 0.0205) / 1000.0, 1e-18);
     EXPECT_EQ(impact->normal, glm::dvec3(-1.0, 0.0, 0.0));
@@ -56,7 +57,7 @@ TEST(FirstTouch, IsNotAlongATurnedFaceWhereRoundingMakesASpeedOfNothing)
         a.axes = {c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0};
         OrientedBox b = a;
         b.centre = a.axes * glm::dvec3{-5.0, 1.0, 0.25};
-        EXPECT_FALSE(first_touch(a, b, 1000.0 * a.axes[0], 1.0)) << angle;
+        EXPECT_FALSE(time_of_impact(a, b, 1000.0 * a.axes[0], 1.0)) << angle;
     }
 }
 
@@ -85,7 +86,7 @@ TEST(FirstTouch, IsOnTheAxisOfTheEdgesWhenEdgesMeet)
     a.axes = {1.0, 0.0, 0.0, 0.0, h, h, 0.0, -h, h}; // an edge on top, along x
     OrientedBox b = cube({0.0, 3.0, 0.0});
     b.axes = {h, h, 0.0, -h, h, 0.0, 0.0, 0.0, 1.0}; // an edge below, along z
-    const auto impact = first_touch(a, b, {0.0, -1.0, 0.0}, 10.0);
+    const auto impact = time_of_impact(a, b, {0.0, -1.0, 0.0}, 10.0);
     ASSERT_TRUE(impact);
     EXPECT_NEAR(impact->time, 3.0 - 2.0 * h, 1e-15);
     EXPECT_NEAR(impact->normal.y, 1.0, 1e-15);

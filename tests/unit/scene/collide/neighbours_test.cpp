@@ -30,9 +30,9 @@ TYPED_TEST(NeighboursOf, AreNotLookedForWhileABodyStaysInItsBox)
     typename TestFixture::Subject crowd{row_of_cubes(4, 0.0401)};
     for (int tick = 0; tick < 100; ++tick) {
         crowd.place(1, {0.0401 + 0.00001 * tick, 0.0, 0.0}); // 1 mm: 5 % of the half edge
-        crowd.neighbours.update(crowd.bodies);
+        crowd.pair_finder.update(crowd.bodies);
     }
-    EXPECT_EQ(crowd.neighbours.counts().renewed, 0U);
+    EXPECT_EQ(crowd.pair_finder.counts().renewed, 0U);
 }
 
 TYPED_TEST(NeighboursOf, AreLookedForAboutOnceInThirtyTicksOfFlight)
@@ -41,10 +41,10 @@ TYPED_TEST(NeighboursOf, AreLookedForAboutOnceInThirtyTicksOfFlight)
     crowd.bodies.velocity.put(2, {2.0, 0.5, 0.0});
     for (int tick = 0; tick < 300; ++tick) {
         crowd.place(2, crowd.bodies.position.at(2) + crowd.bodies.velocity.at(2) * 1e-3);
-        crowd.neighbours.update(crowd.bodies);
+        crowd.pair_finder.update(crowd.bodies);
     }
-    EXPECT_GE(crowd.neighbours.counts().renewed, 1U);
-    EXPECT_LE(crowd.neighbours.counts().renewed, 10U);
+    EXPECT_GE(crowd.pair_finder.counts().renewed, 1U);
+    EXPECT_LE(crowd.pair_finder.counts().renewed, 10U);
 }
 
 /// A bar along x, and a cube that it can only reach by turning.
@@ -64,43 +64,43 @@ TYPED_TEST(NeighboursOf, AreFoundByABodyThatTurnsSlowlyTowardsThem)
         const double half_angle = 0.0157 * step; // to a right angle
         crowd.bodies.orientation.put(crowd.bodies.slot_of[0],
                                      {std::cos(half_angle), 0.0, 0.0, std::sin(half_angle)});
-        crowd.neighbours.update(crowd.bodies);
+        crowd.pair_finder.update(crowd.bodies);
     }
     EXPECT_EQ(crowd.pairs(), (List{{0, 1}}));
-    EXPECT_GT(crowd.neighbours.counts().renewed, 10U);
+    EXPECT_GT(crowd.pair_finder.counts().renewed, 10U);
 }
 
 TYPED_TEST(NeighboursOf, AreFoundByABodyThatIsSpunUpAllAtOnce)
 {
     typename TestFixture::Subject crowd{bar_below_a_cube()};
     crowd.bodies.spin(crowd.bodies.slot_of[0], {0.0, 0.0, 1000.0});
-    crowd.neighbours.update(crowd.bodies);
+    crowd.pair_finder.update(crowd.bodies);
     EXPECT_EQ(crowd.pairs(), (List{{0, 1}}));
 }
 
 TYPED_TEST(NeighboursOf, KeepTheirContactsMemoryWhileTheyAreNear)
 {
     typename TestFixture::Subject crowd{row_of_cubes(3, 0.0401)};
-    crowd.neighbours.pair(crowd.neighbours.pairs()[1]).memory.torsion_impulse = 7.0;
+    crowd.pair_finder.pair(crowd.pair_finder.pairs()[1]).memory.torsion_impulse = 7.0;
     crowd.place(0, {5.0, 0.0, 0.0});
     crowd.place(1, {0.0375, 0.0, 0.0});
-    crowd.neighbours.update(crowd.bodies);
+    crowd.pair_finder.update(crowd.bodies);
     ASSERT_EQ(crowd.pairs(), (List{{1, 2}}));
-    EXPECT_GE(crowd.neighbours.counts().renewed, 2U);
-    EXPECT_EQ(crowd.neighbours.pair(crowd.neighbours.pairs()[0]).memory.torsion_impulse, 7.0);
+    EXPECT_GE(crowd.pair_finder.counts().renewed, 2U);
+    EXPECT_EQ(crowd.pair_finder.pair(crowd.pair_finder.pairs()[0]).memory.torsion_impulse, 7.0);
 }
 
 TYPED_TEST(NeighboursOf, HaveForgottenEachOtherWhenTheyMeetAgain)
 {
     typename TestFixture::Subject crowd{row_of_cubes(2, 0.0401)};
-    crowd.neighbours.pair(crowd.neighbours.pairs()[0]).memory.torsion_impulse = 7.0;
+    crowd.pair_finder.pair(crowd.pair_finder.pairs()[0]).memory.torsion_impulse = 7.0;
     crowd.place(1, {5.0, 0.0, 0.0});
-    crowd.neighbours.update(crowd.bodies);
+    crowd.pair_finder.update(crowd.bodies);
     EXPECT_EQ(crowd.pairs(), List{});
     crowd.place(1, {0.0401, 0.0, 0.0});
-    crowd.neighbours.update(crowd.bodies);
+    crowd.pair_finder.update(crowd.bodies);
     ASSERT_EQ(crowd.pairs(), (List{{0, 1}}));
-    EXPECT_EQ(crowd.neighbours.pair(crowd.neighbours.pairs()[0]).memory.torsion_impulse, 0.0);
+    EXPECT_EQ(crowd.pair_finder.pair(crowd.pair_finder.pairs()[0]).memory.torsion_impulse, 0.0);
 }
 
 TYPED_TEST(NeighboursOf, DoNotDependOnTheOrderInWhichTheyCame)
@@ -113,9 +113,9 @@ TYPED_TEST(NeighboursOf, DoNotDependOnTheOrderInWhichTheyCame)
         const auto id = static_cast<BodyId>(chance.below(30, round));
         const glm::dvec3 home = old.bodies.position.at(id);
         old.place(id, home + glm::dvec3{0.0, 2.0, 0.0});
-        old.neighbours.update(old.bodies);
+        old.pair_finder.update(old.bodies);
         old.place(id, home);
-        old.neighbours.update(old.bodies);
+        old.pair_finder.update(old.bodies);
     }
     EXPECT_EQ(old.pairs(), fresh.pairs());
 }
@@ -123,18 +123,18 @@ TYPED_TEST(NeighboursOf, DoNotDependOnTheOrderInWhichTheyCame)
 TYPED_TEST(NeighboursOf, AreNotListedWhileBothSleepAndKeepTheirMemory)
 {
     typename TestFixture::Subject crowd{row_of_cubes(3, 0.0401)};
-    crowd.neighbours.pair(crowd.neighbours.pairs()[0]).memory.torsion_impulse = 7.0;
+    crowd.pair_finder.pair(crowd.pair_finder.pairs()[0]).memory.torsion_impulse = 7.0;
     crowd.sleep(0);
     EXPECT_EQ(crowd.pairs(), (List{{0, 1}, {1, 2}}));
     crowd.sleep(1);
     EXPECT_EQ(crowd.pairs(), (List{{1, 2}}));
     crowd.sleep(2);
     EXPECT_EQ(crowd.pairs(), List{});
-    crowd.neighbours.update(crowd.bodies);
+    crowd.pair_finder.update(crowd.bodies);
     crowd.wake(0);
     EXPECT_EQ(crowd.pairs(), (List{{0, 1}}));
-    EXPECT_EQ(crowd.neighbours.pairs_added().size(), 1U);
-    EXPECT_EQ(crowd.neighbours.pair(crowd.neighbours.pairs()[0]).memory.torsion_impulse, 7.0);
+    EXPECT_EQ(crowd.pair_finder.pairs_added().size(), 1U);
+    EXPECT_EQ(crowd.pair_finder.pair(crowd.pair_finder.pairs()[0]).memory.torsion_impulse, 7.0);
 }
 
 TYPED_TEST(NeighboursOf, AreNeverTwoFixedBodies)
@@ -154,7 +154,7 @@ TYPED_TEST(NeighboursOf, ArePlanesOnlyWhenABodyIsNearOrBelow)
     EXPECT_EQ(crowd.plane_pairs(), (List{{0, 0}, {1, 0}, {2, 0}}));
     crowd.place(1, {1.0, 0.5, 0.0});
     crowd.place(2, {2.0, -3.0, 0.0});
-    crowd.neighbours.update(crowd.bodies);
+    crowd.pair_finder.update(crowd.bodies);
     EXPECT_EQ(crowd.plane_pairs(), (List{{0, 0}, {2, 0}, {2, 1}}));
     crowd.sleep(2);
     EXPECT_EQ(crowd.plane_pairs(), (List{{0, 0}}));
@@ -164,10 +164,10 @@ TYPED_TEST(NeighboursOf, BeyondTheBoundAreLeftOutAndCountedAndFoundOnceThereIsRo
 {
     typename TestFixture::Subject crowd{row_of_cubes(100, 1e-6)};
     EXPECT_EQ(crowd.pairs().size(), 3200U);
-    EXPECT_GE(crowd.neighbours.counts().pairs_left_out, 4950U - 3200U);
+    EXPECT_GE(crowd.pair_finder.counts().pairs_left_out, 4950U - 3200U);
     for (BodyId id = 0; id < 100; ++id) crowd.place(id, {0.0401 * id, 0.0, 0.0});
-    crowd.neighbours.update(crowd.bodies);
-    crowd.neighbours.update(crowd.bodies);
+    crowd.pair_finder.update(crowd.bodies);
+    crowd.pair_finder.update(crowd.bodies);
     EXPECT_EQ(crowd.pairs().size(), 99U);
 }
 
@@ -176,11 +176,11 @@ TYPED_TEST(NeighboursOf, AreAskedForOnceByAHandThatIsFarAway)
     typename TestFixture::Subject crowd{row_of_cubes(5, 0.1)};
     for (int tick = 0; tick < 100; ++tick) {
         const glm::dvec3 at{0.2, 0.5, 1e-5 * tick};
-        EXPECT_TRUE(crowd.neighbours.reached_by(0, {at, at, 0.005}).empty());
+        EXPECT_TRUE(crowd.pair_finder.near_hand(0, {at, at, 0.005}).empty());
     }
-    EXPECT_EQ(crowd.neighbours.counts().hands_renewed, 1U);
+    EXPECT_EQ(crowd.pair_finder.counts().hands_renewed, 1U);
     const glm::dvec3 near{0.2, 0.024, 0.0};
-    const auto reached = crowd.neighbours.reached_by(0, {near, near, 0.005});
+    const auto reached = crowd.pair_finder.near_hand(0, {near, near, 0.005});
     ASSERT_EQ(reached.size(), 1U);
     EXPECT_EQ(reached[0], 2U);
 }
@@ -189,14 +189,14 @@ TYPED_TEST(NeighboursOf, OfAHandFollowTheBodiesThatComeAndGo)
 {
     typename TestFixture::Subject crowd{row_of_cubes(3, 1.0)};
     const HandPath still{{0.0, 0.03, 0.0}, {0.0, 0.03, 0.0}, 0.005};
-    ASSERT_EQ(crowd.neighbours.reached_by(0, still).size(), 1U);
+    ASSERT_EQ(crowd.pair_finder.near_hand(0, still).size(), 1U);
     crowd.place(0, {0.5, 0.0, 0.0});
     crowd.place(2, {0.03, 0.0, 0.0});
     crowd.place(1, {-0.03, 0.0, 0.0});
-    crowd.neighbours.update(crowd.bodies);
-    const auto reached = crowd.neighbours.reached_by(0, still);
+    crowd.pair_finder.update(crowd.bodies);
+    const auto reached = crowd.pair_finder.near_hand(0, still);
     EXPECT_EQ((std::vector<BodyId>{reached.begin(), reached.end()}), (std::vector<BodyId>{1, 2}));
-    EXPECT_EQ(crowd.neighbours.counts().hands_renewed, 1U);
+    EXPECT_EQ(crowd.pair_finder.counts().hands_renewed, 1U);
 }
 
 } // namespace

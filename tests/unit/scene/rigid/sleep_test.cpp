@@ -25,16 +25,16 @@ struct Sleepers : Crowd<broad_phase> {
     void still(BodyId id) { speed(id, 0.0); }
     void touch(BodyId a, BodyId b, double impulse)
     {
-        for (const PairIndex i : this->neighbours.pairs()) {
-            Pair& pair = this->neighbours.pair(i);
+        for (const PairIndex i : this->pair_finder.pairs()) {
+            Pair& pair = this->pair_finder.pair(i);
             if (pair.a != a || pair.b != b) continue;
             pair.memory.count = 1;
             pair.memory.normal_impulse[0] = impulse;
         }
     }
-    void rest(int count)
+    void update(int count)
     {
-        for (int i = 0; i < count; ++i) sleep.rest(this->bodies, this->neighbours, ++ticks);
+        for (int i = 0; i < count; ++i) sleep.update(this->bodies, this->pair_finder, ++ticks);
     }
     [[nodiscard]] bool is_awake(BodyId id) const
     {
@@ -94,7 +94,7 @@ TYPED_TEST(SleepOf, AnIslandWaitsForTheLastOfItsBodies)
     crowd.still(2);
     crowd.rest(rest_ticks);
     EXPECT_EQ(crowd.awake(), "ssss");
-    EXPECT_TRUE(crowd.neighbours.pairs().empty());
+    EXPECT_TRUE(crowd.pair_finder.pairs().empty());
 }
 
 TYPED_TEST(SleepOf, FixedBodiesConnectNothing)
@@ -118,11 +118,11 @@ TYPED_TEST(SleepOf, WakingOneWakesWhatItTouchesAndNobodyElseAndContactsKeepTheir
     for (BodyId id = 0; id < 5; ++id) crowd.still(id);
     crowd.rest(rest_ticks);
     ASSERT_EQ(crowd.awake(), "sssss");
-    crowd.sleep.wake(2, crowd.bodies, crowd.neighbours);
+    crowd.sleep.wake(2, crowd.bodies, crowd.pair_finder);
     EXPECT_EQ(crowd.awake(), "aaaas");
-    ASSERT_EQ(crowd.neighbours.pairs().size(), 4U);
+    ASSERT_EQ(crowd.pair_finder.pairs().size(), 4U);
     for (BodyId id = 0; id < 3; ++id) {
-        const Pair& pair = crowd.neighbours.pair(crowd.neighbours.pairs()[id]);
+        const Pair& pair = crowd.pair_finder.pair(crowd.pair_finder.pairs()[id]);
         EXPECT_EQ(pair.memory.normal_impulse[0], 1e-3 * (id + 1));
     }
 }
@@ -134,17 +134,17 @@ TYPED_TEST(SleepOf, EndsForWhatAMovingBodyTouchesAndNotForWhatOneAtRestDoes)
     for (BodyId id = 0; id < 4; ++id) crowd.still(id);
     crowd.rest(rest_ticks);
     ASSERT_EQ(crowd.awake(), "ssss");
-    crowd.sleep.wake(2, crowd.bodies, crowd.neighbours);
-    const auto touching = [&](PairIndex index) { return crowd.neighbours.pair(index).a != 2; };
+    crowd.sleep.wake(2, crowd.bodies, crowd.pair_finder);
+    const auto touching = [&](PairIndex index) { return crowd.pair_finder.pair(index).a != 2; };
     crowd.still(2);
     crowd.rest(1);
-    EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.neighbours, touching));
+    EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
     crowd.speed(2, 0.1);
     crowd.rest(1);
-    EXPECT_TRUE(crowd.sleep.wake_touched(crowd.bodies, crowd.neighbours, touching));
+    EXPECT_TRUE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
     EXPECT_EQ(crowd.awake(), "aaas");
-    EXPECT_FALSE(crowd.neighbours.pairs_added().empty());
-    EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.neighbours, touching));
+    EXPECT_FALSE(crowd.pair_finder.pairs_added().empty());
+    EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
 }
 
 TYPED_TEST(SleepOf, DoesNotComeToABodyThatIsKeptAwake)

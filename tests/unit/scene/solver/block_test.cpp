@@ -41,7 +41,7 @@ struct CubeOnFloor {
 
     BodyMotion solved(BodyMotion motion)
     {
-        const Modal change = solve(block, velocity_at(block, {}, motion), 0.0);
+        const ContactVector change = solve(block, velocity_at(block, {}, motion), 0.0);
         apply(wrench(block, change), block.arm_b, response, motion);
         return motion;
     }
@@ -72,12 +72,12 @@ TEST(ContactBlock, FrictionOpposesTheSlipWithItsLimitInEveryDirection)
 TEST(ContactBlock, ImprovedAgainAndAgainItComesToTheSameSolution)
 {
     const BodyMotion before{{0.8, -0.5, 0.3}, {0.0, 4.0, 0.0}, glm::dvec3{0.0}};
-    CubeOnFloor exact{0.3};
-    const BodyMotion want = exact.solved(before);
+    CubeOnFloor full{0.3};
+    const BodyMotion want = full.solved(before);
     CubeOnFloor cube{0.3};
     BodyMotion after = before;
     for (int i = 0; i < 40; ++i) {
-        const Modal change = improve(cube.block, velocity_at(cube.block, {}, after), 0.0);
+        const ContactVector change = iterate(cube.block, velocity_at(cube.block, {}, after), 0.0);
         apply(wrench(cube.block, change), cube.block.arm_b, cube.response, after);
     }
     EXPECT_LT(glm::length(after.velocity - want.velocity), 1e-6);
@@ -109,7 +109,7 @@ TEST(ContactMemory, AHitIsNotCarriedIntoTheNextTick)
     CubeOnFloor cube{0.0};
     std::ignore = cube.solved({{0.0, -1.0, 0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}});
     ContactMemory memory;
-    remember(cube.block, 0.01, memory);
+    store_impulses(cube.block, 0.01, memory);
     double sum = 0.0;
     for (const double impulse : memory.normal_impulse) sum += impulse;
     EXPECT_NEAR(sum, 0.01, 1e-15);
