@@ -19,7 +19,7 @@ struct MovingBody {
 };
 
 /// How it answers to forces; held for the tick.
-struct Answer {
+struct BodyDynamics {
     glm::dvec3 half{0.0}; // half the edges of the box, on which its hands slide and turn
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame, at the start of the tick
@@ -60,7 +60,7 @@ struct SpringImpulse {
 /// 1e-5 for a cube, 2e-4 for other boxes, for stiffness tick^2 / mass from 0.01 to 1000). Two need
 /// the same damping over stiffness. More, or springs that hold: the midpoint rule in sub-ticks,
 /// second order, stable however stiff.
-void advance(MovingBody& body, const Answer& answer, std::span<const HandSpring> springs,
+void advance(MovingBody& body, const BodyDynamics& dynamics, std::span<const HandSpring> springs,
              std::span<SpringImpulse> work, double tick);
 
 } // namespace hapnet::scene

@@ -15,9 +15,9 @@ namespace {
 constexpr int phases_max = 64;          // of a tick
 constexpr double part_min = 1.0 / 32.0; // of a tick, that is cut off only because something turns
 // How far a normal may turn in half of what is held: then its mean is right to 1e-5.
-constexpr double normal_turn_max = 0.01;
+constexpr double normal_rotation_max = 0.01;
 
-glm::dmat3 turned_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& angle)
+glm::dmat3 rotated_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& angle)
 {
     const glm::dmat3 turn = axes_of(rotation_by(angle));
     return turn * inverse_inertia * glm::transpose(turn);
@@ -27,129 +27,130 @@ bool is_zero(const glm::dmat3& m) { return m[0][0] == 0.0 && m[1][1] == 0.0 && m
 
 } // namespace
 
-void advance_freely(MovingBody& body, const Answer& answer, double tick)
+void advance_freely(MovingBody& body, const BodyDynamics& dynamics, double tick)
 {
-    body.position += tick * (body.velocity + (0.5 * tick) * answer.acceleration);
-    body.velocity += tick * answer.acceleration;
-    if (is_zero(answer.inverse_inertia)) return;
-    const glm::dvec3 mean = body.angular_momentum + (0.5 * tick) * answer.torque;
-    glm::dvec3 angle = tick * (answer.inverse_inertia * mean);
-    if (!answer.rotates_uniformly)
-        angle = tick * (turned_inertia(answer.inverse_inertia, 0.5 * angle) * mean);
+    body.position += tick * (body.velocity + (0.5 * tick) * dynamics.acceleration);
+    body.velocity += tick * dynamics.acceleration;
+    if (is_zero(dynamics.inverse_inertia)) return;
+    const glm::dvec3 mean = body.angular_momentum + (0.5 * tick) * dynamics.torque;
+    glm::dvec3 angle = tick * (dynamics.inverse_inertia * mean);
+    if (!dynamics.rotates_uniformly)
+        angle = tick * (rotated_inertia(dynamics.inverse_inertia, 0.5 * angle) * mean);
     body.orientation = rotated(body.orientation, angle);
-    body.angular_momentum += tick * answer.torque;
+    body.angular_momentum += tick * dynamics.torque;
 }
 
 template <std::size_t count>
-Passage<count>::Passage(MovingBody& body, const Answer& answer, double tick)
+ContactPhases<count>::ContactPhases(MovingBody& body, const BodyDynamics& dynamics, double tick)
     : body_{body},
-      answer_{answer},
+      dynamics_{dynamics},
       tick_{tick},
-      left_{tick},
-      turns_{!is_zero(answer.inverse_inertia)},
-      inverse_inertia_{answer.inverse_inertia},
+      time_left_{tick},
+      rotates_{!is_zero(dynamics.inverse_inertia)},
+      inverse_inertia_{dynamics.inverse_inertia},
       axes_{axes_of(body.orientation)}
 {}
 
 template <std::size_t count>
-void Passage<count>::set(std::size_t i, const HandSpring& spring, SpringImpulse& work)
+void ContactPhases<count>::set(std::size_t i, const HandSpring& spring, SpringImpulse& work)
 {
     springs_[i] = &spring;
     works_[i] = &work;
-    surfaces_[i] = Surface{spring, answer_.half, axes_};
-    hands_[i] = spring.arm + (spring.radius + spring.gap) * spring.normal;
-    is_amid_face_[i] = surfaces_[i].is_amid_face(axes_, hands_[i]);
-    Hold& hold = holds_[i];
-    hold = {spring.normal, glm::cross(spring.arm, spring.normal), -spring.gap};
-    Press& press = presses_[i];
-    press.stiffness = spring.stiffness;
-    press.damping = spring.damping;
-    press.force_max = spring.force_max;
-    press.depth = -spring.gap;
-    press.closing = glm::dot(spring.normal, body_.velocity - spring.velocity) +
-                    glm::dot(hold.lever, inverse_inertia_ * body_.angular_momentum);
-    press.phase = press.due();
+    surfaces_[i] = BoxSurface{spring, dynamics_.half, axes_};
+    hand_positions_[i] = spring.arm + (spring.radius + spring.gap) * spring.normal;
+    is_amid_face_[i] = surfaces_[i].is_amid_face(axes_, hand_positions_[i]);
+    ContactGeometry& geometry = geometries_[i];
+    geometry = {spring.normal, glm::cross(spring.arm, spring.normal), -spring.gap};
+    SpringContact& contact = contacts_[i];
+    contact.stiffness = spring.stiffness;
+    contact.damping = spring.damping;
+    contact.force_max = spring.force_max;
+    contact.depth = -spring.gap;
+    contact.closing = glm::dot(spring.normal, body_.velocity - spring.velocity) +
+                      glm::dot(geometry.lever, inverse_inertia_ * body_.angular_momentum);
+    contact.phase = contact.phase_due();
 }
 
 template <std::size_t count>
-typename Passage<count>::Setting Passage<count>::halfway(double time) const
+typename ContactPhases<count>::HeldGeometry
+ContactPhases<count>::geometry_halfway(double time) const
 {
     const double half = 0.5 * time;
     glm::dvec3 force{0.0};
-    glm::dvec3 torque = answer_.torque;
+    glm::dvec3 torque = dynamics_.torque;
     for (std::size_t i = 0; i < count; ++i) {
-        const double pushed = presses_[i].force();
-        force -= pushed * holds_[i].normal;
-        torque -= pushed * holds_[i].lever;
+        const double pushed = contacts_[i].force();
+        force -= pushed * geometries_[i].normal;
+        torque -= pushed * geometries_[i].lever;
     }
     const glm::dvec3 moved =
         half *
-        (body_.velocity + (0.5 * half) * (answer_.acceleration + answer_.inverse_mass * force));
-    Setting setting{inverse_inertia_, holds_};
+        (body_.velocity + (0.5 * half) * (dynamics_.acceleration + dynamics_.inverse_mass * force));
+    HeldGeometry held{inverse_inertia_, geometries_};
     glm::dvec3 angle{0.0};
-    if (turns_) {
+    if (rotates_) {
         angle = half * (inverse_inertia_ * (body_.angular_momentum + (0.5 * half) * torque));
-        if (!answer_.rotates_uniformly)
-            setting.inverse_inertia = turned_inertia(inverse_inertia_, angle);
+        if (!dynamics_.rotates_uniformly)
+            held.inverse_inertia = rotated_inertia(inverse_inertia_, angle);
     }
-    const bool turns_little = glm::dot(angle, angle) <= normal_turn_max * normal_turn_max;
+    const bool turns_little = glm::dot(angle, angle) <= normal_rotation_max * normal_rotation_max;
     for (std::size_t i = 0; i < count; ++i) {
-        if (!turns_ && surfaces_[i].is_face()) continue;
-        Hold& hold = setting.holds[i];
-        const glm::dvec3 hand = hands_[i] + half * springs_[i]->velocity - moved;
+        if (!rotates_ && surfaces_[i].is_face()) continue;
+        ContactGeometry& geometry = held.contacts[i];
+        const glm::dvec3 hand = hand_positions_[i] + half * springs_[i]->velocity - moved;
         if (is_amid_face_[i] && turns_little) {
             // The face's normal turns with the body; by so little that two terms of the rotation
             // suffice for what is held.
-            const glm::dvec3 once = glm::cross(angle, holds_[i].normal);
-            hold.normal = holds_[i].normal + once + 0.5 * glm::cross(angle, once);
-            hold.lever = glm::cross(hand, hold.normal);
+            const glm::dvec3 once = glm::cross(angle, geometries_[i].normal);
+            geometry.normal = geometries_[i].normal + once + 0.5 * glm::cross(angle, once);
+            geometry.lever = glm::cross(hand, geometry.normal);
         } else {
-            hold = surfaces_[i].at(axes_of(rotation_by(angle) * body_.orientation), hand);
+            geometry = surfaces_[i].at(axes_of(rotation_by(angle) * body_.orientation), hand);
         }
-        const glm::dvec3 change = hold.normal - holds_[i].normal;
-        setting.rotated = std::max(setting.rotated, glm::dot(change, change));
+        const glm::dvec3 change = geometry.normal - geometries_[i].normal;
+        held.rotated = std::max(held.rotated, glm::dot(change, change));
     }
-    return setting;
+    return held;
 }
 
 template <std::size_t count>
-Coupling Passage<count>::couple(const Setting& setting)
+Coupling ContactPhases<count>::set_couplings(const HeldGeometry& held)
 {
     Coupling coupling;
-    std::array<glm::dvec3, count> swung{};
+    std::array<glm::dvec3, count> inverse_inertia_lever{};
     for (std::size_t i = 0; i < count; ++i) {
-        const Hold& hold = setting.holds[i];
-        Press& press = presses_[i];
-        swung[i] = setting.inverse_inertia * hold.lever;
-        coupling.own[i] = glm::dot(hold.normal, answer_.inverse_mass * hold.normal) +
-                          glm::dot(hold.lever, swung[i]);
-        press.closing = glm::dot(hold.normal, body_.velocity - springs_[i]->velocity) +
-                        glm::dot(swung[i], body_.angular_momentum);
-        press.acceleration =
-            glm::dot(hold.normal, answer_.acceleration) + glm::dot(swung[i], answer_.torque);
+        const ContactGeometry& geometry = held.contacts[i];
+        SpringContact& contact = contacts_[i];
+        inverse_inertia_lever[i] = held.inverse_inertia * geometry.lever;
+        coupling.own[i] = glm::dot(geometry.normal, dynamics_.inverse_mass * geometry.normal) +
+                          glm::dot(geometry.lever, inverse_inertia_lever[i]);
+        contact.closing = glm::dot(geometry.normal, body_.velocity - springs_[i]->velocity) +
+                          glm::dot(inverse_inertia_lever[i], body_.angular_momentum);
+        contact.acceleration = glm::dot(geometry.normal, dynamics_.acceleration) +
+                               glm::dot(inverse_inertia_lever[i], dynamics_.torque);
     }
     if constexpr (count == 2)
         coupling.mutual =
-            glm::dot(setting.holds[0].normal, answer_.inverse_mass * setting.holds[1].normal) +
-            glm::dot(setting.holds[0].lever, swung[1]);
+            glm::dot(held.contacts[0].normal, dynamics_.inverse_mass * held.contacts[1].normal) +
+            glm::dot(held.contacts[0].lever, inverse_inertia_lever[1]);
     return coupling;
 }
 
 template <std::size_t count>
-bool Passage<count>::pass()
+bool ContactPhases<count>::advance()
 {
-    for (int phase = 0; phase < phases_max && left_ > 0.0; ++phase) {
-        double time = left_;
+    for (int phase = 0; phase < phases_max && time_left_ > 0.0; ++phase) {
+        double time = time_left_;
         double predicted = time; // what the setting is halfway of
         for (int attempt = 0;; ++attempt) {
-            const Setting setting = halfway(predicted);
-            const Coupling coupling = couple(setting);
+            const HeldGeometry held = geometry_halfway(predicted);
+            const Coupling coupling = set_couplings(held);
             double shorter = time;
-            if (setting.rotated > normal_turn_max * normal_turn_max)
-                shorter = predicted * normal_turn_max / std::sqrt(setting.rotated);
-            for (std::size_t i = 0; i < count && turns_; ++i) {
-                const double square = coupling.own[i] * presses_[i].stiffness;
-                if (presses_[i].phase == PressPhase::pressing && square * time * time > 1.0)
+            if (held.rotated > normal_rotation_max * normal_rotation_max)
+                shorter = predicted * normal_rotation_max / std::sqrt(held.rotated);
+            for (std::size_t i = 0; i < count && rotates_; ++i) {
+                const double square = coupling.own[i] * contacts_[i].stiffness;
+                if (contacts_[i].phase == ContactPhase::pressing && square * time * time > 1.0)
                     shorter = std::min(shorter, 1.0 / std::sqrt(square));
             }
             shorter = std::max(shorter, part_min * tick_);
@@ -157,112 +158,113 @@ bool Passage<count>::pass()
                 time = predicted = shorter;
                 continue;
             }
-            auto presses = presses_;
-            Presses<count> motion{presses, coupling, time};
+            auto contacts = contacts_;
+            ContactModes<count> motion{contacts, coupling, time};
             if (!motion.is_solved()) return false;
-            const Pressed<count> pressed = motion.pass();
-            if (attempt < 3 && pressed.time < 0.75 * predicted && turns_) {
-                predicted = pressed.time;
+            const PhaseImpulses<count> impulses = motion.advance();
+            if (attempt < 3 && impulses.time < 0.75 * predicted && rotates_) {
+                predicted = impulses.time;
                 attempt = 3;
                 continue;
             }
             std::array<bool, count> was_apart{};
             for (std::size_t i = 0; i < count; ++i)
-                was_apart[i] = presses_[i].phase == PressPhase::apart;
-            presses_ = presses;
-            apply(setting, pressed);
+                was_apart[i] = contacts_[i].phase == ContactPhase::apart;
+            contacts_ = contacts;
+            apply(held, impulses);
             for (std::size_t i = 0; i < count; ++i) {
-                if (was_apart[i]) meet(i);
+                if (was_apart[i]) begin_contact(i);
             }
             break;
         }
     }
-    if (left_ > 0.0) return false;
-    settle();
+    if (time_left_ > 0.0) return false;
+    correct_energies();
     return true;
 }
 
 template <std::size_t count>
-void Passage<count>::apply(const Setting& setting, const Pressed<count>& pressed)
+void ContactPhases<count>::apply(const HeldGeometry& held, const PhaseImpulses<count>& impulses)
 {
-    const double t = pressed.time;
+    const double t = impulses.time;
     glm::dvec3 impulse{0.0};
     glm::dvec3 moment{0.0};
     glm::dvec3 twist{0.0};
     glm::dvec3 twist_moment{0.0};
     for (std::size_t i = 0; i < count; ++i) {
-        const Hold& hold = setting.holds[i];
-        impulse -= pressed.impulse[i] * hold.normal;
-        moment -= pressed.moment[i] * hold.normal;
-        twist -= pressed.impulse[i] * hold.lever;
-        twist_moment -= pressed.moment[i] * hold.lever;
-        works_[i]->impulse -= pressed.impulse[i] * hold.normal;
+        const ContactGeometry& geometry = held.contacts[i];
+        impulse -= impulses.impulse[i] * geometry.normal;
+        moment -= impulses.moment[i] * geometry.normal;
+        twist -= impulses.impulse[i] * geometry.lever;
+        twist_moment -= impulses.moment[i] * geometry.lever;
+        works_[i]->impulse -= impulses.impulse[i] * geometry.normal;
     }
     const glm::dvec3 moved =
-        t * (body_.velocity + (0.5 * t) * answer_.acceleration) + answer_.inverse_mass * moment;
+        t * (body_.velocity + (0.5 * t) * dynamics_.acceleration) + dynamics_.inverse_mass * moment;
     body_.position += moved;
-    body_.velocity += t * answer_.acceleration + answer_.inverse_mass * impulse;
-    for (std::size_t i = 0; i < count; ++i) hands_[i] += t * springs_[i]->velocity - moved;
-    if (turns_) {
+    body_.velocity += t * dynamics_.acceleration + dynamics_.inverse_mass * impulse;
+    for (std::size_t i = 0; i < count; ++i) hand_positions_[i] += t * springs_[i]->velocity - moved;
+    if (rotates_) {
         const glm::dvec3 swept =
-            t * (body_.angular_momentum + (0.5 * t) * answer_.torque) + twist_moment;
-        const glm::dvec3 angle = setting.inverse_inertia * swept;
-        body_.angular_momentum += t * answer_.torque + twist;
+            t * (body_.angular_momentum + (0.5 * t) * dynamics_.torque) + twist_moment;
+        const glm::dvec3 angle = held.inverse_inertia * swept;
+        body_.angular_momentum += t * dynamics_.torque + twist;
         body_.orientation = rotated(body_.orientation, angle);
         axes_ = axes_of(body_.orientation);
-        if (!answer_.rotates_uniformly) inverse_inertia_ = turned_inertia(inverse_inertia_, angle);
+        if (!dynamics_.rotates_uniformly)
+            inverse_inertia_ = rotated_inertia(inverse_inertia_, angle);
     }
     for (std::size_t i = 0; i < count; ++i) {
-        if (!turns_ && surfaces_[i].is_face()) continue;
-        const glm::dvec3 before = holds_[i].normal;
-        holds_[i] = surfaces_[i].at(axes_, hands_[i]);
-        const glm::dvec3 change = holds_[i].normal - before;
-        turned_ = std::max(turned_, glm::dot(change, change));
+        if (!rotates_ && surfaces_[i].is_face()) continue;
+        const glm::dvec3 before = geometries_[i].normal;
+        geometries_[i] = surfaces_[i].at(axes_, hand_positions_[i]);
+        const glm::dvec3 change = geometries_[i].normal - before;
+        largest_normal_change_ = std::max(largest_normal_change_, glm::dot(change, change));
     }
-    left_ = t < left_ ? left_ - t : 0.0;
+    time_left_ = t < time_left_ ? time_left_ - t : 0.0;
 }
 
 template <std::size_t count>
-void Passage<count>::meet(std::size_t i)
+void ContactPhases<count>::begin_contact(std::size_t i)
 {
     // A spring that was apart stores nothing: it does not begin a little before its depth is
     // reached, and when it begins a little late, that is settled in the end.
-    Press& press = presses_[i];
-    press.depth = holds_[i].depth;
-    if (press.phase != PressPhase::pressing) return;
+    SpringContact& contact = contacts_[i];
+    contact.depth = geometries_[i].depth;
+    if (contact.phase != ContactPhase::pressing) return;
     constexpr double near = 1e-9;
-    if (press.depth < -near * press.closing * tick_) press.phase = PressPhase::apart;
-    press.depth = std::min(press.depth, 0.0);
+    if (contact.depth < -near * contact.closing * tick_) contact.phase = ContactPhase::apart;
+    contact.depth = std::min(contact.depth, 0.0);
 }
 
 template <std::size_t count>
-std::array<HandSpring, count> Passage<count>::current() const
+std::array<HandSpring, count> ContactPhases<count>::current() const
 {
     std::array<HandSpring, count> springs;
     for (std::size_t i = 0; i < count; ++i) {
         HandSpring& spring = springs[i];
         spring = *springs_[i];
-        spring.normal = holds_[i].normal;
-        spring.gap = -presses_[i].depth;
-        spring.arm = hands_[i] - (spring.radius + spring.gap) * spring.normal;
+        spring.normal = geometries_[i].normal;
+        spring.gap = -contacts_[i].depth;
+        spring.arm = hand_positions_[i] - (spring.radius + spring.gap) * spring.normal;
     }
     return springs;
 }
 
 template <std::size_t count>
-void Passage<count>::settle()
+void ContactPhases<count>::correct_energies()
 {
     // Rounding alone is nothing to correct: a symmetric squeeze shall stay where it is.
     constexpr double unturned = 1e-10;
-    if (turned_ < unturned * unturned) return;
+    if (largest_normal_change_ < unturned * unturned) return;
     for (std::size_t i = 0; i < count; ++i) {
-        if (presses_[i].phase == PressPhase::apart) continue;
-        scene::settle({body_, answer_, inverse_inertia_, tick_}, *springs_[i],
-                      {presses_[i].depth, holds_[i].depth}, *works_[i]);
+        if (contacts_[i].phase == ContactPhase::apart) continue;
+        scene::correct_energy({body_, dynamics_, inverse_inertia_, tick_}, *springs_[i],
+                              {contacts_[i].depth, geometries_[i].depth}, *works_[i]);
     }
 }
 
-template class Passage<1>;
-template class Passage<2>;
+template class ContactPhases<1>;
+template class ContactPhases<2>;
 
 } // namespace hapnet::scene

@@ -10,16 +10,17 @@ namespace hapnet::scene {
 namespace {
 
 /// A course at a moment, with its integrals from the start.
-struct Passed {
+struct TrajectoryIntegrals {
     TrajectoryPoint motion;
     double once = 0.0;  // the integral of the way
     double twice = 0.0; // the integral of that
 };
 
-Passed pass_along(const Trajectory& trajectory, double time)
+TrajectoryIntegrals integrate_along(const Trajectory& trajectory, double time)
 {
     const StepResponse r = trajectory.propagator->after(time);
-    Passed passed{trajectory.at(r), trajectory.speed * r.push + trajectory.push * r.ramp, 0.0};
+    TrajectoryIntegrals passed{trajectory.at(r),
+                               trajectory.speed * r.push + trajectory.push * r.ramp, 0.0};
     const Oscillator& oscillator = trajectory.propagator->oscillator;
     const double t2 = time * time;
     // From the law itself; where it hardly acts, that would be the difference of almost equal
@@ -45,44 +46,47 @@ Passed pass_along(const Trajectory& trajectory, double time)
 
 } // namespace
 
-double Press::force() const
+double SpringContact::force() const
 {
     switch (phase) {
-    case PressPhase::apart: return 0.0;
-    case PressPhase::pressing: return drive();
-    case PressPhase::capped: return force_max;
+    case ContactPhase::apart: return 0.0;
+    case ContactPhase::pressing: return unlimited_force();
+    case ContactPhase::limited: return force_max;
     }
     return 0.0;
 }
 
-PressPhase Press::due() const
+ContactPhase SpringContact::phase_due() const
 {
-    if (depth < 0.0 || drive() <= 0.0) return PressPhase::apart;
-    return drive() < force_max ? PressPhase::pressing : PressPhase::capped;
+    if (depth < 0.0 || unlimited_force() <= 0.0) return ContactPhase::apart;
+    return unlimited_force() < force_max ? ContactPhase::pressing : ContactPhase::limited;
 }
 
 // The courses are set for the phases that there are.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 template <std::size_t count>
-Presses<count>::Presses(std::array<Press, count>& presses, const Coupling& coupling, double time)
-    : presses_{presses}, coupling_{coupling}, time_{time}
+ContactModes<count>::ContactModes(std::array<SpringContact, count>& contacts,
+                                  const Coupling& coupling, double time)
+    : contacts_{contacts}, coupling_{coupling}, time_{time}
 {
     // Where a damper begins to act, or its normal turns, its force changes at once: then the phase
     // that was foreseen is over before it begins.
-    for (Press& press : presses_) {
+    for (SpringContact& contact : contacts_) {
         constexpr double rounding = 1e-9;
-        const double drive = press.drive();
-        const double size =
-            press.stiffness * std::abs(press.depth) + press.damping * std::abs(press.closing);
-        if (press.phase == PressPhase::capped && drive < (1.0 - rounding) * press.force_max)
-            press.phase = PressPhase::pressing;
-        if (press.phase != PressPhase::pressing) continue;
-        if (drive > (1.0 + rounding) * press.force_max) press.phase = PressPhase::capped;
-        if (drive < -rounding * size) press.phase = PressPhase::apart;
+        const double unlimited_force = contact.unlimited_force();
+        const double size = contact.stiffness * std::abs(contact.depth) +
+                            contact.damping * std::abs(contact.closing);
+        if (contact.phase == ContactPhase::limited &&
+            unlimited_force < (1.0 - rounding) * contact.force_max)
+            contact.phase = ContactPhase::pressing;
+        if (contact.phase != ContactPhase::pressing) continue;
+        if (unlimited_force > (1.0 + rounding) * contact.force_max)
+            contact.phase = ContactPhase::limited;
+        if (unlimited_force < -rounding * size) contact.phase = ContactPhase::apart;
     }
-    const bool first = presses_[0].phase == PressPhase::pressing;
+    const bool first = contacts_[0].phase == ContactPhase::pressing;
     if constexpr (count == 2) {
-        const bool second = presses_[1].phase == PressPhase::pressing;
+        const bool second = contacts_[1].phase == ContactPhase::pressing;
         if (first && second) {
             solve_both();
             return;
@@ -100,58 +104,58 @@ Presses<count>::Presses(std::array<Press, count>& presses, const Coupling& coupl
 }
 
 template <std::size_t count>
-void Presses<count>::solve_parabolas()
+void ContactModes<count>::solve_parabolas()
 {
     for (std::size_t i = 0; i < count; ++i) {
-        const Press& press = presses_[i];
-        double push = press.acceleration - coupling_.own[i] * press.force();
-        if constexpr (count == 2) push -= coupling_.mutual * presses_[1 - i].force();
+        const SpringContact& contact = contacts_[i];
+        double push = contact.acceleration - coupling_.own[i] * contact.force();
+        if constexpr (count == 2) push -= coupling_.mutual * contacts_[1 - i].force();
         propagators_[i] = Propagator{Oscillator{}, time_};
-        trajectories_[i] = {&propagators_[i], press.closing, push, 0.0};
+        trajectories_[i] = {&propagators_[i], contact.closing, push, 0.0};
         share_[i][i] = 1.0;
     }
 }
 
 template <std::size_t count>
-void Presses<count>::solve_one(std::size_t pressing)
+void ContactModes<count>::solve_one(std::size_t pressing)
 {
-    const Press& press = presses_[pressing];
+    const SpringContact& contact = contacts_[pressing];
     const double own = coupling_.own[pressing];
-    double driven = press.acceleration;
-    if constexpr (count == 2) driven -= coupling_.mutual * presses_[1 - pressing].force();
-    propagators_[0] = Propagator{{own * press.damping, own * press.stiffness}, time_};
-    trajectories_[0] = {&propagators_[0], press.closing,
-                        driven - own * press.stiffness * press.depth, 0.0};
+    double driven = contact.acceleration;
+    if constexpr (count == 2) driven -= coupling_.mutual * contacts_[1 - pressing].force();
+    propagators_[0] = Propagator{{own * contact.damping, own * contact.stiffness}, time_};
+    trajectories_[0] = {&propagators_[0], contact.closing,
+                        driven - own * contact.stiffness * contact.depth, 0.0};
     share_[pressing][0] = 1.0;
     modes_ = 1;
-    start_[0] = press.depth;
-    weight_[pressing][0] = press.stiffness;
-    lag_ = press.damping / press.stiffness;
-    is_solved_ = press.stiffness > 0.0;
+    start_[0] = contact.depth;
+    weight_[pressing][0] = contact.stiffness;
+    lag_ = contact.damping / contact.stiffness;
+    is_solved_ = contact.stiffness > 0.0;
     if constexpr (count == 2) {
         // The other one's depth follows the oscillation by how much they are coupled, and is
         // carried by a parabola besides.
         const std::size_t idle = 1 - pressing;
-        const Press& other = presses_[idle];
+        const SpringContact& other = contacts_[idle];
         const double follows = own > 0.0 ? coupling_.mutual / own : 0.0;
         propagators_[1] = Propagator{Oscillator{}, time_};
         trajectories_[1] = {
-            &propagators_[1], other.closing - follows * press.closing,
+            &propagators_[1], other.closing - follows * contact.closing,
             other.acceleration - coupling_.own[idle] * other.force() - follows * driven, 0.0};
         share_[idle] = {follows, 1.0};
     }
 }
 
 template <std::size_t count>
-void Presses<count>::solve_both()
+void ContactModes<count>::solve_both()
 {
     if constexpr (count == 2) {
-        const std::array<double, 2> root{std::sqrt(presses_[0].stiffness),
-                                         std::sqrt(presses_[1].stiffness)};
-        lag_ = presses_[0].damping / presses_[0].stiffness;
+        const std::array<double, 2> root{std::sqrt(contacts_[0].stiffness),
+                                         std::sqrt(contacts_[1].stiffness)};
+        lag_ = contacts_[0].damping / contacts_[0].stiffness;
         is_solved_ = root[0] > 0.0 && root[1] > 0.0 &&
-                     std::abs(lag_ * presses_[1].stiffness - presses_[1].damping) <=
-                         1e-14 * presses_[1].damping;
+                     std::abs(lag_ * contacts_[1].stiffness - contacts_[1].damping) <=
+                         1e-14 * contacts_[1].damping;
         if (!is_solved_) return;
 
         // In depths times the roots of the stiffnesses the coupling is symmetric: one rotation
@@ -174,9 +178,9 @@ void Presses<count>::solve_both()
             return std::array<double, 2>{cosine * (root[0] * first) - sine * (root[1] * second),
                                          sine * (root[0] * first) + cosine * (root[1] * second)};
         };
-        start_ = into_modes(presses_[0].depth, presses_[1].depth);
-        const auto speed = into_modes(presses_[0].closing, presses_[1].closing);
-        const auto driven = into_modes(presses_[0].acceleration, presses_[1].acceleration);
+        start_ = into_modes(contacts_[0].depth, contacts_[1].depth);
+        const auto speed = into_modes(contacts_[0].closing, contacts_[1].closing);
+        const auto driven = into_modes(contacts_[0].acceleration, contacts_[1].acceleration);
         for (const std::size_t mode : {0U, 1U}) {
             propagators_[mode] = Propagator{{strength[mode] * lag_, strength[mode]}, time_};
             trajectories_[mode] = {&propagators_[mode], speed[mode],
@@ -189,8 +193,8 @@ void Presses<count>::solve_both()
 }
 
 template <std::size_t count>
-WatchedQuantity Presses<count>::watch(std::size_t i, double level,
-                                      const std::array<double, 2>& weights)
+WatchedQuantity ContactModes<count>::watch(std::size_t i, double level,
+                                           const std::array<double, 2>& weights)
 {
     WatchedQuantity watch;
     watch.level = level;
@@ -202,17 +206,17 @@ WatchedQuantity Presses<count>::watch(std::size_t i, double level,
 }
 
 template <std::size_t count>
-bool Presses<count>::is_settled(std::size_t i) const
+bool ContactModes<count>::keeps_phase(std::size_t i) const
 {
-    const Press& press = presses_[i];
-    if (press.phase == PressPhase::apart) {
+    const SpringContact& contact = contacts_[i];
+    if (contact.phase == ContactPhase::apart) {
         if (modes_ > 0) return false;
         const Trajectory& trajectory = trajectories_[i];
-        return press.depth +
+        return contact.depth +
                    time_ * (std::abs(trajectory.speed) + time_ * std::abs(trajectory.push)) <
                0.0;
     }
-    if (press.phase == PressPhase::capped) return false;
+    if (contact.phase == ContactPhase::limited) return false;
     double change = 0.0;
     for (std::size_t mode = 0; mode < modes_; ++mode) {
         const Trajectory& trajectory = trajectories_[mode];
@@ -226,83 +230,85 @@ bool Presses<count>::is_settled(std::size_t i) const
                   (rate + time_ * (bend + trajectory.propagator->frequency * rate));
     }
     change *= time_;
-    const double drive = press.drive();
-    return drive - change > 0.0 && drive + change < press.force_max;
+    const double unlimited_force = contact.unlimited_force();
+    return unlimited_force - change > 0.0 && unlimited_force + change < contact.force_max;
 }
 
 template <std::size_t count>
-void Presses<count>::look(End& end, std::size_t i)
+void ContactModes<count>::find_end(End& end, std::size_t i)
 {
-    if (is_settled(i)) return;
-    const Press& press = presses_[i];
-    const auto look_for = [&](PressPhase then, double level, double sign) {
+    if (keeps_phase(i)) return;
+    const SpringContact& contact = contacts_[i];
+    const auto look_for = [&](ContactPhase then, double level, double sign) {
         const auto found =
-            first_root(watch(i, level, {sign * press.stiffness, sign * press.damping}),
+            first_root(watch(i, level, {sign * contact.stiffness, sign * contact.damping}),
                        trajectories_, 0.0, end.time);
         if (found && *found < end.time) end = {*found, i, then};
     };
-    const double pull = press.stiffness * press.depth;
-    switch (press.phase) {
-    case PressPhase::pressing:
-        look_for(PressPhase::apart, pull, 1.0);
-        if (press.force_max < std::numeric_limits<double>::infinity())
-            look_for(PressPhase::capped, press.force_max - pull, -1.0);
+    const double pull = contact.stiffness * contact.depth;
+    switch (contact.phase) {
+    case ContactPhase::pressing:
+        look_for(ContactPhase::apart, pull, 1.0);
+        if (contact.force_max < std::numeric_limits<double>::infinity())
+            look_for(ContactPhase::limited, contact.force_max - pull, -1.0);
         return;
-    case PressPhase::capped: look_for(PressPhase::pressing, pull - press.force_max, 1.0); return;
-    case PressPhase::apart: break;
+    case ContactPhase::limited:
+        look_for(ContactPhase::pressing, pull - contact.force_max, 1.0);
+        return;
+    case ContactPhase::apart: break;
     }
-    if (press.depth >= 0.0 && press.drive() < 0.0) {
-        look_for(PressPhase::pressing, -pull, -1.0);
+    if (contact.depth >= 0.0 && contact.unlimited_force() < 0.0) {
+        look_for(ContactPhase::pressing, -pull, -1.0);
         return;
     }
     const auto found =
-        first_root(watch(i, -press.depth, {-1.0, 0.0}), trajectories_, 0.0, end.time);
-    if (found && *found < end.time) end = {*found, i, PressPhase::pressing};
+        first_root(watch(i, -contact.depth, {-1.0, 0.0}), trajectories_, 0.0, end.time);
+    if (found && *found < end.time) end = {*found, i, ContactPhase::pressing};
 }
 
 template <std::size_t count>
-void Presses<count>::add_work(Pressed<count>& pressed) const
+void ContactModes<count>::add_work(PhaseImpulses<count>& impulses) const
 {
     for (std::size_t mode = 0; mode < modes_; ++mode) {
-        const Passed p = pass_along(trajectories_[mode], pressed.time);
-        const double t = pressed.time;
+        const TrajectoryIntegrals p = integrate_along(trajectories_[mode], impulses.time);
+        const double t = impulses.time;
         const double impulse = start_[mode] * t + p.once + lag_ * p.motion.displacement;
         const double moment = 0.5 * start_[mode] * t * t + p.twice + lag_ * p.once;
         for (std::size_t i = 0; i < count; ++i) {
-            pressed.impulse[i] += weight_[i][mode] * impulse;
-            pressed.moment[i] += weight_[i][mode] * moment;
+            impulses.impulse[i] += weight_[i][mode] * impulse;
+            impulses.moment[i] += weight_[i][mode] * moment;
         }
     }
 }
 
 template <std::size_t count>
-Pressed<count> Presses<count>::pass()
+PhaseImpulses<count> ContactModes<count>::advance()
 {
     End end{.time = time_};
-    for (std::size_t i = 0; i < count; ++i) look(end, i);
+    for (std::size_t i = 0; i < count; ++i) find_end(end, i);
 
-    Pressed<count> pressed{.time = end.time};
-    add_work(pressed);
+    PhaseImpulses<count> impulses{.time = end.time};
+    add_work(impulses);
     std::array<TrajectoryPoint, count> passed;
     for (std::size_t j = 0; j < count; ++j) passed[j] = trajectories_[j].after(end.time);
     for (std::size_t i = 0; i < count; ++i) {
-        Press& press = presses_[i];
-        if (press.phase == PressPhase::capped) {
-            pressed.impulse[i] = press.force_max * end.time;
-            pressed.moment[i] = 0.5 * press.force_max * end.time * end.time;
+        SpringContact& contact = contacts_[i];
+        if (contact.phase == ContactPhase::limited) {
+            impulses.impulse[i] = contact.force_max * end.time;
+            impulses.moment[i] = 0.5 * contact.force_max * end.time * end.time;
         }
-        pressed.impulse[i] = std::clamp(pressed.impulse[i], 0.0, press.force_max * end.time);
-        press.closing = 0.0;
+        impulses.impulse[i] = std::clamp(impulses.impulse[i], 0.0, contact.force_max * end.time);
+        contact.closing = 0.0;
         for (std::size_t j = 0; j < count; ++j) {
-            press.depth += share_[i][j] * passed[j].displacement;
-            press.closing += share_[i][j] * passed[j].speed;
+            contact.depth += share_[i][j] * passed[j].displacement;
+            contact.closing += share_[i][j] * passed[j].speed;
         }
     }
-    if (end.press < count) presses_[end.press].phase = end.then;
-    return pressed;
+    if (end.contact < count) contacts_[end.contact].phase = end.then;
+    return impulses;
 }
 
-template class Presses<1>;
-template class Presses<2>;
+template class ContactModes<1>;
+template class ContactModes<2>;
 
 } // namespace hapnet::scene

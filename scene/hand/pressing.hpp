@@ -10,26 +10,26 @@
 namespace hapnet::scene {
 
 /// What a unilateral spring with a damper is doing.
-enum class PressPhase : std::uint8_t {
+enum class ContactPhase : std::uint8_t {
     apart,    // no force: no overlap, or it opens faster than the damper lets the spring follow
     pressing, // stiffness * depth + damping * closing
-    capped,   // its greatest force
+    limited,  // its greatest force
 };
 
 /// One spring on a body along its held normal.
-struct Press {
+struct SpringContact {
     double stiffness = 0.0;
     double damping = 0.0;
     double force_max = 0.0;
     double depth = 0.0;        // > 0: overlap
     double closing = 0.0;      // by how much the depth grows per second
     double acceleration = 0.0; // of the depth, by everything but the springs
-    PressPhase phase = PressPhase::apart;
+    ContactPhase phase = ContactPhase::apart;
 
-    [[nodiscard]] double drive() const { return stiffness * depth + damping * closing; }
+    [[nodiscard]] double unlimited_force() const { return stiffness * depth + damping * closing; }
     [[nodiscard]] double force() const;
     /// The phase that depth and closing speed call for.
-    [[nodiscard]] PressPhase due() const;
+    [[nodiscard]] ContactPhase phase_due() const;
 };
 
 /// By how much the depths of up to two springs answer to their forces: 1/kg.
@@ -40,7 +40,7 @@ struct Coupling {
 
 /// What the springs did in a time.
 template <std::size_t count>
-struct Pressed {
+struct PhaseImpulses {
     double time = 0.0;
     std::array<double, count> impulse{}; // of the force, N s
     std::array<double, count> moment{};  // the integral of the impulse, N s^2
@@ -51,26 +51,26 @@ struct Pressed {
 /// with the mass that the body has for it; two are two oscillators (the modes of their stiffness),
 /// provided that damping over stiffness is the same for both.
 template <std::size_t count>
-class Presses {
+class ContactModes {
 public:
     /// `time` is how long at most.
-    Presses(std::array<Press, count>& presses, const Coupling& coupling, double time);
-    Presses(const Presses&) = delete; // the courses point to the kernels
-    Presses& operator=(const Presses&) = delete;
-    ~Presses() = default;
+    ContactModes(std::array<SpringContact, count>& contacts, const Coupling& coupling, double time);
+    ContactModes(const ContactModes&) = delete; // the courses point to the kernels
+    ContactModes& operator=(const ContactModes&) = delete;
+    ~ContactModes() = default;
 
     /// Whether there is a closed form.
     [[nodiscard]] bool is_solved() const { return is_solved_; }
     /// Goes on to the first moment at which a phase ends, or for the whole time: depths, speeds and
     /// phases, too.
-    [[nodiscard]] Pressed<count> pass();
+    [[nodiscard]] PhaseImpulses<count> advance();
 
 private:
     /// The end of a phase.
     struct End {
         double time = 0.0;
-        std::size_t press = count; // none
-        PressPhase then = PressPhase::apart;
+        std::size_t contact = count; // none
+        ContactPhase then = ContactPhase::apart;
     };
 
     void solve_parabolas();
@@ -79,11 +79,11 @@ private:
     [[nodiscard]] WatchedQuantity watch(std::size_t i, double level,
                                         const std::array<double, 2>& weights);
     /// Whether a bound of how fast the force changes rules out that the phase ends.
-    [[nodiscard]] bool is_settled(std::size_t i) const;
-    void look(End& end, std::size_t i);
-    void add_work(Pressed<count>& pressed) const;
+    [[nodiscard]] bool keeps_phase(std::size_t i) const;
+    void find_end(End& end, std::size_t i);
+    void add_work(PhaseImpulses<count>& impulses) const;
 
-    std::array<Press, count>& presses_;
+    std::array<SpringContact, count>& contacts_;
     Coupling coupling_;
     double time_;
     bool is_solved_ = true;
@@ -99,7 +99,7 @@ private:
     double lag_ = 0.0;                                      // damping over stiffness
 };
 
-extern template class Presses<1>;
-extern template class Presses<2>;
+extern template class ContactModes<1>;
+extern template class ContactModes<2>;
 
 } // namespace hapnet::scene

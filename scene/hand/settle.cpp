@@ -32,9 +32,9 @@ double share_within(const glm::dvec3& given, const glm::dvec3& more, double most
 }
 
 /// The mass of a body along each axis; 0 where it is locked.
-glm::dvec3 mass_of(const Answer& answer)
+glm::dvec3 mass_of(const BodyDynamics& dynamics)
 {
-    const glm::dvec3& light = answer.inverse_mass;
+    const glm::dvec3& light = dynamics.inverse_mass;
     const double most = std::max(std::max(light.x, light.y), light.z);
     const double mass = most > 0.0 ? 1.0 / most : 0.0;
     return {light.x > 0.0 ? mass : 0.0, light.y > 0.0 ? mass : 0.0, light.z > 0.0 ? mass : 0.0};
@@ -42,13 +42,13 @@ glm::dvec3 mass_of(const Answer& answer)
 
 } // namespace
 
-void settle(const Settling& settling, const HandSpring& spring, const Depths& depths,
-            SpringImpulse& work)
+void correct_energy(const EnergyCorrection& settling, const HandSpring& spring,
+                    const SpringDepths& depths, SpringImpulse& work)
 {
     MovingBody& body = settling.body;
     const double missed = energy(spring, depths.true_m) - energy(spring, depths.followed);
     const glm::dvec3 velocity = body.velocity - spring.velocity;
-    const glm::dvec3 momentum = mass_of(settling.answer) * velocity;
+    const glm::dvec3 momentum = mass_of(settling.dynamics) * velocity;
     const double twice =
         glm::dot(momentum, velocity) +
         glm::dot(body.angular_momentum, settling.inverse_inertia * body.angular_momentum);
@@ -56,7 +56,7 @@ void settle(const Settling& settling, const HandSpring& spring, const Depths& de
     if (!(twice > 0.0)) return;
     double scale = std::clamp(-missed / twice, -most, most);
     scale *= share_within(work.impulse, scale * momentum, spring.force_max * settling.tick);
-    body.velocity += scale * (settling.answer.inverse_mass * momentum);
+    body.velocity += scale * (settling.dynamics.inverse_mass * momentum);
     body.angular_momentum *= 1.0 + scale;
     work.impulse += scale * momentum;
 }

@@ -7,22 +7,22 @@
 namespace hapnet::scene {
 
 /// A body at the end of its tick.
-struct Settling {
+struct EnergyCorrection {
     MovingBody& body;
-    const Answer& answer;
+    const BodyDynamics& dynamics;
     const glm::dmat3& inverse_inertia; // now
     double tick = 0.0;
 };
 
 /// The depth of a spring that presses, as it followed from what was held, and as it is.
-struct Depths {
+struct SpringDepths {
     double followed = 0.0;
     double true_m = 0.0;
 };
 
 /// Scales the speed relative to the hand by the little that makes the spring's energy what the
 /// true depth says; no more than the spring can give in the tick.
-void settle(const Settling& settling, const HandSpring& spring, const Depths& depths,
-            SpringImpulse& work);
+void correct_energy(const EnergyCorrection& settling, const HandSpring& spring,
+                    const SpringDepths& depths, SpringImpulse& work);
 
 } // namespace hapnet::scene

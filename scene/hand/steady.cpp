@@ -16,9 +16,9 @@ namespace hapnet::scene {
 namespace {
 
 // How far a normal may turn in half a tick: then its mean is right to 1e-5.
-constexpr double half_turn_max = 0.01;
+constexpr double half_rotation_max = 0.01;
 // What turns less than this has kept its directions, to rounding.
-constexpr double kept_turn = 1e-10;
+constexpr double negligible_rotation = 1e-10;
 
 constexpr std::size_t press_terms_max = 24;
 constexpr std::array<double, press_terms_max> press_shares = [] {
@@ -46,33 +46,34 @@ struct Contact {
 };
 
 template <std::size_t count>
-class Steady {
+class ConstantContact {
 public:
-    Steady(MovingBody& body, const Answer& answer, const HandSpring* springs, double tick)
+    ConstantContact(MovingBody& body, const BodyDynamics& dynamics, const HandSpring* springs,
+                    double tick)
         : body_{body},
-          answer_{answer},
+          dynamics_{dynamics},
           springs_{springs},
           tick_{tick},
-          ease_{diagonal_of(answer.inverse_inertia)}
+          ease_{diagonal_of(dynamics.inverse_inertia)}
     {}
 
     /// False: it is not steady.
-    bool pass(SpringImpulse* work)
+    bool advance(SpringImpulse* work)
     {
-        if (!hold_halfway()) return false;
-        couple();
-        return press() && finish(work);
+        if (!set_geometry_halfway()) return false;
+        set_couplings();
+        return integrate_contacts() && finish(work);
     }
 
 private:
-    bool hold_halfway();
-    void couple();
-    bool press();
+    bool set_geometry_halfway();
+    void set_couplings();
+    bool integrate_contacts();
     bool finish(SpringImpulse* work);
     [[nodiscard]] double depth_change(std::size_t i) const;
 
     MovingBody& body_;
-    const Answer& answer_;
+    const BodyDynamics& dynamics_;
     const HandSpring* springs_;
     double tick_;
     glm::dvec3 ease_; // 1/(kg m^2), about each axis
@@ -83,11 +84,11 @@ private:
 /// Turns what is held to where it is halfway at the speeds of the start: what the forces change
 /// until then is of second order, and where they are in balance nothing.
 template <std::size_t count>
-bool Steady<count>::hold_halfway()
+bool ConstantContact<count>::set_geometry_halfway()
 {
     const double half = 0.5 * tick_;
     const glm::dvec3 angle = half * (ease_ * body_.angular_momentum);
-    if (!(sum_of_sizes(angle) <= half_turn_max)) return false;
+    if (!(sum_of_sizes(angle) <= half_rotation_max)) return false;
     for (std::size_t i = 0; i < count; ++i) {
         const HandSpring& spring = springs_[i];
         Contact& contact = contacts_[i];
@@ -101,34 +102,36 @@ bool Steady<count>::hold_halfway()
 }
 
 template <std::size_t count>
-void Steady<count>::couple()
+void ConstantContact<count>::set_couplings()
 {
-    const glm::dvec3& light = answer_.inverse_mass;
+    const glm::dvec3& light = dynamics_.inverse_mass;
     for (std::size_t i = 0; i < count; ++i) {
         Contact& contact = contacts_[i];
         const glm::dvec3& normal = contact.normal;
-        const glm::dvec3 swung = ease_ * contact.lever;
-        contact.own = glm::dot(normal, light * normal) + glm::dot(contact.lever, swung);
+        const glm::dvec3 inverse_inertia_lever = ease_ * contact.lever;
+        contact.own =
+            glm::dot(normal, light * normal) + glm::dot(contact.lever, inverse_inertia_lever);
         contact.depth = -springs_[i].gap;
-        contact.closing = glm::dot(normal, contact.away) + glm::dot(swung, body_.angular_momentum);
-        contact.acceleration =
-            glm::dot(normal, answer_.acceleration) + glm::dot(swung, answer_.torque);
+        contact.closing = glm::dot(normal, contact.away) +
+                          glm::dot(inverse_inertia_lever, body_.angular_momentum);
+        contact.acceleration = glm::dot(normal, dynamics_.acceleration) +
+                               glm::dot(inverse_inertia_lever, dynamics_.torque);
         if constexpr (count == 2) {
             if (i == 1) {
                 mutual_ = glm::dot(contacts_[0].normal, light * normal) +
-                          glm::dot(contacts_[0].lever, swung);
+                          glm::dot(contacts_[0].lever, inverse_inertia_lever);
             }
         }
     }
 }
 
-/// Depths are d'' = acceleration - coupling * force and forces stiffness d + damping d': with
+/// SpringDepths are d'' = acceleration - coupling * force and forces stiffness d + damping d': with
 /// d_n = d^(n)(0) tick^n / n! and f_n likewise, d_(n+2) = -tick^2 coupling f_n / ((n+1) (n+2)), and
 /// the integrals of the force are the sums of f_n / (n+1) and of f_n / ((n+1) (n+2)). The sum of
 /// all |f_n| but the first is the most that the force can change. False when the force may end
 /// or reach its greatest, or the tick is long for the springs.
 template <std::size_t count>
-bool Steady<count>::press()
+bool ConstantContact<count>::integrate_contacts()
 {
     using Each = std::array<double, count>;
     const double square = tick_ * tick_;
@@ -154,16 +157,16 @@ bool Steady<count>::press()
     double last = size;
     double order = 2.0;
     for (const double share : press_shares) {
-        Each part;
+        Each substep;
         for (std::size_t i = 0; i < count; ++i) {
-            part[i] = share * force[i];
-            twice[i] += part[i];
-            once[i] += order * part[i];
+            substep[i] = share * force[i];
+            twice[i] += substep[i];
+            once[i] += order * substep[i];
         }
         double now = 0.0;
         for (std::size_t i = 0; i < count; ++i) {
-            double then = driven[i] - own[i] * part[i];
-            if constexpr (count == 2) then -= mutual * part[1 - i];
+            double then = driven[i] - own[i] * substep[i];
+            if constexpr (count == 2) then -= mutual * substep[1 - i];
             driven[i] = 0.0;
             damper[i] += damping[i];
             force[i] = stiffness[i] * next[i] + damper[i] * then;
@@ -187,7 +190,7 @@ bool Steady<count>::press()
 
 /// By how much a depth has grown, by what was held.
 template <std::size_t count>
-double Steady<count>::depth_change(std::size_t i) const
+double ConstantContact<count>::depth_change(std::size_t i) const
 {
     const Contact& contact = contacts_[i];
     double pushed = contact.own * contact.moment;
@@ -196,13 +199,13 @@ double Steady<count>::depth_change(std::size_t i) const
 }
 
 template <std::size_t count>
-bool Steady<count>::finish(SpringImpulse* work)
+bool ConstantContact<count>::finish(SpringImpulse* work)
 {
     const double t = tick_;
     glm::dvec3 impulse{0.0};
     glm::dvec3 moment{0.0};
-    glm::dvec3 twist = t * answer_.torque;
-    glm::dvec3 swept = t * (body_.angular_momentum + (0.5 * t) * answer_.torque);
+    glm::dvec3 twist = t * dynamics_.torque;
+    glm::dvec3 swept = t * (body_.angular_momentum + (0.5 * t) * dynamics_.torque);
     for (std::size_t i = 0; i < count; ++i) {
         const Contact& contact = contacts_[i];
         work[i].impulse = -contact.impulse * contact.normal; // `advance` clears what is refused
@@ -212,22 +215,22 @@ bool Steady<count>::finish(SpringImpulse* work)
         swept -= contact.moment * contact.lever;
     }
     const glm::dvec3 moved =
-        t * (body_.velocity + (0.5 * t) * answer_.acceleration) + answer_.inverse_mass * moment;
+        t * (body_.velocity + (0.5 * t) * dynamics_.acceleration) + dynamics_.inverse_mass * moment;
     const glm::dvec3 angle = ease_ * swept;
     // From amid a face to beside it is a tenth of a half edge at least.
-    const glm::dvec3& size = answer_.half;
+    const glm::dvec3& size = dynamics_.half;
     const double room = 0.1 * std::min(size.x, std::min(size.y, size.z));
     const double corner = (size.x + size.y + size.z) * sum_of_sizes(angle);
     for (std::size_t i = 0; i < count; ++i) {
         if (!(sum_of_sizes(t * springs_[i].velocity - moved) + corner <= room)) return false;
     }
     body_.position += moved;
-    body_.velocity += t * answer_.acceleration + answer_.inverse_mass * impulse;
+    body_.velocity += t * dynamics_.acceleration + dynamics_.inverse_mass * impulse;
     body_.angular_momentum += twist;
     if (angle == glm::dvec3{0.0}) return true;
     const glm::dquat turn = rotation_by(angle);
     body_.orientation = unit_again(turn * body_.orientation);
-    if (glm::dot(angle, angle) < kept_turn * kept_turn) return true;
+    if (glm::dot(angle, angle) < negligible_rotation * negligible_rotation) return true;
     for (std::size_t i = 0; i < count; ++i) {
         const HandSpring& spring = springs_[i];
         const Contact& contact = contacts_[i];
@@ -235,23 +238,26 @@ bool Steady<count>::finish(SpringImpulse* work)
         const double above =
             glm::dot(turn * spring.normal, hand) - // the face turns about the centre
             glm::dot(spring.normal, spring.arm);
-        settle({body_, answer_, answer_.inverse_inertia, t}, spring,
-               {contact.depth + depth_change(i), spring.radius - above}, work[i]);
+        correct_energy({body_, dynamics_, dynamics_.inverse_inertia, t}, spring,
+                       {contact.depth + depth_change(i), spring.radius - above}, work[i]);
     }
     return true;
 }
 
 } // namespace
 
-bool press_steadily(MovingBody& body, const Answer& answer, std::span<const HandSpring> springs,
-                    std::span<SpringImpulse> work, double tick)
+bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
+                                 std::span<const HandSpring> springs, std::span<SpringImpulse> work,
+                                 double tick)
 {
-    if (!answer.rotates_uniformly) return false;
+    if (!dynamics.rotates_uniformly) return false;
     for (const HandSpring& spring : springs) {
         if (!spring.is_amid_face || spring.gap > 0.0 || !(spring.stiffness > 0.0)) return false;
     }
-    if (springs.size() == 1) return Steady<1>{body, answer, springs.data(), tick}.pass(work.data());
-    if (springs.size() == 2) return Steady<2>{body, answer, springs.data(), tick}.pass(work.data());
+    if (springs.size() == 1)
+        return ConstantContact<1>{body, dynamics, springs.data(), tick}.advance(work.data());
+    if (springs.size() == 2)
+        return ConstantContact<2>{body, dynamics, springs.data(), tick}.advance(work.data());
     return false;
 }
 

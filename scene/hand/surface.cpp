@@ -6,7 +6,7 @@
 
 namespace hapnet::scene {
 
-Surface::Surface(const HandSpring& spring, const glm::dvec3& half, const glm::dmat3& axes)
+BoxSurface::BoxSurface(const HandSpring& spring, const glm::dvec3& half, const glm::dmat3& axes)
     : half_{half}, radius_{spring.radius}
 {
     const glm::dvec3 normal = spring.normal * axes;
@@ -17,7 +17,7 @@ Surface::Surface(const HandSpring& spring, const glm::dvec3& half, const glm::dm
     is_face_ = size.x + size.y + size.z - size[axis] <= rounding;
 }
 
-bool Surface::is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const
+bool BoxSurface::is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const
 {
     if (!is_face_) return false;
     constexpr double amid = 0.9;
@@ -26,7 +26,7 @@ bool Surface::is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const
            (off.z <= 0.0 || face_.z != 0.0);
 }
 
-Hold Surface::at(const glm::dmat3& axes, const glm::dvec3& hand) const
+ContactGeometry BoxSurface::at(const glm::dmat3& axes, const glm::dvec3& hand) const
 {
     const glm::dvec3 centre = hand * axes;
     double distance = glm::dot(face_, centre) - glm::dot(glm::abs(face_), half_);
@@ -42,11 +42,11 @@ Hold Surface::at(const glm::dmat3& axes, const glm::dvec3& hand) const
             normal = away / distance;
         }
     }
-    Hold hold;
-    hold.normal = axes * normal;
-    hold.lever = glm::cross(hand, hold.normal);
-    hold.depth = radius_ - distance;
-    return hold;
+    ContactGeometry geometry;
+    geometry.normal = axes * normal;
+    geometry.lever = glm::cross(hand, geometry.normal);
+    geometry.depth = radius_ - distance;
+    return geometry;
 }
 
 } // namespace hapnet::scene

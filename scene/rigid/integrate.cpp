@@ -189,20 +189,20 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     set_start(integration, state, slot, response);
     const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
     const double per_second = 1.0 / config.tick;
-    Answer answer{bodies.properties[slot].half,
-                  response.inverse_mass,
-                  response.inverse_inertia,
-                  rotates_uniformly(bodies.properties[slot]),
-                  rate,
-                  per_second * integration.contact_angular_impulse};
+    BodyDynamics dynamics{bodies.properties[slot].half,
+                          response.inverse_mass,
+                          response.inverse_inertia,
+                          rotates_uniformly(bodies.properties[slot]),
+                          rate,
+                          per_second * integration.contact_angular_impulse};
     MovingBody body;
     const auto advance_against = [&](const glm::dvec3& drag) {
         body.position = bodies.position.at(slot);
         body.orientation = bodies.orientation.at(slot);
         body.velocity = integration.start.velocity;
         body.angular_momentum = bodies.angular_momentum.at(slot);
-        answer.acceleration = rate - unlocked_part(bodies.properties[slot], drag);
-        advance(body, answer, hands.springs, hands.work, config.tick);
+        dynamics.acceleration = rate - unlocked_part(bodies.properties[slot], drag);
+        advance(body, dynamics, hands.springs, hands.work, config.tick);
     };
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
     // says when it is too strong for that.

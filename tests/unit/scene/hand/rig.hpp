@@ -79,22 +79,22 @@ struct Rig {
         return spring;
     }
 
-    [[nodiscard]] Answer answer() const
+    [[nodiscard]] BodyDynamics dynamics() const
     {
-        Answer answer;
-        answer.half = half;
-        answer.inverse_mass = glm::dvec3{1.0 / mass};
-        answer.inverse_inertia = inverse_inertia(body);
-        answer.rotates_uniformly = half.x == half.y && half.y == half.z;
-        answer.acceleration = acceleration;
-        return answer;
+        BodyDynamics dynamics;
+        dynamics.half = half;
+        dynamics.inverse_mass = glm::dvec3{1.0 / mass};
+        dynamics.inverse_inertia = inverse_inertia(body);
+        dynamics.rotates_uniformly = half.x == half.y && half.y == half.z;
+        dynamics.acceleration = acceleration;
+        return dynamics;
     }
 
     void tick(double seconds)
     {
         std::vector<HandSpring> springs;
         for (const Hand& hand : hands) springs.push_back(touch(body, hand));
-        advance(body, answer(), springs, work, seconds);
+        advance(body, dynamics(), springs, work, seconds);
         for (Hand& hand : hands) hand.position += seconds * hand.velocity;
     }
 
