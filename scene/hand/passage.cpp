@@ -108,7 +108,7 @@ ContactPhases<count>::geometry_halfway(double time) const
             geometry = surfaces_[i].at(axes_of(rotation_by(angle) * body_.orientation), hand);
         }
         const glm::dvec3 change = geometry.normal - geometries_[i].normal;
-        held.rotated = std::max(held.rotated, glm::dot(change, change));
+        held.normal_change2 = std::max(held.normal_change2, glm::dot(change, change));
     }
     return held;
 }
@@ -146,8 +146,8 @@ bool ContactPhases<count>::advance()
             const HeldGeometry held = geometry_halfway(predicted);
             const Coupling coupling = set_couplings(held);
             double shorter = time;
-            if (held.rotated > normal_rotation_max * normal_rotation_max)
-                shorter = predicted * normal_rotation_max / std::sqrt(held.rotated);
+            if (held.normal_change2 > normal_rotation_max * normal_rotation_max)
+                shorter = predicted * normal_rotation_max / std::sqrt(held.normal_change2);
             for (std::size_t i = 0; i < count && rotates_; ++i) {
                 const double square = coupling.own[i] * contacts_[i].stiffness;
                 if (contacts_[i].phase == ContactPhase::pressing && square * time * time > 1.0)

@@ -36,7 +36,7 @@ private:
     struct HeldGeometry {
         glm::dmat3 inverse_inertia{0.0};
         std::array<ContactGeometry, count> contacts;
-        double rotated = 0.0; // of the normal that turned farthest since the start, squared
+        double normal_change2 = 0.0; // of the normal that turned farthest since the start, squared
     };
 
     [[nodiscard]] HeldGeometry geometry_halfway(double time) const;
