@@ -2,13 +2,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/input.hpp"
+#include "scene/description.hpp"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace hapnet::scene {
+
+/// A body's index in its description.
+using BodyId = std::uint32_t;
+
+/// A rigid body's place and motion.
+struct BodyState {
+    base::Position position{};
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    base::Velocity velocity{};
+    glm::dvec3 angular_velocity{0.0}; // rad/s, in the world's frame
+};
 
 /// Where a body is kept at the moment. Changes when it falls asleep or wakes; its id does not.
 using Slot = std::uint32_t;

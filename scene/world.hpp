@@ -4,11 +4,16 @@
 
 #include "proto/base/ensure.hpp"
 #include "proto/base/time.hpp"
+#include "scene/one_box/step.hpp"
 #include "scene/requirements.hpp"
+#include "scene/rigid/free_flight.hpp"
+#include "scene/rigid/step.hpp"
 #include "scene/state.hpp"
-#include "scene/steppers.hpp"
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <variant>
 
 namespace hapnet::scene {
 
@@ -22,6 +27,20 @@ struct FreezeOptions {
     std::optional<StepperKind>
         stepper{}; // instead of the cheapest; it has to do what the scene needs
 };
+
+/// Why an input was not taken; the world is as it was.
+enum class Refusal : std::uint8_t { not_finite, out_of_range, no_such_body, no_such_hand };
+inline constexpr std::size_t refusals = 4;
+
+/// How many inputs were refused, by cause.
+using RefusalCounts = std::array<std::uint64_t, refusals>;
+
+/// The tick of a world: one of the profiles, chosen when the scene is frozen. Each is a value with
+/// two verbs: tick(frozen, stage) and disturbed(stage, body), which says that a body was put
+/// somewhere from outside. The order is that of StepperKind.
+using Stepper = std::variant<FreeFlightStepper, OneBoxStepper<false>, OneBoxStepper<true>,
+                             RigidStepper<BroadPhase::none>, RigidStepper<BroadPhase::all_pairs>,
+                             RigidStepper<BroadPhase::grid>>;
 
 /// A scene that runs. It does no I/O, reads no clock, and after freeze() takes no memory: feed it
 /// with set_hand() and push(), advance it with tick(), read what came of it. An input that is not

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/description.hpp"
-#include "scene/input.hpp"
+#include "scene/state.hpp"
 
 #include <optional>
 

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/collide/box_box.hpp"
 
-#include "scene/collide/edge_manifold.hpp"
-#include "scene/collide/face_manifold.hpp"
-#include "scene/collide/features.hpp"
-#include "scene/collide/measures.hpp"
+#include "scene/collide/clip.hpp"
+#include "scene/collide/manifold.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "scene/bodies.hpp"
 #include "scene/bounded.hpp"
-#include "scene/collide/box.hpp"
+#include "scene/collide/aabb.hpp"
 
 #include <algorithm>
 #include <span>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/collide/sphere_box.hpp"
 
-#include "scene/maths/per_axis.hpp"
 #include "scene/maths/vector.hpp"
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 #include "scene/hand/advance.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "scene/hand/constant_contact.hpp"
+#include "scene/hand/contact_phases.hpp"
 #include "scene/hand/midpoint.hpp"
-#include "scene/hand/passage.hpp"
-#include "scene/hand/steady.hpp"
 #include "scene/maths/vector.hpp"
 
 #include <array>

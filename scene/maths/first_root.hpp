@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/maths/course.hpp"
-#include "scene/maths/per_axis.hpp"
+#include "scene/maths/oscillator.hpp"
+#include "scene/maths/vector.hpp"
 
 #include <array>
 #include <optional>

@@ -20,14 +20,6 @@ glm::dvec3 angular_velocity(const glm::dquat& orientation, const FreeRotation& s
            axes[2] * (spin.inverse_inertia.z * glm::dot(axes[2], l));
 }
 
-/// The rate at which the angle of a turn grows when the body turns at `velocity` behind it: the
-/// inverse of the exponential's derivative, up to the third order.
-glm::dvec3 rate_of(const glm::dvec3& angle, const glm::dvec3& velocity)
-{
-    const glm::dvec3 once = glm::cross(angle, velocity);
-    return velocity - 0.5 * once + (1.0 / 12.0) * glm::cross(angle, once);
-}
-
 } // namespace
 
 HalfAngle half_angle(double z)
@@ -68,19 +60,6 @@ glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spi
     const glm::dvec3 first = angular_velocity(orientation, spin);
     const glm::dquat halfway = rotation_by((0.5 * tick) * first) * orientation;
     return rotated(orientation, tick * angular_velocity(halfway, spin));
-}
-
-glm::dquat spun_finely(const glm::dquat& orientation, const FreeRotation& spin, double tick)
-{
-    const double half = 0.5 * tick;
-    const auto rate = [&](const glm::dvec3& angle) {
-        return rate_of(angle, angular_velocity(rotation_by(angle) * orientation, spin));
-    };
-    const glm::dvec3 k1 = angular_velocity(orientation, spin);
-    const glm::dvec3 k2 = rate(half * k1);
-    const glm::dvec3 k3 = rate(half * k2);
-    const glm::dvec3 k4 = rate(tick * k3);
-    return rotated(orientation, (tick / 6.0) * (k1 + 2.0 * (k2 + k3) + k4));
 }
 
 } // namespace hapnet::scene

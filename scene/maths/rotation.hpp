@@ -44,14 +44,7 @@ inline constexpr double small_half_angle_max = 0.6168; // (pi/4)^2
 /// The turn by |angle| radians about the axis of `angle`.
 [[nodiscard]] glm::dquat rotation_by(const glm::dvec3& angle);
 
-/// `q` made unit by a square root and divisions, so that it keeps the bits of every compiler.
-[[nodiscard]] inline glm::dquat unit(const glm::dquat& q)
-{
-    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    return {q.w / length, q.x / length, q.y / length, q.z / length};
-}
-
-/// The same for what is unit but for the rounding of a few products: one of Newton's steps.
+/// Makes `q` unit again after the rounding of a few products: one step of Newton's method.
 [[nodiscard]] inline glm::dquat unit_again(const glm::dquat& q)
 {
     const double scale = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
@@ -77,10 +70,5 @@ struct FreeRotation {
 /// rotation group: second order. Exact when the three moments of inertia are equal.
 [[nodiscard]] glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin,
                                         double tick);
-
-/// The same by the Runge-Kutta method of Munthe-Kaas (BIT 38, 1998): fourth order, at twice the
-/// cost.
-[[nodiscard]] glm::dquat spun_finely(const glm::dquat& orientation, const FreeRotation& spin,
-                                     double tick);
 
 } // namespace hapnet::scene

@@ -32,8 +32,6 @@ struct Event {
 [[nodiscard]] bool is_uneventful(const BoxMotion& box);
 /// What happens first in what is left of the tick, if it is before `first`.
 void find_event(const BoxMotion& box, Event& first);
-/// The same of dry friction.
-void find_friction_event(const BoxMotion& box, Event& first);
 
 /// Lets it happen; the box has been advanced to its moment. `tick` is the whole one's length.
 void apply(BoxMotion& box, const Event& event, double tick);

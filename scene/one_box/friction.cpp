@@ -1,12 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "scene/one_box/events.hpp"
+#include "scene/one_box/friction.hpp"
 
 namespace hapnet::scene {
-
-// Coulomb's law with a circular cone. While the box slides straight on, friction is a steady force
-// (or grows steadily with what presses on the carrier), and the courses are exact. Where other
-// forces turn its way, the direction in the middle of the stretch is taken: second order.
 
 namespace {
 

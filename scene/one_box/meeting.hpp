@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/maths/per_axis.hpp"
+#include "scene/maths/vector.hpp"
 
 #include <cmath>
 #include <cstdint>

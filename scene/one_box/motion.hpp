@@ -119,7 +119,6 @@ struct BoxMotion {
 /// Finds what the box touches, what carries it, and the courses of its axes for the next stretch;
 /// then add_friction() where there is any, then set_bounds().
 void set_trajectories(BoxMotion& box);
-void add_friction(BoxMotion& box);
 void set_bounds(BoxMotion& box);
 
 /// Runs the courses for `time` seconds.

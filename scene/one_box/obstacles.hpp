@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/bounded.hpp"
-#include "scene/maths/per_axis.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/state.hpp"
 
 #include <algorithm>

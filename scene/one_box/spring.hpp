@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/description.hpp"
-#include "scene/maths/per_axis.hpp"
+#include "scene/maths/vector.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -4,6 +4,7 @@
 
 #include "proto/base/ensure.hpp"
 #include "scene/one_box/events.hpp"
+#include "scene/one_box/friction.hpp"
 
 namespace hapnet::scene {
 

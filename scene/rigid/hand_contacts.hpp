@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/bounded.hpp"
 #include "scene/collide/sphere_box.hpp"
 #include "scene/hand/advance.hpp"
-#include "scene/solver/scratch.hpp"
 #include "scene/state.hpp"
 
 #include <array>

@@ -11,17 +11,6 @@
 
 namespace hapnet::scene {
 
-/// What is small in this scene: everything is measured against it.
-struct Scales {
-    double tick = 1e-3;  // s
-    double size = 0.02;  // m: the smallest half edge of a movable body
-    double least = 0.02; // m: the smallest half edge of all
-    double fall = 0.0;   // m/s: what gravity adds in a tick
-    double speed = 1e-2; // m/s: the above, or what crosses a millionth of the size in a tick
-    double rate = 1e3;   // 1/s: ticks per second
-};
-[[nodiscard]] Scales scales_of(const WorldConfig& config, const Bodies& bodies);
-
 /// A body's way through a tick.
 struct BodyIntegration {
     glm::dvec3 contact_impulse{0.0}; // of last tick's contacts, taken as constant forces
@@ -43,7 +32,6 @@ struct BodyIntegration {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
 };
 
-[[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
 [[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);
 
 /// Nothing acts on the body yet.

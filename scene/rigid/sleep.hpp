@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/bounded.hpp"
-#include "scene/collide/neighbours.hpp"
+#include "scene/collide/pair_finder.hpp"
 #include "scene/solver/islands.hpp"
 
 #include <cstdint>
@@ -55,7 +55,7 @@ public:
     /// Starts the time at rest of an awake body anew: a hand touches it.
     void keep_awake(const Bodies& bodies, BodyId body) { rested_[bodies.slot_of[body]] = 0.0; }
 
-    /// Stepper for which an awake body has been at rest.
+    /// Ticks for which an awake body has been at rest.
     [[nodiscard]] double rested(Slot slot) const { return rested_[slot]; }
 
 private:

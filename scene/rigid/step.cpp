@@ -3,7 +3,7 @@
 #include "scene/rigid/step.hpp"
 
 #include "scene/collide/box_plane.hpp"
-#include "scene/collide/nearby.hpp"
+#include "scene/collide/sweep.hpp"
 #include "scene/rigid/restitution.hpp"
 
 #include <algorithm>

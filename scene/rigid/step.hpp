@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/collide/boxes.hpp"
-#include "scene/collide/nearby.hpp"
-#include "scene/collide/neighbours.hpp"
-#include "scene/rigid/active_bodies.hpp"
+#include "scene/collide/pair_finder.hpp"
+#include "scene/collide/sweep.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"

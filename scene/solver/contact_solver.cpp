@@ -58,7 +58,7 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       mean_motions_{bodies + 1},
       blocks_{blocks},
       contacts_{bodies + 1},
-      parents_{bodies + 1},
+      islands_{bodies + 1},
       starts_{bodies + 2},
       order_{blocks},
       before_{numbers_per_block * std::min(blocks, mixed_max)},
@@ -365,32 +365,19 @@ bool ContactSolver::is_alone(const ContactBlock& block) const
     return (block.a == 0 || contacts_[block.a] == 1) && (block.b == 0 || contacts_[block.b] == 1);
 }
 
-SolverIndex ContactSolver::root_of(SolverIndex body)
-{
-    while (parents_[body] != body) {
-        parents_[body] = parents_[parents_[body]];
-        body = parents_[body];
-    }
-    return body;
-}
-
 /// Sorts the blocks by islands: first those of the body with the lowest index, each in the order
 /// of its blocks.
 void ContactSolver::find_islands()
 {
     const std::size_t bodies = responses_.size();
-    parents_.resize(bodies);
-    for (SolverIndex i = 0; i < bodies; ++i) parents_[i] = i;
+    for (SolverIndex i = 0; i < bodies; ++i) islands_.reset(i);
     for (const ContactBlock& block : blocks_.all()) {
-        if (block.a == 0 || block.b == 0) continue;
-        const SolverIndex a = root_of(block.a);
-        const SolverIndex b = root_of(block.b);
-        parents_[std::max(a, b)] = std::min(a, b);
+        if (block.a != 0 && block.b != 0) islands_.join(block.a, block.b);
     }
     starts_.resize(bodies + 1);
     for (std::uint32_t& start : starts_.all()) start = 0;
     const auto root_of_block = [&](const ContactBlock& block) {
-        return root_of(block.a != 0 ? block.a : block.b);
+        return islands_.root_of(block.a != 0 ? block.a : block.b);
     };
     for (const ContactBlock& block : blocks_.all()) ++starts_[root_of_block(block) + 1];
     for (std::size_t i = 1; i <= bodies; ++i) starts_[i] += starts_[i - 1];

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/bounded.hpp"
 #include "scene/solver/anderson.hpp"
-#include "scene/solver/block.hpp"
-#include "scene/solver/scratch.hpp"
+#include "scene/solver/block_solver.hpp"
+#include "scene/solver/islands.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -89,7 +90,6 @@ private:
     void count_contacts();
     [[nodiscard]] bool is_alone(const ContactBlock& block) const;
     void find_islands();
-    [[nodiscard]] SolverIndex root_of(SolverIndex body);
 
     Scratch<BodyResponse> responses_;
     Scratch<BodyMotion> end_motions_;
@@ -98,8 +98,8 @@ private:
 
     Scratch<std::uint32_t> contacts_; // of each body
 
-    // Islands: of which body, by body; the blocks in the order of their islands; where each ends.
-    Scratch<SolverIndex> parents_;
+    // By solver index; then the blocks in the order of their islands, and where each ends.
+    Islands islands_;
     Scratch<std::uint32_t> starts_;
     Scratch<std::uint32_t> order_;
     Scratch<double> before_, after_, good_; // impulses of an island

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/input.hpp"
 #include "scene/requirements.hpp"
+#include "scene/state.hpp"
 
 #include <memory>
 #include <optional>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/input.hpp"
+#include "scene/state.hpp"
 
 #include <algorithm>
 #include <array>

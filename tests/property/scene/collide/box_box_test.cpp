@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/collide/box_box.hpp"
 
-#include "scene/collide/features.hpp"
+#include "scene/collide/manifold.hpp"
 #include "tests/property/scene/collide/boxes.hpp"
 
 #include <glm/geometric.hpp>

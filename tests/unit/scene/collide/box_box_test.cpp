@@ -3,7 +3,7 @@
 #include "scene/collide/box_box.hpp"
 
 #include "proto/base/random.hpp"
-#include "scene/collide/features.hpp"
+#include "scene/collide/manifold.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "proto/base/random.hpp"
-#include "scene/collide/neighbours.hpp"
+#include "scene/collide/pair_finder.hpp"
 
 #include <utility>
 #include <vector>
