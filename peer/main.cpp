@@ -105,7 +105,7 @@ void introduce(const Options& options, const device::Rig& rig)
 {
     say(introduction(rig.device(), rig.mount(), options.task));
     const std::string softer = words_on_stiffness(rig.device().capabilities(), rig.mount(),
-                                                  options.scene.hips.stiffness_n_per_m);
+                                                  options.scene.hands.stiffness_n_per_m);
     if (!softer.empty()) say(softer);
 }
 

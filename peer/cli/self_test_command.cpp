@@ -120,7 +120,7 @@ std::string stiffness_of_a_session(const DeviceChoice& choice,
 {
     if (!choice.is_real()) return "";
     return words_on_stiffness(capabilities, mount_of(choice, capabilities),
-                              scene::paper_scene().hips.stiffness_n_per_m);
+                              scene::paper_scene().hands.stiffness_n_per_m);
 }
 
 } // namespace

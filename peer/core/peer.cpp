@@ -45,14 +45,14 @@ scene::World world_of(const Settings& settings)
 
 std::optional<FingerFriction> friction_of(const Settings& settings)
 {
-    if (settings.scene.hips.friction == 0.0) return std::nullopt;
-    return FingerFriction{settings.scene.hips};
+    if (settings.scene.hands.friction == 0.0) return std::nullopt;
+    return FingerFriction{settings.scene.hands};
 }
 
 /// How much of the force on the hand may be rendered.
 double rendered_share(const Settings& settings)
 {
-    const scene::HipDescription& hips = settings.scene.hips;
+    const scene::HandDescription& hips = settings.scene.hands;
     const VirtualWall wall{hips.stiffness_n_per_m, hips.damping_ns_per_m};
     return std::min(
         share_within(settings.stiffness_max_n_per_m, wall),
@@ -68,7 +68,7 @@ Peer::Peer(const Settings& settings)
       body_{shared_body_of(settings)},
       world_{world_of(settings)},
       friction_{friction_of(settings)},
-      force_max_n_{std::min(settings.scene.hips.force_max_n, scene::force_max_n)},
+      force_max_n_{std::min(settings.scene.hands.force_max_n, scene::force_max_n)},
       share_{rendered_share(settings)}
 {}
 
@@ -258,10 +258,10 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
     }
     const bool usable = is_usable(hand);
     if (!usable) ++counters_.unusable_hand;
-    const scene::HipInput input{.position = usable ? hand.hip : base::Position{},
-                                .velocity = usable ? hand.velocity : base::Velocity{},
-                                .present = usable,
-                                .gripping = hand.gripping};
+    const scene::HandInput input{.position = usable ? hand.hip : base::Position{},
+                                 .velocity = usable ? hand.velocity : base::Velocity{},
+                                 .present = usable,
+                                 .gripping = hand.gripping};
     const Situation situation{.now = now,
                               .body = body_,
                               .remote = remote_,
@@ -278,9 +278,9 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
     if (!gone_) say_state(tick, now, usable ? hand : Hand{});
 }
 
-void Peer::move_world(Tick& tick, const Situation& situation, const scene::HipInput& hand)
+void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand)
 {
-    world_.hip(own_hand, hand);
+    world_.set_hand(own_hand, hand);
     base::Force rubbing;
     if (friction_) {
         rubbing = friction_->on_body(hand, world_.body(body_));
@@ -296,7 +296,7 @@ void Peer::move_world(Tick& tick, const Situation& situation, const scene::HipIn
     if (friction_) {
         friction_->on_touch(tick.touched);
         tick.touched.on_body += rubbing;
-        tick.touched.on_hip += -rubbing;
+        tick.touched.on_hand += -rubbing;
         on_hand += -rubbing;
     }
     tick.force = share_ * on_hand;

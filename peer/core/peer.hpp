@@ -78,7 +78,7 @@ struct Tick {
     Phase phase = Phase::waiting;
     bool permitted = false; // whether the hand may feel anything at all
     base::Force force;      // on the hand, before the governor
-    scene::HipTouch touched;
+    scene::HandTouch touched;
     bool remote_touching = false;
     base::Force remote_force;                 // that counted
     std::optional<base::Position> remote_hip; // as the algorithm shows it
@@ -155,7 +155,7 @@ private:
     [[nodiscard]] Phase phase_at(base::TimePoint now) const;
     void note(Phase phase, double freshness, base::TimePoint now);
     void play(Tick& tick, base::TimePoint now, const Hand& hand);
-    void move_world(Tick& tick, const Situation& situation, const scene::HipInput& hand);
+    void move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand);
     void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
     void say_state(Tick& tick, base::TimePoint now, const Hand& hand);
     void say_bye(base::TimePoint now);

@@ -23,7 +23,7 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
         return base::fail("a session shares a body that does not turn so far; this scene's can: "
                           "give it turning = \"locked\"");
     }
-    if (scene.hips.count == 0) return base::fail("a session needs a hand; this scene has none");
+    if (scene.hands.count == 0) return base::fail("a session needs a hand; this scene has none");
     const auto index = found - bodies.begin();
     if (index > std::numeric_limits<number_on_the_wire>::max()) {
         return base::fail(fmt::format("the body that a session shares is one of the first {} of "

@@ -45,9 +45,9 @@ Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation, con
         remote_moved_ = remote_displacement(remote);
     }
     world.tick();
-    const scene::HipTouch& own = world.touch(own_hand);
+    const scene::HandTouch& own = world.touch(own_hand);
     outcome.touched = own;
-    outcome.on_hand = own.on_hip;
+    outcome.on_hand = own.on_hand;
     own_force_n_ = base::norm(own.on_body);
     if (own.touching && options_.remote_force_on == RemoteForceOn::body_and_hand) {
         outcome.on_hand += remote.force;

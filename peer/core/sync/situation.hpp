@@ -41,7 +41,7 @@ struct Situation {
 
 /// What one tick of an algorithm came to.
 struct Outcome {
-    scene::HipTouch touched;                  // by this peer's hand
+    scene::HandTouch touched;                 // by this peer's hand
     base::Force on_hand;                      // what that hand is to feel
     bool remote_touching = false;             // whether the remote hand counts as touching
     base::Force remote_force;                 // that it counts as exerting on the body

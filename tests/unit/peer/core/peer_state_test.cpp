@@ -43,10 +43,10 @@ TEST(PeerState, TellsOfHandTouchAndForce)
     EXPECT_FALSE(state->holding);
     EXPECT_NEAR(state->hip.x(), hand.hip.x(), 1e-9);
     EXPECT_EQ(state->hip_velocity, hand.velocity);
-    EXPECT_NEAR(pair.ticks[0].touched.on_hip_at_start.x(), -(500 * 0.002 + 2 * 0.125), 1e-12);
+    EXPECT_NEAR(pair.ticks[0].touched.on_hand_at_start.x(), -(500 * 0.002 + 2 * 0.125), 1e-12);
     // What is told and felt is the mean over the tick, as the hand goes on and the cube gives way.
     auto world = scene::World::freeze(scene::paper_scene()).value();
-    world.hip(0, {.position = hand.hip, .velocity = hand.velocity});
+    world.set_hand(0, {.position = hand.hip, .velocity = hand.velocity});
     world.tick();
     EXPECT_EQ(pair.ticks[0].touched.on_body, world.touch(0).on_body);
     EXPECT_NEAR(state->contact_force.x(), world.touch(0).on_body.x(), 1e-6);
@@ -90,7 +90,7 @@ TEST(PeerForce, IsNoMoreThanTheGripLetsBeRenderedSafely)
     for (const Case& c : {Case{4.0, 1.0 / 3.0}, Case{12.0, 1.0}, Case{20.0, 1.0}}) {
         Pair pair;
         Settings settings = settings_of(0);
-        settings.scene.hips.stiffness_n_per_m = 20'000.0; // times 1 ms / 2, and 2 N s/m: 12 N s/m
+        settings.scene.hands.stiffness_n_per_m = 20'000.0; // times 1 ms / 2, and 2 N s/m: 12 N s/m
         settings.grip_damping_ns_per_m = c.grip_damping;
         pair.start(0, settings);
         pair.run_until_started();
@@ -113,7 +113,7 @@ TEST(PeerForce, IsNoStifferThanTheDeviceIsSaidToRenderStably)
                           Case{5'000.0, 20.0, 0.25}, Case{5'000.0, 1.0, 1.0 / 12.0}}) {
         Pair pair;
         Settings settings = settings_of(0);
-        settings.scene.hips.stiffness_n_per_m = 20'000.0; // needs a grip of 12 N s/m
+        settings.scene.hands.stiffness_n_per_m = 20'000.0; // needs a grip of 12 N s/m
         settings.grip_damping_ns_per_m = c.grip_damping;
         settings.stiffness_max_n_per_m = c.stiffness_max;
         pair.start(0, settings);

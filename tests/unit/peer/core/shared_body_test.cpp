@@ -44,9 +44,9 @@ TEST(SharedBody, IsRefusedWhenItCanTurn)
 TEST(SharedBody, NeedsAHandAndANumberThatAMessageCanTell)
 {
     scene::Description scene = scene::paper_scene();
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     EXPECT_NE(refusal_of(scene).find("hand"), std::string::npos);
-    scene.hips.count = 1;
+    scene.hands.count = 1;
     EXPECT_EQ(refusal_of(scene), "");
     scene.bodies.insert(scene.bodies.begin(), 65'535, scene.bodies[1]);
     EXPECT_EQ(shared_body(scene), 65'535U);
