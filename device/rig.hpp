@@ -32,6 +32,10 @@ public:
     /// follows from that place may be long untrue. The governor itself finds out in the next tick.
     base::Force withhold(const base::Force& wanted, bool permitted, base::TimePoint now);
 
+    /// The start of a session, for whoever holds the device.
+    void on_cue(const Cue& cue) { device_->on_cue(cue); }
+
+    [[nodiscard]] GovernorState governor_state() const { return governor_.state(); }
     [[nodiscard]] const Governor& governor() const { return governor_; }
     [[nodiscard]] Governor& governor() { return governor_; }
     [[nodiscard]] const RigCounters& counters() const { return counters_; }

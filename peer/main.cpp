@@ -169,9 +169,9 @@ base::Result<int> run(const Options& options)
     Watcher watcher{journal, writer_for(options, device, rig, settings), options.id};
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
-    Peer peer{settings};
+    Side side{settings};
     Watchdog watchdog{rig.device(), &crash};
-    Servo servo{{peer, rig, socket, places->remote, journal, watchdog, options.id}};
+    Servo servo{{side, rig, socket, places->remote, journal, watchdog}};
 
     std::optional<Reception> reception;
     if (server) {

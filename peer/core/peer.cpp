@@ -236,17 +236,19 @@ void Peer::note(Phase phase, double freshness, base::TimePoint now)
 
 Tick Peer::tick(base::TimePoint now, const Hand& hand)
 {
+    const Phase phase = phase_at(now);
+    const bool in_session = phase == Phase::running || phase == Phase::hands_off;
     Tick tick;
-    tick.phase = phase_at(now);
+    tick.phase = gone_ && in_session ? Phase::alone : phase;
     tick.freshness = gone_ ? 0.0 : remote_.freshness(now);
-    note(tick.phase, tick.freshness, now);
-    if (tick.phase == Phase::ended) {
+    note(phase, tick.freshness, now);
+    if (phase == Phase::ended) {
         leave(wire::ByeReason::finished);
         say_bye(now);
         return tick;
     }
     if (const auto hello = handshake_.hello(now)) outbox_.put(wire::encode(*hello));
-    if (tick.phase == Phase::running || tick.phase == Phase::hands_off) play(tick, now, hand);
+    if (in_session) play(tick, now, hand);
     return tick;
 }
 

@@ -9,6 +9,7 @@
 #include "peer/core/remote.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/algorithm.hpp"
+#include "proto/record/rows.hpp"
 
 #include <optional>
 #include <span>
@@ -41,7 +42,7 @@ struct Settings {
 
 /// Where in its life a session is. The last 3 s of it (half of it, when it is shorter than 6 s)
 /// are hands off.
-enum class Phase : std::uint8_t { waiting, countdown, running, hands_off, ended };
+using record::Phase;
 
 /// What a person should be told.
 enum class Event : std::uint8_t {

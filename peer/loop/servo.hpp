@@ -3,10 +3,9 @@
 #pragma once
 
 #include "device/rig.hpp"
-#include "peer/core/peer.hpp"
+#include "peer/core/side.hpp"
 #include "peer/loop/handover.hpp"
 #include "peer/loop/journal.hpp"
-#include "peer/loop/rhythm.hpp"
 #include "peer/loop/standing.hpp"
 #include "peer/loop/watchdog.hpp"
 #include "proto/net/real_time.hpp"
@@ -25,13 +24,12 @@ class Servo {
 public:
     /// All that a servo works with; outlives it.
     struct Parts {
-        Peer& peer;
+        Side& side;
         device::Rig& rig;
         net::UdpSocket& socket;
         net::Endpoint remote;
         Journal& journal;
         Watchdog& watchdog;
-        std::uint16_t id = 1;
         base::Duration tick{std::chrono::milliseconds{1}};
     };
 
@@ -61,11 +59,11 @@ private:
     void tell_governor_of_silence();
     void go_at_own_pace();
     [[nodiscard]] bool goes_on() const;
-    [[nodiscard]] bool cycle(DeviceRhythm& rhythm);
-    void take_turn(const Beat& beat, base::TimePoint now);
-    void turn(record::TickRow& row, base::TimePoint now);
+    [[nodiscard]] bool on_device_cycle(DeviceTimer& timer);
+    void tick(const TickTime& time, base::TimePoint now);
+    void play(base::TimePoint now);
     void tell_of_device(base::TimePoint now);
-    void receive(std::uint64_t tick);
+    void receive();
     void send();
     void note_session(base::TimePoint now);
     void describe(Standing& standing) const;
@@ -73,16 +71,12 @@ private:
     Parts parts_;
     DeviceReporter reporter_;
     LoopCounters counters_;
-    record::Phase phase_ = record::Phase::waiting; // of the last turn
-    bool is_remote_heard_ = false;                 // in the last turn
-    base::Force force_;                            // told in the last turn
-    std::optional<base::TimePoint> first_turn_;
-    base::TimePoint last_turn_;
+    std::optional<base::TimePoint> first_tick_;
+    base::TimePoint last_tick_;
     Handover<Standing> standing_;
     net::RealTime real_time_;
     std::optional<record::SessionRow> noted_;
     std::optional<base::TimePoint> noted_at_;
-    std::optional<base::TimePoint> cued_; // the start that the device was told
     std::atomic<bool> stop_{false};
     std::atomic<bool> running_{false};
     std::atomic<bool> done_{false};

@@ -168,10 +168,10 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
                              .scene_hash = scene::hash(settings.scene),
                              .seed = 1,
                              .task = wire::TaskName::from_text("P1").value()};
-    peer::Peer peer{settings};
+    peer::Side side{settings};
     peer::Watchdog watchdog{rig.device(), &crash};
-    peer::Servo servo{{peer, rig, socket, net::resolve(net::parse_host_port(asked.remote).value()),
-                       journal, watchdog, 1}};
+    peer::Servo servo{{side, rig, socket, net::resolve(net::parse_host_port(asked.remote).value()),
+                       journal, watchdog}};
     const peer::Options unused;
     std::optional<control::Server> server;
     std::optional<peer::Reception> reception;

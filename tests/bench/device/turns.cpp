@@ -91,12 +91,30 @@ peer::Settings settings_of(std::size_t side)
     return settings;
 }
 
+/// The force goes as it comes.
+class UngovernedRig {
+public:
+    explicit UngovernedRig(device::Device& device) : device_{device} {}
+
+    [[nodiscard]] device::Sample read(base::TimePoint now) { return device_.read(now); }
+    base::Force apply(const base::Force& wanted, bool /*permitted*/, base::TimePoint /*now*/)
+    {
+        device_.apply(device::ungoverned(wanted));
+        return wanted;
+    }
+    [[nodiscard]] static device::GovernorState governor_state() { return {}; }
+    void on_cue(const device::Cue& cue) { device_.on_cue(cue); }
+
+private:
+    device::Device& device_;
+};
+
 } // namespace
 
 Turns::Turns(Load load)
     : load_{load},
-      peers_{std::make_unique<peer::Peer>(settings_of(0)),
-             std::make_unique<peer::Peer>(settings_of(1))},
+      side_{settings_of(0)},
+      other_{settings_of(1)},
       rig_{std::make_unique<EncodedHand>(load), {}}
 {
     std::vector<double> unused;
@@ -114,33 +132,26 @@ void Turns::play(int turns, const Clock& clock, std::vector<double>& nanoseconds
         const std::int64_t begin = clock();
         turn();
         nanoseconds.push_back(static_cast<double>(clock() - begin));
-        std::ignore = peers_[1]->tick(now_, hand_at(1, now_));
+        std::ignore = other_.tick(now_, hand_at(1, now_));
     }
 }
 
 void Turns::deliver()
 {
-    for (const std::size_t side : {0U, 1U}) {
-        while (const auto datagram = peers_[side]->poll()) {
-            peers_[1 - side]->on_datagram(datagram->bytes(), now_);
-        }
-        while (peers_[side]->event()) {}
-    }
+    while (const auto datagram = side_.poll()) other_.on_datagram(datagram->bytes(), now_);
+    while (const auto datagram = other_.poll()) side_.on_datagram(datagram->bytes(), now_);
+    while (side_.event()) {}
+    while (other_.event()) {}
 }
 
 void Turns::turn()
 {
     if (load_ == Load::governed) {
-        const device::Sample& sample = rig_.read(now_);
-        const peer::Tick tick =
-            peers_[0]->tick(now_, {sample.hip, sample.velocity, sample.gripping});
-        felt_ = rig_.apply(tick.force, tick.permitted, now_);
-        return;
+        side_.step(now_, rig_);
+    } else {
+        UngovernedRig rig{rig_.device()};
+        side_.step(now_, rig);
     }
-    const device::Sample sample = rig_.device().read(now_);
-    const peer::Tick tick = peers_[0]->tick(now_, {sample.hip, sample.velocity, sample.gripping});
-    felt_ = tick.force;
-    rig_.device().apply(device::ungoverned(felt_));
 }
 
 } // namespace hapnet::bench

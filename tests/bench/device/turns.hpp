@@ -3,13 +3,11 @@
 #pragma once
 
 #include "device/rig.hpp"
-#include "peer/core/peer.hpp"
+#include "peer/core/side.hpp"
 #include "proto/base/time.hpp"
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace hapnet::bench {
@@ -34,7 +32,7 @@ public:
     void play(int turns, const Clock& clock, std::vector<double>& nanoseconds);
 
     /// The force that was felt last: work that cannot be left out.
-    [[nodiscard]] const base::Force& felt() const { return felt_; }
+    [[nodiscard]] base::Force felt() const { return side_.told(); }
     [[nodiscard]] const device::Governor& governor() const { return rig_.governor(); }
 
 private:
@@ -43,9 +41,9 @@ private:
 
     Load load_;
     base::TimePoint now_{std::chrono::hours{1}};
-    std::array<std::unique_ptr<peer::Peer>, 2> peers_;
+    peer::Side side_;
+    peer::Peer other_;
     device::Rig rig_;
-    base::Force felt_;
 };
 
 } // namespace hapnet::bench

@@ -9,26 +9,31 @@
 
 namespace hapnet::peer {
 
-/// A turn of a watched loop, from before the device is read. What it tells the device never lasts
-/// longer than what the watchdog has told it meanwhile.
-class WatchedTurn {
+/// A rig for one tick of a watched loop, made before the device is read. A force that it applies
+/// never outlasts a halt by the watchdog in the same tick.
+class WatchedRig {
 public:
     /// Both outlive it.
-    WatchedTurn(device::Rig& rig, const Watchdog& watchdog)
+    WatchedRig(device::Rig& rig, const Watchdog& watchdog)
         : rig_{rig}, watchdog_{watchdog}, halts_before_{watchdog.halts()}
     {}
 
-    /// As Rig::apply(), at zero where the watchdog has let go of the device since the turn began.
-    /// In a dying program the device is told nothing, and the governor does not go on.
+    [[nodiscard]] const device::Sample& read(base::TimePoint now) { return rig_.read(now); }
+
+    /// As Rig::apply(), but with zero force when the watchdog has halted the device since the tick
+    /// began. In a dying program the device is told nothing, and the governor does not go on.
     base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now)
     {
         if (watchdog_.is_dying()) return {};
         if (watchdog_.halts() != halts_before_) return rig_.withhold(wanted, permitted, now);
         const base::Force force = rig_.apply(wanted, permitted, now);
-        // The force may have been on its way to the device when that was let go of.
+        // The force may have been on its way to the device when the watchdog halted that.
         if (watchdog_.is_dying() || watchdog_.halts() != halts_before_) rig_.device().halt();
         return force;
     }
+
+    [[nodiscard]] device::GovernorState governor_state() const { return rig_.governor_state(); }
+    void on_cue(const device::Cue& cue) { rig_.on_cue(cue); }
 
 private:
     device::Rig& rig_;

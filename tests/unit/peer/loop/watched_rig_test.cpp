@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "peer/loop/watched_turn.hpp"
+#include "peer/loop/watched_rig.hpp"
 #include "proto/net/clock.hpp"
 
 #include <atomic>
@@ -21,7 +21,7 @@ public:
     void apply(const device::GovernedForce& /*force*/) override
     {
         last_word_.wait(Word::none);
-        watchdog->rest(); // it says no more: the rest is the turn's to do
+        watchdog->rest(); // it says no more: the rest is the rig's to do
         last_word_ = Word::apply;
     }
     void halt() noexcept override
@@ -39,7 +39,7 @@ private:
     std::atomic<Word> last_word_{Word::none};
 };
 
-TEST(WatchedTurn, TakesBackAForceThatCameToTheDeviceAfterItWasLetGoOf)
+TEST(WatchedRig, TakesBackAForceThatReachedTheDeviceAfterItsHalt)
 {
     auto owned = std::make_unique<LateDevice>();
     LateDevice& device = *owned;
@@ -47,9 +47,9 @@ TEST(WatchedTurn, TakesBackAForceThatCameToTheDeviceAfterItWasLetGoOf)
     Watchdog watchdog{device};
     device.watchdog = &watchdog;
     const base::TimePoint now = net::monotonic_now();
-    WatchedTurn turn{rig, watchdog};
+    WatchedRig watched{rig, watchdog};
     watchdog.beat(now);
-    turn.apply(base::Force{{1.0, 0.0, 0.0}}, true, now);
+    watched.apply(base::Force{{1.0, 0.0, 0.0}}, true, now);
     EXPECT_EQ(watchdog.halts(), 1U);
     EXPECT_EQ(device.last_word(), LateDevice::Word::halt);
 }
