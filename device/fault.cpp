@@ -32,7 +32,7 @@ std::string_view name_of(Fault fault)
     return "internal";
 }
 
-std::string_view words_for(Fault fault)
+std::string_view describe(Fault fault)
 {
     switch (fault) {
     case Fault::none: return "";

@@ -15,7 +15,7 @@ namespace hapnet::device::falcon {
 // (PhD thesis, University of Maryland, 1997), with the lengths that libnifalcon gives for the
 // Falcon (include/falcon/core/FalconGeometry.h). No other source for them is known.
 
-/// Of the three upper arms, rad.
+/// Angles of the three upper arms, rad.
 using Angles = glm::dvec3;
 
 /// The frame: x right, y up, z toward the user, as libnifalcon has it; the origin is the middle of

@@ -3,18 +3,18 @@
 #pragma once
 
 #include "device/capabilities.hpp"
+#include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
 #include <limits>
 #include <optional>
-#include <string_view>
 
 namespace hapnet::device {
 
-/// What a hand may be given. The first part is a person's and the program's to say; the second is
-/// the device's, and without one there is no limit: limits_for() puts the two together. Where the
-/// numbers come from stands in docs/design/governor.md.
+/// The limits of the force on a hand. A person and the program choose the first part. The device
+/// gives the second; without a device there is no such limit. limits_for() puts the two together.
+/// docs/design/governor.md gives the sources of the numbers.
 struct GovernorLimits {
     double force_max_n = 3.3;         // peak; the Omni's
     double slew_max_n_per_s = 1000.0; // a contact may rise in a few ticks, but not kick
@@ -37,13 +37,13 @@ struct GovernorLimits {
     std::optional<JointLimits> joints{};
 };
 
-/// Why no governor can keep to these, for a person: a rule would never act, or always, or divide by
-/// nothing. "" when one can. A peak below the continuous force is no contradiction, but a person
-/// who wants it softer than the motors could.
-[[nodiscard]] std::string_view contradiction_in(const GovernorLimits& limits);
+/// An error when no governor can keep to these limits: a rule would never act, or always, or divide
+/// by zero. A peak below the continuous force is valid: a person may want it softer than the motors
+/// could be.
+[[nodiscard]] base::Result<void> validate(const GovernorLimits& limits);
 
-/// The limits that hold for this device: of each the stricter. A device that does not say what its
-/// motors bear for ever is taken to bear a quarter of its peak, as the Omni does (0.88 of 3.3 N).
+/// The limits for this device: the stricter of each pair. A device that does not state its
+/// continuous force is assumed to bear a quarter of its peak, as the Omni does (0.88 of 3.3 N).
 [[nodiscard]] GovernorLimits limits_for(const Capabilities& capabilities,
                                         const GovernorLimits& limits);
 

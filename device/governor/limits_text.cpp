@@ -165,7 +165,7 @@ base::Result<GovernorLimits> parse_limits(std::string_view text, const std::stri
         joints.torque_max_nm[axis] = arm_nm[i].value_or(0.0);
     }
     if (has_all(arm_nm)) limits.joints = joints;
-    if (const auto what = contradiction_in(limits); !what.empty()) return refuse(what);
+    if (const auto valid = validate(limits); !valid) return refuse(valid.error().message);
     return limits;
 }
 

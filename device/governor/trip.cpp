@@ -31,9 +31,9 @@ std::string_view what_happened(const Latched& latched)
     case Trip::none:
     case Trip::device:
     case Trip::silence:
-    case Trip::speed: return words_for(latched.fault);
+    case Trip::speed: return describe(latched.fault);
     }
-    return words_for(latched.fault);
+    return describe(latched.fault);
 }
 
 } // namespace hapnet::device

@@ -31,7 +31,7 @@ struct Latched {
     friend bool operator==(const Latched&, const Latched&) = default;
 };
 
-/// What happened and how to go on, for a person. "" for no fault.
+/// The fault in words, with what to do about it. "" for no fault.
 [[nodiscard]] std::string_view what_happened(const Latched& latched);
 
 } // namespace hapnet::device

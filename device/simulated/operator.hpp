@@ -30,12 +30,12 @@ struct HandImpedance {
 
 /// An involuntary motion along x: a sum of three sines, each a third of the amplitude, whose
 /// frequencies and phases come from the seed.
-struct Unrest {
+struct InvoluntaryMotion {
     double amplitude_m = 0.0;
     double least_hertz = 0.0;
     double most_hertz = 0.0;
 
-    friend bool operator==(const Unrest&, const Unrest&) = default;
+    friend bool operator==(const InvoluntaryMotion&, const InvoluntaryMotion&) = default;
 };
 
 /// The stretch reflex: the hand answers where it was, `delay` ago, off its intention, with `gain`
@@ -47,37 +47,38 @@ struct Reflex {
     friend bool operator==(const Reflex&, const Reflex&) = default;
 };
 
-/// The will: where a task asks for a force, the intention moves on for as long as force is missing,
-/// by `gain` per second and newton, at most 20 mm; what is missing is what was felt `delay` ago,
-/// smoothed by a first-order low-pass. Reactions to what is felt take about 150 ms, to what is seen
-/// 200 ms (general knowledge). With the 143 N/m of a nominal hand's contact the force comes back
-/// with a time constant of 0.7 s.
-struct Will {
+/// The intent: where a task asks for a force, the intention moves on for as long as force is
+/// missing, by `gain` per second and newton, at most 20 mm; what is missing is what was felt
+/// `delay` ago, smoothed by a first-order low-pass. Reactions to what is felt take about 150 ms, to
+/// what is seen 200 ms (general knowledge). With the 143 N/m of a nominal hand's contact the force
+/// comes back with a time constant of 0.7 s.
+struct Intent {
     double gain_m_per_ns = 0.010; // 0: none
     double cutoff_hertz = 1.5;
     base::Duration delay{std::chrono::milliseconds{150}};
 
-    friend bool operator==(const Will&, const Will&) = default;
+    friend bool operator==(const Intent&, const Intent&) = default;
 };
 
-/// A simulated person at a device: how the hand yields and how its will wavers, reacts and lags.
+/// A simulated person at a device: how the hand yields and how its intent wavers, reacts and lags.
 /// Not a human being: a linear hand with scripted intentions.
 struct Operator {
     std::string name = "nominal";
     HandImpedance hand{};
-    Unrest wander{.amplitude_m = 2e-3, .least_hertz = 0.3, .most_hertz = 0.9};
-    Unrest tremor{.amplitude_m = 1e-4, .least_hertz = 8.0, .most_hertz = 12.0}; // physiological
+    InvoluntaryMotion wander{.amplitude_m = 2e-3, .least_hertz = 0.3, .most_hertz = 0.9};
+    InvoluntaryMotion tremor{
+        .amplitude_m = 1e-4, .least_hertz = 8.0, .most_hertz = 12.0}; // physiological
     /// Standard deviation of the hand's force as a share of that force, 1 to 10 Hz. Isometric
     /// forces have 2 to 4 % (Jones, Hamilton, Wolpert 2002).
     base::Probability force_noise{};
     Reflex reflex{};
-    Will will{};
+    Intent intent{};
 
     friend bool operator==(const Operator&, const Operator&) = default;
 };
 
-/// "relaxed", "nominal", "firm": three grips with wander, tremor and will. "lifelike": the nominal
-/// grip with more of them, force noise and a stretch reflex.
+/// "relaxed", "nominal", "firm": three grips with wander, tremor and intent. "lifelike": the
+/// nominal grip with more of them, force noise and a stretch reflex.
 [[nodiscard]] base::Result<Operator> operator_named(std::string_view name);
 
 /// A preset's name, or a table with `preset = "nominal"` and what differs from it; nullopt when a

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "device/simulated/delay_line.hpp"
 #include "device/simulated/keys.hpp"
 #include "device/simulated/operator.hpp"
+#include "device/simulated/signal_history.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -38,12 +38,12 @@ void list_operator_keys(Keys& keys, Person& person)
     keys.value("force_noise", person.force_noise);
     keys.group("reflex", [&person](auto& inner) {
         inner.value("gain", person.reflex.gain, reflex_gain);
-        inner.value("delay", person.reflex.delay, DelayLine::delay_max);
+        inner.value("delay", person.reflex.delay, SignalHistory::delay_max);
     });
     keys.group("will", [&person](auto& inner) {
-        inner.value("gain", person.will.gain_m_per_ns, will_gain);
-        inner.value("cutoff", person.will.cutoff_hertz, will_cutoff);
-        inner.value("delay", person.will.delay, DelayLine::delay_max);
+        inner.value("gain", person.intent.gain_m_per_ns, will_gain);
+        inner.value("cutoff", person.intent.cutoff_hertz, will_cutoff);
+        inner.value("delay", person.intent.delay, SignalHistory::delay_max);
     });
 }
 

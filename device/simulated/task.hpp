@@ -11,7 +11,7 @@
 
 namespace hapnet::device {
 
-/// What the two simulated hands play together. docs/design/tasks.md tells of each.
+/// The tasks of the two simulated hands; docs/design/tasks.md describes them.
 enum class Task : std::uint8_t {
     p1, // L holds the cube and carries it along a prescribed path; R watches (Table 1)
     t1, // by turns: L pushes the cube where the path rises, R where it falls

@@ -11,7 +11,7 @@
 
 namespace hapnet::device {
 
-/// What may be chosen of a task. What is not set is the task's own.
+/// Options of a task. Unset ones take the task's own value.
 struct TaskOptions {
     /// T3 to T6: the force that a hand aims to press with on a cube that stays where it is.
     /// T3 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N (the resting hand).

@@ -37,16 +37,16 @@ public:
         device::Sample own = sample_; // in the device's frame
         own.hip = mount_.to_device(sample_.hip);
         own.velocity = mount_.to_device(sample_.velocity);
-        const device::Wish wish{mount_.to_device(wanted), permitted};
+        const device::ForceRequest request{mount_.to_device(wanted), permitted};
         if (was_at_fault_ && governor_.state() != device::GovernorState::fault) {
             // A fault that nothing in the row explains was latched by the watchdog.
             device::Governor by_itself = governor_;
-            std::ignore = by_itself.govern(wish, own, now);
+            std::ignore = by_itself.govern(request, own, now);
             if (by_itself.state() != device::GovernorState::fault) {
                 governor_.latch({device::Fault::timeout, device::Trip::loop});
             }
         }
-        return governor_.govern(wish, own, now).force();
+        return governor_.govern(request, own, now).force();
     }
     [[nodiscard]] device::GovernorState governor_state() const { return governor_.state(); }
     void on_cue(const device::Cue& /*cue*/) {}

@@ -16,7 +16,7 @@ namespace {
 constexpr base::Duration begins_within{std::chrono::seconds{60}};
 constexpr std::int64_t steps_between_looks = 1024; // at `stop`
 
-/// What one side did while it was in session with the other: one sample a tick, none left out.
+/// One side while it was in session with the other: one sample a tick, without gaps.
 struct Track {
     base::TimePoint first;
     std::vector<Sample> samples;
@@ -129,7 +129,7 @@ std::optional<Trace> play_out(VirtualWorld& world, const std::atomic<bool>* stop
 
 base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop)
 {
-    if (auto why = objection(setting)) return base::fail(*std::move(why));
+    if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
     VirtualWorld world{setting};
     std::optional<Trace> trace = play_out(world, stop);
     if (trace && has_overflowed(world)) {

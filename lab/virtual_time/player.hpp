@@ -40,7 +40,7 @@ public:
     [[nodiscard]] const peer::Peer& peer() const { return side->peer(); }
     [[nodiscard]] const peer::Tick& last() const { return side->tick(); }
     [[nodiscard]] base::Force told() const { return side->told(); }
-    /// What it did in its last tick.
+    /// Its last tick, for the metrics.
     [[nodiscard]] Sample sample() const;
 
     // Open to tests and benches, which change them.

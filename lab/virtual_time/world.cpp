@@ -67,7 +67,7 @@ void VirtualWorld::step()
 {
     now_ = next_deadline();
     for (std::size_t pair = 0; pair < pairs_.size(); ++pair) follow_timeline(pair);
-    // What is sent at a tick reaches nobody whose tick is at the same time.
+    // A datagram that is sent in a tick does not reach a tick at the same time.
     for (std::size_t side = 0; side < sides_.size(); ++side) {
         if (sides_[side].next_tick == now_) deliver(side);
     }

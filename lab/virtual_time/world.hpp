@@ -23,11 +23,11 @@ class VirtualWorld {
 public:
     /// When every world begins, and the timelines of its profiles.
     static constexpr base::TimePoint start{std::chrono::seconds{1000}};
-    /// How many datagrams a link holds unless it is said: 1 s of them, which stay in a processor's
-    /// near memory. The emulator's own bound costs more memory than a session takes time.
+    /// The default bound on the datagrams in a link: 1 s of them, which fit into a processor's
+    /// cache. Memory for the emulator's own bound would take longer to set up than a session takes.
     static constexpr emulator::QueueLimits few{1024};
 
-    /// One pair. Ensures that there is no objection() to the setting.
+    /// One pair. The setting must be valid: see validate().
     explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);
     /// One pair for each setting.
     explicit VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits = few);
@@ -64,7 +64,7 @@ private:
         emulator::Departure departure; // but for its bytes
         wire::Datagram datagram;
     };
-    /// What stays of a side when its player is killed.
+    /// The part of a side that outlives a killed player.
     struct Side {
         std::optional<VirtualPlayer> player;
         emulator::Link out; // to the other side

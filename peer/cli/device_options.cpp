@@ -84,8 +84,8 @@ base::Result<double> parse_scale(const std::string& text)
 {
     double scale = 0.0;
     const char* end = text.data() + text.size();
-    const auto [rest, trouble] = std::from_chars(text.data(), end, scale);
-    const bool is_number = trouble == std::errc{} && rest == end;
+    const auto [rest, error] = std::from_chars(text.data(), end, scale);
+    const bool is_number = error == std::errc{} && rest == end;
     if (is_number && scale >= mount_scale_min && scale <= mount_scale_max) return scale;
     return base::fail(fmt::format("'{}' is no scale: a number from {} to {}, such as 1.5", text,
                                   mount_scale_min, mount_scale_max));

@@ -21,7 +21,7 @@ public:
 
     /// On the body, to be held for the coming tick: of a hand that is there and moves so now.
     [[nodiscard]] base::Force on_body(const scene::HipInput& hand, const scene::BodyState& body);
-    /// What the world's contact did in that tick, whose start on_body() was asked for.
+    /// The world's contact in the tick for whose start on_body() was called.
     void on_touch(const scene::HipTouch& touch);
 
 private:

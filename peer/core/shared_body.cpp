@@ -16,12 +16,11 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
     const auto found = std::find_if(bodies.begin(), bodies.end(), is_movable);
     const auto count = std::count_if(found, bodies.end(), is_movable);
     if (count != 1) {
-        return base::fail(fmt::format("a session shares one movable body so far; this scene has {}",
+        return base::fail(fmt::format("a session needs exactly one movable body; this scene has {}",
                                       count == 0 ? "none" : fmt::to_string(count)));
     }
     if (found->turning != scene::Turning::locked) {
-        return base::fail("a session shares a body that does not turn so far; this scene's can: "
-                          "give it turning = \"locked\"");
+        return base::fail("sessions do not support rotating bodies yet: set turning = \"locked\"");
     }
     if (scene.hips.count == 0) return base::fail("a session needs a hand; this scene has none");
     const auto index = found - bodies.begin();
@@ -32,11 +31,6 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
                                       index + 1));
     }
     return static_cast<scene::BodyId>(index);
-}
-
-void put(scene::World& world, scene::BodyId body, base::Position position, base::Velocity velocity)
-{
-    world.place(body, position, velocity);
 }
 
 } // namespace hapnet::peer

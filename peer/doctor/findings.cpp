@@ -137,7 +137,7 @@ Finding on_firewire(const Facts& facts)
 Finding on_hd(const Facts& facts)
 {
     if (facts.hd_trouble.empty()) {
-        return {"libHD", Level::ok, fmt::format("it can be loaded ({})", device::never_run)};
+        return {"libHD", Level::ok, "it can be loaded"};
     }
     if (!facts.hd_wanted) {
         return {"libHD", Level::ok, "not there, which only devices of 3D Systems would need"};

@@ -18,7 +18,7 @@ constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 
 } // namespace
 
-Servo::Servo(const Parts& parts) : parts_{parts}, reporter_{ways_back_of(parts.rig.device())} {}
+Servo::Servo(const Parts& parts) : parts_{parts}, reporter_{recovery_of(parts.rig.device())} {}
 
 void Servo::run()
 {
@@ -46,8 +46,8 @@ void Servo::follow_device()
     if (goes_on()) tell_governor_of_silence();
 }
 
-/// The device's own silence ended its rhythm. Else the governor would find that this loop stood
-/// still, and a person be told the wrong thing.
+/// The device fell silent and so ended its pace. Without this the governor would find that the loop
+/// stood still, and a person would be told the wrong cause.
 void Servo::tell_governor_of_silence()
 {
     device::Governor& governor = parts_.rig.governor();
@@ -57,7 +57,7 @@ void Servo::tell_governor_of_silence()
     if (pushes) governor.latch({device::Fault::timeout, device::Trip::silence});
 }
 
-/// A cycle of the device; whether it is to go on.
+/// One cycle of the device; returns whether the device is to go on.
 bool Servo::on_device_cycle(DeviceTimer& timer)
 {
     const base::TimePoint now = net::monotonic_now();
@@ -90,7 +90,7 @@ void Servo::tick(const TickTime& time, base::TimePoint now)
     ++counters_.ticks;
     if (!first_tick_) first_tick_ = now;
     last_tick_ = now;
-    standing_.give_if_asked([this](Standing& standing) { describe(standing); });
+    status_slot_.fill_if_requested([this](ServoStatus& status) { describe(status); });
     running_.store(true, std::memory_order_release);
 }
 
@@ -103,49 +103,49 @@ void Servo::play(base::TimePoint now)
     }
     parts_.side.step(now, rig);
     send();
-    while (const auto event = parts_.side.event()) parts_.journal.put(Happening{*event, now});
-    tell_of_device(now);
+    while (const auto event = parts_.side.event()) parts_.journal.put(TimedEvent{*event, now});
+    report_device(now);
     note_session(now);
 }
 
-Standing Servo::standing() const
+ServoStatus Servo::status() const
 {
-    Standing standing;
-    describe(standing);
-    return standing;
+    ServoStatus status;
+    describe(status);
+    return status;
 }
 
-void Servo::describe(Standing& standing) const
+void Servo::describe(ServoStatus& status) const
 {
     const Peer& peer = parts_.side.peer();
     const device::Governor& governor = parts_.rig.governor();
-    standing.at = last_tick_;
-    standing.elapsed = last_tick_ - first_tick_.value_or(last_tick_);
-    standing.phase = parts_.side.tick().phase;
-    standing.is_remote_heard = parts_.side.tick().freshness > 0.0;
-    standing.force = parts_.side.told();
-    standing.loop = counters_;
-    standing.messages = peer.counters();
-    standing.session = peer.session();
-    standing.clock = peer.clock();
-    standing.refusal = peer.refusal();
-    standing.calibration = parts_.rig.calibration();
-    standing.governor_state = governor.state();
-    standing.fault = governor.fault();
-    standing.governor = governor.counters();
-    standing.force_limit_n = governor.limits().force_max_n;
-    standing.motor_heat = governor.heat();
-    standing.device = parts_.rig.counters();
-    standing.watchdog_halts = parts_.watchdog.halts();
-    standing.overflowed = parts_.socket.overflowed();
-    standing.real_time = real_time_;
+    status.at = last_tick_;
+    status.elapsed = last_tick_ - first_tick_.value_or(last_tick_);
+    status.phase = parts_.side.tick().phase;
+    status.is_remote_heard = parts_.side.tick().freshness > 0.0;
+    status.force = parts_.side.told();
+    status.loop = counters_;
+    status.messages = peer.counters();
+    status.session = peer.session();
+    status.clock = peer.clock();
+    status.refusal = peer.refusal();
+    status.calibration = parts_.rig.calibration();
+    status.governor_state = governor.state();
+    status.fault = governor.fault();
+    status.governor = governor.counters();
+    status.force_limit_n = governor.limits().force_max_n;
+    status.motor_heat = governor.heat();
+    status.device = parts_.rig.counters();
+    status.watchdog_halts = parts_.watchdog.halts();
+    status.overflowed = parts_.socket.overflowed();
+    status.real_time = real_time_;
 }
 
-void Servo::tell_of_device(base::TimePoint now)
+void Servo::report_device(base::TimePoint now)
 {
     const device::Rig& rig = parts_.rig;
     const auto news = reporter_.look(rig.calibration(), rig.governor().fault(), now);
-    if (news) parts_.journal.put(DeviceHappening{*news, now});
+    if (news) parts_.journal.put(TimedDeviceNews{*news, now});
 }
 
 void Servo::receive()

@@ -15,11 +15,11 @@ constexpr std::size_t bar_most = 50; // characters
 
 } // namespace
 
-Turn ReadStep::on_tick(const Feeling& feeling, base::TimePoint now)
+StepRequest ReadStep::on_tick(const StepInput& input, base::TimePoint now)
 {
     if (!start_) start_ = now;
     now_ = now;
-    const device::Sample& sample = feeling.sample;
+    const device::Sample& sample = input.sample;
     if (fault_ == device::Fault::none) fault_ = sample.fault;
     if (sample.sequence != sequence_) {
         sequence_ = sample.sequence;
@@ -69,7 +69,7 @@ Outcome ReadStep::outcome() const
                                "at most",
                                rate_hz, 1e3 * median_s, 1e3 * most_s);
     if (fault_ != device::Fault::none) {
-        outcome.text = fmt::format("{}; {}", device::words_for(fault_), outcome.text);
+        outcome.text = fmt::format("{}; {}", device::describe(fault_), outcome.text);
     } else if (words_ == 0) {
         outcome.text = "the device says nothing, although it may have been moved: is it powered?";
     } else if (median_s * rate_share_wanted * nominal_hz_ > 1.0) {

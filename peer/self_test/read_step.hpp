@@ -17,7 +17,7 @@ class ReadStep {
 public:
     ReadStep(base::Duration length, double nominal_hz) : length_{length}, nominal_hz_{nominal_hz} {}
 
-    [[nodiscard]] Turn on_tick(const Feeling& feeling, base::TimePoint now);
+    [[nodiscard]] StepRequest on_tick(const StepInput& input, base::TimePoint now);
     [[nodiscard]] Outcome outcome() const;
 
     /// The upper edges of the histogram's bins of the time between two words; the last has none.

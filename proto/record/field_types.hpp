@@ -7,8 +7,8 @@
 
 namespace hapnet::record {
 
-/// How a field of type T stands in a row: its type and unit as the header names them, its bytes,
-/// and both ways between. take() is false when the bytes are not ones that put() writes.
+/// The encoding of a field of type T in a row: its type and unit as the header names them, its
+/// bytes, and both ways between. take() is false when the bytes are not ones that put() writes.
 template <typename T>
 struct FieldType;
 
@@ -91,7 +91,7 @@ struct FieldType<Phase> {
 };
 
 /// No clock and no session of ours reads more than 36 years; below, sums of several times cannot
-/// overflow in whoever reads a damaged record.
+/// overflow in a reader of a damaged record.
 inline constexpr base::Duration time_max{std::int64_t{1} << 60};
 
 template <>

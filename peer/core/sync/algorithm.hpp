@@ -12,8 +12,8 @@
 
 namespace hapnet::peer {
 
-/// How two copies of the shared body are kept together: a closed set, chosen by name. Each is a
-/// small value that is told of every state that arrives (hear()), moves the world (tick()), and
+/// The algorithms that keep two copies of the shared body together: a closed set, by name. Each is
+/// a small value that is told of every state that arrives (hear()), moves the world (tick()), and
 /// forgets a run of the other side that has ended (forget()). docs/design/algorithms.md describes
 /// them.
 using Algorithm = std::variant<BaseAlgorithm, DeadReckoning, EstimatorPredictor>;

@@ -16,15 +16,15 @@ namespace hapnet::peer {
 
 /// The sign of a displacement: as it moves the body on, or as printed, which moves it back.
 enum class DisplacementSign : std::uint8_t { current_minus_previous, previous_minus_current };
-/// Who forms the remote displacement: the receiver, from two absolute positions, or the sender,
-/// whose increments are lost with their messages.
+/// The side that forms the remote displacement: the receiver, from two absolute positions, or the
+/// sender, whose increments are lost with their messages.
 enum class DisplacementFrom : std::uint8_t { positions, increments };
 /// When a body that this hand does not touch is where the other side has it.
 enum class FollowWhile : std::uint8_t { touching, always };
 enum class Follow : std::uint8_t { absolute, relative };
-/// Where the remote hand's force acts; on the hand it counts twice.
+/// The place where the remote hand's force acts; on the hand it counts twice.
 enum class RemoteForceOn : std::uint8_t { body, body_and_hand };
-/// What moves a body that both push: the sum of the forces, or the stronger hand alone.
+/// The force that moves a body pushed by both: the sum, or the stronger hand's alone.
 enum class BothPush : std::uint8_t { sum, stronger };
 /// Along what the remote side acts on this copy.
 enum class Axes : std::uint8_t { all, x };
@@ -43,8 +43,8 @@ struct BaseOptions {
     /// which is twice the delay.
     base::Duration hysteresis{0};
     Stale stale = Stale::drop;
-    /// The remote hand counts as off the body when nothing has come for so long; nullopt: its last
-    /// word holds until it is stale.
+    /// The remote hand counts as off the body after this silence; nullopt: its last state holds
+    /// until it is stale.
     std::optional<base::Duration> let_go_after{};
     Axes axes = Axes::all;
     /// So long after both hands are off, the higher id's body begins to go to the lower id's place;

@@ -59,7 +59,7 @@ public:
     void forget();
 
     [[nodiscard]] const DeadReckoningOptions& options() const { return options_; }
-    /// Where the other side's body should be at `now`; nullopt before the first word of it.
+    /// The other side's body extrapolated to `now`; nullopt before its first state.
     [[nodiscard]] std::optional<base::Position> predicted(base::TimePoint now) const;
     /// H for the newest message.
     [[nodiscard]] base::Duration horizon() const;

@@ -13,12 +13,12 @@ namespace hapnet::peer {
 struct EstimatorPredictorOptions {
     base::Duration time_constant{std::chrono::milliseconds{10}}; // of the filters
     base::Duration force_ahead_max{std::chrono::milliseconds{10}};
-    /// The hand's place is predicted by at most the median delay and so much.
+    /// The hand's place is predicted by at most the median delay plus this.
     base::Duration hip_ahead_beyond_delay{std::chrono::milliseconds{20}};
-    /// A sample older than the median delay and so much is predicted on less and less, ...
+    /// Beyond the median delay plus this, a sample is predicted on less and less, ...
     base::Duration fade_after{std::chrono::milliseconds{10}};
     base::Duration fade_within{std::chrono::milliseconds{50}}; // ... down to not at all
-    /// What is given out changes by at most so much: 0.5 N a tick is where people notice a step.
+    /// The output changes by at most this: people notice steps from 0.5 N a tick on.
     double force_slew_n_per_s = 500.0;
     double hip_slew_m_per_s = 5.0;
     /// After a longer gap between two messages the filters start anew.
@@ -44,7 +44,7 @@ public:
     [[nodiscard]] const EstimatorPredictorOptions& options() const { return options_; }
 
 private:
-    /// How far the filters' values are carried on.
+    /// The time by which the filters' values are extrapolated.
     struct Ahead {
         double force_s = 0.0;
         double hip_s = 0.0;

@@ -49,10 +49,10 @@ TEST(Operator, IsReadFromWhatDiffersFromAPreset)
     ASSERT_TRUE(person);
     EXPECT_EQ(person->name, "old hand");
     EXPECT_EQ(person->hand, (HandImpedance{0.25, 7.0, 500.0}));
-    EXPECT_EQ(person->tremor, (Unrest{2e-4, 8.0, 12.0}));
+    EXPECT_EQ(person->tremor, (InvoluntaryMotion{2e-4, 8.0, 12.0}));
     EXPECT_EQ(person->force_noise, 4_percent);
     EXPECT_EQ(person->reflex, (Reflex{0.25, 45ms}));
-    EXPECT_EQ(person->will, Operator{}.will);
+    EXPECT_EQ(person->intent, Operator{}.intent);
 }
 
 TEST(Operator, IsRefusedWithFileAndLine)
@@ -93,7 +93,7 @@ TEST(Operator, VariesEveryParameterEvenlyOverThirtyPercentOfItself)
     EXPECT_EQ(slices([](const Operator& o) { return o.hand.damping_ns_per_m; }), all);
     EXPECT_EQ(slices([](const Operator& o) { return o.hand.stiffness_n_per_m; }), all);
     EXPECT_EQ(slices([](const Operator& o) { return o.force_noise.fraction(); }), all);
-    EXPECT_EQ(slices([](const Operator& o) { return base::to_seconds(o.will.delay); }), all);
+    EXPECT_EQ(slices([](const Operator& o) { return base::to_seconds(o.intent.delay); }), all);
     EXPECT_EQ(varied(person, base::Seed{1}, 4, of), varied(person, base::Seed{1}, 4, of));
     EXPECT_EQ(varied({}, base::Seed{1}, 4, of).reflex.gain, 0.0);
 }
@@ -115,9 +115,9 @@ TEST(HandNoise, OfTheForceHasItsStandardDeviation)
     EXPECT_EQ(noise.at(1.0).away_m, (HandNoise{base::Seed{5}, 1, {}}.at(1.0).away_m));
 }
 
-TEST(DelayLine, SaysWhatWasSoLongAgoAndHoldsInBetween)
+TEST(SignalHistory, SaysWhatWasSoLongAgoAndHoldsInBetween)
 {
-    DelayLine line;
+    SignalHistory line;
     const base::TimePoint start{1h};
     EXPECT_EQ(line.at(start).x, 0.0);
     for (int ms = 0; ms < 3000; ++ms) {
