@@ -30,10 +30,16 @@ enum class Pacing : std::uint8_t {
     device, // it, or its library, owns the loop: see Device::pace()
 };
 
-/// The limits of an arm's joints.
-struct JointLimits {
+/// A kind of arm: its name in the texts of limits ("omni_torque_max"), and its geometry.
+struct Mechanism {
+    std::string_view name{};
     /// d position / d joint, m/rad, at a position in the device's frame.
     glm::dmat3 (*jacobian)(const base::Position& position) = nullptr;
+};
+
+/// The limits of an arm's joints.
+struct JointLimits {
+    Mechanism mechanism{};
     glm::dvec3 torque_max_nm{0.0};
 };
 

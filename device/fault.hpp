@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -29,8 +31,14 @@ enum class Fault : std::uint8_t {
     internal, // of a library, or of this program
 };
 
-/// Such as "over-velocity": in statistics.
-[[nodiscard]] std::string_view name_of(Fault fault);
+/// In statistics.
+constexpr auto names_of(base::Tag<Fault> /*enum*/)
+{
+    return base::names("none", "not-found", "permission", "in-use", "firmware-missing",
+                       "library-missing", "communication", "timeout", "overheat", "over-force",
+                       "over-velocity", "not-calibrated", "disconnected", "internal");
+}
+using base::name_of;
 /// The fault in words, with what to do about it: one sentence or two. "" for none.
 [[nodiscard]] std::string_view describe(Fault fault);
 

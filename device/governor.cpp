@@ -23,19 +23,6 @@ bool is_release(const base::Force& from, const base::Force& to)
 
 } // namespace
 
-std::string_view name_of(GovernorState state)
-{
-    switch (state) {
-    case GovernorState::off: return "off";
-    case GovernorState::calibrating: return "calibrating";
-    case GovernorState::ready: return "ready";
-    case GovernorState::ramping: return "ramping";
-    case GovernorState::active: return "active";
-    case GovernorState::fault: return "fault";
-    }
-    return "off";
-}
-
 Governor::Governor(const GovernorLimits& limits)
     : limits_{limits}, heat_{limits.force_continuous_n, limits.heat_time}
 {

@@ -58,8 +58,11 @@ enum class GovernorState : std::uint8_t {
     fault, // latched: zero force until an operator has acted
 };
 
-/// Such as "ramping": in statistics.
-[[nodiscard]] std::string_view name_of(GovernorState state);
+/// In statistics.
+constexpr auto names_of(base::Tag<GovernorState> /*enum*/)
+{
+    return base::names("off", "calibrating", "ready", "ramping", "active", "fault");
+}
 
 /// Stands between what the scene wants and what a motor gets; the only way to a motor. Its rules,
 /// their numbers and the reasons for them: docs/design/governor.md. In short: zero at once for what

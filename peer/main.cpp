@@ -29,7 +29,7 @@ constexpr std::string_view program = "hapnet-peer";
 
 void say(std::string_view text) { net::say(program, text); }
 
-struct Places {
+struct Endpoints {
     net::Endpoint listen;
     net::Endpoint remote;
 };
@@ -44,22 +44,22 @@ net::Endpoint resolve_remote(const net::HostPort& remote, const net::Endpoint& l
     }
 }
 
-base::Result<Places> look_up(const Options& options)
+base::Result<Endpoints> look_up(const Options& options)
 {
     const net::Endpoint listen = net::resolve(options.listen);
-    const Places places{listen, resolve_remote(options.remote, listen)};
-    if (places.listen.family() != places.remote.family()) {
+    const Endpoints endpoints{listen, resolve_remote(options.remote, listen)};
+    if (endpoints.listen.family() != endpoints.remote.family()) {
         return base::fail(fmt::format(
             "--listen {} and --remote {} are of different families: give both as IPv4 or as IPv6",
-            places.listen.to_text(), places.remote.to_text()));
+            endpoints.listen.to_text(), endpoints.remote.to_text()));
     }
-    if (!options.insecure && !(places.remote.is_loopback() && places.listen.is_loopback())) {
+    if (!options.insecure && !(endpoints.remote.is_loopback() && endpoints.listen.is_loopback())) {
         return base::fail(
             "forces from a network need a key, and keys are not available yet: on a network you "
             "trust say --insecure, otherwise keep --listen and --remote on loopback");
     }
-    net::require_route(places.remote);
-    return places;
+    net::require_route(endpoints.remote);
+    return endpoints;
 }
 
 Settings settings_of(const Options& options, const device::Rig& rig)
@@ -146,12 +146,12 @@ int conclude(const Run& run, const device::Governor& governor, const Monitor& mo
 
 base::Result<int> run(const Options& options)
 {
-    const auto places = look_up(options);
-    if (!places) return tl::unexpected{places.error()};
+    const auto endpoints = look_up(options);
+    if (!endpoints) return tl::unexpected{endpoints.error()};
     net::StopSignal stop; // before any thread
     const net::CrashSignal crash;
     const net::CrashStack stack;
-    net::UdpSocket socket{places->listen};
+    net::UdpSocket socket{endpoints->listen};
     std::optional<control::Server> server; // before the device is touched
     if (options.control) server.emplace(*options.control, ControlSession::limits);
     auto opened = open_chosen(options.device, options.task);
@@ -175,7 +175,7 @@ base::Result<int> run(const Options& options)
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Side side{settings};
     Watchdog watchdog{rig.device(), &crash};
-    Servo servo{{side, rig, socket, places->remote, journal, watchdog}};
+    Servo servo{{side, rig, socket, endpoints->remote, journal, watchdog}};
 
     std::optional<ControlSession> control_session;
     if (server) {
@@ -184,7 +184,7 @@ base::Result<int> run(const Options& options)
     }
 
     supervise({servo, monitor, stop, control_session ? &*control_session : nullptr},
-              ready_line(options, socket, places->remote));
+              ready_line(options, socket, endpoints->remote));
 
     const ServoStatus status = servo.status();
     const Run run{options, status, journal, device, !monitor.record_failure()};

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "device/capabilities.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
+#include <chrono>
 #include <limits>
 #include <optional>
 
@@ -36,6 +38,34 @@ struct GovernorLimits {
     base::Position workspace_max{glm::dvec3{std::numeric_limits<double>::infinity()}};
     std::optional<JointLimits> joints{};
 };
+
+/// Of the first part. Outside of these ranges a rule would never act, act always, or do harm: a
+/// slow slew, for one, holds a force that should go. Zero force is possible.
+constexpr auto fields_of(base::Tag<GovernorLimits> /*struct*/)
+{
+    using namespace std::chrono_literals;
+    return base::fields(
+        "governor",
+        base::field("force_max", &GovernorLimits::force_max_n,
+                    base::Quantity{base::force_kind, 0.0, 40.0}, "peak force"),
+        base::field("slew_max", &GovernorLimits::slew_max_n_per_s,
+                    base::Quantity{base::force_rate_kind, 100.0, 40'000.0}, // 40 N in a tick
+                    "change of the force"),
+        base::field("slew_ramping", &GovernorLimits::slew_ramping_n_per_s,
+                    base::Quantity{base::force_rate_kind, 1.0, 40'000.0},
+                    "growth of the force while it ramps in"),
+        base::field("fade_out", &GovernorLimits::fade_out, base::Time{1ms, 1s},
+                    "from full strength to zero"),
+        base::field("ramp_in", &GovernorLimits::ramp_in, base::Time{100ms, 1min},
+                    "from zero to full strength"),
+        base::field("tick", &GovernorLimits::tick, base::Time{100us, 10ms}, "of the loop"),
+        base::field("stall_max", &GovernorLimits::stall_max, base::Time{2ms, 100ms},
+                    "a longer gap starts from zero"),
+        base::field("fault_after", &GovernorLimits::fault_after, base::Time{2ms, 1s},
+                    "a longer silence is a fault"),
+        base::field("heat_time", &GovernorLimits::heat_time, base::Time{1s, 10min},
+                    "in which the motors warm up"));
+}
 
 /// An error when no governor can keep to these limits: a rule would never act, or always, or divide
 /// by zero. A peak below the continuous force is valid: a person may want it softer than the motors

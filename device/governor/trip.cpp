@@ -4,20 +4,6 @@
 
 namespace hapnet::device {
 
-std::string_view name_of(Trip trip)
-{
-    switch (trip) {
-    case Trip::none: return "none";
-    case Trip::device: return "device";
-    case Trip::silence: return "silence";
-    case Trip::loop: return "loop";
-    case Trip::speed: return "speed";
-    case Trip::jump: return "jump";
-    case Trip::nonsense: return "nonsense";
-    }
-    return "device";
-}
-
 std::string_view what_happened(const Latched& latched)
 {
     switch (latched.trip) {

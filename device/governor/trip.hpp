@@ -20,8 +20,11 @@ enum class Trip : std::uint8_t {
     nonsense, // a place or a velocity that is no number
 };
 
-/// Such as "speed": in statistics.
-[[nodiscard]] std::string_view name_of(Trip trip);
+/// In statistics.
+constexpr auto names_of(base::Tag<Trip> /*enum*/)
+{
+    return base::names("none", "device", "silence", "loop", "speed", "jump", "nonsense");
+}
 
 /// A fault that stays until an operator has acted.
 struct Latched {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/capabilities.hpp"
 #include "proto/base/space.hpp"
 
 #include <glm/mat3x3.hpp>
@@ -70,5 +71,7 @@ inline constexpr double damping_max_ns_per_m = 5.0;
 
 /// Whether the mechanism gets there, give or take `slack` radians.
 [[nodiscard]] bool is_reachable(const Joints& joints, double slack = 0.0);
+
+inline constexpr Mechanism mechanism{"omni", jacobian_at};
 
 } // namespace hapnet::device::omni

@@ -150,7 +150,7 @@ void Drive::describe(Capabilities& capabilities) const
     }
     capabilities.stiffness_max_n_per_m = omni::stiffness_max_n_per_m;
     capabilities.damping_max_ns_per_m = omni::damping_max_ns_per_m;
-    capabilities.joints = JointLimits{omni::jacobian_at, torque_max_nm()};
+    capabilities.joints = JointLimits{omni::mechanism, torque_max_nm()};
 }
 
 } // namespace hapnet::device::omni1394

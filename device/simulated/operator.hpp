@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/simulated/signal_history.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/probability.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/reading.hpp"
@@ -27,6 +29,18 @@ struct HandImpedance {
 
     friend bool operator==(const HandImpedance&, const HandImpedance&) = default;
 };
+constexpr auto fields_of(base::Tag<HandImpedance> /*struct*/)
+{
+    // Wider than hands are; within these a step of 2 ms is short against a hand's motion.
+    return base::fields(
+        "hand",
+        base::field("mass", &HandImpedance::mass_kg, base::Quantity{base::mass_kind, 0.02, 10.0},
+                    "of the hand and its share of the device"),
+        base::field("damping", &HandImpedance::damping_ns_per_m,
+                    base::Quantity{base::damping_kind, 0.0, 100.0}, "of the grip"),
+        base::field("stiffness", &HandImpedance::stiffness_n_per_m,
+                    base::Quantity{base::stiffness_kind, 1.0, 5000.0}, "of the grip"));
+}
 
 /// An involuntary motion along x: a sum of three sines, each a third of the amplitude, whose
 /// frequencies and phases come from the seed.
@@ -37,6 +51,16 @@ struct InvoluntaryMotion {
 
     friend bool operator==(const InvoluntaryMotion&, const InvoluntaryMotion&) = default;
 };
+constexpr auto fields_of(base::Tag<InvoluntaryMotion> /*struct*/)
+{
+    constexpr base::Quantity frequency{base::frequency_kind, 0.0, 100.0};
+    return base::fields(
+        "involuntary-motion",
+        base::field("amplitude", &InvoluntaryMotion::amplitude_m,
+                    base::Quantity{base::length_kind, 0.0, 0.1}, "along x"),
+        base::field("from", &InvoluntaryMotion::least_hertz, frequency, "its lowest frequency"),
+        base::field("to", &InvoluntaryMotion::most_hertz, frequency, "its highest frequency"));
+}
 
 /// The stretch reflex: the hand answers where it was, `delay` ago, off its intention, with `gain`
 /// times its own stiffness. Spinal and long-loop reflexes take 30 to 60 ms (general knowledge).
@@ -46,6 +70,15 @@ struct Reflex {
 
     friend bool operator==(const Reflex&, const Reflex&) = default;
 };
+constexpr auto fields_of(base::Tag<Reflex> /*struct*/)
+{
+    return base::fields("reflex",
+                        base::field("gain", &Reflex::gain, base::Number{0.0, 10.0},
+                                    "times the hand's own stiffness; 0: no reflex"),
+                        base::field("delay", &Reflex::delay,
+                                    base::Time{base::Duration{0}, SignalHistory::delay_max},
+                                    "from the stretch to the reaction"));
+}
 
 /// The intent: where a task asks for a force, the intention moves on for as long as force is
 /// missing, by `gain` per second and newton, at most 20 mm; what is missing is what was felt
@@ -59,6 +92,19 @@ struct Intent {
 
     friend bool operator==(const Intent&, const Intent&) = default;
 };
+constexpr auto fields_of(base::Tag<Intent> /*struct*/)
+{
+    return base::fields("will",
+                        base::field("gain", &Intent::gain_m_per_ns,
+                                    base::Quantity{base::mobility_kind, 0.0, 1.0},
+                                    "speed per newton of missing force; 0: no reaction to force"),
+                        base::field("cutoff", &Intent::cutoff_hertz,
+                                    base::Quantity{base::frequency_kind, 0.01, 100.0},
+                                    "of the low-pass on the missing force"),
+                        base::field("delay", &Intent::delay,
+                                    base::Time{base::Duration{0}, SignalHistory::delay_max},
+                                    "from the force to the reaction"));
+}
 
 /// A simulated person at a device: how the hand yields and how its intent wavers, reacts and lags.
 /// Not a human being: a linear hand with scripted intentions.
@@ -76,6 +122,18 @@ struct Operator {
 
     friend bool operator==(const Operator&, const Operator&) = default;
 };
+constexpr auto fields_of(base::Tag<Operator> /*struct*/)
+{
+    return base::fields("operator",
+                        base::field("name", &Operator::name, "of the person, in records"),
+                        base::part(&Operator::hand),
+                        base::field("wander", &Operator::wander, "slow involuntary motion"),
+                        base::field("tremor", &Operator::tremor, "fast involuntary motion"),
+                        base::field("force_noise", &Operator::force_noise,
+                                    "standard deviation of the hand's force, as a share of it"),
+                        base::field("reflex", &Operator::reflex, "stretch reflex"),
+                        base::field("will", &Operator::intent, "reaction to a missing force"));
+}
 
 /// "relaxed", "nominal", "firm": three grips with wander, tremor and intent. "lifelike": the
 /// nominal grip with more of them, force noise and a stretch reflex.

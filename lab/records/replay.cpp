@@ -105,18 +105,18 @@ double difference(const base::Force& a, const base::Force& b)
 
 std::optional<std::string> gap_in(const record::Record& record)
 {
-    if (record.ticks.empty()) return "it holds no tick";
+    if (record.ticks.empty()) return "it has no ticks";
     std::uint64_t expected = 0;
     for (const record::TickRow& row : record.ticks) {
         if (row.tick < expected) {
-            return fmt::format("its tick {} stands where tick {} should: the file is damaged",
+            return fmt::format("tick {} follows where tick {} is expected: the file is damaged",
                                row.tick, expected);
         }
         if (row.tick > expected) {
-            return fmt::format("its ticks {} to {} are missing, which its recorder could not write "
-                               "in time, or which were damaged: what came after them cannot be "
-                               "played again",
-                               expected, row.tick - 1);
+            return fmt::format(
+                "ticks {} to {} are missing: they were damaged, or the recorder could "
+                "not write them in time; the ticks after them cannot be replayed",
+                expected, row.tick - 1);
         }
         ++expected;
     }
@@ -184,11 +184,11 @@ std::string to_table(const Replayed& replayed)
         text += "incomplete  the record stops before the session's end: its writer was killed, its "
                 "disk was full, or it was cut off\n";
     }
-    if (!replayed.differs_from) return text + "verdict     the recorded forces, again\n";
+    if (!replayed.differs_from) return text + "verdict     the forces are those of the record\n";
     return text + fmt::format("verdict     {} from tick {} on\n",
                               replayed.is_the_recorded_one
-                                  ? "NOT the recorded forces"
-                                  : "other forces than the recorded algorithm's",
+                                  ? "the forces are NOT those of the record"
+                                  : "the forces differ from those of the recorded algorithm",
                               *replayed.differs_from);
 }
 

@@ -70,11 +70,10 @@ control::Answer answer_to(std::string_view line, const PeerControl& peer)
     if (command == "wait") return begun(members, control::wait_request(members));
     if (command == "watch") return begun(members, control::watch_request(members));
     if (is_for_an_emulator(command)) {
-        return control::refusal(
-            fmt::format("'{}' is for an emulator: a peer says how it is and can be stopped, but "
-                        "nothing of it is changed while it runs; it knows show, stats, watch, "
-                        "wait and stop",
-                        command));
+        return control::refusal(fmt::format(
+            "'{}' is for an emulator: a running peer cannot be changed; use show, stats, "
+            "watch, wait or stop",
+            command));
     }
     return control::refusal("\"command\" must be one of show, stats, watch, wait, stop");
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
 #include "proto/base/time.hpp"
 #include "proto/wire/message.hpp"
 
@@ -18,6 +19,7 @@ struct Staleness {
 
 /// The treatment of a stale state: an older one that was overtaken on its way, or a duplicate.
 enum class Stale : std::uint8_t { drop, take };
+constexpr auto names_of(base::Tag<Stale> /*enum*/) { return base::names("drop", "take"); }
 
 /// The other side as of its newest state, or of the last to arrive when stale ones are taken.
 /// Between states everything is held.

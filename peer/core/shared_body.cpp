@@ -25,8 +25,8 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
     if (scene.hips.count == 0) return base::fail("a session needs a hand; this scene has none");
     const auto index = found - bodies.begin();
     if (index > std::numeric_limits<number_on_the_wire>::max()) {
-        return base::fail(fmt::format("the body that a session shares is one of the first {} of "
-                                      "its scene; this is number {}",
+        return base::fail(fmt::format("the movable body of a session must be among the first {} "
+                                      "of its scene; this is number {}",
                                       std::numeric_limits<number_on_the_wire>::max() + 1,
                                       index + 1));
     }

@@ -4,13 +4,11 @@
 
 namespace hapnet::peer {
 
-std::optional<device::Cue> Side::next_cue()
+device::Cue Side::take_cue()
 {
-    const auto& session = peer_.session();
-    if (!session || cued_ == session->start) return std::nullopt;
-    cued_ = session->start;
-    return device::Cue{session->start, peer_.hands_on(), base::Seed{session->seed}, id_,
-                       session->is_left};
+    const Session& session = *peer_.session();
+    cued_ = session.start;
+    return {session.start, peer_.hands_on(), base::Seed{session.seed}, id_, session.is_left};
 }
 
 record::TickRow Side::row(std::uint64_t number, const TickTime& time) const

@@ -15,8 +15,8 @@
 
 namespace hapnet::peer {
 
-/// A device behind its governor, in the scene's frame: what a Side plays through. device::Rig is
-/// one; a loop with a watchdog and a replay put their own between.
+/// A device behind its governor, in the scene's frame. device::Rig is one. A loop with a watchdog
+/// and the replay of a record have rigs of their own.
 template <typename R>
 concept RigLike = requires(R rig, base::Force wanted, base::TimePoint now, device::Cue cue)
 {
@@ -32,10 +32,10 @@ concept RigLike = requires(R rig, base::Force wanted, base::TimePoint now, devic
     rig.on_cue(cue);
 };
 
-/// One side of a session: device, scene and session, without clock, socket, thread or record.
-/// The daemon's loop, the players in virtual time, the replay of records and the tests all play
-/// through it. Feed it with on_datagram(), call step() once per tick, then drain poll() and
-/// event(). Not a safety feature: see Watchdog for loops that hang.
+/// One side of a session: its device, its copy of the scene and the session, without clock, socket
+/// or thread. The daemon's loop, the players in virtual time, the replay of records and the tests
+/// all play through it. Feed it with on_datagram(), call step() once per tick, then drain poll()
+/// and event().
 class Side {
 public:
     /// The scene must be one that shared_body() and World::freeze() accept.
@@ -56,7 +56,7 @@ public:
             peer_.tick(now, {sample_.hip, sample_.velocity, sample_.gripping, is_in_hand(sample_)});
         told_ = rig.apply(tick_.force, tick_.permitted, now);
         governor_state_ = rig.governor_state();
-        if (const auto cue = next_cue()) rig.on_cue(*cue);
+        if (is_cue_due()) rig.on_cue(take_cue());
         return tick_;
     }
 
@@ -76,7 +76,12 @@ public:
     [[nodiscard]] record::TickRow row(std::uint64_t number, const TickTime& time) const;
 
 private:
-    [[nodiscard]] std::optional<device::Cue> next_cue();
+    [[nodiscard]] bool is_cue_due() const
+    {
+        const auto& session = peer_.session();
+        return session && cued_ != session->start;
+    }
+    [[nodiscard]] device::Cue take_cue();
 
     Peer peer_;
     std::uint16_t id_;

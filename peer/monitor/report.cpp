@@ -269,7 +269,7 @@ std::string summary(const Run& run)
     const auto p99 = loop.late.quantile(0.99);
     std::string text =
         fmt::format("hapnet-peer {}: {} ticks, {} missed", run.options.id, loop.ticks, loop.missed);
-    if (p99) text += fmt::format(", 99 % at most {:.0f} us late", base::to_seconds(*p99) * 1e6);
+    if (p99) text += fmt::format(", p99 lateness {:.0f} us", base::to_seconds(*p99) * 1e6);
     text += fmt::format("; {} states sent, {} received", c.sent, c.states);
     if (const auto why = why_not_valid(run); !why.empty()) {
         text += fmt::format("; NOT VALID as a measurement: {}", why);

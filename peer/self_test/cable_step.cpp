@@ -33,7 +33,7 @@ Outcome CableStep::outcome() const
                          fault_ == device::Fault::timeout || fault_ == device::Fault::communication;
     outcome.verdict = is_loss ? Verdict::passed : Verdict::failed;
     outcome.figures = {{"noticed_after_ms", noticed_ms}};
-    outcome.text = fmt::format("noticed {:.0f} ms after its last word, as {}", noticed_ms,
+    outcome.text = fmt::format("noticed {:.0f} ms after its last report, as {}", noticed_ms,
                                device::name_of(fault_));
     return outcome;
 }

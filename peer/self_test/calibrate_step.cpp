@@ -41,7 +41,7 @@ Outcome CalibrateStep::outcome() const
     if (prompt_ == Prompt::nothing) return outcome;
     outcome.verdict = Verdict::failed;
     outcome.text = has_failed_ ? std::string{device::describe(device::CalibrationStep::failed)}
-                               : fmt::format("not done after {:.0f} s; last it was: {}",
+                               : fmt::format("not done after {:.0f} s; the last step was: {}",
                                              base::to_seconds(took_), describe(prompt_));
     return outcome;
 }

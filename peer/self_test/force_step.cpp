@@ -63,8 +63,9 @@ Outcome ForceStep::outcome() const
     } else if (outlasted_release_) {
         outcome.text = "the force outlasted the release of the button: do not use this device";
     } else if (!was_up_ && dead_man_ == DeadMan::person) {
-        outcome.text = "the button was down all the time: do not use this device, as letting go of "
-                       "it would stop nothing";
+        outcome.text =
+            "the button was down all the time: do not use this device, because releasing "
+            "it would stop nothing";
     } else if (!is_complete_) {
         outcome.verdict = Verdict::skipped;
         outcome.text = "the button was not held to the end of the ramp";
@@ -73,10 +74,10 @@ Outcome ForceStep::outcome() const
             fmt::format("the governor let only {:.2f} of {:.2f} N through", force_most_n_, peak_n);
     } else {
         outcome.verdict = Verdict::passed;
-        outcome.text = fmt::format("up to {:.2f} N were asked of the motors{}{}", force_most_n_,
+        outcome.text = fmt::format("the motors were told up to {:.2f} N{}{}", force_most_n_,
                                    was_released_ ? ", and none after a release" : "",
                                    dead_man_ == DeadMan::person
-                                       ? "; whether it pushed you to the right, only you can say"
+                                       ? "; check for yourself that it pushed you to the right"
                                        : "");
     }
     return outcome;

@@ -4,16 +4,6 @@
 
 namespace hapnet::peer::self_test {
 
-std::string_view name_of(Verdict verdict)
-{
-    switch (verdict) {
-    case Verdict::passed: return "passed";
-    case Verdict::failed: return "failed";
-    case Verdict::skipped: return "skipped";
-    }
-    return "failed";
-}
-
 std::string_view describe(Prompt prompt)
 {
     switch (prompt) {

@@ -12,7 +12,11 @@
 namespace hapnet::peer::self_test {
 
 enum class Verdict : std::uint8_t { passed, failed, skipped };
-[[nodiscard]] std::string_view name_of(Verdict verdict);
+constexpr auto names_of(base::Tag<Verdict> /*enum*/)
+{
+    return base::names("passed", "failed", "skipped");
+}
+using base::name_of;
 
 /// The instruction for the person.
 enum class Prompt : std::uint8_t {

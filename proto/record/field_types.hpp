@@ -84,7 +84,7 @@ struct FieldType<Phase> {
     static bool take(base::ByteReader& in, Phase& value)
     {
         const std::uint8_t byte = in.u8();
-        if (byte >= phase_names.size()) return false;
+        if (byte >= base::names_of_enum<Phase>.size()) return false;
         value = static_cast<Phase>(byte);
         return true;
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
@@ -9,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <variant>
 
 namespace hapnet::record {
@@ -24,14 +24,12 @@ enum class Phase : std::uint8_t {
     ended,
 };
 
-/// The words of the phases, in order; also in the header of a record and in its CSV.
-inline constexpr std::array<std::string_view, 6> phase_names{"waiting",   "countdown", "running",
-                                                             "hands_off", "alone",     "ended"};
-
-[[nodiscard]] constexpr std::string_view name_of(Phase phase)
+/// Also in the header of a record and in its CSV.
+constexpr auto names_of(base::Tag<Phase> /*enum*/)
 {
-    return phase_names.at(static_cast<std::size_t>(phase));
+    return base::names("waiting", "countdown", "running", "hands_off", "alone", "ended");
 }
+using base::name_of;
 
 /// One tick of the haptic loop. Times are this peer's CLOCK_MONOTONIC, lengths SI.
 struct TickRow {

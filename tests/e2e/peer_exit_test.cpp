@@ -190,7 +190,7 @@ TEST(PeerTrouble, ADeviceThatGivesNoRhythmAnyMoreIsToBlameAndNotTheProgram)
     push.recorded.signal(SIGTERM);
     std::ignore = push.recorded.wait_end();
     EXPECT_LT(time_to_zero(push.recorded.told()), 20ms + patience);
-    EXPECT_NE(push.messages().find("zero force (timeout): the device answers no more"),
+    EXPECT_NE(push.messages().find("zero force (timeout): the device does not answer"),
               std::string::npos)
         << push.messages();
 }

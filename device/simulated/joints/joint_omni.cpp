@@ -32,7 +32,7 @@ Capabilities capabilities_of(const JointPlantFigures& plant)
     can.resolution_m = omni::radians_per_count * omni::link_m;
     can.buttons = 2;
     can.has_holder = true;
-    can.joints = JointLimits{omni::jacobian_at, plant.torque_max_nm};
+    can.joints = JointLimits{omni::mechanism, plant.torque_max_nm};
     return can;
 }
 

@@ -41,7 +41,7 @@ public:
     void lead_to(const base::Position& place);
     /// ... and presses the buttons: one bit each.
     void press(std::uint8_t buttons) { pressed_ = buttons; }
-    void set_mishaps(InjectedFaults injected_faults)
+    void set_injected_faults(InjectedFaults injected_faults)
     {
         injected_faults_ = std::move(injected_faults);
     }

@@ -18,6 +18,11 @@ namespace hapnet::peer {
 /// them.
 using Algorithm = std::variant<BaseAlgorithm, DeadReckoning, EstimatorPredictor>;
 
+/// The names of the algorithms, in the order of their variant.
+inline constexpr auto algorithm_names =
+    base::names(base::described_name<BaseOptions>, base::described_name<DeadReckoningOptions>,
+                base::described_name<EstimatorPredictorOptions>);
+
 /// "base", "dead-reckoning" or "sep", with all defaults.
 [[nodiscard]] base::Result<Algorithm> algorithm_named(std::string_view name);
 

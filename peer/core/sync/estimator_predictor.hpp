@@ -28,6 +28,27 @@ struct EstimatorPredictorOptions {
     friend bool operator==(const EstimatorPredictorOptions&,
                            const EstimatorPredictorOptions&) = default;
 };
+constexpr auto fields_of(base::Tag<EstimatorPredictorOptions> /*struct*/)
+{
+    using Options = EstimatorPredictorOptions;
+    return base::fields(
+        "sep",
+        base::field("time_constant", &Options::time_constant, parameter_time, "of the filters"),
+        base::field("force_ahead_max", &Options::force_ahead_max, parameter_time,
+                    "of the force's prediction"),
+        base::field("hip_ahead_beyond_delay", &Options::hip_ahead_beyond_delay, parameter_time,
+                    "and the median delay: of the prediction of the hand's place"),
+        base::field("fade_after", &Options::fade_after, parameter_time,
+                    "and the median delay: then an old sample is predicted on less"),
+        base::field("fade_within", &Options::fade_within, parameter_time, "down to not at all"),
+        base::field("force_slew", &Options::force_slew_n_per_s,
+                    base::Quantity{base::force_rate_kind, 0.0, 1e6}, "of the predicted force"),
+        base::field("hip_slew", &Options::hip_slew_m_per_s,
+                    base::Quantity{base::speed_kind, 0.0, 1000.0}, "of the predicted place"),
+        base::field("gap_max", &Options::gap_max, parameter_time,
+                    "after a longer one the filters start anew"),
+        base::part(&Options::base));
+}
 
 /// SEP, the synchronised estimator and predictor: the base algorithm with the remote hand's force
 /// and place predicted to now from their senders' stamps by alpha-beta filters. It stands in for

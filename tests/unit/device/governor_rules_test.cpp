@@ -84,7 +84,7 @@ glm::dmat3 no_arm(const base::Position& /*position*/)
 TEST(GovernorRules, ScaleAForceToWhatTheWeakestJointBears)
 {
     GovernorLimits limits;
-    limits.joints = JointLimits{two_arms, glm::dvec3{0.05, 0.05, 0.05}};
+    limits.joints = JointLimits{{"test", two_arms}, glm::dvec3{0.05, 0.05, 0.05}};
     Governed governed = Governed::ramped_in(limits);
     EXPECT_EQ(governed.play(5, {{0.4, 0.2, 0.3}}), (base::Force{{0.4, 0.2, 0.3}}));
     EXPECT_EQ(governed.governor.counters().joint_limited, 0U);
@@ -99,7 +99,7 @@ TEST(GovernorRules, ScaleAForceToWhatTheWeakestJointBears)
 TEST(GovernorRules, GiveNothingWhereAnArmCannotBe)
 {
     GovernorLimits limits;
-    limits.joints = JointLimits{no_arm, glm::dvec3{1.0}};
+    limits.joints = JointLimits{{"test", no_arm}, glm::dvec3{1.0}};
     Governed governed = Governed::ramped_in(limits);
     EXPECT_EQ(governed.play(5, along_x(1.0)), base::Force{});
 }

@@ -80,7 +80,7 @@ private:
     {
         device::InjectedFaults injected_faults;
         if (on) injected_faults.schedule.push_back({kind, 0ms, for_ever});
-        omni_->set_mishaps(injected_faults);
+        omni_->set_injected_faults(injected_faults);
     }
 
     base::TimePoint now_{1000s};

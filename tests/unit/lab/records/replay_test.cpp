@@ -202,16 +202,16 @@ TEST(ReplayOfADamagedRecord, RefusesARecordWithoutTicksWithTicksMissingOrOutOfOr
     };
     record::Record record = whole;
     record.ticks.clear();
-    EXPECT_EQ(refused(record), "it holds no tick");
+    EXPECT_EQ(refused(record), "it has no ticks");
     record = whole;
     record.ticks.erase(record.ticks.begin() + 40, record.ticks.begin() + 45);
-    EXPECT_TRUE(refused(record).starts_with("its ticks 40 to 44 are missing"));
+    EXPECT_TRUE(refused(record).starts_with("ticks 40 to 44 are missing"));
     record = whole;
     std::swap(record.ticks[40], record.ticks[41]);
-    EXPECT_TRUE(refused(record).starts_with("its ticks 40 to 40 are missing"));
+    EXPECT_TRUE(refused(record).starts_with("ticks 40 to 40 are missing"));
     record = whole;
     record.ticks[41].tick = 7;
-    EXPECT_EQ(refused(record), "its tick 7 stands where tick 41 should: the file is damaged");
+    EXPECT_EQ(refused(record), "tick 7 follows where tick 41 is expected: the file is damaged");
 }
 
 TEST(ReplayOfADamagedRecord, PlaysWhatIsLeftOfOneThatIsCutOffAndSaysThatItIsCutOff)

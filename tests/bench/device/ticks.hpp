@@ -12,24 +12,24 @@
 
 namespace hapnet::bench {
 
-/// What a turn of the servo does between the device's bytes and the network's, with or without what
+/// The servo's work in a tick between the device's bytes and the network's, with or without what
 /// a real device adds to it.
 enum class Load : std::uint8_t {
     contact,  // the scene alone: the force goes as it comes
     governed, // from encoder counts to a place, and through the governor with the joints' torques
 };
 
-/// Two peers that carry the cube to and fro between them, T3's way, and whose turns are timed on
+/// Two peers that carry the cube to and fro between them, T3's way, and whose ticks are timed on
 /// one side.
-class Turns {
+class Ticks {
 public:
-    explicit Turns(Load load);
-    ~Turns();
+    explicit Ticks(Load load);
+    ~Ticks();
 
     /// A reading of a clock, in nanoseconds.
     using Clock = std::function<std::int64_t()>;
-    /// Plays so many turns; the nanoseconds that each took.
-    void play(int turns, const Clock& clock, std::vector<double>& nanoseconds);
+    /// Plays this number of ticks; the nanoseconds that each took.
+    void play(int ticks, const Clock& clock, std::vector<double>& nanoseconds);
 
     /// The force that was felt last: work that cannot be left out.
     [[nodiscard]] base::Force felt() const { return side_.told(); }
@@ -37,7 +37,7 @@ public:
 
 private:
     void deliver();
-    void turn();
+    void tick();
 
     Load load_;
     base::TimePoint now_{std::chrono::hours{1}};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "tests/bench/device/turns.hpp"
+#include "tests/bench/device/ticks.hpp"
 
 #include "device/omni/geometry.hpp"
 #include "device/velocity_filter.hpp"
@@ -40,7 +40,7 @@ public:
         capabilities_.force_continuous_n = 0.88;
         capabilities_.speed_max_m_per_s = 1.0;
         capabilities_.joints =
-            device::JointLimits{device::omni::jacobian_at, device::omni::torque_max_nm};
+            device::JointLimits{device::omni::mechanism, device::omni::torque_max_nm};
     }
     [[nodiscard]] const device::Identity& identity() const override { return identity_; }
     [[nodiscard]] const device::Capabilities& capabilities() const override
@@ -50,7 +50,7 @@ public:
     [[nodiscard]] device::Sample read(base::TimePoint now) override
     {
         device::Sample sample;
-        sample.sequence = ++words_;
+        sample.sequence = ++reports_;
         const peer::Hand hand = hand_at(0, now);
         sample.hip = hand.hip;
         if (load_ == Load::contact) return sample;
@@ -67,7 +67,7 @@ public:
 private:
     [[nodiscard]] glm::dvec3 counts_now() const
     {
-        const auto turn = static_cast<double>(words_ % 1000);
+        const auto turn = static_cast<double>(reports_ % 1000);
         return radians_per_count * glm::dvec3{turn, 0.7 * turn, -0.4 * turn};
     }
 
@@ -75,7 +75,7 @@ private:
     device::Identity identity_;
     device::Capabilities capabilities_;
     device::VelocityFilter velocity_{30.0};
-    std::uint64_t words_ = 0;
+    std::uint64_t reports_ = 0;
     base::Force last_;
 };
 
@@ -111,7 +111,7 @@ private:
 
 } // namespace
 
-Turns::Turns(Load load)
+Ticks::Ticks(Load load)
     : load_{load},
       side_{settings_of(0)},
       other_{settings_of(1)},
@@ -122,21 +122,21 @@ Turns::Turns(Load load)
         4000, [] { return std::int64_t{0}; }, unused); // until both play and push
 }
 
-Turns::~Turns() = default;
+Ticks::~Ticks() = default;
 
-void Turns::play(int turns, const Clock& clock, std::vector<double>& nanoseconds)
+void Ticks::play(int ticks, const Clock& clock, std::vector<double>& nanoseconds)
 {
-    for (int i = 0; i < turns; ++i) {
+    for (int i = 0; i < ticks; ++i) {
         now_ += 1ms;
         deliver();
         const std::int64_t begin = clock();
-        turn();
+        tick();
         nanoseconds.push_back(static_cast<double>(clock() - begin));
         std::ignore = other_.tick(now_, hand_at(1, now_));
     }
 }
 
-void Turns::deliver()
+void Ticks::deliver()
 {
     while (const auto datagram = side_.poll()) other_.on_datagram(datagram->bytes(), now_);
     while (const auto datagram = other_.poll()) side_.on_datagram(datagram->bytes(), now_);
@@ -144,7 +144,7 @@ void Turns::deliver()
     while (other_.event()) {}
 }
 
-void Turns::turn()
+void Ticks::tick()
 {
     if (load_ == Load::governed) {
         side_.step(now_, rig_);
