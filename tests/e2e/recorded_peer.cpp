@@ -14,6 +14,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <limits>
+#include <poll.h>
 #include <stdexcept>
 #include <string>
 #include <sys/mman.h>
@@ -217,6 +218,12 @@ bool RecordedPeer::take_one()
     if (read(pipe_, &told, sizeof told) != static_cast<ssize_t>(sizeof told)) return false;
     told_.push_back(told);
     return true;
+}
+
+bool RecordedPeer::has_more(int wait_ms) const
+{
+    pollfd polled{pipe_, POLLIN, 0};
+    return poll(&polled, 1, wait_ms) > 0;
 }
 
 bool RecordedPeer::pushes()
