@@ -13,7 +13,7 @@ double product(const glm::dvec3& a, const glm::dvec3& b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// What of a vector lies across a unit vector.
+/// The part of a vector across a unit vector.
 glm::dvec3 across(const glm::dvec3& v, const glm::dvec3& unit)
 {
     return v - product(v, unit) * unit;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/sync/base_algorithm.hpp"
 
-#include "peer/core/shared_body.hpp"
-
 #include <algorithm>
 
 namespace hapnet::peer {
@@ -142,7 +140,7 @@ void BaseAlgorithm::put_there(scene::World& world, scene::BodyId body, Presence:
         there.position.value = {there.position.x(), own.position.y(), own.position.z()};
         there.velocity.value = {there.velocity.x(), own.velocity.y(), own.velocity.z()};
     }
-    put(world, body, there.position, there.velocity);
+    world.place(body, there.position, there.velocity);
 }
 
 } // namespace hapnet::peer

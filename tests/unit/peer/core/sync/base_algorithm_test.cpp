@@ -207,7 +207,7 @@ TEST(Algorithms, HaveNames)
     const auto unknown = algorithm_named("best");
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().message,
-              "'best' is not an algorithm; known: base, dead-reckoning, sep");
+              "unknown algorithm \"best\": use one of base, dead-reckoning, sep");
 }
 
 } // namespace
