@@ -104,13 +104,8 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
 void introduce(const Options& options, const device::Rig& rig)
 {
     say(introduction(rig.device(), rig.mount(), options.task));
-<<<<<<< HEAD
-    const std::string softer = words_on_stiffness(rig.device().capabilities(), rig.mount(),
-                                                  options.scene.hands.stiffness_n_per_m);
-=======
     const std::string softer = note_on_stiffness(rig.device().capabilities(), rig.mount(),
-                                                 options.scene.hips.stiffness_n_per_m);
->>>>>>> peer
+                                                 options.scene.hands.stiffness_n_per_m);
     if (!softer.empty()) say(softer);
 }
 

@@ -119,13 +119,8 @@ std::string stiffness_of_a_session(const DeviceChoice& choice,
                                    const device::Capabilities& capabilities)
 {
     if (!choice.is_real()) return "";
-<<<<<<< HEAD
-    return words_on_stiffness(capabilities, mount_of(choice, capabilities),
-                              scene::paper_scene().hands.stiffness_n_per_m);
-=======
     return note_on_stiffness(capabilities, mount_of(choice, capabilities),
-                             scene::paper_scene().hips.stiffness_n_per_m);
->>>>>>> peer
+                             scene::paper_scene().hands.stiffness_n_per_m);
 }
 
 } // namespace

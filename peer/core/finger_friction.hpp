@@ -20,15 +20,9 @@ public:
     explicit FingerFriction(const scene::HandDescription& hips) : hips_{hips} {}
 
     /// On the body, to be held for the coming tick: of a hand that is there and moves so now.
-<<<<<<< HEAD
     [[nodiscard]] base::Force on_body(const scene::HandInput& hand, const scene::BodyState& body);
-    /// What the world's contact did in that tick, whose start on_body() was asked for.
-    void on_touch(const scene::HandTouch& touch);
-=======
-    [[nodiscard]] base::Force on_body(const scene::HipInput& hand, const scene::BodyState& body);
     /// The world's contact in the tick for whose start on_body() was called.
-    void on_touch(const scene::HipTouch& touch);
->>>>>>> peer
+    void on_touch(const scene::HandTouch& touch);
 
 private:
     struct Contact {
