@@ -52,10 +52,9 @@ function(hapnet_precompile name)
         add_library(hapnet_precompiled OBJECT ${source})
         target_link_libraries(hapnet_precompiled PRIVATE hapnet_base)
         target_precompile_headers(hapnet_precompiled PRIVATE
-            <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <map>
-            <memory> <optional> <span> <sstream> <string> <string_view> <tuple> <utility> <variant>
-            <vector> <glm/gtc/quaternion.hpp> <glm/glm.hpp> <nlohmann/json.hpp>
-            <spdlog/fmt/fmt.h> <tl/expected.hpp>)
+            <algorithm> <array> <chrono> <cmath> <functional> <map> <memory> <optional> <span>
+            <string> <string_view> <tuple> <utility> <variant> <vector> <glm/gtc/quaternion.hpp>
+            <glm/glm.hpp> <spdlog/fmt/fmt.h> <tl/expected.hpp>)
     endif()
     target_precompile_headers(${name} REUSE_FROM hapnet_precompiled)
 endfunction()

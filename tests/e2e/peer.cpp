@@ -75,12 +75,17 @@ nlohmann::json Peer::statistics() const
     return json.is_object() ? json : nlohmann::json::object();
 }
 
+nlohmann::json answer_of(const std::string& socket, const std::string& command)
+{
+    const Outcome outcome = run("hapnet-ctl", {socket, "--json", command});
+    auto answer = nlohmann::json::parse(outcome.out, nullptr, /*exceptions*/ false);
+    EXPECT_TRUE(answer.is_object()) << outcome.out << outcome.err;
+    return answer.is_object() ? answer : nlohmann::json::object();
+}
+
 std::string fault_at(const std::string& socket)
 {
-    const Outcome outcome = run("hapnet-ctl", {socket, "--json", "stats"});
-    const auto answer = nlohmann::json::parse(outcome.out, nullptr, /*exceptions*/ false);
-    EXPECT_TRUE(answer.is_object() && answer.contains("governor")) << outcome.out << outcome.err;
-    return answer.is_object() ? answer["governor"].value("fault", "") : "";
+    return answer_of(socket, "stats")["governor"]["fault"];
 }
 
 namespace {

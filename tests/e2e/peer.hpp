@@ -58,6 +58,9 @@ private:
     std::optional<Process> process_;
 };
 
+/// What a running peer answers to a command of its control socket.
+[[nodiscard]] nlohmann::json answer_of(const std::string& socket, const std::string& command);
+
 /// The fault that holds the device of a running peer at zero force, as its control socket names it:
 /// "none", or "timeout" when the machine stood still.
 [[nodiscard]] std::string fault_at(const std::string& socket);

@@ -207,7 +207,7 @@ TEST(PeerTrouble, ATurnInWhichTheWatchdogLetGoDoesNotEndInTheForceThatItBeganFor
 TEST(PeerTrouble, ADeviceThatGivesNoRhythmAnyMoreIsToBlameAndNotTheProgram)
 {
     Push push{{.trouble = Trouble::mute, .pacing = device::Pacing::device}};
-    EXPECT_TRUE(push.comes_to_say("zero force (timeout): the device answers no more"));
+    EXPECT_TRUE(push.comes_to_say("zero force (timeout): the device does not answer"));
     push.recorded.signal(SIGTERM);
     std::ignore = push.recorded.wait_end();
     EXPECT_LT(time_to_zero(push.recorded.told()), 20ms + patience);

@@ -41,7 +41,7 @@ const std::vector<Folder>& map()
         {"device/hid/transport", false, {"device"}},
         {"device/omni1394/transport", false, {"device"}},
         {"device", true, {"proto/base"}},
-        {"peer/core", true, {"scene", "proto/wire", "device"}},
+        {"peer/core", true, {"scene", "proto/wire", "proto/record", "device"}},
         {"peer/control", true, {"proto/control/core"}},
         {"peer",
          false,
