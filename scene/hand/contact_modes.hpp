@@ -2,21 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/hand/spring.hpp"
 #include "scene/maths/first_root.hpp"
 
 #include <array>
-#include <cstdint>
 
 namespace hapnet::scene {
 
-/// What a unilateral spring with a damper is doing.
-enum class ContactPhase : std::uint8_t {
-    apart,    // no force: no overlap, or it opens faster than the damper lets the spring follow
-    pressing, // stiffness * depth + damping * closing
-    limited,  // its greatest force
-};
-
-/// One spring on a body along its held normal.
+/// One spring on a body along its held normal. While it is slack it counts as apart: it pushes
+/// again when the pull has gone, wherever its depth is.
 struct SpringContact {
     double stiffness = 0.0;
     double damping = 0.0;
@@ -24,12 +18,12 @@ struct SpringContact {
     double depth = 0.0;        // > 0: overlap
     double closing = 0.0;      // by how much the depth grows per second
     double acceleration = 0.0; // of the depth, by everything but the springs
-    ContactPhase phase = ContactPhase::apart;
+    SpringPhase phase = SpringPhase::apart;
 
     [[nodiscard]] double unlimited_force() const { return stiffness * depth + damping * closing; }
     [[nodiscard]] double force() const;
     /// The phase that depth and closing speed call for.
-    [[nodiscard]] ContactPhase phase_due() const;
+    [[nodiscard]] SpringPhase phase_due() const;
 };
 
 /// By how much the depths of up to two springs answer to their forces: 1/kg.
@@ -70,7 +64,7 @@ private:
     struct End {
         double time = 0.0;
         std::size_t contact = count; // none
-        ContactPhase then = ContactPhase::apart;
+        SpringPhase then = SpringPhase::apart;
     };
 
     void solve_parabolas();

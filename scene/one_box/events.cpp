@@ -251,7 +251,7 @@ void find_event(const BoxMotion& box, Event& first)
     }
 }
 
-void apply(BoxMotion& box, const Event& event, double tick)
+void handle_event(BoxMotion& box, const Event& event, double tick)
 {
     const HandDescription& hands = box.hands;
     switch (event.kind) {

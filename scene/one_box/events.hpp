@@ -34,6 +34,6 @@ struct Event {
 void find_event(const BoxMotion& box, Event& first);
 
 /// Lets it happen; the box has been advanced to its moment. `tick` is the whole one's length.
-void apply(BoxMotion& box, const Event& event, double tick);
+void handle_event(BoxMotion& box, const Event& event, double tick);
 
 } // namespace hapnet::scene

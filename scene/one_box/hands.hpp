@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/one_box/meeting.hpp"
 #include "scene/one_box/motion.hpp"
+#include "scene/one_box/sphere_contact.hpp"
 
 #include <array>
 #include <optional>
@@ -63,7 +63,8 @@ private:
         }
     };
 
-    void hold(const WorldConfig& config, WorldState& state, BoxMotion& box, std::uint32_t index);
+    void add_grip(const WorldConfig& config, WorldState& state, BoxMotion& box,
+                  std::uint32_t index);
     void collide_box(const WorldConfig& config, WorldState& state, BoxMotion& box,
                      std::uint32_t index);
     /// Where nothing is as simple as a hand straight before a face. Hands at edges and corners are

@@ -37,6 +37,7 @@ public:
     [[nodiscard]] std::uint64_t crowded_ticks() const { return crowded_ticks_; }
 
 private:
+    void set_start(const WorldConfig& config, const WorldState& state, BoxMotion& box) const;
     /// Finds what is within `reach`.
     void query_obstacles(BoxMotion& box, double reach);
     void run_events(const WorldConfig& config, BoxMotion& box);
