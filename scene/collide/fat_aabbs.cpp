@@ -28,7 +28,7 @@ constexpr double turn_share = 0.25;
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-/// How many times larger a box becomes by a path of so many of its edges.
+/// How many times larger a box becomes by a path of that many of its edges.
 double stretch(const glm::dvec3& edges)
 {
     return (1.0 + edges.x) * (1.0 + edges.y) * (1.0 + edges.z);

@@ -64,7 +64,7 @@ inline constexpr double sphere_reach_of_half = 4.0;
 /// corners.
 class SphereBoxMemory {
 public:
-    /// nullopt when they do not overlap. For a sphere of which no earlier place is known.
+    /// nullopt when they do not overlap. For a sphere without a known earlier place.
     [[nodiscard]] std::optional<SphereOverlap> find(const OrientedBox& box,
                                                     const glm::dvec3& centre, double radius);
 

@@ -44,7 +44,7 @@ struct SweptBox {
 };
 
 /// The bodies' boxes at the start of a tick: found when they are asked for, and only of what has
-/// moved since. Nobody asks for a body that flies alone.
+/// moved since. A body that flies alone costs nothing.
 class SweptBoxes {
 public:
     SweptBoxes(const Bodies& bodies, const Scales& scales);

@@ -9,7 +9,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// A course at a moment, with its integrals from the start.
+/// A trajectory at a moment, with its integrals from the start.
 struct TrajectoryIntegrals {
     TrajectoryPoint motion;
     double once = 0.0;  // the integral of the way
@@ -23,8 +23,8 @@ TrajectoryIntegrals integrate_along(const Trajectory& trajectory, double time)
                                trajectory.speed * r.push + trajectory.push * r.ramp, 0.0};
     const Oscillator& oscillator = trajectory.propagator->oscillator;
     const double t2 = time * time;
-    // From the law itself; where it hardly acts, that would be the difference of almost equal
-    // numbers, and four terms of Taylor's series are exact to 1e-12.
+    // From the equation of motion; where the spring hardly acts, that would be the difference of
+    // almost equal numbers, and four terms of Taylor's series are exact to 1e-12.
     constexpr double hardly = 1e-3;
     if (oscillator.stiffness * t2 > hardly || oscillator.damping * time > hardly * 100.0) {
         if (oscillator.stiffness > 0.0) {
@@ -63,7 +63,7 @@ SpringPhase SpringContact::phase_due() const
     return unlimited_force() < force_max ? SpringPhase::pressing : SpringPhase::limited;
 }
 
-// The courses are set for the phases that there are.
+// The trajectories are set for the phases that there are.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 template <std::size_t count>
 ContactModes<count>::ContactModes(std::array<SpringContact, count>& contacts,
@@ -240,7 +240,7 @@ void ContactModes<count>::find_end(End& end, std::size_t i)
 {
     if (keeps_phase(i)) return;
     const SpringContact& contact = contacts_[i];
-    const auto look_for = [&](SpringPhase then, double level, double sign) {
+    const auto watch_for = [&](SpringPhase then, double level, double sign) {
         const auto found =
             first_root(watch(i, level, {sign * contact.stiffness, sign * contact.damping}),
                        trajectories_, 0.0, end.time);
@@ -249,18 +249,18 @@ void ContactModes<count>::find_end(End& end, std::size_t i)
     const double pull = contact.stiffness * contact.depth;
     switch (contact.phase) {
     case SpringPhase::pressing:
-        look_for(SpringPhase::apart, pull, 1.0);
+        watch_for(SpringPhase::apart, pull, 1.0);
         if (contact.force_max < std::numeric_limits<double>::infinity())
-            look_for(SpringPhase::limited, contact.force_max - pull, -1.0);
+            watch_for(SpringPhase::limited, contact.force_max - pull, -1.0);
         return;
     case SpringPhase::limited:
-        look_for(SpringPhase::pressing, pull - contact.force_max, 1.0);
+        watch_for(SpringPhase::pressing, pull - contact.force_max, 1.0);
         return;
     case SpringPhase::apart:
     case SpringPhase::slack: break;
     }
     if (contact.depth >= 0.0 && contact.unlimited_force() < 0.0) {
-        look_for(SpringPhase::pressing, -pull, -1.0);
+        watch_for(SpringPhase::pressing, -pull, -1.0);
         return;
     }
     const auto found =

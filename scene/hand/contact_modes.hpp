@@ -26,13 +26,13 @@ struct SpringContact {
     [[nodiscard]] SpringPhase phase_due() const;
 };
 
-/// By how much the depths of up to two springs answer to their forces: 1/kg.
+/// How the depths of up to two springs respond to their forces: 1/kg.
 struct Coupling {
     std::array<double, 2> own{};
     double mutual = 0.0;
 };
 
-/// What the springs did in a time.
+/// What the springs did until a moment.
 template <std::size_t count>
 struct PhaseImpulses {
     double time = 0.0;
@@ -49,7 +49,7 @@ class ContactModes {
 public:
     /// `time` is how long at most.
     ContactModes(std::array<SpringContact, count>& contacts, const Coupling& coupling, double time);
-    ContactModes(const ContactModes&) = delete; // the courses point to the kernels
+    ContactModes(const ContactModes&) = delete; // the trajectories point to the propagators
     ContactModes& operator=(const ContactModes&) = delete;
     ~ContactModes() = default;
 
@@ -82,11 +82,11 @@ private:
     double time_;
     bool is_solved_ = true;
 
-    // Each depth is its start plus the sum of two courses, weighted.
+    // Each depth is its start plus the weighted sum of two trajectories.
     std::array<Propagator, count> propagators_;
     Trajectories trajectories_;
-    std::array<std::array<double, count>, count> share_{}; // of depth i in course j
-    // Of the springs that press, in the courses that are theirs: one alone, or the two modes.
+    std::array<std::array<double, count>, count> share_{}; // of depth i in trajectory j
+    // The modes of the springs that press: one alone, or two.
     std::size_t modes_ = 0;
     std::array<double, count> start_{};                     // depth of the mode
     std::array<std::array<double, count>, count> weight_{}; // of force i in mode j

@@ -13,7 +13,7 @@
 
 namespace hapnet::scene {
 
-/// The laws that an axis can be under: with any number of springs, with or without drag.
+/// The oscillators that an axis can be: with any number of springs, with or without drag.
 class AxisOscillators {
 public:
     AxisOscillators(const HandDescription& hands, const BodyProperties& body, double tick);
@@ -41,10 +41,10 @@ struct AxisMotion {
     const Obstacle* below; // at whose high face it is
     const Obstacle* above;
     const Obstacle* support; // one of them, when it presses on that
-    double load;             // by which it presses, per mass; >= 0; only with a carrier
+    double load;             // by which it presses, per mass; >= 0; only with a support
     double load_ramp;        // m/s^3
 
-    double acceleration; // at the start of the stretch
+    double acceleration; // at the start of the interval
     Bounds bounds;       // for what is left of the tick
     double reach;        // how far it can come in what is left of the tick
 
@@ -52,7 +52,7 @@ struct AxisMotion {
     [[nodiscard]] bool is_held() const { return is_stopped || support; }
 };
 
-/// Dry friction on what carries the box.
+/// Dry friction on what supports the box.
 struct DryFriction {
     enum class State : std::uint8_t { none, stuck, sliding };
     State state = State::none;
@@ -67,7 +67,7 @@ struct FaceSpring {
     std::uint32_t hand;
     std::size_t axis;
     double sign;    // of the normal, from the box to the hand
-    double depth;   // at the start of the stretch of time that is looked at
+    double depth;   // at the start of the interval
     double closing; // the hand's share of the closing speed
     SpringPhase phase;
     double impulse; // so far in the tick, N s, >= 0
@@ -96,7 +96,7 @@ struct FaceSpring {
 /// A hand that holds the box: a spring and a damper in all directions, which also pull.
 struct GripSpring {
     std::uint32_t hand;
-    PerAxis stretch; // from where it is held to the hand, at the start of the stretch of time
+    PerAxis stretch; // from where it is held to the hand, at the start of the interval
     PerAxis velocity;
     PerAxis impulse; // on the box, so far in the tick
 };
@@ -110,8 +110,8 @@ struct EdgeSpring {
     double force;   // on the hand along the normal
 };
 
-/// A box within a tick. The tick is cut into stretches at what begins or ends in it; in each of
-/// them every axis runs a closed form.
+/// A box within a tick. Events cut the tick into intervals; in each of them every axis follows a
+/// closed form.
 struct BoxMotion {
     // Without values until they are set: clearing all of them would cost more than the tick.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
@@ -170,7 +170,7 @@ struct BoxMotion {
 void set_trajectories(BoxMotion& box);
 void set_bounds(BoxMotion& box);
 
-/// Runs the courses for `time` seconds.
+/// Advances along the trajectories for `time` seconds.
 void advance(BoxMotion& box, double time);
 
 } // namespace hapnet::scene

@@ -11,7 +11,7 @@ namespace hapnet::scene {
 namespace {
 
 /// A body that hits slower than this, times what gravity adds in a tick, does not bounce: it would
-/// be back within so many ticks.
+/// be back within that many ticks.
 constexpr double bounce_threshold = 2.0;
 /// A point that does not hit pushes only when something would throw it this fast, in sizes a tick.
 constexpr double inactive_speed = 1e9;

@@ -27,7 +27,7 @@ Ldl<5> factors_of(const ContactBlock& block, const PointSet& set)
     return Ldl<5>{part};
 }
 
-/// Whether another set of so many points was met last.
+/// Whether the last set of that size was another one.
 bool is_new(BlockFactors& factors, const PointSet& set)
 {
     std::uint32_t& known = factors.sets[set.count - 1];
@@ -120,7 +120,7 @@ public:
     bool stick(double tolerance);
     /// Slipping or frictionless contact: the normal impulses for the friction as it is.
     void push(double tolerance);
-    /// Slipping contact, in so many rounds at most. False when friction does not reach its limit.
+    /// Slipping contact, in at most that many rounds. False when friction does not reach its limit.
     bool slip(double tolerance, int rounds_max);
 
 private:

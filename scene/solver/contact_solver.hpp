@@ -31,8 +31,8 @@ struct SolverOutcome {
 /// Solves all contacts of a tick for the velocities at its end, block after block, each as a whole
 /// (projected Gauss-Seidel). A contact that is in balance already costs a look, and what is at
 /// rest or nearly so is done with one sweep. Bodies that touch each other and are not are an
-/// island: swept again and again, to and fro, with Anderson's mixing, which is what carries a heavy
-/// body on a light one and a stack.
+/// island: swept again and again, to and fro, with Anderson mixing, which is what holds a heavy
+/// body on a light one, and a stack.
 class ContactSolver {
 public:
     ContactSolver(std::size_t bodies, std::size_t blocks);
