@@ -12,7 +12,7 @@
 
 namespace hapnet::scene {
 
-/// How bodies behave where they touch. Of two that touch, friction is the geometric mean and
+/// How bodies behave where they touch. For two that touch, friction is the geometric mean and
 /// restitution the greater of the two.
 struct Material {
     double friction = 0.0;    // Coulomb's coefficient, 0..friction_max

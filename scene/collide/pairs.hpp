@@ -102,8 +102,8 @@ private:
         PairIndex previous_second = none;
     };
 
-    // Marks: in the list of the active ones (or in it after the next apply_changes()); listed in active_
-    // or coming_.
+    // Marks: in the list of the active pairs (or in it after the next apply_changes()); listed in
+    // active_ or arriving_.
     static constexpr std::uint8_t active_mark = 1;
     static constexpr std::uint8_t listed = 2;
     static constexpr std::uint8_t parking = 4; // in parked_

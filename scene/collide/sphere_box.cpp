@@ -36,7 +36,7 @@ bool is_behind(const BoxFace& face, const glm::dvec3& half, const glm::dvec3& pl
            std::abs(place[u]) <= half[u] && std::abs(place[v]) <= half[v];
 }
 
-/// The face at which a straight way from outside goes into the box, however shortly.
+/// The face at which a straight line from outside enters the box, however briefly.
 std::optional<BoxFace> entry(const glm::dvec3& half, const glm::dvec3& from, const glm::dvec3& to)
 {
     std::optional<BoxFace> face;

@@ -69,7 +69,7 @@ public:
                                                     const glm::dvec3& centre, double radius);
 
     /// Likewise; `before` is where the centre was a tick ago in the box's frame of that time, see
-    /// to_local(): the face is that which the straight way from there to here meets first.
+    /// to_local(): the face is the one that the straight line from there to here meets first.
     [[nodiscard]] std::optional<SphereOverlap>
     find(const OrientedBox& box, const glm::dvec3& centre, double radius, const glm::dvec3& before);
 
@@ -80,7 +80,7 @@ public:
 
     void forget() { entered_.reset(); }
 
-    /// The face through which the centre went in, or would on its shortest way.
+    /// The face through which the centre went in, or would on its shortest path.
     [[nodiscard]] std::optional<BoxFace> entered() const { return entered_; }
 
     friend bool operator==(const SphereBoxMemory&, const SphereBoxMemory&) = default;

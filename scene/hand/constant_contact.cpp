@@ -15,9 +15,9 @@ namespace hapnet::scene {
 
 namespace {
 
-// How far a normal may turn in half a tick: then its mean is right to 1e-5.
+// The most that a normal may rotate in half a tick: then its mean is right to 1e-5.
 constexpr double half_rotation_max = 0.01;
-// What turns less than this has kept its directions, to rounding.
+// A rotation below this keeps all directions, to rounding.
 constexpr double negligible_rotation = 1e-10;
 
 constexpr std::size_t press_terms_max = 24;

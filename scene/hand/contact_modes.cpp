@@ -12,7 +12,7 @@ namespace {
 /// A trajectory at a moment, with its integrals from the start.
 struct TrajectoryIntegrals {
     TrajectoryPoint motion;
-    double once = 0.0;  // the integral of the way
+    double once = 0.0;  // the integral of the displacement
     double twice = 0.0; // the integral of that
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int phases_max = 64;          // of a tick
 constexpr double part_min = 1.0 / 32.0; // of a tick, that is cut off only because something turns
-// How far a normal may turn in half of what is held: then its mean is right to 1e-5.
+// The most that a normal may rotate in half an interval: then its mean is right to 1e-5.
 constexpr double normal_rotation_max = 0.01;
 
 glm::dmat3 rotated_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& angle)
@@ -141,7 +141,7 @@ bool ContactPhases<count>::advance()
 {
     for (int phase = 0; phase < phases_max && time_left_ > 0.0; ++phase) {
         double time = time_left_;
-        double predicted = time; // what the setting is halfway of
+        double predicted = time; // the time whose middle `held` belongs to
         for (int attempt = 0;; ++attempt) {
             const HeldGeometry held = geometry_halfway(predicted);
             const Coupling coupling = set_couplings(held);

@@ -8,7 +8,7 @@
 
 namespace hapnet::scene {
 
-/// What pulls a coordinate back: x'' = A + R t - damping x' - stiffness x, per unit of mass. Both
+/// A damped oscillator: x'' = A + R t - damping x' - stiffness x, per unit of mass. Both
 /// may be 0: a parabola; without stiffness: an exponential; otherwise an oscillator, under-,
 /// critically or over-damped.
 struct Oscillator {
@@ -61,8 +61,8 @@ struct TrajectoryPoint {
     double speed = 0.0;
 };
 
-/// A coordinate's motion in closed form from a moment on: way'' = push + ramp t - damping way' -
-/// stiffness way. A trajectory without a propagator stays where it is.
+/// A coordinate's motion in closed form from a moment on: x'' = push + ramp t - damping x' -
+/// stiffness x. A trajectory without a propagator stays where it is.
 struct Trajectory {
     const Propagator* propagator;
     double speed; // at the start
@@ -95,7 +95,7 @@ struct Trajectory {
     }
 };
 
-/// What acceleration and its rate cannot exceed from a moment on for `time` seconds. Acceleration
+/// The greatest acceleration, and rate of it, from a moment on for `time` seconds. Acceleration
 /// a obeys the oscillator without forces, a'' + damping a' + stiffness a = 0, whose energy a'^2 +
 /// stiffness a^2 never grows.
 struct Bounds {

@@ -33,7 +33,7 @@ struct Event {
 /// The first event in the rest of the tick, if it comes before `first`.
 void find_event(const BoxMotion& box, Event& first);
 
-/// Changes the box as the event says, once it has been advanced to its moment. `tick` is the length
+/// Applies the event to the box, once the box has been advanced to its moment. `tick` is the length
 /// of the whole tick.
 void handle_event(BoxMotion& box, const Event& event, double tick);
 

@@ -24,7 +24,7 @@ public:
     BoxHands(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
 
     /// Adds the springs between the hands and the box to `box`. What the hands feel of the fixed
-    /// boxes is told at once.
+    /// boxes is reported at once.
     void collide(const WorldConfig& config, WorldState& state, BoxMotion& box);
     /// Adds the forces of hands at edges and corners, once the trajectories of the axes are known.
     /// Midpoint rule: second order, and it neither makes nor loses energy.

@@ -19,7 +19,7 @@ public:
     AxisOscillators(const HandDescription& hands, const BodyProperties& body, double tick);
 
     [[nodiscard]] double inverse_mass() const { return inverse_mass_; }
-    /// Of one spring.
+    /// The oscillator of one spring alone.
     [[nodiscard]] const Oscillator& spring() const { return propagators_[0][1].oscillator; }
 
     [[nodiscard]] const Propagator& of(std::size_t springs, bool with_drag) const
@@ -32,7 +32,7 @@ private:
     std::array<std::array<Propagator, hands_max + 1>, 2> propagators_;
 };
 
-/// What one axis of the box does.
+/// The motion of one axis of the box.
 struct AxisMotion {
     double applied_acceleration; // acceleration of the forces that hold for the tick
     bool is_stopped;             // locked, or for the rest of the tick

@@ -19,7 +19,7 @@ struct SphereMotion {
     double tick = 0.0;
 };
 
-/// How a hand meets a box within a tick. The normal holds for the whole tick.
+/// The contact of a hand's sphere and a box within a tick. The normal holds for the whole tick.
 struct SphereContact {
     BoxFace face;          // none at an edge or a corner
     double depth = 0.0;    // at the start of the tick, along the normal; < 0: still apart

@@ -113,8 +113,8 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
         touch.on_hand.value += (impulse / config.tick) * normal;
         return;
     }
-    // What does not begin to act within the tick is no spring; what acts already is one, also in
-    // the tick in which it ends.
+    // A spring that does not begin to act within the tick is left out; one that acts already stays,
+    // also in the tick in which it ends.
     if (depth < 0.0 && -depth > closing * config.tick + gravity_reach_) return;
     HandSpring& spring = add(index, target.body);
     spring.normal = normal;

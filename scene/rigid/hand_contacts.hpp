@@ -85,7 +85,7 @@ private:
     [[nodiscard]] NearBody* find_near(Hand& hand, BodyId body);
 
     std::array<Hand, hands_max> hands_;
-    double gravity_reach_; // what gravity adds to a way in a tick from rest, twice, metres
+    double gravity_reach_; // twice the distance that a body falls in a tick from rest, metres
     Scratch<Spring> springs_;
     Scratch<HandSpring> forces_;  // in the order of springs_
     Scratch<HandSpring> own_;     // of one body

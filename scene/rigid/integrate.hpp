@@ -26,7 +26,7 @@ struct BodyIntegration {
     double drag = 0.0;                           // 1/s, on the plane that supports it
     glm::dvec3 support_normal{0.0};              // its normal
 
-    // Of a body that hands are on, where it would be at the end.
+    // Where a body with hands on it would be at the end.
     bool has_hands = false;
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};

@@ -40,7 +40,7 @@ public:
         touched_.clear();
         for (const PairIndex index : pair_finder.pairs()) {
             const BodyId sleeper = sleeper_disturbed_by(bodies, pair_finder.pair(index));
-            // What finds no room is found by the next call.
+            // A sleeper for which there is no room is found by the next call.
             if (sleeper != no_body && touching(index)) touched_.add(sleeper);
         }
         for (const BodyId sleeper : touched_) wake_island(sleeper, bodies, pair_finder);

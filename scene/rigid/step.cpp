@@ -21,7 +21,7 @@ constexpr std::size_t contacts_per_body_max = 8;
 constexpr double velocity_tolerance = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
 constexpr double velocity_converged = 1e-6;
-// ... or this much was done (a stack takes 23 sweeps from nothing); the next tick goes on.
+// ... or until these limits (a stack takes 23 sweeps from nothing); the next tick goes on.
 constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
@@ -30,12 +30,12 @@ constexpr double overlap_tolerance = 1e-9;
 constexpr double overlap_converged = 1e-6;
 constexpr double correction_max = 0.02;
 constexpr std::uint32_t overlap_visits_max = 200;
-// Of an overlap that is there, this share is removed per tick: not all, so that contacts that
-// contradict each other settle.
+// This share of an overlap is removed per tick: not all, so that contacts that contradict each
+// other come to rest.
 constexpr double correction_share = 0.3;
 
 // Surfaces that push each other and are not farther apart than this, in smallest half edges, touch.
-// What is left of moving overlaps apart is less; chasing it would keep heaps from coming to rest.
+// The correction of overlaps leaves less; chasing it would keep heaps from coming to rest.
 constexpr double touch_distance = 2e-6;
 
 /// The least normal speed at which two surfaces that far apart do not overlap at the tick's end.
