@@ -7,6 +7,7 @@
 #include "tests/e2e/peer.hpp"
 #include "tests/support/falcon/fake_falcon.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -89,7 +90,13 @@ protected:
             left_.press(down);
             right_.press(down);
         };
-        ASSERT_TRUE(comes_to_be_felt({socket_of("LEFT"), socket_of("RIGHT")}, is_felt, press))
+        const auto reach = [&, hand_m = 0.009]() mutable {
+            hand_m = std::max(hand_m - 0.003, -0.02);
+            if (left_.push_n() >= -0.2) left_.want(-hand_m);
+            if (right_.push_n() <= 0.2) right_.want(hand_m);
+        };
+        ASSERT_TRUE(
+            comes_to_be_felt({socket_of("LEFT"), socket_of("RIGHT")}, is_felt, press, reach))
             << left_.push_n() << " N, " << right_.push_n() << " N\n"
             << a_.process().err() << b_.process().err();
     }

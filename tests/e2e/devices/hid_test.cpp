@@ -50,6 +50,7 @@ public:
 
     /// Goes there slowly: a jump would be a fault.
     void want(double right_m) { wanted_m_ = right_m; }
+    void reach_further() { want(std::min(wanted_m_ + 0.01, 0.07)); }
     void press(bool down)
     {
         pid_.with([&](hid_double::FakePid& pid) { pid.press(down); });
@@ -94,7 +95,9 @@ protected:
         const auto is_felt = [&] {
             return joystick_.push_n() <= -0.2 && joystick_.pushes().size() > before + 50;
         };
-        ASSERT_TRUE(comes_to_be_felt({socket_}, is_felt, [&](bool down) { joystick_.press(down); }))
+        ASSERT_TRUE(comes_to_be_felt(
+            {socket_}, is_felt, [&](bool down) { joystick_.press(down); },
+            [&] { joystick_.reach_further(); }))
             << joystick_.push_n() << " N\n"
             << a_.process().err();
     }
