@@ -61,6 +61,9 @@ private:
 /// What a running peer answers to a command of its control socket.
 [[nodiscard]] nlohmann::json answer_of(const std::string& socket, const std::string& command);
 
+/// Expects a running peer to receive so many messages, to be sure of a record worth replaying.
+void expect_to_hear(const std::string& socket, int messages);
+
 /// The fault that holds the device of a running peer at zero force, as its control socket names it:
 /// "none", or "timeout" when the machine stood still.
 [[nodiscard]] std::string fault_at(const std::string& socket);

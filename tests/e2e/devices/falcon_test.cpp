@@ -67,7 +67,7 @@ protected:
     std::vector<std::string> options(const std::string& serial)
     {
         return {"--device", "falcon:" + serial, "--task",         "T3", "--duration",
-                "60s",      "--control",        socket_of(serial)};
+                "120s",     "--control",        socket_of(serial)};
     }
     [[nodiscard]] std::string socket_of(const std::string& serial) const
     {
@@ -82,6 +82,8 @@ protected:
         ASSERT_TRUE(a_.says("session started"));
         ASSERT_TRUE(b_.says("session started"));
         ASSERT_TRUE(comes_true([&] { return is_homed(left_) && is_homed(right_); }));
+        expect_to_hear(socket_of("LEFT"), 200);
+        expect_to_hear(socket_of("RIGHT"), 200);
         left_.want(-0.009);
         right_.want(0.009);
         // The cube pushes each back to its own side.

@@ -90,6 +90,7 @@ protected:
     {
         ASSERT_TRUE(comes_true([&] { return joystick_.is_where_it_wants_to_be(); }));
         ASSERT_TRUE(a_.says("session started"));
+        expect_to_hear(socket_, 200);
         joystick_.want(-0.015);
         const std::size_t before = joystick_.pushes().size();
         const auto is_felt = [&] {
@@ -106,12 +107,12 @@ protected:
     std::string socket_ = folder_.file("peer.sock");
     HeldJoystick joystick_;
     std::string place_ = free_place();
-    Peer b_{2, free_place(), place_, {"--task", "T3", "--duration", "60s"}};
+    Peer b_{2, free_place(), place_, {"--task", "T3", "--duration", "120s"}};
     Peer a_{1,
             place_,
             b_.listen(),
             {"--device", "hid:FFB0001", "--hid-force", "8N", "--force-limit", "500mN", "--task",
-             "T3", "--duration", "60s", "--control", socket_}};
+             "T3", "--duration", "120s", "--control", socket_}};
 };
 
 TEST_F(JoystickSession, EndsAtZeroAndItsForcesCanBeLivedThroughAgain)
