@@ -90,15 +90,19 @@ function(hapnet_cold target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# hapnet_library(NAME [COLD] [FOLDERS ...] [SOURCES ...] [DEPENDS ...]): a room of the map, built
-# where it is needed.
+# hapnet_library(NAME [COLD] [SMALL] [FOLDERS ...] [SOURCES ...] [DEPENDS ...]): a room of the map,
+# built where it is needed. SMALL: where several files are read as one, all of it is.
 function(hapnet_library name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "COLD" "" "FOLDERS;SOURCES;DEPENDS")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "COLD;SMALL" "" "FOLDERS;SOURCES;DEPENDS")
     hapnet_sources(sources ${arg_FOLDERS})
     add_library(${name} STATIC EXCLUDE_FROM_ALL ${sources} ${arg_SOURCES})
     target_link_libraries(${name} PUBLIC hapnet_options ${arg_DEPENDS})
     hapnet_precompile(${name})
-    hapnet_read_by_folder(${name})
+    if(arg_SMALL)
+        set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
+    else()
+        hapnet_read_by_folder(${name})
+    endif()
     if(arg_COLD)
         hapnet_cold(${name})
     endif()

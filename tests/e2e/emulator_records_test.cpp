@@ -28,13 +28,6 @@ struct Crossing {
     std::string fates;
 };
 
-std::vector<std::uint64_t> numbers_of(const std::vector<Arrival>& arrivals)
-{
-    std::vector<std::uint64_t> numbers;
-    for (const Arrival& arrival : arrivals) numbers.push_back(arrival.number);
-    return numbers;
-}
-
 Crossing cross(const std::string& path, std::vector<std::string> options)
 {
     constexpr std::uint64_t count = 400;

@@ -25,13 +25,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-std::vector<std::uint64_t> numbers_of(const std::vector<Arrival>& arrivals)
-{
-    std::vector<std::uint64_t> numbers;
-    for (const Arrival& arrival : arrivals) numbers.push_back(arrival.number);
-    return numbers;
-}
-
 base::Duration median_delay(std::vector<Arrival> arrivals)
 {
     if (arrivals.empty()) return base::Duration::max();

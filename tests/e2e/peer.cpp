@@ -83,9 +83,15 @@ nlohmann::json answer_of(const std::string& socket, const std::string& command)
     return answer.is_object() ? answer : nlohmann::json::object();
 }
 
+void expect_to_hear(const std::string& socket, int messages)
+{
+    EXPECT_TRUE(comes_true(
+        [&] { return answer_of(socket, "stats")["messages"]["states_received"] >= messages; }));
+}
+
 std::string fault_at(const std::string& socket)
 {
-    return answer_of(socket, "stats")["governor"]["fault"];
+    return answer_of(socket, "stats").value(nlohmann::json::json_pointer{"/governor/fault"}, "");
 }
 
 namespace {

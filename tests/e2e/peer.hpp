@@ -61,15 +61,20 @@ private:
 /// What a running peer answers to a command of its control socket.
 [[nodiscard]] nlohmann::json answer_of(const std::string& socket, const std::string& command);
 
+/// Expects a running peer to receive so many messages, to be sure of a record worth replaying.
+void expect_to_hear(const std::string& socket, int messages);
+
 /// The fault that holds the device of a running peer at zero force, as its control socket names it:
 /// "none", or "timeout" when the machine stood still.
 [[nodiscard]] std::string fault_at(const std::string& socket);
 
 /// What a person who cannot feel the cube does, 60 s at most: while one of the peers at these
 /// sockets is at zero force for a fault, hold the device still for the second that it needs, and
-/// press its button until the fault has gone. Whether the cube is felt then.
-template <typename Felt, typename Press>
-[[nodiscard]] bool comes_to_be_felt(const std::vector<std::string>& sockets, Felt felt, Press press)
+/// press its button until the fault has gone; without a fault, reach out a little further, as the
+/// cube may have been pushed away meanwhile. Whether the cube is felt then.
+template <typename Felt, typename Press, typename Reach>
+[[nodiscard]] bool comes_to_be_felt(const std::vector<std::string>& sockets, Felt felt, Press press,
+                                    Reach reach)
 {
     using namespace std::chrono_literals;
     const auto is_at_zero = [&] {
@@ -79,7 +84,10 @@ template <typename Felt, typename Press>
     const auto end = std::chrono::steady_clock::now() + 60s;
     while (!comes_true(felt, 1s)) {
         if (std::chrono::steady_clock::now() > end) return false;
-        if (!is_at_zero()) continue;
+        if (!is_at_zero()) {
+            reach();
+            continue;
+        }
         std::this_thread::sleep_for(1200ms);
         press(true);
         std::ignore = comes_true([&] { return felt() || !is_at_zero(); }, 1s);

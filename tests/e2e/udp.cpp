@@ -82,4 +82,11 @@ void stream(Host& from, const net::Endpoint& to, std::uint64_t count, base::Dura
     }
 }
 
+std::vector<std::uint64_t> numbers_of(const std::vector<Arrival>& arrivals)
+{
+    std::vector<std::uint64_t> numbers;
+    for (const Arrival& arrival : arrivals) numbers.push_back(arrival.number);
+    return numbers;
+}
+
 } // namespace hapnet::e2e

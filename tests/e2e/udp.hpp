@@ -26,6 +26,8 @@ struct Arrival {
     base::Duration delay{}; // from before its send call to the kernel's receive stamp
 };
 
+[[nodiscard]] std::vector<std::uint64_t> numbers_of(const std::vector<Arrival>& arrivals);
+
 /// A program that knows nothing of Hapnet, at one end of the network: sends numbered datagrams
 /// that carry their send time, and notes the numbered ones that arrive.
 class Host {

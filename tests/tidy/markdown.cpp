@@ -12,16 +12,6 @@ namespace {
 
 constexpr std::string_view glossary = "docs/GLOSSARY.md";
 
-bool is_word_character(char c)
-{
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-
-std::string at(std::size_t index, const std::string& what)
-{
-    return "line " + std::to_string(index + 1) + ": " + what;
-}
-
 bool is_fence(std::string_view line)
 {
     const auto first = line.find_first_not_of(' ');

@@ -21,22 +21,12 @@ bool is_code(const SourceFile& file)
     return file.is_cpp() || file.is_cmake() || file.is_script() || file.is_web();
 }
 
-std::string at(std::size_t index, const std::string& what)
-{
-    return "line " + std::to_string(index + 1) + ": " + what;
-}
-
 /// The characters of UTF-8 text: its bytes without the continuation bytes.
 std::size_t characters(std::string_view text)
 {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
     }));
-}
-
-bool is_word_character(char c)
-{
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
 /// Whether the line holds the word, not as the end of a longer one.

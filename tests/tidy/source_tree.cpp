@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -104,6 +105,16 @@ std::set<std::string> paths_below(const std::string& root)
         paths.insert(entry->path().lexically_relative(root).string());
     }
     return paths;
+}
+
+std::string at(std::size_t index, const std::string& what)
+{
+    return "line " + std::to_string(index + 1) + ": " + what;
+}
+
+bool is_word_character(char c)
+{
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
 } // namespace hapnet::tidy

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>
@@ -29,6 +30,12 @@ struct Include {
     bool is_quoted = false; // "ours", not <theirs>
 };
 [[nodiscard]] std::vector<Include> includes_of(const SourceFile& file);
+
+/// A complaint about a line, which is counted from 0.
+[[nodiscard]] std::string at(std::size_t index, const std::string& what);
+
+/// Whether it is part of a word: a letter, a digit or '_'.
+[[nodiscard]] bool is_word_character(char c);
 
 /// A file from its path and its text.
 [[nodiscard]] SourceFile source_file(std::string path, std::string_view text);

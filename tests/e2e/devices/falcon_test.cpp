@@ -7,6 +7,7 @@
 #include "tests/e2e/peer.hpp"
 #include "tests/support/falcon/fake_falcon.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -66,7 +67,7 @@ protected:
     std::vector<std::string> options(const std::string& serial)
     {
         return {"--device", "falcon:" + serial, "--task",         "T3", "--duration",
-                "60s",      "--control",        socket_of(serial)};
+                "120s",     "--control",        socket_of(serial)};
     }
     [[nodiscard]] std::string socket_of(const std::string& serial) const
     {
@@ -81,6 +82,8 @@ protected:
         ASSERT_TRUE(a_.says("session started"));
         ASSERT_TRUE(b_.says("session started"));
         ASSERT_TRUE(comes_true([&] { return is_homed(left_) && is_homed(right_); }));
+        expect_to_hear(socket_of("LEFT"), 200);
+        expect_to_hear(socket_of("RIGHT"), 200);
         left_.want(-0.009);
         right_.want(0.009);
         // The cube pushes each back to its own side.
@@ -89,7 +92,13 @@ protected:
             left_.press(down);
             right_.press(down);
         };
-        ASSERT_TRUE(comes_to_be_felt({socket_of("LEFT"), socket_of("RIGHT")}, is_felt, press))
+        const auto reach = [&, hand_m = 0.009]() mutable {
+            hand_m = std::max(hand_m - 0.003, -0.02);
+            if (left_.push_n() >= -0.2) left_.want(-hand_m);
+            if (right_.push_n() <= 0.2) right_.want(hand_m);
+        };
+        ASSERT_TRUE(
+            comes_to_be_felt({socket_of("LEFT"), socket_of("RIGHT")}, is_felt, press, reach))
             << left_.push_n() << " N, " << right_.push_n() << " N\n"
             << a_.process().err() << b_.process().err();
     }

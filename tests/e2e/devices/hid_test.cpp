@@ -50,6 +50,7 @@ public:
 
     /// Goes there slowly: a jump would be a fault.
     void want(double right_m) { wanted_m_ = right_m; }
+    void reach_further() { want(std::min(wanted_m_ + 0.01, 0.07)); }
     void press(bool down)
     {
         pid_.with([&](hid_double::FakePid& pid) { pid.press(down); });
@@ -89,12 +90,15 @@ protected:
     {
         ASSERT_TRUE(comes_true([&] { return joystick_.is_where_it_wants_to_be(); }));
         ASSERT_TRUE(a_.says("session started"));
+        expect_to_hear(socket_, 200);
         joystick_.want(-0.015);
         const std::size_t before = joystick_.pushes().size();
         const auto is_felt = [&] {
             return joystick_.push_n() <= -0.2 && joystick_.pushes().size() > before + 50;
         };
-        ASSERT_TRUE(comes_to_be_felt({socket_}, is_felt, [&](bool down) { joystick_.press(down); }))
+        ASSERT_TRUE(comes_to_be_felt(
+            {socket_}, is_felt, [&](bool down) { joystick_.press(down); },
+            [&] { joystick_.reach_further(); }))
             << joystick_.push_n() << " N\n"
             << a_.process().err();
     }
@@ -103,12 +107,12 @@ protected:
     std::string socket_ = folder_.file("peer.sock");
     HeldJoystick joystick_;
     std::string place_ = free_place();
-    Peer b_{2, free_place(), place_, {"--task", "T3", "--duration", "60s"}};
+    Peer b_{2, free_place(), place_, {"--task", "T3", "--duration", "120s"}};
     Peer a_{1,
             place_,
             b_.listen(),
             {"--device", "hid:FFB0001", "--hid-force", "8N", "--force-limit", "500mN", "--task",
-             "T3", "--duration", "60s", "--control", socket_}};
+             "T3", "--duration", "120s", "--control", socket_}};
 };
 
 TEST_F(JoystickSession, EndsAtZeroAndItsForcesCanBeLivedThroughAgain)
