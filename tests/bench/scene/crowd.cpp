@@ -153,7 +153,7 @@ Course pushed_crowd(int count)
     Course course = paper_course(scene::Turning::free);
     const scene::HandDescription hands = course.scene.hands;
     course.scene = field(count);
-    course.scene.hands = hips;
+    course.scene.hands = hands;
     course.warm_up_s = 0.3; // until what rests has fallen asleep
     return course;
 }
