@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "ctl/options.hpp"
 
-#include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -74,7 +73,7 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
         .repeated()
         .required("both.delay 80ms");
     set.option("--for", "TIME", "Hold for this time, then return to what holds without it",
-               cli::into(options.lasting, base::parse_duration));
+               cli::into(options.lasting, base::Time{}));
     cli::Command& apply = program.command("apply", "Replaces the profile of an emulator; its "
                                                    "timeline starts now");
     cli::Command& diff = program.command("diff", "Prints what apply would change");
@@ -87,13 +86,13 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
     cli::Command& watch = program.command("watch", "Prints the main figures until Ctrl-C: in place "
                                                    "on a terminal, otherwise a line each time");
     watch.option("--every", "TIME", "The interval, at least 50ms (default 500ms)",
-                 cli::into(options.every, base::parse_duration));
+                 cli::into(options.every, base::Time{}));
     cli::Command& wait = program.command("wait", "Waits until a condition holds");
     wait.option("--until", "CONDITION", "A key of stats, one of < <= == != >= > and a number",
                 cli::into(options.until))
         .required("'up.received>1000'");
     wait.option("--timeout", "TIME", "Give up after this time, with exit code 1",
-                cli::into(options.timeout, base::parse_duration));
+                cli::into(options.timeout, base::Time{}));
     program.command("stop", "Ends the session of a peer with zero force, as SIGTERM does; "
                             "statistics are written");
 }

@@ -30,9 +30,10 @@ enum class Pacing : std::uint8_t {
     device, // it, or its library, owns the loop: see Device::pace()
 };
 
-/// A kind of arm: its name in the texts of limits ("omni_torque_max"), and its geometry.
+/// A kind of arm: the key of its joints' limits in texts, such as "omni_torque_max", and its
+/// geometry.
 struct Mechanism {
-    std::string_view name{};
+    std::string_view torque_key{};
     /// d position / d joint, m/rad, at a position in the device's frame.
     glm::dmat3 (*jacobian)(const base::Position& position) = nullptr;
 };

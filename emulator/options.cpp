@@ -3,7 +3,6 @@
 #include "emulator/options.hpp"
 
 #include "emulator/presets.hpp"
-#include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
@@ -87,8 +86,8 @@ constexpr const char* verify_description =
     "every single fate.";
 
 constexpr const char* verify_footer =
-    R"(RUN is the file that --stats wrote in a run with --fates; or the file that --fates wrote, with
---profile; or a folder with fates.csv and profile.toml. A test fails when a run that follows its
+    R"(RUN is the file that --stats wrote in a run with --fates, the file that --fates wrote, with
+--profile, or a folder with fates.csv and profile.toml. A test fails when a run that follows its
 profile would look like this one time in a million. A test is called unable where the datagrams are
 too few, or where fates cannot tell.
 
@@ -204,9 +203,9 @@ void add_run_options(cli::Command& program, Options& options)
     program.option("--budget", "TIME",
                    "The run is valid when 99 % of the datagrams leave at most this late (default "
                    "1ms)",
-                   cli::into(options.budget, base::parse_duration));
+                   cli::into(options.budget, base::Time{}));
     program.option("--duration", "TIME", "End after this time (default: run until stopped)",
-                   cli::into(options.duration, base::parse_duration));
+                   cli::into(options.duration, base::Time{}));
     program.option("--stats", "FILE", "Write statistics to FILE at the end; - is stdout",
                    cli::into(options.stats));
     program.option("--fates", "FILE", "Write the fate of each datagram to FILE (CSV)",
@@ -232,7 +231,7 @@ base::Result<base::Duration> parse_spacing(const std::string& text)
     if (digits.ends_with("/s")) digits.resize(digits.size() - 2);
     constexpr double slowest = 1e-3;
     constexpr double fastest = 1e7;
-    const auto rate = cli::number(slowest, fastest)(digits);
+    const auto rate = cli::value_of<double>(base::Number{slowest, fastest}, digits);
     if (rate) return base::from_seconds(1.0 / *rate);
     return base::fail(fmt::format("'{}' is not a rate: write datagrams a second, such as 1000 or "
                                   "1000/s; at most 10^7",
@@ -265,14 +264,14 @@ void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, Strea
                 stream_rate(stream, conditions_from))
         .repeated();
     command.option("--bytes", "NUMBER", "Payload of each datagram (default 144)",
-                   cli::into(stream.bytes, cli::whole_number(0, bytes_max)));
+                   cli::into(stream.bytes, base::Count{0, bytes_max}));
     add_conditions(command, conditions_from, /*own_rate*/ true);
 }
 
 base::Result<base::Duration> parse_even_spacing(const std::string& text)
 {
     constexpr std::uint64_t most = 1'000'000'000;
-    return cli::whole_number(1, most)(text).map([](std::uint64_t rate) {
+    return cli::value_of<std::uint64_t>(base::Count{1, most}, text).map([](std::uint64_t rate) {
         return base::Duration{static_cast<base::Duration::rep>(most / rate)};
     });
 }
@@ -385,7 +384,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     constexpr std::uint64_t packets_max = 1'000'000'000;
     add_dry_run(predict, predicting.conditions, predicting.stream);
     predict.option("--packets", "NUMBER", "Number of datagrams, each way (default 400000)",
-                   cli::into(predicting.stream.packets, cli::whole_number(1, packets_max)));
+                   cli::into(predicting.stream.packets, base::Count{1, packets_max}));
     predict.flag("--json", "Print one JSON object instead of text", predicting.as_json);
     predict.flag("--list", "Print the names of the presets and exit", is_list);
 

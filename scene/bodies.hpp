@@ -21,16 +21,16 @@ struct BodyState {
     glm::dvec3 angular_velocity{0.0}; // rad/s, in the world's frame
 };
 
-/// Where a body is kept at the moment. Changes when it falls asleep or wakes; its id does not.
+/// Where a body lies in the lanes. It changes when the body falls asleep or wakes; its id does not.
 using Slot = std::uint32_t;
 
-/// What of a body does not change: the cold half.
+/// What does not change of a body: the cold half.
 struct BodyProperties {
     BodyId id = 0;
     glm::dvec3 half{0.02};
     glm::dvec3 inverse_mass{0.0};    // 1/kg per axis of the world; 0 where locked or fixed
     glm::dvec3 inertia{1.0};         // kg m^2 about the body's own axes
-    glm::dvec3 inverse_inertia{0.0}; // 0 where it cannot turn; with one free axis see `turning`
+    glm::dvec3 inverse_inertia{0.0}; // 0 where it cannot rotate; with one free axis see `turning`
     double mass = 0.0;               // kg; 0: fixed
     Turning turning = Turning::locked;
     bool is_isotropic = false; // the three moments of inertia are equal, as a cube's

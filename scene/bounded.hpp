@@ -11,9 +11,9 @@
 
 namespace hapnet::scene {
 
-/// A list of at most so many elements, for which the memory is taken at construction. Unlike a
-/// vector's reserve, that holds for copies too: a copied world takes no memory in its ticks. What
-/// was never used is neither touched nor copied.
+/// A list with a bound that takes its memory at construction. Unlike a vector's reserve, that holds
+/// for copies too: a copied world takes no memory in its ticks. Room that was never used is neither
+/// touched nor copied.
 template <typename T>
 class Bounded {
 public:
@@ -38,7 +38,7 @@ public:
         elements_.push_back(std::move(element));
         return true;
     }
-    /// Puts the last one in the place of the one that goes.
+    /// Removes an element and moves the last one into its place.
     void remove(std::size_t index)
     {
         base::ensure(index < size());
@@ -53,7 +53,7 @@ public:
         elements_.pop_back();
         return last;
     }
-    /// Forgets what is beyond, or fills up with new ones.
+    /// Drops the elements beyond `size`, or adds default ones up to it.
     void resize(std::size_t size)
     {
         base::ensure(size <= size_max());
@@ -78,8 +78,8 @@ private:
     std::vector<T> elements_;
 };
 
-/// Room for what lives no longer than a tick. The memory is reserved at construction and by a
-/// copy, which has the room but not what is in it; elements are used again as they are.
+/// Room for what lives no longer than a tick: the same bound, but a copy has the room and not the
+/// elements, so that a snapshot does not pay for them, and an element is used again as it is.
 template <typename T>
 class Scratch {
 public:

@@ -12,7 +12,7 @@
 
 namespace hapnet::scene {
 
-/// How bodies behave where they touch. Of two that touch, friction is the geometric mean and
+/// How bodies behave where they touch. For two that touch, friction is the geometric mean and
 /// restitution the greater of the two.
 struct Material {
     double friction = 0.0;    // Coulomb's coefficient, 0..friction_max
@@ -21,7 +21,7 @@ struct Material {
     friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// What may turn: everything, nothing, or about one axis of the world alone.
+/// How a body may rotate: freely, not at all, or about one axis of the world alone.
 enum class Turning : std::uint8_t { free, locked, about_x, about_y, about_z };
 
 /// A solid box of even density.
@@ -39,12 +39,12 @@ struct BodyDescription {
     bool locked_y = false;
     bool locked_z = false;
     Material material{};
-    double drag_ns_per_m = 0.0; // viscous friction on the plane that carries it, tangential
+    double drag_ns_per_m = 0.0; // viscous friction on the plane that supports it, tangential
 
     friend bool operator==(const BodyDescription&, const BodyDescription&) = default;
 };
 
-/// A half-space that carries bodies and is not felt by a hand: the work platform, walls.
+/// A half-space that supports bodies and that no hand feels: the work platform, walls.
 struct PlaneDescription {
     std::string name;
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, out of the solid side
@@ -55,16 +55,17 @@ struct PlaneDescription {
 };
 
 /// The hands' spheres (haptic interface points), all alike: a spring and a damper between the
-/// sphere and what it touches. The world's hands have no friction; what plays a session adds it
-/// from outside (peer::FingerFriction).
+/// sphere and what it touches.
 struct HandDescription {
     double radius_m = 0.005;
     double stiffness_n_per_m = 500.0;
     double damping_ns_per_m = 2.0;
     double force_max_n = 3.3;    // of one contact; infinity: not limited
     double grip_reach_m = 0.005; // how near the surface a hand must be to take hold
-    double friction = 0.0;       // Coulomb's coefficient, 0..friction_max
-    std::uint32_t count = 2;     // 0..hips_max
+    /// Coulomb's coefficient, 0..friction_max. The scene reads, hashes and prints it, but its hands
+    /// have no friction: a session's peer applies it from outside (peer::FingerFriction).
+    double friction = 0.0;
+    std::uint32_t count = 2; // 0..hips_max
 
     friend bool operator==(const HandDescription&, const HandDescription&) = default;
 };
@@ -84,8 +85,8 @@ inline constexpr std::uint32_t hands_max = 8;
 inline constexpr std::uint32_t bodies_max = 100'000;
 inline constexpr std::uint32_t planes_max = 64;
 
-// The ranges of what a description or an input may say. What is beyond is refused: within them
-// nothing overflows.
+// The ranges of a description and of inputs. Values beyond them are refused; within them nothing
+// overflows.
 inline constexpr double reach_max_m = 1e3;
 inline constexpr double speed_max_m_per_s = 1e4;
 inline constexpr double turn_max_rad_per_s = 1e4;
@@ -99,12 +100,11 @@ inline constexpr double force_max_n = 1e6;
 inline constexpr double friction_max = 10.0;
 inline constexpr double gravity_max_m_per_s2 = 1e3;
 
-/// What is wrong with a description, with the name of the part and what was expected; nothing
-/// when it may be frozen.
+/// Says what is wrong with a description: the name of the part and what was expected.
 [[nodiscard]] base::Result<void> check(const Description& description);
 
-/// Equal for equal scenes on every machine; peers refuse each other when it differs. Names count
-/// for nothing.
+/// Equal for equal scenes on every machine; peers refuse each other when it differs. Names do not
+/// count.
 [[nodiscard]] std::uint64_t hash(const Description& description);
 
 /// The paper's scene with the constants it leaves open chosen so that softness grows

@@ -13,8 +13,8 @@ namespace hapnet::scene {
 
 namespace {
 
-// Above so many bodies a grid finds neighbours faster than a scan of all: about 64 to 80, measured
-// with packed boxes.
+// Above that many bodies a grid finds neighbours faster than a scan of all: about 64 to 80,
+// measured with packed boxes.
 constexpr std::size_t scan_max = 64;
 
 /// What the reasons are about.

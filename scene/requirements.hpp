@@ -11,18 +11,18 @@
 
 namespace hapnet::scene {
 
-/// What a scene may need of a tick.
+/// What a scene may require of its stepper.
 enum class Feature : std::uint8_t {
     contact,     // anything can touch anything at all
     hands,       // hands
     skew,        // a box or a plane that is not parallel to the axes
-    rotation,    // a movable body that can turn
+    rotation,    // a movable body that can rotate
     friction,    // Coulomb friction
     restitution, // bounces
     drag,        // viscous friction
     bodies,      // movable bodies that can touch each other
     sleep,       // bodies at rest cost nothing
-    grid,        // so many bodies that each cannot be compared with each
+    grid,        // too many bodies to compare each with each
 };
 inline constexpr std::size_t features = 10;
 
@@ -52,35 +52,35 @@ private:
     std::uint32_t bits_ = 0;
 };
 
-/// The ticks that exist, the cheapest first. Each is compiled for its features alone, without a
-/// branch for the others.
+/// The steppers, the cheapest first. Each is compiled for its features alone, without a branch for
+/// the others. Their printed names are a contract: `hapnet-lab explain` shows them.
 enum class StepperKind : std::uint8_t {
-    flight,          // nothing touches anything: exact parabolas and rotations
-    sliding,         // one box that cannot turn among others parallel to it: exact, event by event
+    flight,  // nothing touches anything: exact parabolas and rotations
+    sliding, // one box that cannot rotate among others parallel to it: exact, event by event
     sliding_coulomb, // ... with dry friction
-    lone,            // one movable body that can turn
+    lone,            // one movable body that can rotate
     few,             // movable bodies that touch each other; each is compared with each
     many,            // ... found through a grid
 };
 inline constexpr std::size_t stepper_kinds = 6;
 
 [[nodiscard]] std::string_view name_of(StepperKind kind);
-/// What a profile can do.
+/// What a stepper can do.
 [[nodiscard]] FeatureSet abilities_of(StepperKind kind);
 
-/// Whether a scene needs a feature, and why or why not.
+/// Whether a scene requires a feature, and why or why not.
 struct Requirement {
     Feature feature = Feature::contact;
     bool is_required = false;
     std::string because;
 };
 
-/// What a scene needs, feature by feature.
+/// What a scene requires, feature by feature.
 using Requirements = std::array<Requirement, features>;
 [[nodiscard]] Requirements requirements_of(const Description& description, bool sleeping);
 [[nodiscard]] FeatureSet required_features(const Requirements& needs);
 
-/// The cheapest profile that can do what is needed.
+/// The cheapest stepper that has the required features.
 [[nodiscard]] StepperKind cheapest_stepper(FeatureSet needed);
 
 } // namespace hapnet::scene

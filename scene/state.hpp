@@ -31,7 +31,7 @@ struct HandTouch {
     base::Force on_hand_at_start{}; // the spring and damper at the start of the tick
 };
 
-/// What holds for a frozen scene from its first tick to its last.
+/// What holds from a world's first tick to its last.
 struct WorldConfig {
     std::vector<PlaneDescription> planes{};
     HandDescription hands{};
@@ -40,20 +40,20 @@ struct WorldConfig {
     bool sleeping = true; // whether bodies at rest may fall asleep
 };
 
-/// What every tick profile works on: the bodies, what the hands do, and what they feel of it.
-/// Everything that changes and that the next tick depends on lies here or in the profile's own
-/// memory: a copy of both is a snapshot.
+/// What every stepper works on: the bodies, what the hands do, and what they feel. Everything that
+/// changes and that the next tick depends on lies here or in the stepper's own memory: a copy of
+/// both is a snapshot.
 struct WorldState {
     Bodies bodies;
     std::array<HandInput, hands_max> hands{};
     std::array<HandTouch, hands_max> touches{};
     std::vector<glm::dvec3> pushes{};      // newtons by id, held for the next tick, then cleared
-    Bounded<BodyId> pushed{};              // those of whom there is a push, each once
+    Bounded<BodyId> pushed{};              // the bodies with a push, each once
     std::vector<std::uint8_t> is_pushed{}; // by id
     std::uint64_t ticks = 0;
 };
 
-/// What is small in this scene: everything is measured against it.
+/// What is small in this scene: every tolerance is a share of one of these.
 struct Scales {
     double tick = 1e-3;  // s
     double size = 0.02;  // m: the smallest half edge of a movable body

@@ -105,7 +105,7 @@ base::Result<World> World::freeze(const Description& description, const FreezeOp
     const FeatureSet needed = required_features(requirements_of(description, options.sleeping));
     const StepperKind kind = options.stepper.value_or(cheapest_stepper(needed));
     if (!abilities_of(kind).covers(needed)) {
-        return base::fail(fmt::format("the tick profile '{}' cannot do what the scene needs; '{}' "
+        return base::fail(fmt::format("the stepper '{}' cannot do what the scene needs; '{}' "
                                       "can",
                                       name_of(kind), name_of(cheapest_stepper(needed))));
     }

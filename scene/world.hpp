@@ -35,16 +35,16 @@ inline constexpr std::size_t refusals = 4;
 /// How many inputs were refused, by cause.
 using RefusalCounts = std::array<std::uint64_t, refusals>;
 
-/// The tick of a world: one of the profiles, chosen when the scene is frozen. Each is a value with
-/// two verbs: tick(frozen, stage) and disturbed(stage, body), which says that a body was put
-/// somewhere from outside. The order is that of StepperKind.
+/// What moves a world on, chosen when the scene is frozen. Each is a value with two verbs:
+/// step(config, state), and on_body_placed(state, body) after a body was put somewhere from
+/// outside. The order is that of StepperKind.
 using Stepper = std::variant<FreeFlightStepper, OneBoxStepper<false>, OneBoxStepper<true>,
                              RigidStepper<BroadPhase::none>, RigidStepper<BroadPhase::all_pairs>,
                              RigidStepper<BroadPhase::grid>>;
 
-/// A scene that runs. It does no I/O, reads no clock, and after freeze() takes no memory: feed it
-/// with set_hand() and push(), advance it with tick(), read what came of it. An input that is not
-/// finite or out of range is refused and counted, and changes nothing.
+/// A scene that runs. It does no I/O, reads no clock, and takes no memory after freeze(): feed it
+/// with set_hand() and push(), advance it with tick(), read the result. An input that is not finite
+/// or out of range is refused and counted, and changes nothing.
 ///
 /// A World is a value: copies run on their own. Equal inputs give equal bits with every compiler.
 class World {
@@ -53,14 +53,14 @@ public:
     [[nodiscard]] static base::Result<World> freeze(const Description& description,
                                                     const FreezeOptions& options = {});
 
-    /// Where a hand is, from the next tick on.
+    /// Says where a hand is, from the next tick on.
     std::optional<Refusal> set_hand(std::uint32_t index, const HandInput& input);
     /// A force on a movable body's centre, held for the next tick; pushes of one tick add up.
     std::optional<Refusal> push(BodyId body, base::Force force);
-    /// Puts a movable body somewhere, regardless of what it was doing, and wakes it. Coordinates
-    /// that are locked stay as they are; an orientation that the body cannot have is refused.
+    /// Puts a movable body somewhere and wakes it. Locked coordinates stay as they are; an
+    /// orientation that the body cannot have is refused.
     std::optional<Refusal> place(BodyId body, const BodyState& state);
-    /// The same, with its turn and spin as they are.
+    /// The same; orientation and angular velocity stay.
     std::optional<Refusal> place(BodyId body, base::Position position, base::Velocity velocity);
 
     void tick();

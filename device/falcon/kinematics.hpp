@@ -45,6 +45,6 @@ inline constexpr double reach_m = 0.040;
 /// is stretched out so far that it has none.
 [[nodiscard]] glm::dmat3 jacobian(const base::Position& grip);
 
-inline constexpr Mechanism mechanism{"falcon", jacobian};
+inline constexpr Mechanism mechanism{"falcon_torque_max", jacobian};
 
 } // namespace hapnet::device::falcon

@@ -79,18 +79,13 @@ base::Position read_corner(const WrittenCorner& corner, const base::Position& in
              corner.z_m.value_or(infinite.z())}};
 }
 
-std::string torque_key(const Mechanism& mechanism)
-{
-    return fmt::format("{}_torque_max", mechanism.name);
-}
-
 /// The joints' limits in the table; an error text when there are several or not all of one.
 base::Result<std::optional<JointLimits>> read_joints(base::TableReader& table,
                                                      std::span<const Mechanism> mechanisms)
 {
     std::optional<JointLimits> joints;
     for (const Mechanism& mechanism : mechanisms) {
-        const base::Node* node = table.find(torque_key(mechanism));
+        const base::Node* node = table.find(mechanism.torque_key);
         if (node == nullptr) continue;
         WrittenTorques torques;
         base::read_table(*node, torques, table.reading());
@@ -98,11 +93,11 @@ base::Result<std::optional<JointLimits>> read_joints(base::TableReader& table,
         const auto& [x, y, z] = torques;
         if (!x && !y && !z) continue;
         if (!x || !y || !z) {
-            return base::fail(torque_key(mechanism) + " needs all of x, y and z");
+            return base::fail(fmt::format("{} needs all of x, y and z", mechanism.torque_key));
         }
         if (joints) {
             return base::fail(fmt::format("{} and {}: a device has only one arm",
-                                          torque_key(joints->mechanism), torque_key(mechanism)));
+                                          joints->mechanism.torque_key, mechanism.torque_key));
         }
         joints = JointLimits{mechanism, {*x, *y, *z}};
     }
@@ -122,9 +117,9 @@ std::string print_limits(const GovernorLimits& limits)
                                         .high = written(limits.workspace_max)});
     if (limits.joints) {
         const auto& [mechanism, torque] = *limits.joints;
-        base::ensure(!mechanism.name.empty());
+        base::ensure(!mechanism.torque_key.empty());
         text += base::field_lines(WrittenTorques{torque.x, torque.y, torque.z},
-                                  torque_key(mechanism) + '.');
+                                  std::string{mechanism.torque_key} + '.');
     }
     return text;
 }

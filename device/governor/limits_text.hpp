@@ -12,7 +12,7 @@
 namespace hapnet::device {
 
 /// Limits as TOML, for records; an infinite limit is left out. The mechanism of limited joints must
-/// have a name.
+/// have a key.
 [[nodiscard]] std::string print_limits(const GovernorLimits& limits);
 
 /// Reads what print_limits() wrote, to the same bits. `source` names the text in errors, which

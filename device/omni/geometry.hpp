@@ -72,6 +72,6 @@ inline constexpr double damping_max_ns_per_m = 5.0;
 /// Whether the mechanism gets there, give or take `slack` radians.
 [[nodiscard]] bool is_reachable(const Joints& joints, double slack = 0.0);
 
-inline constexpr Mechanism mechanism{"omni", jacobian_at};
+inline constexpr Mechanism mechanism{"omni_torque_max", jacobian_at};
 
 } // namespace hapnet::device::omni

@@ -4,7 +4,6 @@
 
 #include "lab/experiment/read_kind.hpp"
 #include "lab/experiment/text.hpp"
-#include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
@@ -85,12 +84,12 @@ void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
 void add_circumstances(cli::Command& command, auto& run)
 {
     constexpr double seconds_max = 1e9;
-    command.option("--command", "TEXT", "The command line, for the manifest",
+    command.option("--command", "LINE", "The command line, for the manifest",
                    cli::into(run.command));
     command.option("--start", "TIME", "When it began (ISO 8601), for the manifest",
                    cli::into(run.start));
     command.option("--wall-time", "SECONDS", "How long it took, for the manifest",
-                   cli::into(run.wall_time_s, cli::number(0.0, seconds_max)));
+                   cli::into(run.wall_time_s, base::Number{0.0, seconds_max}));
 }
 
 void add_demo_report(cli::Command& command, DemoReportCommand& demo)
@@ -152,7 +151,7 @@ void add_explain(cli::Command& command, ExplainCommand& explain, bool& no_sleepi
                     cli::into(explain.scene))
         .required("paper");
     command.option("--tick", "TIME", "Length of a tick, from 10us to 100ms (default 1ms)",
-                   cli::into(explain.tick, cli::duration(scene::tick_min, scene::tick_max)));
+                   cli::into(explain.tick, base::Time{scene::tick_min, scene::tick_max}));
     command.flag("--no-sleeping", "Keep bodies at rest awake", no_sleeping);
     command.flag("--json", "Print one JSON object instead of lines", explain.json);
 }
@@ -181,10 +180,10 @@ void add_run(cli::Command& command, RunCommand& run, bool& is_list)
                 cli::onto(run.settings))
         .repeated();
     command.option("--seeds", "N", "Number of seeds (default: the experiment's)",
-                   cli::into(run.seeds, cli::whole_number(1, seeds_max)));
+                   cli::into(run.seeds, base::Count{1, seeds_max}));
     command.option("--jobs", "N",
                    "Number of threads; the results do not depend on it (default: all processors)",
-                   cli::into(run.jobs, cli::whole_number(1, jobs_max)));
+                   cli::into(run.jobs, base::Count{1, jobs_max}));
     command.option("--criteria", "FILE",
                    "Limits that a usable session keeps: a file (docs/design/metrics.md), or paper "
                    "(default), calibrated on the paper",

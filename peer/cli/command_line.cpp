@@ -107,8 +107,8 @@ void add_self_test(cli::Command& command, SelfTestCommand& options)
                 })
         .repeated();
     command.option("--read-for", "TIME", "How long to read without force (default 10s)",
-                   cli::into(options.read_for, cli::duration(std::chrono::milliseconds{100},
-                                                             std::chrono::minutes{10})));
+                   cli::into(options.read_for,
+                             base::Time{std::chrono::milliseconds{100}, std::chrono::minutes{10}}));
     command.option("--json", "FILE", "Write the report to FILE, too",
                    cli::into(options.json, parse_report_file));
 }

@@ -4,7 +4,6 @@
 
 #include "device/omni1394/drive.hpp"
 #include "proto/base/quantity.hpp"
-#include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
 #include "proto/net/text_file.hpp"
 
@@ -170,7 +169,7 @@ cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice)
     add("--mount-scale", "NUMBER",
         "Metres in the scene per metre of the device; forces grow with it (default for a real "
         "device: at least 1, and enough to cover an Omni's 160 x 120 x 70 mm)",
-        cli::into(choice.mount_scale, cli::number(mount_scale_min, mount_scale_max)));
+        cli::into(choice.mount_scale, base::Number{mount_scale_min, mount_scale_max}));
     add_hd_library(command, choice.options.hd_library);
     add("--falcon-firmware", "FILE",
         "falcon: its firmware, which Hapnet may not ship (default: it runs already)",
@@ -188,7 +187,7 @@ cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice)
         "hid: the measured travel of the grip from stop to stop of an axis; positions, speeds and "
         "their limits follow from it (default: 160mm)",
         cli::into(choice.options.hid_travel_m,
-                  cli::quantity(base::length_kind, hid_travel_min_m, hid_travel_max_m)));
+                  base::Quantity{base::length_kind, hid_travel_min_m, hid_travel_max_m}));
     return device;
 }
 

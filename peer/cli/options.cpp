@@ -104,7 +104,7 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
 {
     constexpr std::uint64_t id_max = 65535;
     program.option("--id", "1..65535", "Number of this peer; the lower one is L (default 1)",
-                   cli::into(options.id, cli::whole_number(1, id_max)));
+                   cli::into(options.id, base::Count{1, id_max}));
     program.option("--listen", "ADDRESS",
                    "Where to receive: HOST:PORT; :PORT listens on loopback (default 127.0.0.1:0, "
                    "any free port)",
@@ -125,7 +125,7 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
         "--force-limit", "FORCE",
         "Maximum force on the hand; 0N: no force (default 3.3N, an Omni's peak; never "
         "more than the device allows). See docs/design/governor.md",
-        cli::into(options.force_max_n, cli::quantity(base::force_kind, 0.0, force_limit_max_n)));
+        cli::into(options.force_max_n, base::Quantity{base::force_kind, 0.0, force_limit_max_n}));
     program.option("--task", "P1|T1|...|T6", "What the hands do, simulated or yours (default P1)",
                    cli::into(options.task, parse_task));
     program.option("--algorithm", "NAME|FILE",
@@ -145,7 +145,7 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
                    cli::into(options.seed, cli::seed));
     program.option("--duration", "TIME",
                    "Length of the session from its common start (default 30s)",
-                   cli::into(options.duration, cli::duration(std::chrono::seconds{1})));
+                   cli::into(options.duration, base::Time{std::chrono::seconds{1}}));
     program.option("--key", "FILE", "Not available yet: authenticated sessions are still to come",
                    refuse_key);
     program.flag("--insecure", "Allow a session without a key over a real network",

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/formats.hpp"
 #include "proto/base/result.hpp"
 
 #include <functional>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,6 +29,41 @@ template <typename Target, typename Parse>
         target = static_cast<Target>(*std::move(value));
         return {};
     };
+}
+
+/// What a text says by a format (proto/base/formats.hpp). The error says what the format takes.
+template <typename T, base::FormatOf<T> Format>
+[[nodiscard]] base::Result<T> value_of(const Format& format, const std::string& text)
+{
+    base::Reading reading{"", {}, /*has_lines*/ false};
+    const auto node = base::parse_option(
+        text, requires { Format::is_bare; });
+    if (!node) return base::fail(fmt::format("expected {}, not '{}'", format.describe(), text));
+    T value{};
+    format.read(*node, value, reading);
+    if (reading.is_good()) return value;
+    return base::fail(reading.complaint()->substr(2)); // behind the empty name and its colon
+}
+
+namespace detail {
+template <typename T>
+struct Value {
+    using type = T;
+};
+template <typename T>
+struct Value<std::optional<T>> {
+    using type = T;
+};
+} // namespace detail
+
+/// Puts into `target` what the text says by a format.
+template <typename Target, typename Format>
+requires base::FormatOf<Format, typename detail::Value<Target>::type>
+[[nodiscard]] Take into(Target& target, Format format)
+{
+    return into(target, [format](const std::string& text) {
+        return value_of<typename detail::Value<Target>::type>(format, text);
+    });
 }
 
 /// Puts the text itself into `target`.

@@ -21,7 +21,7 @@ struct Aabb {
     [[nodiscard]] glm::dvec3 centre() const { return 0.5 * (low + high); }
 };
 
-// Without short cuts: compares are cheaper than branches that nothing predicts.
+// Without short cuts: compares are cheaper than unpredictable branches.
 
 [[nodiscard]] inline bool overlap(const Aabb& a, const Aabb& b)
 {
@@ -50,7 +50,7 @@ struct Aabb {
     return {box.low - by, box.high + by};
 }
 
-/// Finds who is near by a look at every body's box, lane by lane: nothing is faster for up to
+/// Finds overlaps by comparing with every body's box, lane by lane: nothing is faster for up to
 /// about 64 of them (1.2 ns each, against 94 ns for a question to a grid).
 class AabbScan {
 public:

@@ -155,7 +155,7 @@ private:
     Triple half_b_{};
 };
 
-/// What the axes say: one that separates by more than the margin, or the best of each kind.
+/// The result of the axes: one that separates by more than the margin, or the best of each kind.
 struct Verdict {
     int separating = -1;
     Candidate face_a;
@@ -199,7 +199,7 @@ double area(const OrientedBox& box, int axis)
     return box.half[(axis + 1) % 3] * box.half[(axis + 2) % 3];
 }
 
-/// Of the best face of each box: of two that are as good, the larger, for the other then lies
+/// The best face of both boxes: of two equally good ones the larger, for the other then lies
 /// within it; else the first box's.
 Candidate better_face(const OrientedBox& a, const OrientedBox& b, const Verdict& verdict)
 {

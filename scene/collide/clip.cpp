@@ -74,7 +74,7 @@ struct Strip {
 
     [[nodiscard]] double place(const Vertex& vertex) const { return is_v ? vertex.v : vertex.u; }
 
-    /// Whether the way from here to there crosses a side, and is not along it.
+    /// Whether the line from here to there crosses a side, and is not along it.
     [[nodiscard]] bool is_crossed(double here, double there) const
     {
         return here - limit < -tolerance && there - limit > tolerance;
@@ -96,7 +96,7 @@ Vertex crossing(const Vertex& within, const Vertex& without, const Strip& strip,
     return result;
 }
 
-/// What of a polygon lies within a strip. Both sides are cut at once: a mirrored polygon gives the
+/// The part of a polygon within a strip. Both sides are cut at once: a mirrored polygon gives the
 /// same bits.
 Polygon cut(const Polygon& polygon, const Strip& strip)
 {

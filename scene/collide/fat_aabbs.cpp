@@ -14,7 +14,7 @@ namespace {
 
 // How long a body that keeps its velocity stays in its box. Longer: fewer new boxes, more pairs.
 constexpr double look_ahead_ticks = 32.0;
-// Of its mean half edge: how far a body strays from its path, or its corners by turning.
+// How far a body strays from its path, or its corners by rotation, in mean half edges.
 constexpr double wander_share = 0.1;
 // A box becomes no longer and no larger than this times a body's mean edge, or the cube of that,
 // by its path: along one axis far, across them less, where it would meet many. Unless the body is
@@ -23,12 +23,12 @@ constexpr double stretch_max = 9.0;
 constexpr double shorter = 0.75;
 // ... it always lasts for this many ticks.
 constexpr double stretch_ticks_min = 2.0;
-// What a body may turn within one tick without being taken for one that spins.
+// The rotation within one tick from which a body counts as spinning.
 constexpr double turn_share = 0.25;
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-/// How many times larger a box becomes by a path of so many of its edges.
+/// How many times larger a box becomes by a path of that many of its edges.
 double stretch(const glm::dvec3& edges)
 {
     return (1.0 + edges.x) * (1.0 + edges.y) * (1.0 + edges.z);

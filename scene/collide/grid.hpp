@@ -12,10 +12,10 @@
 
 namespace hapnet::scene {
 
-/// Finds who is near through a uniform grid, its cells hashed into buckets. A body lies in every
+/// Finds overlaps through a uniform grid, its cells hashed into buckets. A body lies in every
 /// cell that its box reaches into; cells are three times the median box, and what reaches into too
-/// many of them lies in a list of its own. Whom it finds does not depend on the order in which
-/// bodies were put in; the order in which it finds them does.
+/// many of them lies in a list of its own. What it finds does not depend on the order in which
+/// bodies were put in; the order in which it finds it does.
 class Grid {
 public:
     /// The boxes of all bodies, by their ids.

@@ -68,7 +68,7 @@ PairFinder<broad_phase>::PairFinder(const WorldConfig& config, const Bodies& bod
         hands_.push_back({Aabb{glm::dvec3{1.0}, glm::dvec3{-1.0}}, Bounded<BodyId>{bodies.size()}});
     for (Slot slot = 0; slot < bodies.movable; ++slot)
         update_pairs(bodies, bodies.properties[slot].id);
-    settle();
+    apply_changes();
 }
 
 template <BroadPhase broad_phase>
@@ -88,7 +88,7 @@ void PairFinder<broad_phase>::update(const Bodies& bodies)
         for (Hand& hand : hands_) update_hand(hand, id);
     }
     renewed_ += moved_out_.size();
-    settle();
+    apply_changes();
 }
 
 /// Renews the pairs of a body after its box.
@@ -195,10 +195,10 @@ void PairFinder<broad_phase>::on_sleep(const Bodies& bodies, BodyId body, Slot w
 }
 
 template <BroadPhase broad_phase>
-void PairFinder<broad_phase>::settle()
+void PairFinder<broad_phase>::apply_changes()
 {
-    pairs_.settle();
-    plane_pairs_.settle();
+    pairs_.apply_changes();
+    plane_pairs_.apply_changes();
 }
 
 template <BroadPhase broad_phase>

@@ -28,8 +28,9 @@ struct HandPath {
     double radius = 0.0;
 };
 
-/// Who may touch whom. Every body lies in a fat box; only when it leaves that (which few compares
-/// per awake body tell) are its neighbours looked for again. What sleeps or is fixed costs nothing.
+/// The broad phase: which bodies may touch. Every body lies in a fat AABB; only when it leaves that
+/// (a few compares per awake body tell) are its pairs looked for again. A body that sleeps or is
+/// fixed costs nothing.
 ///
 /// Bodies that come nearer to each other than nearby_margin times their smallest half edges (each
 /// its own) within the tick are a pair: within the tick means on the straight line of their
@@ -56,13 +57,13 @@ public:
     /// their ids. To be asked after update(). Far from everything it costs a few compares.
     [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path);
 
-    /// To be said after the body was moved over the border between awake and asleep: its pairs
-    /// come to the lists or leave them. Sleep says it.
+    /// Call after the body has crossed the border between awake and asleep: its pairs come to the
+    /// lists or leave them. Sleep does.
     void on_wake(const Bodies& bodies, BodyId body);
     void on_sleep(const Bodies& bodies, BodyId body, Slot was_in);
-    /// Brings the lists up to date after that. Which pairs it added: for who has to look at them
-    /// in the tick that has begun.
-    void settle();
+    /// Brings the lists up to date after that. Then come the pairs that it added, for the tick
+    /// that has begun.
+    void apply_changes();
     [[nodiscard]] std::span<const PairIndex> pairs_added() const { return pairs_.added(); }
     [[nodiscard]] std::span<const PairIndex> plane_pairs_added() const
     {
@@ -85,7 +86,7 @@ public:
     [[nodiscard]] Counts counts() const;
 
 private:
-    /// A hand's fat box and who lies in it, by their ids.
+    /// A hand's fat AABB and the bodies in it, by their ids.
     struct Hand {
         Aabb box;
         Bounded<BodyId> bodies;
@@ -103,8 +104,8 @@ private:
     PairSet plane_pairs_;
     std::vector<Hand> hands_;
     Bounded<Slot> moved_out_;
-    bool has_left_out_ = false;         // somebody for whose pairs there was no room
-    std::vector<std::uint64_t> stamps_; // by id: who is a pair already with the one that renews
+    bool has_left_out_ = false;         // there was no room for a pair
+    std::vector<std::uint64_t> stamps_; // by id: already a pair with the body that is renewed
     std::uint64_t stamp_ = 0;
     std::uint64_t renewed_ = 0;
     std::uint64_t hands_renewed_ = 0;

@@ -31,7 +31,7 @@ PairSet::PairSet(Room room)
 
 bool PairSet::add(std::uint32_t a, std::uint32_t b, bool is_active)
 {
-    if (pairs_.is_full() && free_.is_empty()) settle(); // what was removed makes room
+    if (pairs_.is_full() && free_.is_empty()) apply_changes(); // what was removed makes room
     if (pairs_.is_full() && free_.is_empty()) {
         ++left_out_;
         return false;
@@ -82,7 +82,7 @@ void PairSet::set_active(PairIndex index, bool is_active)
     mark &= static_cast<std::uint8_t>(~active_mark);
 }
 
-void PairSet::settle()
+void PairSet::apply_changes()
 {
     added_.clear();
     if (!parked_.is_empty()) drop_parked();

@@ -22,7 +22,7 @@ struct ContactMemory {
     std::uint32_t ticks = 0; // since its impulses were corrected
 };
 
-/// Whether the contact carried anything last tick: then what sleeps on it wakes with it.
+/// Whether the contact had a normal impulse last tick: then what sleeps on it wakes with it.
 [[nodiscard]] bool touches(const ContactMemory& memory);
 
 /// Two near each other: bodies with `a` < `b`, or the body `a` and the plane `b`.
@@ -51,9 +51,9 @@ public:
     [[nodiscard]] Pair& operator[](PairIndex index) { return pairs_[index]; }
     [[nodiscard]] const Pair& operator[](PairIndex index) const { return pairs_[index]; }
 
-    /// By (a, b). Valid until the next settle().
+    /// By (a, b). Valid until the next apply_changes().
     [[nodiscard]] std::span<const PairIndex> active() const { return active_.all(); }
-    /// Which of them the last settle() added, by (a, b).
+    /// Which of them the last apply_changes() added, by (a, b).
     [[nodiscard]] std::span<const PairIndex> added() const { return added_.all(); }
     [[nodiscard]] std::uint32_t size() const { return size_; }
     /// How often there was no room.
@@ -68,7 +68,7 @@ public:
         return (marks_[index] & active_mark) != 0;
     }
     /// Brings the list of active pairs up to date. Costs nothing when nothing has changed.
-    void settle();
+    void apply_changes();
 
     /// Calls visit(index) for every pair whose `a` is the given; it may remove that pair.
     template <typename Visit>
@@ -102,8 +102,8 @@ private:
         PairIndex previous_second = none;
     };
 
-    // Marks: in the list of the active ones (or in it after the next settle()); listed in active_
-    // or coming_.
+    // Marks: in the list of the active pairs (or in it after the next apply_changes()); listed in
+    // active_ or arriving_.
     static constexpr std::uint8_t active_mark = 1;
     static constexpr std::uint8_t listed = 2;
     static constexpr std::uint8_t parking = 4; // in parked_

@@ -24,16 +24,10 @@ double reach(const glm::dvec3& half)
     return sphere_reach_of_half * std::max({half.x, half.y, half.z});
 }
 
-Face face_towards(int axis, double value)
-{
-    return {.axis = static_cast<std::int8_t>(axis),
-            .sign = static_cast<std::int8_t>(value < 0.0 ? -1 : 1)};
-}
-
-double along(const Face& face, const glm::dvec3& place) { return face.sign * place[face.axis]; }
+double along(const BoxFace& face, const glm::dvec3& place) { return face.sign * place[face.axis]; }
 
 /// Whether a place is in the box or behind it, seen from in front of the face.
-bool is_behind(const Face& face, const glm::dvec3& half, const glm::dvec3& place)
+bool is_behind(const BoxFace& face, const glm::dvec3& half, const glm::dvec3& place)
 {
     const int u = (face.axis + 1) % 3;
     const int v = (face.axis + 2) % 3;
@@ -42,10 +36,10 @@ bool is_behind(const Face& face, const glm::dvec3& half, const glm::dvec3& place
            std::abs(place[u]) <= half[u] && std::abs(place[v]) <= half[v];
 }
 
-/// The face at which a straight way from outside goes into the box, however shortly.
-std::optional<Face> entry(const glm::dvec3& half, const glm::dvec3& from, const glm::dvec3& to)
+/// The face at which a straight line from outside enters the box, however briefly.
+std::optional<BoxFace> entry(const glm::dvec3& half, const glm::dvec3& from, const glm::dvec3& to)
 {
-    std::optional<Face> face;
+    std::optional<BoxFace> face;
     double in = 0.0;
     double out = 1.0;
     for (const int axis : {0, 1, 2}) {
@@ -58,33 +52,23 @@ std::optional<Face> entry(const glm::dvec3& half, const glm::dvec3& from, const 
         const double first = (near - from[axis]) / way;
         if (first > in || (first == in && !face && std::abs(from[axis]) >= half[axis])) {
             in = first;
-            face = face_towards(axis, near);
+            face = face_at(static_cast<std::size_t>(axis), near);
         }
         out = std::min(out, (-near - from[axis]) / way);
     }
     return in < out ? face : std::nullopt;
 }
 
-Face nearest_face(const glm::dvec3& half, const glm::dvec3& inside)
-{
-    int nearest = 0;
-    for (const int axis : {1, 2}) {
-        if (half[axis] - std::abs(inside[axis]) < half[nearest] - std::abs(inside[nearest]))
-            nearest = axis;
-    }
-    return face_towards(nearest, inside[nearest]);
-}
-
-Face outward_face(const glm::dvec3& outward)
+BoxFace outward_face(const glm::dvec3& outward)
 {
     int farthest = 0;
     for (const int axis : {1, 2}) {
         if (std::abs(outward[axis]) > std::abs(outward[farthest])) farthest = axis;
     }
-    return face_towards(farthest, outward[farthest]);
+    return face_at(static_cast<std::size_t>(farthest), outward[farthest]);
 }
 
-LocalOverlap behind(const Face& face, const glm::dvec3& half, const glm::dvec3& place,
+LocalOverlap behind(const BoxFace& face, const glm::dvec3& half, const glm::dvec3& place,
                     double radius)
 {
     LocalOverlap overlap{.depth = radius + (half[face.axis] - along(face, place)), .point = place};
@@ -124,7 +108,7 @@ std::optional<LocalOverlap> SphereBoxMemory::find_here(const glm::dvec3& half,
         entered_ = outward_face(outward);
         return LocalOverlap{.depth = radius - gap, .normal = outward / gap, .point = closest};
     }
-    entered_ = nearest_face(half, place);
+    entered_ = nearest_face(per_axis(place), per_axis(half));
     return behind(*entered_, half, place, radius);
 }
 
@@ -141,8 +125,7 @@ std::optional<LocalOverlap> SphereBoxMemory::find(const glm::dvec3& half, const 
     const int side = sides[axis];
     const bool is_face = std::abs(sides[0]) + std::abs(sides[1]) + std::abs(sides[2]) == 1;
     const bool stays = side != 0 && side_of(edge[axis], there[axis]) == side;
-    const bool is_through =
-        entered_ && static_cast<std::size_t>(entered_->axis) == axis && entered_->sign == -side;
+    const bool is_through = entered_ && entered_->axis == axis && entered_->sign == -side;
     if (stays && !is_through) {
         // It was and is in front of a face: it went in nowhere.
         const double gap = side * here[axis] - edge[axis];
@@ -151,7 +134,7 @@ std::optional<LocalOverlap> SphereBoxMemory::find(const glm::dvec3& half, const 
             return std::nullopt;
         }
         if (is_face) {
-            entered_ = Face{static_cast<std::int8_t>(axis), static_cast<std::int8_t>(side)};
+            entered_ = face_at(axis, side);
             PerAxis normal{};
             PerAxis point = here;
             normal[axis] = side;

@@ -3,19 +3,38 @@
 #pragma once
 
 #include "scene/collide/manifold.hpp"
+#include "scene/maths/vector.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <optional>
 
 namespace hapnet::scene {
 
-/// A face of a box.
-struct Face {
-    std::int8_t axis = 0;
+inline constexpr std::uint8_t no_axis = 3;
+
+/// A face of a box, or none.
+struct BoxFace {
+    std::uint8_t axis = no_axis;
     std::int8_t sign = 1;
 
-    friend bool operator==(const Face&, const Face&) = default;
+    friend bool operator==(const BoxFace&, const BoxFace&) = default;
 };
+/// The one across `axis` on the side of a place, given from the box's centre.
+[[nodiscard]] inline BoxFace face_at(std::size_t axis, double place)
+{
+    return {static_cast<std::uint8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};
+}
+/// The face nearest to a place within the box.
+[[nodiscard]] inline BoxFace nearest_face(const PerAxis& place, const PerAxis& half)
+{
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+        if (half[i] - std::abs(place[i]) < half[nearest] - std::abs(place[nearest])) nearest = i;
+    }
+    return face_at(nearest, place[nearest]);
+}
 
 /// How a sphere and a box overlap, in the world's frame.
 struct SphereOverlap {
@@ -45,12 +64,12 @@ inline constexpr double sphere_reach_of_half = 4.0;
 /// corners.
 class SphereBoxMemory {
 public:
-    /// nullopt when they do not overlap. For a sphere of which no earlier place is known.
+    /// nullopt when they do not overlap. For a sphere without a known earlier place.
     [[nodiscard]] std::optional<SphereOverlap> find(const OrientedBox& box,
                                                     const glm::dvec3& centre, double radius);
 
     /// Likewise; `before` is where the centre was a tick ago in the box's frame of that time, see
-    /// to_local(): the face is that which the straight way from there to here meets first.
+    /// to_local(): the face is the one that the straight line from there to here meets first.
     [[nodiscard]] std::optional<SphereOverlap>
     find(const OrientedBox& box, const glm::dvec3& centre, double radius, const glm::dvec3& before);
 
@@ -61,8 +80,8 @@ public:
 
     void forget() { entered_.reset(); }
 
-    /// The face through which the centre went in, or would on its shortest way.
-    [[nodiscard]] std::optional<Face> entered() const { return entered_; }
+    /// The face through which the centre went in, or would on its shortest path.
+    [[nodiscard]] std::optional<BoxFace> entered() const { return entered_; }
 
     friend bool operator==(const SphereBoxMemory&, const SphereBoxMemory&) = default;
 
@@ -70,7 +89,7 @@ private:
     [[nodiscard]] std::optional<LocalOverlap> find_here(const glm::dvec3& half,
                                                         const glm::dvec3& place, double radius);
 
-    std::optional<Face> entered_;
+    std::optional<BoxFace> entered_;
 };
 
 /// A point in a box's own frame.

@@ -14,9 +14,9 @@ namespace hapnet::scene {
 
 namespace {
 
-// What comes nearer than this share of the smallest half edge within a tick is looked at.
+// Pairs that come nearer than this share of the smallest half edge within a tick are examined.
 constexpr double look_ahead = 0.01;
-// What comes farther than this share of it in a tick could pass through.
+// A body that goes farther than this share of it in a tick could pass through another.
 constexpr double far_share = 0.5;
 
 double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.y, half.z)); }

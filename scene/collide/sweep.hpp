@@ -30,9 +30,9 @@ struct SweptContact {
     ContactPlaces centres;
 };
 
-/// Where two boxes touch, or will within the tick. Of boxes that come far in it, where they will
-/// when they meet, with the way that they have until then as the separation: they cannot pass
-/// through each other.
+/// Where two boxes touch, or will within the tick. For boxes that go far in it, where they touch at
+/// their time of impact, with the distance until then as the separation: they cannot pass through
+/// each other.
 [[nodiscard]] SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick,
                                          BoxBoxMemory& memory);
 
@@ -44,7 +44,7 @@ struct SweptBox {
 };
 
 /// The bodies' boxes at the start of a tick: found when they are asked for, and only of what has
-/// moved since. Nobody asks for a body that flies alone.
+/// moved since. A body that flies alone costs nothing.
 class SweptBoxes {
 public:
     SweptBoxes(const Bodies& bodies, const Scales& scales);

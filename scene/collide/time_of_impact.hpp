@@ -15,7 +15,7 @@ struct TimeOfImpact {
 };
 
 /// The first touch of `b` moving at `relative_velocity` seen from `a`, within [0, time_max];
-/// nullopt when there is none, or when they overlap already. Exact for boxes that do not turn.
+/// nullopt when there is none, or when they overlap already. Exact for boxes that do not rotate.
 [[nodiscard]] std::optional<TimeOfImpact> time_of_impact(const OrientedBox& a, const OrientedBox& b,
                                                          const glm::dvec3& relative_velocity,
                                                          double time_max);

@@ -18,13 +18,13 @@ struct MovingBody {
     glm::dvec3 angular_momentum{0.0};
 };
 
-/// How it answers to forces; held for the tick.
+/// How it responds to forces, and what acts on it; held for the tick.
 struct BodyDynamics {
     glm::dvec3 half{0.0}; // half the edges of the box, on which its hands slide and turn
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame, at the start of the tick
     bool rotates_uniformly =
-        false; // turning does not change it, and it is diagonal: a cube, or one axis
+        false; // rotation does not change it, and it is diagonal: a cube, or one axis
     glm::dvec3 acceleration{0.0}; // of everything but the hands
     glm::dvec3 torque{0.0};       // of everything but the hands, N m
 };
@@ -39,7 +39,8 @@ struct HandSpring {
     double stiffness = 0.0;
     double damping = 0.0;
     double force_max = std::numeric_limits<double>::infinity();
-    // Whether it presses a face (holds not), nine tenths of its half edges from the middle at most.
+    // Whether it presses a face (and does not grip) within nine tenths of the half edges from the
+    // middle.
     bool is_amid_face = false;
     bool holds = false;      // it also pulls, and `stretch` says how far in every direction
     glm::dvec3 stretch{0.0}; // hand minus where it is held; used when it holds
@@ -58,7 +59,7 @@ struct SpringImpulse {
 /// as they are, as on a body that cannot turn. While they turn they are held as they are halfway,
 /// in phases in which they turn by about a degree: second order, and bounces keep their energy (to
 /// 1e-5 for a cube, 2e-4 for other boxes, for stiffness tick^2 / mass from 0.01 to 1000). Two need
-/// the same damping over stiffness. More, or springs that hold: the midpoint rule in sub-ticks,
+/// the same damping over stiffness. More, or springs that hold: the midpoint rule in substeps,
 /// second order, stable however stiff.
 void advance(MovingBody& body, const BodyDynamics& dynamics, std::span<const HandSpring> springs,
              std::span<SpringImpulse> work, double tick);

@@ -15,9 +15,9 @@ namespace hapnet::scene {
 
 namespace {
 
-// How far a normal may turn in half a tick: then its mean is right to 1e-5.
+// The most that a normal may rotate in half a tick: then its mean is right to 1e-5.
 constexpr double half_rotation_max = 0.01;
-// What turns less than this has kept its directions, to rounding.
+// A rotation below this keeps all directions, to rounding.
 constexpr double negligible_rotation = 1e-10;
 
 constexpr std::size_t press_terms_max = 24;
@@ -151,7 +151,7 @@ bool ConstantContact<count>::integrate_contacts()
         size += std::abs(first[i]);
     }
     constexpr double rounding = 1e-14; // what comes after two such terms is less
-    const double enough = rounding * size;
+    const double converged = rounding * size;
     const double mutual = square * mutual_;
     Each force = first;
     double last = size;
@@ -175,11 +175,11 @@ bool ConstantContact<count>::integrate_contacts()
             now += std::abs(force[i]);
         }
         last += now;
-        if (last <= enough) break;
+        if (last <= converged) break;
         last = now;
         order += 1.0;
     }
-    if (!(last <= enough)) return false;
+    if (!(last <= converged)) return false;
     for (std::size_t i = 0; i < count; ++i) {
         if (!(first[i] > change[i] && first[i] + change[i] < springs_[i].force_max)) return false;
         contacts_[i].impulse = tick_ * once[i];

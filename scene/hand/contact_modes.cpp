@@ -9,10 +9,10 @@ namespace hapnet::scene {
 
 namespace {
 
-/// A course at a moment, with its integrals from the start.
+/// A trajectory at a moment, with its integrals from the start.
 struct TrajectoryIntegrals {
     TrajectoryPoint motion;
-    double once = 0.0;  // the integral of the way
+    double once = 0.0;  // the integral of the displacement
     double twice = 0.0; // the integral of that
 };
 
@@ -23,8 +23,8 @@ TrajectoryIntegrals integrate_along(const Trajectory& trajectory, double time)
                                trajectory.speed * r.push + trajectory.push * r.ramp, 0.0};
     const Oscillator& oscillator = trajectory.propagator->oscillator;
     const double t2 = time * time;
-    // From the law itself; where it hardly acts, that would be the difference of almost equal
-    // numbers, and four terms of Taylor's series are exact to 1e-12.
+    // From the equation of motion; where the spring hardly acts, that would be the difference of
+    // almost equal numbers, and four terms of Taylor's series are exact to 1e-12.
     constexpr double hardly = 1e-3;
     if (oscillator.stiffness * t2 > hardly || oscillator.damping * time > hardly * 100.0) {
         if (oscillator.stiffness > 0.0) {
@@ -49,20 +49,21 @@ TrajectoryIntegrals integrate_along(const Trajectory& trajectory, double time)
 double SpringContact::force() const
 {
     switch (phase) {
-    case ContactPhase::apart: return 0.0;
-    case ContactPhase::pressing: return unlimited_force();
-    case ContactPhase::limited: return force_max;
+    case SpringPhase::apart:
+    case SpringPhase::slack: return 0.0;
+    case SpringPhase::pressing: return unlimited_force();
+    case SpringPhase::limited: return force_max;
     }
     return 0.0;
 }
 
-ContactPhase SpringContact::phase_due() const
+SpringPhase SpringContact::phase_due() const
 {
-    if (depth < 0.0 || unlimited_force() <= 0.0) return ContactPhase::apart;
-    return unlimited_force() < force_max ? ContactPhase::pressing : ContactPhase::limited;
+    if (depth < 0.0 || unlimited_force() <= 0.0) return SpringPhase::apart;
+    return unlimited_force() < force_max ? SpringPhase::pressing : SpringPhase::limited;
 }
 
-// The courses are set for the phases that there are.
+// The trajectories are set for the phases that there are.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 template <std::size_t count>
 ContactModes<count>::ContactModes(std::array<SpringContact, count>& contacts,
@@ -76,17 +77,17 @@ ContactModes<count>::ContactModes(std::array<SpringContact, count>& contacts,
         const double unlimited_force = contact.unlimited_force();
         const double size = contact.stiffness * std::abs(contact.depth) +
                             contact.damping * std::abs(contact.closing);
-        if (contact.phase == ContactPhase::limited &&
+        if (contact.phase == SpringPhase::limited &&
             unlimited_force < (1.0 - rounding) * contact.force_max)
-            contact.phase = ContactPhase::pressing;
-        if (contact.phase != ContactPhase::pressing) continue;
+            contact.phase = SpringPhase::pressing;
+        if (contact.phase != SpringPhase::pressing) continue;
         if (unlimited_force > (1.0 + rounding) * contact.force_max)
-            contact.phase = ContactPhase::limited;
-        if (unlimited_force < -rounding * size) contact.phase = ContactPhase::apart;
+            contact.phase = SpringPhase::limited;
+        if (unlimited_force < -rounding * size) contact.phase = SpringPhase::apart;
     }
-    const bool first = contacts_[0].phase == ContactPhase::pressing;
+    const bool first = contacts_[0].phase == SpringPhase::pressing;
     if constexpr (count == 2) {
-        const bool second = contacts_[1].phase == ContactPhase::pressing;
+        const bool second = contacts_[1].phase == SpringPhase::pressing;
         if (first && second) {
             solve_both();
             return;
@@ -209,14 +210,14 @@ template <std::size_t count>
 bool ContactModes<count>::keeps_phase(std::size_t i) const
 {
     const SpringContact& contact = contacts_[i];
-    if (contact.phase == ContactPhase::apart) {
+    if (contact.phase == SpringPhase::apart) {
         if (modes_ > 0) return false;
         const Trajectory& trajectory = trajectories_[i];
         return contact.depth +
                    time_ * (std::abs(trajectory.speed) + time_ * std::abs(trajectory.push)) <
                0.0;
     }
-    if (contact.phase == ContactPhase::limited) return false;
+    if (contact.phase == SpringPhase::limited) return false;
     double change = 0.0;
     for (std::size_t mode = 0; mode < modes_; ++mode) {
         const Trajectory& trajectory = trajectories_[mode];
@@ -239,7 +240,7 @@ void ContactModes<count>::find_end(End& end, std::size_t i)
 {
     if (keeps_phase(i)) return;
     const SpringContact& contact = contacts_[i];
-    const auto look_for = [&](ContactPhase then, double level, double sign) {
+    const auto watch_for = [&](SpringPhase then, double level, double sign) {
         const auto found =
             first_root(watch(i, level, {sign * contact.stiffness, sign * contact.damping}),
                        trajectories_, 0.0, end.time);
@@ -247,23 +248,24 @@ void ContactModes<count>::find_end(End& end, std::size_t i)
     };
     const double pull = contact.stiffness * contact.depth;
     switch (contact.phase) {
-    case ContactPhase::pressing:
-        look_for(ContactPhase::apart, pull, 1.0);
+    case SpringPhase::pressing:
+        watch_for(SpringPhase::apart, pull, 1.0);
         if (contact.force_max < std::numeric_limits<double>::infinity())
-            look_for(ContactPhase::limited, contact.force_max - pull, -1.0);
+            watch_for(SpringPhase::limited, contact.force_max - pull, -1.0);
         return;
-    case ContactPhase::limited:
-        look_for(ContactPhase::pressing, pull - contact.force_max, 1.0);
+    case SpringPhase::limited:
+        watch_for(SpringPhase::pressing, pull - contact.force_max, 1.0);
         return;
-    case ContactPhase::apart: break;
+    case SpringPhase::apart:
+    case SpringPhase::slack: break;
     }
     if (contact.depth >= 0.0 && contact.unlimited_force() < 0.0) {
-        look_for(ContactPhase::pressing, -pull, -1.0);
+        watch_for(SpringPhase::pressing, -pull, -1.0);
         return;
     }
     const auto found =
         first_root(watch(i, -contact.depth, {-1.0, 0.0}), trajectories_, 0.0, end.time);
-    if (found && *found < end.time) end = {*found, i, ContactPhase::pressing};
+    if (found && *found < end.time) end = {*found, i, SpringPhase::pressing};
 }
 
 template <std::size_t count>
@@ -293,7 +295,7 @@ PhaseImpulses<count> ContactModes<count>::advance()
     for (std::size_t j = 0; j < count; ++j) passed[j] = trajectories_[j].after(end.time);
     for (std::size_t i = 0; i < count; ++i) {
         SpringContact& contact = contacts_[i];
-        if (contact.phase == ContactPhase::limited) {
+        if (contact.phase == SpringPhase::limited) {
             impulses.impulse[i] = contact.force_max * end.time;
             impulses.moment[i] = 0.5 * contact.force_max * end.time * end.time;
         }

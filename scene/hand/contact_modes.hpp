@@ -2,21 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/hand/spring.hpp"
 #include "scene/maths/first_root.hpp"
 
 #include <array>
-#include <cstdint>
 
 namespace hapnet::scene {
 
-/// What a unilateral spring with a damper is doing.
-enum class ContactPhase : std::uint8_t {
-    apart,    // no force: no overlap, or it opens faster than the damper lets the spring follow
-    pressing, // stiffness * depth + damping * closing
-    limited,  // its greatest force
-};
-
-/// One spring on a body along its held normal.
+/// One spring on a body along its held normal. While it is slack it counts as apart: it pushes
+/// again when the pull has gone, wherever its depth is.
 struct SpringContact {
     double stiffness = 0.0;
     double damping = 0.0;
@@ -24,21 +18,21 @@ struct SpringContact {
     double depth = 0.0;        // > 0: overlap
     double closing = 0.0;      // by how much the depth grows per second
     double acceleration = 0.0; // of the depth, by everything but the springs
-    ContactPhase phase = ContactPhase::apart;
+    SpringPhase phase = SpringPhase::apart;
 
     [[nodiscard]] double unlimited_force() const { return stiffness * depth + damping * closing; }
     [[nodiscard]] double force() const;
     /// The phase that depth and closing speed call for.
-    [[nodiscard]] ContactPhase phase_due() const;
+    [[nodiscard]] SpringPhase phase_due() const;
 };
 
-/// By how much the depths of up to two springs answer to their forces: 1/kg.
+/// How the depths of up to two springs respond to their forces: 1/kg.
 struct Coupling {
     std::array<double, 2> own{};
     double mutual = 0.0;
 };
 
-/// What the springs did in a time.
+/// What the springs did until a moment.
 template <std::size_t count>
 struct PhaseImpulses {
     double time = 0.0;
@@ -55,7 +49,7 @@ class ContactModes {
 public:
     /// `time` is how long at most.
     ContactModes(std::array<SpringContact, count>& contacts, const Coupling& coupling, double time);
-    ContactModes(const ContactModes&) = delete; // the courses point to the kernels
+    ContactModes(const ContactModes&) = delete; // the trajectories point to the propagators
     ContactModes& operator=(const ContactModes&) = delete;
     ~ContactModes() = default;
 
@@ -70,7 +64,7 @@ private:
     struct End {
         double time = 0.0;
         std::size_t contact = count; // none
-        ContactPhase then = ContactPhase::apart;
+        SpringPhase then = SpringPhase::apart;
     };
 
     void solve_parabolas();
@@ -88,11 +82,11 @@ private:
     double time_;
     bool is_solved_ = true;
 
-    // Each depth is its start plus the sum of two courses, weighted.
+    // Each depth is its start plus the weighted sum of two trajectories.
     std::array<Propagator, count> propagators_;
     Trajectories trajectories_;
-    std::array<std::array<double, count>, count> share_{}; // of depth i in course j
-    // Of the springs that press, in the courses that are theirs: one alone, or the two modes.
+    std::array<std::array<double, count>, count> share_{}; // of depth i in trajectory j
+    // The modes of the springs that press: one alone, or two.
     std::size_t modes_ = 0;
     std::array<double, count> start_{};                     // depth of the mode
     std::array<std::array<double, count>, count> weight_{}; // of force i in mode j

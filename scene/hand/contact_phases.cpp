@@ -14,7 +14,7 @@ namespace {
 
 constexpr int phases_max = 64;          // of a tick
 constexpr double part_min = 1.0 / 32.0; // of a tick, that is cut off only because something turns
-// How far a normal may turn in half of what is held: then its mean is right to 1e-5.
+// The most that a normal may rotate in half an interval: then its mean is right to 1e-5.
 constexpr double normal_rotation_max = 0.01;
 
 glm::dmat3 rotated_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& angle)
@@ -141,7 +141,7 @@ bool ContactPhases<count>::advance()
 {
     for (int phase = 0; phase < phases_max && time_left_ > 0.0; ++phase) {
         double time = time_left_;
-        double predicted = time; // what the setting is halfway of
+        double predicted = time; // the time whose middle `held` belongs to
         for (int attempt = 0;; ++attempt) {
             const HeldGeometry held = geometry_halfway(predicted);
             const Coupling coupling = set_couplings(held);
@@ -150,7 +150,7 @@ bool ContactPhases<count>::advance()
                 shorter = predicted * normal_rotation_max / std::sqrt(held.normal_change2);
             for (std::size_t i = 0; i < count && rotates_; ++i) {
                 const double square = coupling.own[i] * contacts_[i].stiffness;
-                if (contacts_[i].phase == ContactPhase::pressing && square * time * time > 1.0)
+                if (contacts_[i].phase == SpringPhase::pressing && square * time * time > 1.0)
                     shorter = std::min(shorter, 1.0 / std::sqrt(square));
             }
             shorter = std::max(shorter, part_min * tick_);
@@ -169,7 +169,7 @@ bool ContactPhases<count>::advance()
             }
             std::array<bool, count> was_apart{};
             for (std::size_t i = 0; i < count; ++i)
-                was_apart[i] = contacts_[i].phase == ContactPhase::apart;
+                was_apart[i] = contacts_[i].phase == SpringPhase::apart;
             contacts_ = contacts;
             apply(held, impulses);
             for (std::size_t i = 0; i < count; ++i) {
@@ -231,9 +231,9 @@ void ContactPhases<count>::begin_contact(std::size_t i)
     // reached, and when it begins a little late, that is settled in the end.
     SpringContact& contact = contacts_[i];
     contact.depth = geometries_[i].depth;
-    if (contact.phase != ContactPhase::pressing) return;
+    if (contact.phase != SpringPhase::pressing) return;
     constexpr double near = 1e-9;
-    if (contact.depth < -near * contact.closing * tick_) contact.phase = ContactPhase::apart;
+    if (contact.depth < -near * contact.closing * tick_) contact.phase = SpringPhase::apart;
     contact.depth = std::min(contact.depth, 0.0);
 }
 
@@ -258,7 +258,7 @@ void ContactPhases<count>::correct_energies()
     constexpr double unturned = 1e-10;
     if (largest_normal_change_ < unturned * unturned) return;
     for (std::size_t i = 0; i < count; ++i) {
-        if (contacts_[i].phase == ContactPhase::apart) continue;
+        if (contacts_[i].phase == SpringPhase::apart) continue;
         scene::correct_energy({body_, dynamics_, inverse_inertia_, tick_}, *springs_[i],
                               {contacts_[i].depth, geometries_[i].depth}, *works_[i]);
     }

@@ -32,7 +32,7 @@ public:
     [[nodiscard]] std::array<HandSpring, count> current() const;
 
 private:
-    /// What is held for a time.
+    /// The geometry that is held for an interval.
     struct HeldGeometry {
         glm::dmat3 inverse_inertia{0.0};
         std::array<ContactGeometry, count> contacts;

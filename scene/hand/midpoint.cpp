@@ -244,7 +244,7 @@ void MidpointRule::newton_step(double substep)
 void MidpointRule::solve(double substep)
 {
     constexpr int steps_max = 12;
-    constexpr double enough = 1e-13;
+    constexpr double converged = 1e-13;
     for (int step = 0; step < steps_max; ++step) {
         update_forces(substep);
         double before = 0.0;
@@ -256,7 +256,7 @@ void MidpointRule::solve(double substep)
             change = std::max(change, std::abs(row_[i].mean - mean[i]));
             before = std::max(before, std::abs(row_[i].closing) + std::abs(mean[i]));
         }
-        if (change <= enough * before) break;
+        if (change <= converged * before) break;
     }
     update_forces(substep);
 }

@@ -10,7 +10,7 @@
 namespace hapnet::scene {
 
 /// A rigid body under any number of springs, which may hold: the implicit midpoint rule, in
-/// sub-ticks short against the stiffest mode. The mean force of a unilateral spring over a sub-tick
+/// substeps short against the stiffest mode. The mean force of a unilateral spring over a substep
 /// is its energy's difference over its depth's (a discrete gradient): so with held directions
 /// neither contact that begins nor one that ends makes or loses energy. Second order; stable
 /// however stiff. Forces add to what is in `work`.
@@ -42,7 +42,7 @@ private:
         BoxSurface surface;
         glm::dvec3 hand{0.0};   // seen from the body's centre; of one that holds, where it pulls
         glm::dvec3 anchor{0.0}; // of one that holds, in the body's frame
-        double depth = 0.0;     // carried from one sub-tick to the next while it acts
+        double depth = 0.0;     // kept from one substep to the next while it acts
     };
     using Matrix = std::array<std::array<double, rows_max>, rows_max>;
 

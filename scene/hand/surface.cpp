@@ -62,7 +62,7 @@ double energy(const HandSpring& spring, double depth)
     return spring.force_max * (depth - 0.5 * bend);
 }
 
-/// How much of an impulse a spring can give besides what it gave: not more together than `most`.
+/// The share of a further impulse with which a spring gives `most` together at most.
 double share_within(const glm::dvec3& given, const glm::dvec3& more, double most)
 {
     if (std::isinf(most)) return 1.0;

@@ -8,7 +8,7 @@
 
 namespace hapnet::scene {
 
-/// How a hand's spring acts on a body that lies as it does at some moment.
+/// Where and along what a hand's spring acts on a body, at one moment.
 struct ContactGeometry {
     glm::dvec3 normal{0.0}; // unit, from the body to the hand
     glm::dvec3 lever{0.0};  // arm x normal

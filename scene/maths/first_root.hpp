@@ -10,11 +10,12 @@
 
 namespace hapnet::scene {
 
-/// The courses of the three axes.
+/// The trajectories of the three axes.
 using Trajectories = std::array<Trajectory, 3>;
 
-/// A quantity that is watched while the axes run their courses: level + slope t + the sum over the
-/// axes of way_weight way + speed_weight speed. It is positive until what is waited for happens.
+/// A quantity that is watched while the axes run their trajectories: level + slope t + the sum over
+/// the axes of displacement_weight displacement + speed_weight speed. It is positive until the
+/// event.
 struct WatchedQuantity {
     double level = 0.0;
     double slope = 0.0;

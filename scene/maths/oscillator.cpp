@@ -26,7 +26,7 @@ constexpr std::array<double, 24> inverse_factorials = [] {
 }();
 
 /// The rate (n = 0), the step (1), the push (2), the ramp (3) and their further integrals, each in
-/// units of time^n, are tied to each other by the law itself:
+/// units of time^n, follow from each other by the equation of motion:
 /// y_n = 1/n! - b y_(n+1) - k y_(n+2) with b = damping time and k = stiffness time^2. From `last`
 /// on they are taken as a free body's 1/n!; every step back from there makes that error smaller.
 template <std::size_t last>
@@ -49,7 +49,7 @@ StepResponse series(double b, double k, double t)
     return {rate, step * t, push * square, ramp * (square * t)};
 }
 
-/// For damping * time <= 1 and stiffness * time^2 <= 1: so many that what is left out is below
+/// For damping * time <= 1 and stiffness * time^2 <= 1: as many terms as leave out less than
 /// 2e-17 of the free body's.
 StepResponse series(double b, double k, double t)
 {

@@ -8,7 +8,7 @@
 
 namespace hapnet::scene {
 
-/// What pulls a coordinate back: x'' = A + R t - damping x' - stiffness x, per unit of mass. Both
+/// A damped oscillator: x'' = A + R t - damping x' - stiffness x, per unit of mass. Both
 /// may be 0: a parabola; without stiffness: an exponential; otherwise an oscillator, under-,
 /// critically or over-damped.
 struct Oscillator {
@@ -16,7 +16,7 @@ struct Oscillator {
     double stiffness = 0.0; // 1/s^2, >= 0
 };
 
-/// How a coordinate that rests at 0 answers under a law, at one moment t: `step` is where it is
+/// How an oscillator that rests at 0 responds, at one moment t: `step` is where it is
 /// after a kick of speed 1, S(t); `rate` is S'; `push` the integral of S, the answer to a steady
 /// acceleration of 1; `ramp` the integral of that, the answer to one that grows by 1 per second.
 /// Everything linear follows by adding: no equilibrium is subtracted, so nothing is lost where
@@ -33,7 +33,7 @@ struct StepResponse {
 /// only known to its rounding, 1e-16 of the angle.
 [[nodiscard]] StepResponse step_response(const Oscillator& oscillator, double time);
 
-/// A law with what is derived from it, and its response at the end of a tick: what most ticks need.
+/// An oscillator with its response at the end of a tick, which is the one that most ticks need.
 struct Propagator {
     Oscillator oscillator;
     double frequency = 0.0; // of the undamped oscillator, 1/s
@@ -61,8 +61,8 @@ struct TrajectoryPoint {
     double speed = 0.0;
 };
 
-/// A coordinate's motion in closed form from a moment on: way'' = push + ramp t - damping way' -
-/// stiffness way. A course without a kernel stays where it is.
+/// A coordinate's motion in closed form from a moment on: x'' = push + ramp t - damping x' -
+/// stiffness x. A trajectory without a propagator stays where it is.
 struct Trajectory {
     const Propagator* propagator;
     double speed; // at the start
@@ -70,7 +70,7 @@ struct Trajectory {
     double ramp;  // by which `push` grows, m/s^3
 
     [[nodiscard]] bool moves() const { return propagator != nullptr; }
-    /// Whether it stays where it is under any kernel.
+    /// Whether it stays where it is, whatever its propagator.
     [[nodiscard]] bool is_idle() const { return speed == 0.0 && push == 0.0 && ramp == 0.0; }
     [[nodiscard]] TrajectoryPoint at(const StepResponse& r) const
     {
@@ -95,8 +95,8 @@ struct Trajectory {
     }
 };
 
-/// What acceleration and its rate cannot exceed from a moment on for `time` seconds. Acceleration
-/// a obeys the law without forces, a'' + damping a' + stiffness a = 0, whose energy a'^2 +
+/// The greatest acceleration, and rate of it, from a moment on for `time` seconds. Acceleration
+/// a obeys the oscillator without forces, a'' + damping a' + stiffness a = 0, whose energy a'^2 +
 /// stiffness a^2 never grows.
 struct Bounds {
     double acceleration;

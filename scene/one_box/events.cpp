@@ -31,7 +31,7 @@ WatchedQuantity watch_tension(const BoxMotion& box, const FaceSpring& spring, do
     return watch;
 }
 
-/// Most springs act for all the `time` that is looked at: whether this is one of them.
+/// Whether a spring presses for the whole `time`, as most do.
 bool keeps_acting(const BoxMotion& box, const FaceSpring& spring, double time)
 {
     if (spring.phase != SpringPhase::pressing) return false;
@@ -178,7 +178,7 @@ void find_impact(const BoxMotion& box, const Obstacle& obstacle, Event& first)
     }
 }
 
-/// What carries an axis may be lost: by the other forces, or behind its edge.
+/// An axis loses its support when other forces lift it off, or behind its edge.
 void find_loss_of_support(const BoxMotion& box, std::size_t i, Event& first)
 {
     const AxisMotion& axis = box.axes[i];
@@ -199,8 +199,8 @@ void find_loss_of_support(const BoxMotion& box, std::size_t i, Event& first)
     }
 }
 
-/// Stops or turns back. A bounce that would be over before a tick has passed is none: otherwise a
-/// box would come to rest by endlessly many.
+/// Stops the box or sends it back. A bounce that would be over before a tick has passed is left
+/// out: otherwise a box would come to rest by endlessly many.
 void handle_impact(BoxMotion& box, const Event& event, double tick)
 {
     const std::size_t i = event.axis;
@@ -251,7 +251,7 @@ void find_event(const BoxMotion& box, Event& first)
     }
 }
 
-void apply(BoxMotion& box, const Event& event, double tick)
+void handle_event(BoxMotion& box, const Event& event, double tick)
 {
     const HandDescription& hands = box.hands;
     switch (event.kind) {

@@ -6,18 +6,18 @@
 
 namespace hapnet::scene {
 
-/// What ends a stretch of a tick.
+/// What ends an interval of a tick.
 struct Event {
     enum class Kind : std::uint8_t {
         none,      // the end of the tick
         spring,    // a hand's spring comes into another phase
         impact,    // the box arrives at a fixed one or a plane
-        unloading, // what carries it is not pressed any more
-        edge,      // it slides off what carries it
+        unloading, // it no longer presses on its support
+        edge,      // it slides off its support
         stop,      // friction has stopped it
         slip,      // friction does not hold it any more
     };
-    double time = 0.0; // from the start of the stretch
+    double time = 0.0; // from the start of the interval
     Kind kind = Kind::none;
     std::uint32_t spring = 0;
     SpringPhase phase = SpringPhase::apart; // the spring's next one
@@ -27,13 +27,14 @@ struct Event {
     const Obstacle* obstacle = nullptr;     // of an impact
 };
 
-/// Whether nothing but dry friction can end the stretch before the tick does: so it nearly always
-/// is, and that is soon seen.
+/// Whether nothing but dry friction can end the interval before the tick does. That is nearly
+/// always so, and quick to find out.
 [[nodiscard]] bool is_uneventful(const BoxMotion& box);
-/// What happens first in what is left of the tick, if it is before `first`.
+/// The first event in the rest of the tick, if it comes before `first`.
 void find_event(const BoxMotion& box, Event& first);
 
-/// Lets it happen; the box has been advanced to its moment. `tick` is the whole one's length.
-void apply(BoxMotion& box, const Event& event, double tick);
+/// Applies the event to the box, once the box has been advanced to its moment. `tick` is the length
+/// of the whole tick.
+void handle_event(BoxMotion& box, const Event& event, double tick);
 
 } // namespace hapnet::scene

@@ -24,7 +24,7 @@ struct Tangential {
     [[nodiscard]] std::span<const std::size_t> axes() const { return {all.data(), count}; }
 };
 
-/// What the axes do that nothing but friction holds.
+/// The motion of the axes that nothing but friction holds.
 Tangential tangential(const BoxMotion& box)
 {
     Tangential found;

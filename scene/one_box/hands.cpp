@@ -48,14 +48,6 @@ auto& part(Vector& v, std::size_t axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/// The spring and damper alone, at one moment.
-double spring_force(const HandDescription& hands, double depth, double closing)
-{
-    if (depth <= 0.0) return 0.0;
-    return std::clamp(hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing, 0.0,
-                      hands.force_max_n);
-}
-
 /// A hand that holds with the same force throughout the tick.
 void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
 {
@@ -115,19 +107,19 @@ void BoxHands::collide(const WorldConfig& config, WorldState& state, BoxMotion& 
             memory.held_at.reset();
         } else if (!memory.held_at) {
             const PerAxis from_centre = difference(input.position.value, box.position);
-            const double reach = config.hands.radius_m + config.hands.grip_reach_m;
-            if (distance(from_centre, half_) <= reach) memory.held_at = from_centre;
+            if (distance(from_centre, half_) <= grip_distance(config.hands))
+                memory.held_at = from_centre;
         }
         if (memory.held_at) {
-            hold(config, state, box, i);
+            add_grip(config, state, box, i);
         } else {
             collide_box(config, state, box, i);
         }
     }
 }
 
-void BoxHands::hold(const WorldConfig& config, WorldState& state, BoxMotion& box,
-                    std::uint32_t index)
+void BoxHands::add_grip(const WorldConfig& config, WorldState& state, BoxMotion& box,
+                        std::uint32_t index)
 {
     const HandDescription& hands = config.hands;
     const HandInput& input = state.hands[index];
@@ -135,19 +127,13 @@ void BoxHands::hold(const WorldConfig& config, WorldState& state, BoxMotion& box
     memory.entered = {};
     const PerAxis from_centre = difference(input.position.value, box.position);
     GripSpring grip{index, from_centre, per_axis(input.velocity.value), {}};
-    base::Force wanted;
-    for (std::size_t i = 0; i < 3; ++i) {
-        grip.stretch[i] -= (*memory.held_at)[i];
-        wanted.value[static_cast<int>(i)] =
-            hands.stiffness_n_per_m * grip.stretch[i] +
-            hands.damping_ns_per_m * (grip.velocity[i] - box.velocity[i]);
-    }
+    for (std::size_t i = 0; i < 3; ++i) grip.stretch[i] -= (*memory.held_at)[i];
+    const base::Force wanted =
+        grip_force(hands, vector(grip.stretch), input.velocity.value - vector(box.velocity));
     const base::Force force = base::limited(wanted, hands.force_max_n);
     HandTouch& touch = state.touches[index];
-    touch.holding = touch.touching = true;
-    touch.depth_m =
-        std::max(touch.depth_m, std::max(hands.radius_m - distance(from_centre, half_), 0.0));
-    touch.on_hand_at_start += -force;
+    touch.touching = true;
+    note_grip(touch, hands, distance(from_centre, half_), force);
     if (force == wanted) {
         box.grips[box.grip_count++] = grip;
         return;
@@ -197,9 +183,8 @@ FaceContact BoxHands::collide_near_box(const WorldConfig& config, WorldState& st
     const PerAxis& normal = contact->edge_normal;
     const double closing = -dot(normal, per_axis(input.velocity.value));
     box.edge_springs[box.edge_spring_count++] = {index, normal, contact->depth, closing, 0.0};
-    touch.depth_m = std::max(touch.depth_m, contact->depth);
-    touch.on_hand_at_start.value +=
-        spring_force(hands, contact->depth, -dot(normal, approach.velocity)) * vector(normal);
+    const double force = force_at(hands, contact->depth, -dot(normal, approach.velocity));
+    note_push(touch, contact->depth, force * vector(normal));
     return {index, {}, 0.0};
 }
 
@@ -237,8 +222,7 @@ void BoxHands::collide_fixed_boxes(const WorldConfig& config, WorldState& state,
             impulse_at_constant_velocity(hands, contact->depth, closing, config.tick) / config.tick;
         touch.depth_m = std::max(touch.depth_m, contact->depth);
         touch.on_hand.value += mean * vector(normal);
-        touch.on_hand_at_start.value +=
-            spring_force(hands, contact->depth, closing) * vector(normal);
+        touch.on_hand_at_start.value += force_at(hands, contact->depth, closing) * vector(normal);
     }
 }
 

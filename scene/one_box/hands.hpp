@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/one_box/meeting.hpp"
 #include "scene/one_box/motion.hpp"
+#include "scene/one_box/sphere_contact.hpp"
 
 #include <array>
 #include <optional>
@@ -18,22 +18,22 @@ struct FaceContact {
     double depth = 0.0;
 };
 
-/// The hands at the box and at the fixed boxes, and what has to be remembered of them.
+/// The hands at the box and at the fixed boxes, and what the next tick has to know of them.
 class BoxHands {
 public:
     BoxHands(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
 
     /// Adds the springs between the hands and the box to `box`. What the hands feel of the fixed
-    /// boxes is told at once.
+    /// boxes is reported at once.
     void collide(const WorldConfig& config, WorldState& state, BoxMotion& box);
-    /// Adds the forces of hands at edges and corners, once the courses of the axes are known.
+    /// Adds the forces of hands at edges and corners, once the trajectories of the axes are known.
     /// Midpoint rule: second order, and it neither makes nor loses energy.
     static void add_edge_springs(BoxMotion& box);
     /// Whether a hand held with more than its greatest force in the tick that `box` has run. Then
     /// `again`, the tick before it ran, has that force held throughout instead.
     static bool limit_grip(const WorldConfig& config, WorldState& state, const BoxMotion& box,
                            BoxMotion& again);
-    /// Tells what the springs did in the tick.
+    /// Reports what the springs did in the tick.
     static void report(const WorldConfig& config, WorldState& state, const BoxMotion& box);
     /// The box has been put somewhere else.
     void forget_box();
@@ -63,10 +63,11 @@ private:
         }
     };
 
-    void hold(const WorldConfig& config, WorldState& state, BoxMotion& box, std::uint32_t index);
+    void add_grip(const WorldConfig& config, WorldState& state, BoxMotion& box,
+                  std::uint32_t index);
     void collide_box(const WorldConfig& config, WorldState& state, BoxMotion& box,
                      std::uint32_t index);
-    /// Where nothing is as simple as a hand straight before a face. Hands at edges and corners are
+    /// The general case, beyond a hand straight in front of a face. Hands at edges and corners are
     /// added to `box`; what pushes a face is returned.
     FaceContact collide_near_box(const WorldConfig& config, WorldState& state, BoxMotion& box,
                                  std::uint32_t index);

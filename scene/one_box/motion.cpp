@@ -169,7 +169,7 @@ void advance(BoxMotion& box, double time)
         if (!trajectory.moves()) continue;
         const TrajectoryPoint motion = trajectory.after(time);
         const Oscillator& oscillator = trajectory.propagator->oscillator;
-        if (oscillator.stiffness > 0.0) { // from the law itself, integrated once
+        if (oscillator.stiffness > 0.0) { // from the equation of motion, integrated once
             const double forces = time * (trajectory.push + 0.5 * time * trajectory.ramp);
             way_integral[i] = (forces - oscillator.damping * motion.displacement -
                                (motion.speed - trajectory.speed)) /

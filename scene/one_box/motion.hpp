@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/hand/spring.hpp"
 #include "scene/maths/first_root.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/one_box/obstacles.hpp"
-#include "scene/one_box/spring.hpp"
 
 #include <array>
 #include <limits>
@@ -12,13 +13,13 @@
 
 namespace hapnet::scene {
 
-/// The laws that an axis can be under: with any number of springs, with or without drag.
+/// The oscillators that an axis can be: with any number of springs, with or without drag.
 class AxisOscillators {
 public:
     AxisOscillators(const HandDescription& hands, const BodyProperties& body, double tick);
 
     [[nodiscard]] double inverse_mass() const { return inverse_mass_; }
-    /// Of one spring.
+    /// The oscillator of one spring alone.
     [[nodiscard]] const Oscillator& spring() const { return propagators_[0][1].oscillator; }
 
     [[nodiscard]] const Propagator& of(std::size_t springs, bool with_drag) const
@@ -31,7 +32,7 @@ private:
     std::array<std::array<Propagator, hands_max + 1>, 2> propagators_;
 };
 
-/// What one axis of the box does.
+/// The motion of one axis of the box.
 struct AxisMotion {
     double applied_acceleration; // acceleration of the forces that hold for the tick
     bool is_stopped;             // locked, or for the rest of the tick
@@ -40,10 +41,10 @@ struct AxisMotion {
     const Obstacle* below; // at whose high face it is
     const Obstacle* above;
     const Obstacle* support; // one of them, when it presses on that
-    double load;             // by which it presses, per mass; >= 0; only with a carrier
+    double load;             // by which it presses, per mass; >= 0; only with a support
     double load_ramp;        // m/s^3
 
-    double acceleration; // at the start of the stretch
+    double acceleration; // at the start of the interval
     Bounds bounds;       // for what is left of the tick
     double reach;        // how far it can come in what is left of the tick
 
@@ -51,7 +52,7 @@ struct AxisMotion {
     [[nodiscard]] bool is_held() const { return is_stopped || support; }
 };
 
-/// Dry friction on what carries the box.
+/// Dry friction on what supports the box.
 struct DryFriction {
     enum class State : std::uint8_t { none, stuck, sliding };
     State state = State::none;
@@ -61,8 +62,56 @@ struct DryFriction {
     double limit_ramp = 0.0;
 };
 
-/// A box within a tick. The tick is cut into stretches at what begins or ends in it; in each of
-/// them every axis runs a closed form.
+/// A hand's spring on one face of the box, along one axis.
+struct FaceSpring {
+    std::uint32_t hand;
+    std::size_t axis;
+    double sign;    // of the normal, from the box to the hand
+    double depth;   // at the start of the interval
+    double closing; // the hand's share of the closing speed
+    SpringPhase phase;
+    double impulse; // so far in the tick, N s, >= 0
+
+    /// `speed` is the box's along the axis.
+    [[nodiscard]] double closing_at(double speed) const { return closing + sign * speed; }
+    [[nodiscard]] double tension(const HandDescription& hands, double speed) const
+    {
+        return hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing_at(speed);
+    }
+    /// Takes the phase that belongs to the present state; returns the force.
+    double update_phase(const HandDescription& hands, double speed)
+    {
+        phase = SpringPhase::apart;
+        if (depth <= 0.0) return 0.0;
+        const double wanted = tension(hands, speed);
+        if (wanted >= hands.force_max_n) {
+            phase = SpringPhase::limited;
+            return hands.force_max_n;
+        }
+        phase = wanted > 0.0 ? SpringPhase::pressing : SpringPhase::slack;
+        return std::max(wanted, 0.0);
+    }
+};
+
+/// A hand that holds the box: a spring and a damper in all directions, which also pull.
+struct GripSpring {
+    std::uint32_t hand;
+    PerAxis stretch; // from where it is held to the hand, at the start of the interval
+    PerAxis velocity;
+    PerAxis impulse; // on the box, so far in the tick
+};
+
+/// A hand at an edge or a corner: its force is the midpoint rule's, held for the tick.
+struct EdgeSpring {
+    std::uint32_t hand;
+    PerAxis normal; // unit, from the box to the hand
+    double depth;   // along it, at the start of the tick
+    double closing; // the hand's share of the closing speed
+    double force;   // on the hand along the normal
+};
+
+/// A box within a tick. Events cut the tick into intervals; in each of them every axis follows a
+/// closed form.
 struct BoxMotion {
     // Without values until they are set: clearing all of them would cost more than the tick.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
@@ -121,7 +170,7 @@ struct BoxMotion {
 void set_trajectories(BoxMotion& box);
 void set_bounds(BoxMotion& box);
 
-/// Runs the courses for `time` seconds.
+/// Advances along the trajectories for `time` seconds.
 void advance(BoxMotion& box, double time);
 
 } // namespace hapnet::scene

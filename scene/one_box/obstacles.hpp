@@ -38,8 +38,8 @@ struct Obstacle {
     }
 };
 
-/// All that stands in the way of one movable box. Those that are near are kept in a list, in the
-/// order of the description; the rest is looked at again when the box has gone some way.
+/// All obstacles of one movable box. Near ones are kept in a list, in the order of the description;
+/// the rest is looked at again when the box has moved far enough.
 class Obstacles {
 public:
     Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);

@@ -41,8 +41,25 @@ OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const 
 template <bool coulomb>
 void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 {
-    const Slot slot = state.bodies.slot_of[body_];
     BoxMotion box{config.hands, oscillators_, obstacles_};
+    set_start(config, state, box);
+    query_obstacles(box, 0.0);
+    if (obstacles_.push_out(box.nearby, box.position)) query_obstacles(box, 0.0);
+    hands_.collide(config, state, box);
+    if (box.grip_count == 0) {
+        run_events(config, box);
+        commit(config, state, box);
+    } else {
+        solve_with_grips(config, state, box);
+    }
+}
+
+/// Position, velocity and the accelerations that hold for the whole tick: gravity and pushes.
+template <bool coulomb>
+inline void OneBoxStepper<coulomb>::set_start(const WorldConfig& config, const WorldState& state,
+                                              BoxMotion& box) const
+{
+    const Slot slot = state.bodies.slot_of[body_];
     box.time_left = config.tick;
     box.position = per_axis(state.bodies.position.at(slot));
     box.velocity = per_axis(state.bodies.velocity.at(slot));
@@ -53,21 +70,10 @@ void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
         box.axes[i].is_losing_support = false;
         box.axes[i].applied_acceleration = gravity[i];
     }
-    if (!state.pushed.is_empty()) {
-        const PerAxis push = per_axis(state.pushes[body_]);
-        for (std::size_t i = 0; i < 3; ++i)
-            box.axes[i].applied_acceleration += oscillators_.inverse_mass() * push[i];
-    }
-    query_obstacles(box, 0.0);
-    if (obstacles_.push_out(box.nearby, box.position)) query_obstacles(box, 0.0);
-
-    hands_.collide(config, state, box);
-    if (box.grip_count == 0) {
-        run_events(config, box);
-        commit(config, state, box);
-    } else {
-        solve_with_grips(config, state, box);
-    }
+    if (state.pushed.is_empty()) return;
+    const PerAxis push = per_axis(state.pushes[body_]);
+    for (std::size_t i = 0; i < 3; ++i)
+        box.axes[i].applied_acceleration += oscillators_.inverse_mass() * push[i];
 }
 
 template <bool coulomb>
@@ -83,7 +89,7 @@ void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldSt
 {
     for (;;) { // each time a hand holds less
         BoxMotion box = start.copy();
-        query_obstacles(box, 0.0); // what is near may have been looked for elsewhere meanwhile
+        query_obstacles(box, 0.0); // the last try may have asked elsewhere
         run_events(config, box);
         if (BoxHands::limit_grip(config, state, box, start)) continue;
         commit(config, state, box);
@@ -118,7 +124,7 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, BoxMotion& bo
         if constexpr (coulomb) find_friction_event(box, event);
         advance(box, event.time);
         if (event.kind == Event::Kind::none) return;
-        apply(box, event, config.tick);
+        handle_event(box, event, config.tick);
         if (events == events_max) {
             box.event_limit_reached = true;
             ++crowded_ticks_;

@@ -9,19 +9,19 @@
 
 namespace hapnet::scene {
 
-/// One movable box that cannot turn, among fixed boxes and planes parallel to it: every axis is a
+/// One movable box that cannot rotate, among fixed boxes and planes parallel to it: every axis is a
 /// scalar motion with a closed form, and what begins or ends within a tick is found in it. With
-/// `coulomb`, dry friction on what carries the box.
+/// `coulomb`, dry friction on what supports the box.
 ///
-/// Exact up to rounding: flight; drag on a plane (along it, while a plane carries the box); hands
+/// Exact up to rounding: flight; drag on a plane (along it, while a plane supports the box); hands
 /// on faces and hands that hold, any number, with their beginning, end and limit of force at their
-/// moments; impacts and bounces at theirs; dry friction along a straight way, with its exact stop
-/// and slip. Second order in the tick: dry friction while other forces turn the way; hands at edges
-/// and corners (their normals hold for a tick). First order: a hand that holds at its greatest
-/// force, at the start of a tick or in the mean over it: that force is held throughout.
+/// moments; impacts and bounces at theirs; dry friction along a straight path, with its exact stop
+/// and slip. Second order in the tick: dry friction while other forces bend the path; hands at
+/// edges and corners (their normals hold for a tick). First order: a hand that holds at its
+/// greatest force, at the start of a tick or in the mean over it: that force is held throughout.
 ///
-/// A bounce that would be over before one tick has passed is none. After `events_max` events in a
-/// tick its springs stay as they are and impacts are inelastic, until its end.
+/// A bounce that would be over before one tick has passed does not happen. After `events_max`
+/// events in a tick its springs stay as they are and impacts are inelastic, until its end.
 template <bool coulomb>
 class OneBoxStepper {
 public:
@@ -37,10 +37,11 @@ public:
     [[nodiscard]] std::uint64_t crowded_ticks() const { return crowded_ticks_; }
 
 private:
-    /// Finds what is within `reach`.
+    void set_start(const WorldConfig& config, const WorldState& state, BoxMotion& box) const;
+    /// Lists the obstacles within `reach`.
     void query_obstacles(BoxMotion& box, double reach);
     void run_events(const WorldConfig& config, BoxMotion& box);
-    /// Where hands hold the box: again with less, when one held with more than its greatest force.
+    /// Tries the tick with the hands' grips; again with a limited one when it was too strong.
     void solve_with_grips(const WorldConfig& config, WorldState& state, BoxMotion& start);
     void commit(const WorldConfig& config, WorldState& state, const BoxMotion& box) const;
 

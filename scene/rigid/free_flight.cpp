@@ -213,26 +213,32 @@ FreeFlightStepper::FreeFlightStepper(const Description& /*description*/, const W
 
 void FreeFlightStepper::step(const WorldConfig& config, WorldState& state)
 {
-    Bodies& bodies = state.bodies;
-    const double tick = config.tick;
     for (const Run& run : runs_) {
-        integrate_parabola(bodies, run.range, run.acceleration, tick);
-        switch (run.kind) {
-        case Kind::locked: break;
-        case Kind::uniform: rotate_uniformly(bodies, run.range, tick); break;
-        case Kind::tumbling:
-            for (Slot slot = run.range.begin; slot < run.range.end; ++slot)
-                rotate_freely(bodies, slot, tick);
-            break;
-        }
+        integrate_parabola(state.bodies, run.range, run.acceleration, config.tick);
+        rotate(state.bodies, run, config.tick);
     }
-    for (const BodyId id : state.pushed) {
-        const Slot slot = bodies.slot_of[id];
-        const glm::dvec3 velocity_change =
-            tick * (bodies.properties[slot].inverse_mass * state.pushes[id]);
-        bodies.position.put(slot, bodies.position.at(slot) + (0.5 * tick) * velocity_change);
-        bodies.velocity.put(slot, bodies.velocity.at(slot) + velocity_change);
+    for (const BodyId body : state.pushed) apply_push(state, body, config.tick);
+}
+
+void FreeFlightStepper::rotate(Bodies& bodies, const Run& run, double tick)
+{
+    switch (run.kind) {
+    case Kind::locked: break;
+    case Kind::uniform: rotate_uniformly(bodies, run.range, tick); break;
+    case Kind::tumbling:
+        for (Slot slot = run.range.begin; slot < run.range.end; ++slot)
+            rotate_freely(bodies, slot, tick);
+        break;
     }
+}
+
+void FreeFlightStepper::apply_push(WorldState& state, BodyId body, double tick)
+{
+    Bodies& bodies = state.bodies;
+    const Slot slot = bodies.slot_of[body];
+    const glm::dvec3 change = tick * (bodies.properties[slot].inverse_mass * state.pushes[body]);
+    bodies.position.put(slot, bodies.position.at(slot) + (0.5 * tick) * change);
+    bodies.velocity.put(slot, bodies.velocity.at(slot) + change);
 }
 
 void FreeFlightStepper::on_body_placed(WorldState& /*state*/, BodyId /*body*/) {}

@@ -67,6 +67,9 @@ private:
         glm::dvec3 acceleration{0.0};
     };
 
+    static void rotate(Bodies& bodies, const Run& run, double tick);
+    static void apply_push(WorldState& state, BodyId body, double tick);
+
     std::vector<Run> runs_;
 };
 

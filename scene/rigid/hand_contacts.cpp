@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/rigid/hand_contacts.hpp"
 
+#include "scene/hand/spring.hpp"
 #include "scene/maths/vector.hpp"
 
 #include <algorithm>
@@ -9,54 +10,6 @@
 #include <glm/geometric.hpp>
 
 namespace hapnet::scene {
-
-namespace {
-
-/// The spring and damper alone, at one moment.
-double force_at(const HandDescription& hands, double depth, double closing)
-{
-    if (depth <= 0.0) return 0.0;
-    return std::clamp(hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing, 0.0,
-                      hands.force_max_n);
-}
-
-/// The mean over a time of a number that changes evenly, limited to [0, most].
-double mean_limited(double from, double to, double most)
-{
-    const double low = std::min(from, to);
-    const double high = std::max(from, to);
-    if (low >= most) return most;
-    if (high <= 0.0) return 0.0;
-    if (low >= 0.0 && high <= most) return 0.5 * (from + to);
-    const double inner_low = std::max(low, 0.0);
-    const double inner_high = std::min(high, most);
-    const double inside = (inner_high - inner_low) * 0.5 * (inner_high + inner_low);
-    const double above = high > most ? (high - most) * most : 0.0;
-    return (inside + above) / (high - low);
-}
-
-/// The mean force on what does not move, of a hand that comes nearer at a constant speed.
-double mean_force_at_constant_velocity(const HandDescription& hands, double depth, double closing,
-                                       double tick)
-{
-    const double forget_departed = depth + closing * tick;
-    if (depth <= 0.0 && forget_departed <= 0.0) return 0.0;
-    double share = 1.0;
-    double from = depth;
-    double to = forget_departed;
-    if (depth < 0.0) {
-        share = forget_departed / (forget_departed - depth);
-        from = 0.0;
-    } else if (forget_departed < 0.0) {
-        share = depth / (depth - forget_departed);
-        to = 0.0;
-    }
-    const double damper = hands.damping_ns_per_m * closing;
-    return share * mean_limited(hands.stiffness_n_per_m * from + damper,
-                                hands.stiffness_n_per_m * to + damper, hands.force_max_n);
-}
-
-} // namespace
 
 HandContacts::HandContacts(const WorldConfig& config)
     : gravity_reach_{config.tick * config.tick *
@@ -108,7 +61,7 @@ bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::u
     Hand& hand = hands_[index];
     const double apart = distance(target.box, input.position.value);
     if (!hand.holding) {
-        if (apart > hands.radius_m + hands.grip_reach_m) return false;
+        if (apart > grip_distance(hands)) return false;
         hand.holding = Holding{target.body, to_local(target.box, input.position.value)};
     }
     if (hand.holding->body != target.body) return false;
@@ -121,14 +74,10 @@ bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::u
                       .holds = true,
                       .stretch = input.position.value - (target.box.centre + arm)};
     const glm::dvec3 here = target.velocity + glm::cross(target.spin, arm);
-    const base::Force wanted{spring.stiffness * spring.stretch +
-                             spring.damping * (spring.velocity - here)};
-    const base::Force force = base::limited(wanted, hands.force_max_n);
+    const base::Force wanted = grip_force(hands, spring.stretch, spring.velocity - here);
     HandTouch& touch = state.touches[index];
-    touch.holding = true;
     touch.body = target.body;
-    touch.depth_m = std::max(touch.depth_m, std::max(hands.radius_m - apart, 0.0));
-    touch.on_hand_at_start += -force;
+    note_grip(touch, hands, apart, base::limited(wanted, hands.force_max_n));
     add(index, target.body) = spring;
     return true;
 }
@@ -158,15 +107,14 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
     const glm::dvec3 here = target.velocity + glm::cross(target.spin, arm);
     const double closing = glm::dot(here - input.velocity.value, normal);
     HandTouch& touch = state.touches[index];
-    touch.depth_m = std::max(touch.depth_m, depth);
-    touch.on_hand_at_start.value += force_at(hands, depth, closing) * normal;
+    note_push(touch, depth, force_at(hands, depth, closing) * normal);
     if (!target.is_movable) {
-        touch.on_hand.value +=
-            mean_force_at_constant_velocity(hands, depth, closing, config.tick) * normal;
+        const double impulse = impulse_at_constant_velocity(hands, depth, closing, config.tick);
+        touch.on_hand.value += (impulse / config.tick) * normal;
         return;
     }
-    // What does not begin to act within the tick is no spring; what acts already is one, also in
-    // the tick in which it ends.
+    // A spring that does not begin to act within the tick is left out; one that acts already stays,
+    // also in the tick in which it ends.
     if (depth < 0.0 && -depth > closing * config.tick + gravity_reach_) return;
     HandSpring& spring = add(index, target.body);
     spring.normal = normal;

@@ -16,7 +16,7 @@ namespace hapnet::scene {
 /// Bodies that one hand touches at the same time, at most; those with the lowest ids.
 inline constexpr std::size_t touched_per_hand_max = 8;
 
-/// The hands' springs of one tick, and what has to be remembered of whom they touch.
+/// The hands' springs of one tick, and what the next tick has to know of the bodies they touch.
 class HandContacts {
 public:
     explicit HandContacts(const WorldConfig& config);
@@ -28,7 +28,7 @@ public:
         glm::dvec3 impulse{0.0}; // on the body
     };
 
-    /// Begins a tick: whom did the hands touch, nobody.
+    /// Starts a tick with no hand touching anything.
     void begin_step(const WorldConfig& config, WorldState& state);
 
     /// Where a body is and how it moves.
@@ -39,28 +39,28 @@ public:
         glm::dvec3 velocity{0.0};
         glm::dvec3 spin{0.0};
     };
-    /// Sees what the hand does to one of the bodies that it may reach.
+    /// Finds what the hand does to one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
-    /// Forgets whom the hand has left.
+    /// Forgets the bodies that the hand has left.
     void forget_departed(std::uint32_t index);
 
     [[nodiscard]] std::span<const Spring> springs() const { return springs_.all(); }
-    /// Those on one body, and where they tell their work; until the next question.
+    /// Those on one body, and where their impulses go; valid until the next call.
     struct BodySprings {
         std::span<const HandSpring> springs;
         std::span<SpringImpulse> work;
     };
     [[nodiscard]] BodySprings springs_on(BodyId body);
-    /// Takes what was told for them.
+    /// Keeps the impulses that were found for them.
     void store_impulses(BodyId body);
-    /// Tells the hands what the springs did.
+    /// Reports to the hands what the springs did.
     void report_forces(const WorldConfig& config, WorldState& state);
 
     void forget(BodyId body);
 
 private:
-    /// What of a body near a hand is remembered.
+    /// What is remembered of a body near a hand.
     struct NearBody {
         BodyId body = 0;
         bool is_current = false; // in this tick
@@ -85,7 +85,7 @@ private:
     [[nodiscard]] NearBody* find_near(Hand& hand, BodyId body);
 
     std::array<Hand, hands_max> hands_;
-    double gravity_reach_; // what gravity adds to a way in a tick from rest, twice, metres
+    double gravity_reach_; // twice the distance that a body falls in a tick from rest, metres
     Scratch<Spring> springs_;
     Scratch<HandSpring> forces_;  // in the order of springs_
     Scratch<HandSpring> own_;     // of one body

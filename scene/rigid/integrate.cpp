@@ -14,7 +14,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// How far off its straight way a body may come within a tick, in half edges of the smallest body.
+/// How far a body may come off its straight path within a tick, in half edges of the smallest body.
 constexpr double stray_max = 0.5;
 
 /// An angular impulse changes the momentum only about axes that the body may turn about.
@@ -26,7 +26,7 @@ glm::dvec3 about_unlocked_axes(const BodyProperties& properties, const glm::dvec
             properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
 
-/// What of a way the body can go.
+/// The part of a displacement or velocity along unlocked axes.
 glm::dvec3 unlocked_part(const BodyProperties& properties, const glm::dvec3& way)
 {
     const glm::dvec3& light = properties.inverse_mass;
@@ -46,7 +46,7 @@ glm::dvec3 tangential_part(const glm::dvec3& v, const glm::dvec3& normal)
     return v - glm::dot(v, normal) * normal;
 }
 
-/// Of everything but the hands and the drag.
+/// The acceleration by everything but the hands and the drag.
 glm::dvec3 acceleration_without_hands(const BodyIntegration& integration, const WorldState& state,
                                       Slot slot, const WorldConfig& config)
 {
@@ -134,7 +134,7 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
                              glm::dvec3{0.0}};
     if (!rotates_uniformly(state.bodies.properties[slot])) {
         // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
-        // Of what turns far in a tick that rate says nothing: it fades out.
+        // For a body that rotates far in a tick this rate is wrong: it fades out.
         constexpr double far = 0.3; // radians
         const glm::dvec3& spin = integration.start.spin;
         const double fades = std::min(1.0, tick * tick * glm::dot(spin, spin) / (far * far));
@@ -221,7 +221,7 @@ void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
     const double speed = std::sqrt(glm::dot(slip, slip));
     constexpr double hardly = 1e-9;
     if (speed <= hardly * scales.speed) return;
-    // Of a body that turns, the centre's way says nothing of what slips where it touches.
+    // For a body that rotates, the centre's velocity is not the slip where it touches.
     constexpr double steadily = 1e-6;
     const double turning2 = glm::dot(integration.start.spin, integration.start.spin);
     const double across2 = glm::dot(properties.half, properties.half);
@@ -229,7 +229,7 @@ void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
     const glm::dvec3 along = slip / speed;
     const double held = sign * (block.impulse.tangent_1 * glm::dot(block.tangent_1, along) +
                                 block.impulse.tangent_2 * glm::dot(block.tangent_2, along));
-    // What else pushes along the slip: it brought the body to a stop together with the friction.
+    // The other forces along the slip: it brought the body to a stop together with the friction.
     const double other = -properties.mass * speed - held;
     const double braking = block.friction * block.normal_sum() - other;
     if (!(braking > properties.mass * speed)) return;

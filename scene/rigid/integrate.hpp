@@ -11,7 +11,7 @@
 
 namespace hapnet::scene {
 
-/// A body's way through a tick.
+/// One body's integration over a tick.
 struct BodyIntegration {
     glm::dvec3 contact_impulse{0.0}; // of last tick's contacts, taken as constant forces
     glm::dvec3 contact_angular_impulse{0.0};
@@ -23,10 +23,10 @@ struct BodyIntegration {
     glm::dvec3 bounce_angular_impulse{0.0};      // angular impulse of bounces
     glm::dvec3 bounce_angular_impulse_mean{0.0}; // ... its mean over the tick
     std::uint32_t friction_contacts = 0;         // contacts with friction that push
-    double drag = 0.0;                           // 1/s, on the plane that carries it
+    double drag = 0.0;                           // 1/s, on the plane that supports it
     glm::dvec3 support_normal{0.0};              // its normal
 
-    // Of a body that hands are on, where it would be at the end.
+    // Where a body with hands on it would be at the end.
     bool has_hands = false;
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
@@ -34,7 +34,7 @@ struct BodyIntegration {
 
 [[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);
 
-/// Nothing acts on the body yet.
+/// Starts with nothing acting on the body.
 void reset(BodyIntegration& integration);
 
 /// The springs on one body.
@@ -57,14 +57,14 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
 void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
-/// What a body meets was looked for in the box around its straight way through the tick. When it
-/// is thrown far out of that, it goes only so far that it cannot pass through anything that was
-/// not looked for, and answers to nothing more. Returns whether anybody was.
+/// A body's contacts were looked for in the box around its straight path through the tick. When it
+/// is thrown far out of that, it goes only as far as it cannot pass through anything that was not
+/// looked for, and responds to nothing more. Returns whether any body was.
 bool keep_within_swept_path(std::span<const Slot> slots,
                             std::span<const BodyIntegration> integrations, ContactSolver& solver,
                             const Scales& scales);
 
-/// Moves the body by what was solved.
+/// Moves the body by the mean velocity that was solved for.
 void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,
                         ContactSolver& solver, const Scales& scales);
 

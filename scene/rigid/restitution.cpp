@@ -11,7 +11,7 @@ namespace hapnet::scene {
 namespace {
 
 /// A body that hits slower than this, times what gravity adds in a tick, does not bounce: it would
-/// be back within so many ticks.
+/// be back within that many ticks.
 constexpr double bounce_threshold = 2.0;
 /// A point that does not hit pushes only when something would throw it this fast, in sizes a tick.
 constexpr double inactive_speed = 1e9;
@@ -56,8 +56,8 @@ struct BounceTarget {
     glm::dvec3 arm;
 };
 
-/// Adds an impulse at a moment of the tick: to the velocities at once, to the way as much as is
-/// left of the tick.
+/// Adds an impulse at a moment of the tick: to the velocities at once, to the mean velocities by
+/// the share of the tick that is left.
 void add(const BounceTarget& bounce_angular_impulse, const Wrench& push, double share_left)
 {
     BodyMotion change;
@@ -73,8 +73,9 @@ void add(const BounceTarget& bounce_angular_impulse, const Wrench& push, double 
     integration.bounce_angular_impulse_mean += share_left * change.angular_impulse;
 }
 
-/// How much of an impulse leaves the energy at most what it was. Points that bounce by themselves
-/// and friction can together ask for more (Kane, Levinson, 1985: a falling rod that slides).
+/// The share of an impulse that leaves the energy at most what it was. Points that bounce by
+/// themselves and friction can together ask for more (Kane, Levinson, 1985: a falling rod that
+/// slides).
 double share_without_energy_gain(const ContactBlock& block, const ContactVector& velocity,
                                  const ContactVector& impulse)
 {

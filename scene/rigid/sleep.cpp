@@ -12,7 +12,7 @@ namespace hapnet::scene {
 namespace {
 
 constexpr double rest_s = 0.1;
-// How often islands are looked for while somebody could sleep and its neighbours do not.
+// How often islands are looked for while a body could sleep and its neighbours do not rest.
 constexpr double looks_per_rest = 4.0;
 constexpr double gravity_share = 0.1;
 constexpr double size_share = 1e-3;
@@ -59,7 +59,7 @@ template <BroadPhase broad_phase>
 void Sleep::wake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder)
 {
     wake_island(body, bodies, pair_finder);
-    pair_finder.settle();
+    pair_finder.apply_changes();
 }
 
 /// Wakes everything in the body's island that sleeps, from neighbour to neighbour.
@@ -132,7 +132,7 @@ void Sleep::update(Bodies& bodies, PairFinder<broad_phase>& pair_finder, std::ui
     // By their ids, so that the order of the slots has one reason less to depend on the past.
     std::sort(queue_.begin(), queue_.end());
     for (const BodyId id : queue_) fall_asleep(id, bodies, pair_finder);
-    pair_finder.settle();
+    pair_finder.apply_changes();
 }
 
 bool Sleep::count_rest(const Bodies& bodies)

@@ -11,16 +11,16 @@
 
 namespace hapnet::scene {
 
-/// Who sleeps. A body that has been at rest for a tenth of a second, together with everything
-/// movable that it touches, falls asleep: its velocity becomes exactly zero, its contacts keep
-/// their impulses, and it costs nothing until it is woken. Fixed bodies connect nothing. Two touch
-/// when their contact carried something in the last tick (touches() of its memory).
+/// Which bodies sleep. A body that has been at rest for a tenth of a second, together with
+/// everything movable that it touches, falls asleep: its velocity becomes exactly zero, its
+/// contacts keep their impulses, and it costs nothing until it is woken. Fixed bodies connect
+/// nothing. Two touch when their contact had an impulse in the last tick (touches() of its memory).
 ///
 /// At rest: the centre, and the corners as they turn, no faster than a tenth of what gravity adds
 /// in a tick plus a thousandth of sqrt(gravity * size). Without gravity: not moving at all.
 ///
-/// A tick: wake() whom a hand reaches or a push moves; wake_touched() once the manifolds are
-/// known; at the end of the tick, with the contacts' memories written, rest().
+/// In a tick: wake() what a hand reaches or a push moves; wake_touched() once the manifolds are
+/// known; at the end of the tick, with the contacts' memories written, update().
 class Sleep {
 public:
     Sleep(const WorldConfig& config, const Bodies& bodies);
@@ -30,9 +30,9 @@ public:
     template <BroadPhase broad_phase>
     void wake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
 
-    /// Wakes those asleep whom an awake body that is not at rest touches, and what touches them.
+    /// Wakes the sleepers that an awake body touches which is not at rest, and what touches them.
     /// `touching(index)`: whether the pair's manifold of this tick has points. Returns whether it
-    /// woke anybody: then neighbours.pairs_added() are to be looked at and this to be called again.
+    /// woke any: then look at pair_finder.pairs_added() and call it again.
     template <BroadPhase broad_phase, typename Touching>
     bool wake_touched(Bodies& bodies, PairFinder<broad_phase>& pair_finder, Touching touching)
     {
@@ -40,11 +40,11 @@ public:
         touched_.clear();
         for (const PairIndex index : pair_finder.pairs()) {
             const BodyId sleeper = sleeper_disturbed_by(bodies, pair_finder.pair(index));
-            // What finds no room is found by the next call.
+            // A sleeper for which there is no room is found by the next call.
             if (sleeper != no_body && touching(index)) touched_.add(sleeper);
         }
         for (const BodyId sleeper : touched_) wake_island(sleeper, bodies, pair_finder);
-        pair_finder.settle();
+        pair_finder.apply_changes();
         return !touched_.is_empty();
     }
 
@@ -61,7 +61,7 @@ public:
 private:
     static constexpr BodyId no_body = ~BodyId{0};
 
-    /// The one of a pair that is asleep while the other is awake and not at rest; or nobody.
+    /// The one of a pair that sleeps while the other is awake and not at rest; or no_body.
     [[nodiscard]] BodyId sleeper_disturbed_by(const Bodies& bodies, const Pair& pair) const;
     template <BroadPhase broad_phase>
     void wake_island(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
@@ -69,7 +69,7 @@ private:
     void move_to_awake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
     template <BroadPhase broad_phase>
     void fall_asleep(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
-    /// Counts; whether anybody has been at rest long enough.
+    /// Counts; whether any body has been at rest long enough.
     [[nodiscard]] bool count_rest(const Bodies& bodies);
     template <BroadPhase broad_phase>
     void find_islands(const Bodies& bodies, PairFinder<broad_phase>& pair_finder);

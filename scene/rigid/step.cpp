@@ -21,7 +21,7 @@ constexpr std::size_t contacts_per_body_max = 8;
 constexpr double velocity_tolerance = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
 constexpr double velocity_converged = 1e-6;
-// ... or this much was done (a stack takes 23 sweeps from nothing); the next tick goes on.
+// ... or until these limits (a stack takes 23 sweeps from nothing); the next tick goes on.
 constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
@@ -30,21 +30,22 @@ constexpr double overlap_tolerance = 1e-9;
 constexpr double overlap_converged = 1e-6;
 constexpr double correction_max = 0.02;
 constexpr std::uint32_t overlap_visits_max = 200;
-// Of an overlap that is there, this share is removed per tick: not all, so that contacts that
-// contradict each other settle.
+// This share of an overlap is removed per tick: not all, so that contacts that contradict each
+// other come to rest.
 constexpr double correction_share = 0.3;
 
 // Surfaces that push each other and are not farther apart than this, in smallest half edges, touch.
-// What is left of moving overlaps apart is less; chasing it would keep heaps from coming to rest.
+// The correction of overlaps leaves less; chasing it would keep heaps from coming to rest.
 constexpr double touch_distance = 2e-6;
 
-/// The least normal speed for which two surfaces so far apart do not overlap at the tick's end.
+/// The least normal speed at which two surfaces that far apart do not overlap at the tick's end.
 double velocity_bias(double separation, double impulse, const Scales& scales)
 {
     const double negligible = impulse > 0.0 ? touch_distance * scales.size : 0.0;
     return separation > negligible ? -separation * scales.rate : 0.0;
 }
 
+/// The least mean normal speed that takes away a share of an overlap, or uses up a gap.
 double position_bias(double separation, const Scales& scales)
 {
     if (separation >= 0.0) return -separation * scales.rate;
@@ -89,38 +90,42 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& state)
 {
-    Bodies& bodies = state.bodies;
-    pairs_.update(bodies);
-    boxes_.begin_tick();
+    update_pairs(state);
     collide_hands(config, state);
-    if constexpr (sleeps) wake_touched(state);
-    begin_solver(bodies);
+    wake_disturbed(state);
+    begin_contacts(state);
     collide_planes(config, state);
     collide_bodies(state);
     warm_start();
-    integrate_velocities(config, state);
-    solve_velocities(state);
+    integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
+    if (bounces_) apply_restitution(solver_, integrations_.all(), scales_);
+    solve_velocities();
+    store_contact_impulses(state);
+    stop_sliding_contacts(state);
     correct_positions();
-    for (const Slot slot : active_.slots()) {
-        integrate_position(integrations_[slot + 1], bodies, slot, solver_, scales_);
-    }
-    active_.for_inactive(bodies.awake,
-                         [&](SlotRange range) { free_bodies_.integrate(bodies, range); });
-    active_.clear();
-    hand_contacts_.report_forces(config, state);
-    if constexpr (sleeps) sleep_.update(bodies, pairs_, state.ticks);
+    integrate_positions(state);
+    integrate_free_bodies(state);
+    report_hand_forces(config, state);
+    update_sleep(state);
 }
 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 {
-    // What it left and what it meets wakes.
+    // The bodies that it left and those that it now touches wake.
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(body);
     hand_contacts_.forget(body);
 }
 
-/// What the hands touch; they wake it.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::update_pairs(const WorldState& state)
+{
+    pairs_.update(state.bodies);
+    boxes_.begin_tick();
+}
+
+/// Finds what the hands touch, and wakes it.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldState& state)
 {
@@ -149,12 +154,12 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
     }
 }
 
-/// What is pushed, or hit by who is awake, wakes.
+/// Wakes what is pushed, and what a moving body hits.
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::wake_touched(WorldState& state)
+void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
 {
-    Bodies& bodies = state.bodies;
     if constexpr (sleeps) {
+        Bodies& bodies = state.bodies;
         for (const BodyId body : state.pushed) sleep_.wake(body, bodies, pairs_);
         const auto are_touching = [&](PairIndex index) {
             return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
@@ -164,14 +169,14 @@ void RigidStepper<broad_phase>::wake_touched(WorldState& state)
 }
 
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::begin_solver(const Bodies& bodies)
+void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
 {
-    solver_.begin(bodies.awake);
-    integrations_.resize(bodies.awake + std::size_t{1});
+    solver_.begin(state.bodies.awake);
+    integrations_.resize(state.bodies.awake + std::size_t{1});
     integrations_[0] = {};
 }
 
-/// Begins the tick for an awake body that something acts on.
+/// Starts the tick of an awake body that something acts on.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
 {
@@ -181,6 +186,7 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
     reset(integrations_[slot + 1]);
 }
 
+/// A block for the solver that starts from last tick's impulses; null without a point or room.
 template <BroadPhase broad_phase>
 ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
                                                      const ContactPlaces& centres,
@@ -271,7 +277,8 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
     }
 }
 
-/// Sums up what last tick's contacts do to each body.
+/// Sums up last tick's contact impulses on each body. They count as constant forces, so that a body
+/// that rests or slides straight on is in balance before the solver looks at it.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::warm_start()
 {
@@ -286,28 +293,19 @@ void RigidStepper<broad_phase>::warm_start()
     }
 }
 
-/// Where everyone that something acts on would go.
+/// Finds the velocities of the active bodies at the end of the tick, without what their contacts
+/// have to change.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config,
                                                      const WorldState& state)
 {
     for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
     integrate_hand_springs(config, state);
-    solver_.end_motion(0) = {};
-    solver_.mean_motion(0) = {};
     for (const Slot slot : active_.slots()) {
         BodyIntegration& integration = integrations_[slot + 1];
         if (!integration.has_hands)
             integrate_velocity(integration, state, slot, solver_.response(slot + 1), config);
         if (bounces_) integration.start_after_bounces = integration.start;
-    }
-    if (bounces_) apply_restitution(solver_, integrations_.all(), scales_);
-    for (const Slot slot : active_.slots()) {
-        solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
-    }
-    for (ContactBlock& block : solver_.blocks()) {
-        set_centripetal_velocity(block, integrations_[block.a].start.spin,
-                                 integrations_[block.b].start.spin, scales_.tick);
     }
 }
 
@@ -327,48 +325,67 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
     }
 }
 
-/// Finds the velocities at the end, and from them the mean ones.
+/// Finds the velocities at the end of the tick at which nothing goes into anything, and from them
+/// the mean velocities.
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::solve_velocities(const WorldState& state)
+void RigidStepper<broad_phase>::solve_velocities()
 {
-    const Bodies& bodies = state.bodies;
-    const std::span<ContactBlock> blocks = solver_.blocks();
+    solver_.end_motion(0) = {};
+    solver_.mean_motion(0) = {};
+    for (const Slot slot : active_.slots()) {
+        solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
+    }
+    for (ContactBlock& block : solver_.blocks()) {
+        set_centripetal_velocity(block, integrations_[block.a].start.spin,
+                                 integrations_[block.b].start.spin, scales_.tick);
+    }
     const SolverOutcome outcome =
         solver_.solve_velocities({velocity_tolerance * scales_.speed,
                                   velocity_converged * scales_.speed, sweeps_max, visits_max});
-    counts_.contacts = static_cast<std::uint32_t>(blocks.size());
+    counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
     for (const Slot slot : active_.slots()) {
         const BodyIntegration& integration = integrations_[slot + 1];
-        const BodyMotion& end_motion = solver_.end_motion(slot + 1);
+        const BodyMotion& end = solver_.end_motion(slot + 1);
         solver_.mean_motion(slot + 1) = {
-            integration.mean.velocity +
-                0.5 * (end_motion.velocity - integration.predicted.velocity),
-            integration.mean.spin + 0.5 * (end_motion.spin - integration.predicted.spin),
-            integration.bounce_angular_impulse_mean + 0.5 * end_motion.angular_impulse};
+            integration.mean.velocity + 0.5 * (end.velocity - integration.predicted.velocity),
+            integration.mean.spin + 0.5 * (end.spin - integration.predicted.spin),
+            integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse};
     }
-    const auto weight_of = [&](const ContactBlock& block) {
-        const double a = block.a != 0 ? bodies.properties[block.a - 1].mass : 0.0;
-        const double b = block.b != 0 ? bodies.properties[block.b - 1].mass : 0.0;
-        return (a + b) * scales_.speed;
+}
+
+/// Keeps the impulses for the next tick's warm start, and counts the contacts that rub.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
+{
+    const auto mass_of = [&](SolverIndex index) {
+        return index != 0 ? state.bodies.properties[index - 1].mass : 0.0;
     };
-    for (const ContactBlock& block : blocks) {
-        store_impulses(block, weight_of(block), *block.memory);
+    for (const ContactBlock& block : solver_.blocks()) {
+        const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
+        store_impulses(block, weight, *block.memory);
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
         ++integrations_[block.a].friction_contacts;
         ++integrations_[block.b].friction_contacts;
     }
-    for (const ContactBlock& block : blocks) {
+}
+
+/// Ends the slip of a body's only contact with friction at its moment within the tick.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
+{
+    for (const ContactBlock& block : solver_.blocks()) {
         if (block.friction == 0.0 || (block.a != 0) == (block.b != 0)) continue;
         const SolverIndex index = block.a + block.b;
         if (integrations_[index].friction_contacts != 1) continue;
-        apply_stop(block, integrations_[index], bodies.properties[index - 1], scales_,
+        apply_stop(block, integrations_[index], state.bodies.properties[index - 1], scales_,
                    solver_.mean_motion(index));
     }
 }
 
-/// Changes the ways so that nothing overlaps at the end, without a change of velocities.
+/// Changes the mean velocities so that nothing overlaps at the end of the tick. The velocities at
+/// the end stay as they are: nothing gains speed by being moved apart (nonlinear Gauss-Seidel).
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::correct_positions()
 {
@@ -382,13 +399,43 @@ void RigidStepper<broad_phase>::correct_positions()
     const SolverLimits limits{overlap_tolerance * length, overlap_converged * length, sweeps_max,
                               overlap_visits_max};
     solver_.correct_positions(limits);
-    // Who is thrown out of his way is held back, and the others go as far as that lets them.
+    // A body that is thrown off its path is held back; the others go as far as that lets them.
     const auto keep = [&] {
         return keep_within_swept_path(active_.slots(), integrations_.all(), solver_, scales_);
     };
     if (!keep()) return;
     solver_.correct_positions_again(limits);
     keep();
+}
+
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::integrate_positions(WorldState& state)
+{
+    for (const Slot slot : active_.slots()) {
+        integrate_position(integrations_[slot + 1], state.bodies, slot, solver_, scales_);
+    }
+}
+
+/// Moves the bodies on which nothing acts but gravity.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::integrate_free_bodies(WorldState& state)
+{
+    Bodies& bodies = state.bodies;
+    active_.for_inactive(bodies.awake,
+                         [&](SlotRange range) { free_bodies_.integrate(bodies, range); });
+    active_.clear();
+}
+
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::report_hand_forces(const WorldConfig& config, WorldState& state)
+{
+    hand_contacts_.report_forces(config, state);
+}
+
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::update_sleep(WorldState& state)
+{
+    if constexpr (sleeps) sleep_.update(state.bodies, pairs_, state.ticks);
 }
 
 template class RigidStepper<BroadPhase::none>;

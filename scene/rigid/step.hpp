@@ -16,13 +16,13 @@
 
 namespace hapnet::scene {
 
-/// Bodies that turn, rest on each other and are pushed by hands.
+/// Bodies that rotate, rest on each other and are pushed by hands; step() names the stages in
+/// order.
 ///
-/// A tick: contacts where the bodies are; everyone's course under gravity, pushes, hands, and last
-/// tick's contact forces, held constant; what these have to change so that nothing goes into
-/// anything at the tick's end, again as constant forces: so what rests, slides or is pushed
-/// steadily moves exactly. Bounces happen at their moment within the tick. What overlaps is moved
-/// apart without gaining speed.
+/// Contact forces are constant over a tick: last tick's first (warm start), then what the solver
+/// changes in them so that nothing goes into anything at the tick's end. So what rests, slides
+/// straight on or is pushed steadily moves exactly. Bounces happen at their moment within the tick.
+/// Overlaps are moved apart without a gain of speed.
 template <BroadPhase broad_phase>
 class RigidStepper {
 public:
@@ -50,20 +50,29 @@ private:
         NoSleep(const WorldConfig& /*config*/, const Bodies& /*bodies*/) {}
     };
 
+    // The stages of a step, in their order.
+    void update_pairs(const WorldState& state);
     void collide_hands(const WorldConfig& config, WorldState& state);
-    void wake_touched(WorldState& state);
-    void begin_solver(const Bodies& bodies);
-    void activate(const Bodies& bodies, Slot slot);
+    void wake_disturbed(WorldState& state);
+    void begin_contacts(const WorldState& state);
     void collide_planes(const WorldConfig& config, const WorldState& state);
     void collide_bodies(const WorldState& state);
+    void warm_start();
+    void integrate_velocities(const WorldConfig& config, const WorldState& state);
+    void solve_velocities();
+    void store_contact_impulses(const WorldState& state);
+    void stop_sliding_contacts(const WorldState& state);
+    void correct_positions();
+    void integrate_positions(WorldState& state);
+    void integrate_free_bodies(WorldState& state);
+    void report_hand_forces(const WorldConfig& config, WorldState& state);
+    void update_sleep(WorldState& state);
+
+    void activate(const Bodies& bodies, Slot slot);
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
     ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,
                               ContactMemory& memory);
-    void warm_start();
-    void integrate_velocities(const WorldConfig& config, const WorldState& state);
     void integrate_hand_springs(const WorldConfig& config, const WorldState& state);
-    void solve_velocities(const WorldState& state);
-    void correct_positions();
 
     Scales scales_;
     bool bounces_ = false;
@@ -73,10 +82,8 @@ private:
     SweptBoxes boxes_;
     FreeBodies free_bodies_;
     ActiveBodies active_;
-    Scratch<BodyIntegration> integrations_; // by solver index; of those engaged
+    Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;
-    std::array<HandSpring, hands_max> springs_{}; // on one body
-    std::array<SpringImpulse, hands_max> work_{};
     Counts counts_;
 };
 

@@ -27,7 +27,7 @@ Ldl<5> factors_of(const ContactBlock& block, const PointSet& set)
     return Ldl<5>{part};
 }
 
-/// Whether another set of so many points was met last.
+/// Whether the last set of that size was another one.
 bool is_new(BlockFactors& factors, const PointSet& set)
 {
     std::uint32_t& known = factors.sets[set.count - 1];
@@ -36,9 +36,9 @@ bool is_new(BlockFactors& factors, const PointSet& set)
     return is_new;
 }
 
-// What solving a block takes, worked out once and kept in it: they need its matrix.
+// The factors that solving a block takes, found once and kept in it. They need its matrix.
 
-/// Of one or two points' normal speeds, then of friction's: from impulses there to velocities.
+/// Factors for one or two points' normal speeds, then friction's: from impulses to velocities.
 const Ldl<5>& few_factors(ContactBlock& block, const PointSet& set)
 {
     Ldl<5>& few = block.factors.few[set.count - 1];
@@ -46,7 +46,7 @@ const Ldl<5>& few_factors(ContactBlock& block, const PointSet& set)
     return few;
 }
 
-/// Of the whole matrix.
+/// Factors of the whole matrix.
 const Ldl<6>& whole_factors(ContactBlock& block)
 {
     BlockFactors& factors = block.factors;
@@ -55,7 +55,7 @@ const Ldl<6>& whole_factors(ContactBlock& block)
     return factors.whole;
 }
 
-/// Of three or four points.
+/// The plane through three or four points.
 const PlaneFit& fit_of(ContactBlock& block, const PointSet& set)
 {
     PlaneFit& fit = block.factors.fits[set.count - 3];
@@ -63,7 +63,7 @@ const PlaneFit& fit_of(ContactBlock& block, const PointSet& set)
     return fit;
 }
 
-/// Of points on a line the outermost two, which say everything.
+/// The outermost two of points on a line: they determine the rest.
 PointSet outermost(const ContactBlock& block, const PlaneFit& fit)
 {
     const auto& along = fit.is_along_1() ? block.along_1 : block.along_2;
@@ -120,7 +120,7 @@ public:
     bool stick(double tolerance);
     /// Slipping or frictionless contact: the normal impulses for the friction as it is.
     void push(double tolerance);
-    /// Slipping contact, in so many rounds at most. False when friction does not reach its limit.
+    /// Slipping contact, in at most that many rounds. False when friction does not reach its limit.
     bool slip(double tolerance, int rounds_max);
 
 private:
@@ -365,7 +365,7 @@ bool Trial::slip(double tolerance, int rounds_max)
     return reached;
 }
 
-/// What of such speeds may be rounding, m/s.
+/// The part of such speeds that may be rounding, m/s.
 double rounding_of(const ContactBlock& block, const ContactVector& velocity)
 {
     constexpr double share = 1e-13;
@@ -433,7 +433,7 @@ ContactVector solve(ContactBlock& block, const ContactVector& velocity, double t
     const double still = std::max(tolerance, rounding_of(block, velocity));
     const Trial start{block, velocity};
     constexpr int rounds = 8;
-    // What slipped at the end of the last tick mostly slips on.
+    // A block that slipped at the end of the last tick mostly slips on.
     const bool slips = is_slipping(block, velocity, still);
     Trial slipping = start;
     if (slips && slipping.slip(still, rounds) && slipping.has_settled())
@@ -450,7 +450,7 @@ ContactVector iterate(ContactBlock& block, const ContactVector& velocity, double
     const double still = std::max(tolerance, rounding_of(block, velocity));
     const Trial start{block, velocity};
     Trial slipping = start;
-    // What slipped slips.
+    // A block that slipped mostly slips on.
     bool& slipped = block.factors.slipped;
     if (slipped && slipping.slip(still, 1)) return finish(block, slipping, start);
     Trial sticking = start;

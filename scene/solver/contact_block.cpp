@@ -12,7 +12,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// Of a face under even pressure: the mean distance from the middle of a square over the distance
+/// For a face under even pressure, the mean distance from the middle of a square over the distance
 /// of its corners is (sqrt(2) + log(1 + sqrt(2))) / (3 sqrt(2)).
 constexpr double even_pressure = 0.5410;
 
@@ -133,8 +133,8 @@ std::array<Jacobian, 6> jacobian(const ContactBlock& block, const glm::dvec3& ar
             push(block.tangent_1), push(block.tangent_2),           Jacobian{none, block.normal}};
 }
 
-/// Whether what a body's locks leave it to give way along the normal is next to nothing. Then it
-/// does not: else it would be thrown aside as by a wedge.
+/// Whether a body's locks leave it almost no motion along the normal. Then it counts as locked:
+/// else it would be thrown aside as by a wedge.
 bool is_nearly_locked_along(const glm::dvec3& normal, const glm::dvec3& inverse_mass)
 {
     constexpr double hair = 1e-6; // along the normal, of what it does where it is not locked
@@ -204,7 +204,7 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
 {
     block.centripetal_velocity = {};
     const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
-        // Of what turns far in a tick that term alone says nothing: it fades out.
+        // For a body that rotates far in a tick this term alone is wrong: it fades out.
         constexpr double far = 0.1; // radians
         const double fades = tick * tick * glm::dot(spin, spin) / (far * far);
         if (fades == 0.0 || fades >= 1.0) return;
@@ -225,8 +225,8 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
     };
     if (block.b != 0) add(spin_b, block.arm_b, tick);
     if (block.a != 0) add(spin_a, block.arm_a, -tick);
-    // What stands still meets every limit: so impulses that contradict each other, as where a body
-    // is squeezed while it turns, have an end.
+    // A contact that stands still meets every limit: so impulses that contradict each other, as
+    // where a body is squeezed while it turns, have an end.
     for (std::size_t i = 0; i < block.count; ++i) {
         block.speed_min[i] =
             std::min(block.speed_min[i], block.normal_speed(block.centripetal_velocity, i));

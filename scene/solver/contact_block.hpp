@@ -14,7 +14,7 @@
 
 namespace hapnet::scene {
 
-/// How a body answers to impulses; nothing moves what is fixed, a plane, or asleep.
+/// How a body responds to impulses. A plane, a fixed body and a sleeper do not.
 struct BodyResponse {
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame
@@ -43,7 +43,7 @@ struct ContactImpulse {
     double torsion = 0.0;
 };
 
-/// What was worked out for a block and may be needed again: valid as long as its matrix is.
+/// Factors of a block that may be needed again: valid as long as its matrix is.
 struct BlockFactors {
     Ldl<6> whole{}; // of the matrix: three or four points, and friction
     // For sets of one, of two, of three, of four points, the one that was met last: which, in bits,

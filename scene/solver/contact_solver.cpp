@@ -94,8 +94,8 @@ SolverOutcome ContactSolver::correct_positions(const SolverLimits& limits)
     };
     const std::span<ContactBlock> blocks = blocks_.all();
     if (std::none_of(blocks.begin(), blocks.end(), overlaps)) return {};
-    // What is new in the impulses counts half in the mean velocities, as a force would. Of a hit it
-    // should be all, from the moment when they met: a good start.
+    // The new part of the impulses counts half in the mean velocities, as a force's would. For an
+    // impact it should count whole, from its moment on: a good start.
     for (ContactBlock& block : blocks) {
         ContactImpulse start;
         for (std::size_t i = 0; i < block.count; ++i) {
@@ -130,7 +130,7 @@ SolverOutcome ContactSolver::run(const Task& task)
     find_islands();
     std::size_t moving = 0;
     for_moving_islands(task, [&](Island island) { moving += island.size(); });
-    // What may be done is shared evenly.
+    // The visits are shared evenly.
     const std::size_t share = std::max<std::size_t>(
         sweeps_min, task.limits.visits_max / std::max<std::size_t>(moving, 1));
     Task its = task;
@@ -146,7 +146,7 @@ SolverOutcome ContactSolver::run(const Task& task)
     return outcome;
 }
 
-/// Those that the first sweep has not settled.
+/// Calls act(island) for the islands that the first sweep has not solved.
 template <typename Do>
 void ContactSolver::for_moving_islands(const Task& task, Do&& act)
 {
@@ -209,7 +209,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
     return outcome;
 }
 
-/// Impulses on the way to the answer may leave more energy than none at all would have. Then they
+/// The impulses of an unfinished solve may leave more energy than no impulses would. Then they
 /// are scaled to what leaves least.
 void ContactSolver::limit_energy(const Task& task, Island island)
 {

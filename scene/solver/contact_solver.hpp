@@ -22,7 +22,7 @@ struct SolverLimits {
         std::numeric_limits<std::uint32_t>::max(); // over all islands, beyond a few sweeps
 };
 
-/// How far it came.
+/// What a solve took, and how much it still changed at the end.
 struct SolverOutcome {
     std::uint32_t sweeps = 0; // of the island that needed most
     double change = 0.0;      // m/s, of the last sweep: the largest of a contact's speed
@@ -31,8 +31,8 @@ struct SolverOutcome {
 /// Solves all contacts of a tick for the velocities at its end, block after block, each as a whole
 /// (projected Gauss-Seidel). A contact that is in balance already costs a look, and what is at
 /// rest or nearly so is done with one sweep. Bodies that touch each other and are not are an
-/// island: swept again and again, to and fro, with Anderson's mixing, which is what carries a heavy
-/// body on a light one and a stack.
+/// island: swept again and again, to and fro, with Anderson mixing, which is what holds a heavy
+/// body on a light one, and a stack.
 class ContactSolver {
 public:
     ContactSolver(std::size_t bodies, std::size_t blocks);
@@ -56,7 +56,7 @@ public:
     SolverOutcome correct_positions(const SolverLimits& limits);
     /// Once more, when bodies answer otherwise.
     SolverOutcome correct_positions_again(const SolverLimits& limits);
-    /// What one block changes in velocities that are told, which stay as they are.
+    /// Solves one block for given velocities, which stay as they are; returns the impulse.
     ContactVector solve_alone(ContactBlock& block, const ContactVector& velocity, double tolerance);
 
 private:
@@ -68,7 +68,8 @@ private:
         SolverLimits limits;
     };
 
-    /// How far a visit goes where a block slips: to the end, or some way, as the next one goes on.
+    /// How exactly a slipping block is solved: fully, or by one iteration, as the next sweep goes
+    /// on.
     enum class Effort : std::uint8_t { full, one_iteration };
 
     using Island = std::span<const std::uint32_t>; // its blocks

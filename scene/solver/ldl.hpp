@@ -33,8 +33,8 @@ public:
         }
     }
 
-    /// Of the first rows and columns alone, when `x` has fewer: their factors are the first rows of
-    /// all.
+    /// Solves with the first rows and columns alone when `x` has fewer: their factors are the first
+    /// rows of all.
     template <std::size_t few>
     [[nodiscard]] std::array<double, few> solve(std::array<double, few> x) const
     {

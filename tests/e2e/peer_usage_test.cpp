@@ -67,7 +67,7 @@ TEST(PeerUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
 {
     expect_refusal(run_peer_with({"--duration", "30"}), 2, {"--duration", "'30'", "160ms"});
     expect_refusal(run_peer_with({"--duration", "5%"}), 2, {"--duration", "'5%'"});
-    expect_refusal(run_peer_with({"--duration", "10ms"}), 2, {"--duration", "at least 1s"});
+    expect_refusal(run_peer_with({"--duration", "10ms"}), 2, {"--duration", "1s or more"});
     expect_refusal(run_peer_with({"--id", "0"}), 2, {"--id", "1 to 65535"});
     expect_refusal(run_peer_with({"--id", "65536"}), 2, {"--id", "65536"});
     expect_refusal(run_peer_with({"--seed", "x"}), 2, {"--seed", "'x'"});

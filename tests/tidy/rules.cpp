@@ -86,6 +86,20 @@ const std::vector<Ban>& bans()
     return list;
 }
 
+/// A path with the name of one folder in place of a variable: "bench/${subject}/x.cpp".
+bool is_like(std::string_view path, std::string_view pattern)
+{
+    const auto begin = pattern.find("${");
+    const auto end = pattern.find('}');
+    if (begin == std::string_view::npos || end == std::string_view::npos) return path == pattern;
+    const auto before = pattern.substr(0, begin);
+    const auto after = pattern.substr(end + 1);
+    if (path.size() <= before.size() + after.size()) return false;
+    const auto between = path.substr(before.size(), path.size() - before.size() - after.size());
+    return path.starts_with(before) && path.ends_with(after) &&
+           between.find('/') == std::string_view::npos;
+}
+
 /// Adds the path of each "x.cpp" that a CMakeLists.txt names, which is relative to its folder.
 void add_sources_named_in(const SourceFile& cmake, std::set<std::string>& paths)
 {
@@ -150,7 +164,13 @@ std::vector<std::string> long_functions(const SourceFile& file)
         const auto indent = line.find_first_not_of(' ');
         if (indent == std::string::npos || line.substr(indent) != "{") continue;
         const std::string close = std::string(indent, ' ') + "}";
-        for (std::size_t end = i; end < file.lines.size() && file.lines[end] != close; ++end) {
+        const auto ends = [&](std::size_t at) { // "} -> T;" ends a requirement of a concept
+            const std::string& end = file.lines[at];
+            const auto first = end.find("} -> ");
+            return end.starts_with(close) ||
+                   (first != std::string::npos && first == end.find_first_not_of(' '));
+        };
+        for (std::size_t end = i; end < file.lines.size() && !ends(end); ++end) {
             if (end - i + 2 <= function_lines_max) continue;
             complaints.push_back(at(i, "a function of more than 60 lines"));
             break;
@@ -199,6 +219,8 @@ std::vector<std::string> dead_files(const std::vector<SourceFile>& tree)
         const bool is_ours_to_check = file.is_header() || (file.is_cpp() && !is_globbed_test(file));
         if (!is_ours_to_check || alive.contains(file.path)) continue;
         if (file.is_cpp() && !file.is_header() && is_in_folder_of(alive, file.path)) continue;
+        const auto is_named = [&](const std::string& name) { return is_like(file.path, name); };
+        if (std::any_of(alive.begin(), alive.end(), is_named)) continue;
         complaints.push_back(file.path + ": nothing builds or includes it");
     }
     return complaints;

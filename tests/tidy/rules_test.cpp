@@ -103,6 +103,15 @@ TEST(Lengths, AFunctionOf61LinesIsTooLong)
     EXPECT_EQ(long_functions(source_file("peer/x.cpp", function(58))).size(), 0U);
     EXPECT_EQ(long_functions(source_file("peer/x.cpp", function(59))).size(), 1U);
     EXPECT_EQ(long_functions(source_file("peer/x.cpp", function(58) + function(58))).size(), 0U);
+    const std::string spaced =
+        "    {\n" + repeated(10, "        g();\n\n        g();\n\n\n\n") + "    }\n";
+    EXPECT_EQ(long_functions(source_file("peer/x.cpp", spaced)).size(), 1U);
+    const std::string requirement = "    {\n        f()\n        } -> std::same_as<int>;\n";
+    EXPECT_EQ(long_functions(source_file("peer/x.hpp", requirement + function(58))).size(), 0U);
+    EXPECT_EQ(long_functions(source_file("peer/x.hpp",
+                                         "    {\n        f()\n    } -> g;\n" + repeated(80, "\n")))
+                  .size(),
+              0U);
 }
 
 TEST(Words, AreBannedWhereTheyDoNotBelong)
@@ -165,6 +174,11 @@ TEST(DeadFiles, AreSourcesThatNothingBuildsAndHeadersThatNothingIncludes)
         source_file("tests/unit/peer/loop_test.cpp", ""),
     });
     ASSERT_EQ(complaints.size(), 3U);
+    EXPECT_EQ(dead_files({source_file("tests/CMakeLists.txt", "bench/${subject}/x.cpp)\n"),
+                          source_file("tests/bench/lab/x.cpp", ""),
+                          source_file("tests/bench/lab/more/x.cpp", "")})
+                  .size(),
+              1U);
     EXPECT_EQ(complaints[0].find("peer/old.cpp"), 0U);
     EXPECT_EQ(complaints[1].find("peer/old.hpp"), 0U);
     EXPECT_EQ(complaints[2].find("lab/main.cpp"), 0U);

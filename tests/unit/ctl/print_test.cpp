@@ -10,10 +10,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const Json emulator{{"elapsed_s", 2.0},
-                    {"generation", 1},
-                    {"up", {{"received", 2000}, {"delivered", 1990}, {"dropped", {{"burst", 10}}}}},
-                    {"down", {{"received", 5}}}};
+const Json emulator{
+    {"elapsed_s", 2.0},
+    {"generation", 1},
+    {"up", {{"received", 2000}, {"delivered", 1990}, {"dropped", {{"burst", 10U}}}}},
+    {"down", {{"received", 5}}}};
 const Json peer{{"program", "hapnet-peer"},
                 {"elapsed_s", 2.0},
                 {"messages", {{"states_sent", 9}, {"states_received", 2000}}},

@@ -23,8 +23,10 @@ std::string refusal(std::vector<std::string> words)
     cli::Typed typed{"hapnet-emulator", std::move(words)};
     const auto line = parse_command_line(typed.words());
     if (!line) return line.error().message;
-    const auto scenario = scenario_of(std::get<Options>(std::get<AnyOptions>(*line)));
-    return scenario ? "" : scenario.error().message;
+    std::vector<std::string> warnings;
+    const auto& options = std::get<Options>(std::get<AnyOptions>(*line));
+    const auto profile = profile_for(options.conditions, warnings);
+    return profile ? "" : profile.error().message;
 }
 
 std::string refusal_alone(std::vector<std::string> words)
@@ -151,7 +153,7 @@ TEST(EmulatorOptions, TakeThePresetAndTheTimingInCapitalLetters)
 {
     EXPECT_EQ(refusal({"--profile", "LTE", "--timing", "ECO"}), "");
     expect_said(refusal({"--profile", "ltee"}), "did you mean 'lte'?");
-    expect_said(refusal({"--timing", "now"}), "write eco, precise, spin");
+    expect_said(refusal({"--timing", "now"}), "use one of eco, precise, spin");
 }
 
 TEST(EmulatorOptions, GiveDryRunsTheConditionsOfARun)
@@ -178,7 +180,7 @@ TEST(EmulatorOptions, TellARateOfDatagramsFromABitRate)
     EXPECT_EQ(options.conditions.settings[0].key, "rate");
     EXPECT_EQ(options_of<CheckOptions>({"check", "lte", "--rate", "1000"}).stream.spacing, 1ms);
     expect_said(refusal_alone({"predict", "lte", "--rate", "x"}), "--rate: 'x' is not a rate");
-    expect_said(refusal_alone({"predict", "lte", "--packets", "0"}), "write 1 to");
+    expect_said(refusal_alone({"predict", "lte", "--packets", "0"}), "a whole number from 1 to");
 }
 
 TEST(EmulatorOptions, ListThePresets)
@@ -195,7 +197,8 @@ TEST(EmulatorOptions, OfARunAreNotThoseOfACommand)
               0U);
     EXPECT_EQ(refusal_alone({"verify"}), "RUN is required: hapnet-emulator verify run.json");
     EXPECT_EQ(options_of<VerifyOptions>({"verify", "run.json", "--rate", "1000"}).spacing, 1ms);
-    expect_said(refusal_alone({"verify", "run.json", "--rate", "0"}), "write 1 to 1000000000");
+    expect_said(refusal_alone({"verify", "run.json", "--rate", "0"}),
+                "a whole number from 1 to 1000000000");
 }
 
 } // namespace

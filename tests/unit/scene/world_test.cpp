@@ -152,7 +152,7 @@ TEST(World, FreezeSaysWhatIsWrong)
     const auto too_little = World::freeze(paper_scene(), {.stepper = StepperKind::flight});
     ASSERT_FALSE(too_little);
     EXPECT_EQ(too_little.error().message,
-              "the tick profile 'flight' cannot do what the scene needs; 'sliding' can");
+              "the stepper 'flight' cannot do what the scene needs; 'sliding' can");
 }
 
 /// Drives a hand to and fro into the first body.

@@ -101,7 +101,7 @@ void live(std::uint64_t seed)
     }
 }
 
-TEST(SlidingByChance, ItStaysFiniteAndOutsideOfThings)
+TEST(OneBoxByChance, ItStaysFiniteAndOutsideOfThings)
 {
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         live<false>(seed);

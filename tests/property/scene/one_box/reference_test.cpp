@@ -80,7 +80,7 @@ double disagreement(Reference reference)
     return worst;
 }
 
-TEST(SlidingReference, WithDragDampersLimitsAndWallsItIsWithin1e14MetresOfTheTruth)
+TEST(OneBoxReference, WithDragDampersLimitsAndWallsItIsWithin1e14MetresOfTheTruth)
 {
     Chance chance{base::Seed{42}.stream("sliding/mixed")};
     for (int i = 0; i < 40; ++i) {
@@ -89,7 +89,7 @@ TEST(SlidingReference, WithDragDampersLimitsAndWallsItIsWithin1e14MetresOfTheTru
     }
 }
 
-TEST(SlidingReference, SticksAndSlipsWhereTheTruthDoes)
+TEST(OneBoxReference, SticksAndSlipsWhereTheTruthDoes)
 {
     Chance chance{base::Seed{42}.stream("sliding/friction")};
     for (int i = 0; i < 40; ++i) {

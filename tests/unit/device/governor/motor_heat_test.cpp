@@ -14,8 +14,6 @@ namespace {
 using namespace std::chrono_literals;
 using test::along_x;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 TEST(MotorHeat, GoesTowardsTheSquareOfTheForceWithItsTime)
 {
     MotorHeat heat{0.88, 15s};
@@ -28,7 +26,7 @@ TEST(MotorHeat, GoesTowardsTheSquareOfTheForceWithItsTime)
 
 TEST(MotorHeat, IsNoneForMotorsThatBearAnything)
 {
-    MotorHeat heat{infinite, 15s};
+    MotorHeat heat{std::numeric_limits<double>::infinity(), 15s};
     heat.pass(along_x(100.0), 1h);
     EXPECT_EQ(heat.heat(), 0.0);
     EXPECT_EQ(heat.force_max_n(3.3), 3.3);

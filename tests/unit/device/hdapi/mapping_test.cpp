@@ -10,7 +10,7 @@
 namespace hapnet::device::hdapi {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 TEST(HdapiMapping, KnowsEveryErrorOfTheInterface)
 {
@@ -57,8 +57,8 @@ TEST(HdapiMapping, SpeaksMetresAndDoubtsWhatIsNotSensible)
     EXPECT_FALSE(can.has_holder);
     EXPECT_TRUE(capabilities_of({.calibration_styles = calibration::style_inkwell}).has_holder);
 
-    const Capabilities doubtful =
-        capabilities_of({.workspace_mm = {nan, 5, 0, 1, -5, 0}, .force_max_n = nan});
+    const Capabilities doubtful = capabilities_of(
+        {.workspace_mm = {not_a_number, 5, 0, 1, -5, 0}, .force_max_n = not_a_number});
     EXPECT_DOUBLE_EQ(doubtful.force_max_n, 0.88);
     EXPECT_LT(doubtful.workspace_min.y(), doubtful.workspace_max.y());
     EXPECT_LT(doubtful.workspace_min.x(), doubtful.workspace_max.x());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/cli/command_line.hpp"
 
+#include "peer/core/sync/text.hpp"
 #include "tests/support/cli/help_faults.hpp"
 
 #include <gtest/gtest.h>
@@ -83,13 +84,12 @@ TEST(PeerOptions, SayWhatStandsInForWhatIsNotHere)
 
 TEST(PeerOptions, NameTheOptionTheTextAndTheRange)
 {
-    EXPECT_EQ(refusal_to_session({"--id", "0"}), "--id: '0' is out of range: write 1 to 65535");
-    EXPECT_EQ(refusal_to_session({"--duration", "10ms"}),
-              "--duration: '10ms' is out of range: write at least 1s");
-    EXPECT_EQ(refusal_to_session({"--force-limit", "-1N"}),
-              "--force-limit: '-1N' is out of range: write 0N to 40N");
-    EXPECT_EQ(refusal_to_session({"--mount-scale", "30"}),
-              "--mount-scale: '30' is out of range: write 0.05 to 20");
+    EXPECT_EQ(refusal_to_session({"--id", "0"}),
+              "--id: expected a whole number from 1 to 65535, not 0");
+    expect_words(refusal_to_session({"--duration", "10ms"}), "--duration: \"10ms\"");
+    expect_words(refusal_to_session({"--duration", "10ms"}), "1s or more");
+    expect_words(refusal_to_session({"--force-limit", "-1N"}), "0N to 40N");
+    expect_words(refusal_to_session({"--mount-scale", "30"}), "0.05 to 20");
     expect_words(refusal_to({"--remote", "127.0.0.1:0"}), "--remote: '127.0.0.1:0'");
     expect_words(refusal_to_session({"--record", "-"}), "--record: '-' is not a file");
     EXPECT_EQ(refusal_to({}), "--remote is required: --remote 127.0.0.1:7001");

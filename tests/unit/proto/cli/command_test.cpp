@@ -223,25 +223,29 @@ TEST(Command, SaysThatACommandIsMissing)
               "unknown command 'shwo': did you mean control SOCKET show?");
 }
 
-TEST(Parsers, SayTheRangeOfWhatIsOutOfIt)
+TEST(Command, TakesValuesByTheirFormat)
 {
-    EXPECT_EQ(whole_number(1, 9)("9").value(), 9U);
-    EXPECT_EQ(whole_number(1, 9)("10").error().message, "'10' is out of range: write 1 to 9");
-    EXPECT_EQ(whole_number(1, 9)("x").error().message, "'x' is not a whole number: write 1 to 9");
-    EXPECT_EQ(number(0.5, 2.0)("3").error().message, "'3' is out of range: write 0.5 to 2");
-    EXPECT_EQ(number(0.5, 2.0)("1.5").value(), 1.5);
-    EXPECT_FALSE(number(0.5, 2.0)("nan"));
-    EXPECT_EQ(duration(1s)("10ms").error().message, "'10ms' is out of range: write at least 1s");
-    EXPECT_EQ(duration(1ms, 1s)("2s").error().message, "'2s' is out of range: write 1ms to 1s");
-    EXPECT_EQ(quantity(base::force_kind, 0.0, 40.0)("41N").error().message,
-              "'41N' is out of range: write 0N to 40N");
+    const auto said = [](const auto& value) { return value ? "taken" : value.error().message; };
+    EXPECT_EQ(value_of<std::uint16_t>(base::Count{1, 9}, "9").value(), 9);
+    EXPECT_EQ(said(value_of<std::uint16_t>(base::Count{1, 9}, "10")),
+              "expected a whole number from 1 to 9, not 10");
+    EXPECT_EQ(said(value_of<std::uint16_t>(base::Count{1, 9}, "x")),
+              "expected a whole number from 1 to 9, not 'x'");
+    EXPECT_EQ(value_of<double>(base::Number{0.5, 2.0}, "1.5").value(), 1.5);
+    EXPECT_FALSE(value_of<double>(base::Number{0.5, 2.0}, "nan"));
+    EXPECT_EQ(value_of<base::Duration>(base::Time{1s}, "2s").value(), 2s);
+    EXPECT_NE(said(value_of<base::Duration>(base::Time{1s}, "10ms")).find("1s or more"),
+              std::string::npos);
+    EXPECT_NE(said(value_of<double>(base::Quantity{base::force_kind, 0.0, 40.0}, "41N"))
+                  .find("0N to 40N"),
+              std::string::npos);
 }
 
 TEST(Parsers, TakeAWordInSmallAndCapitalLetters)
 {
     EXPECT_EQ(one_of({"eco", "spin"})("ECO").value(), "eco");
     EXPECT_EQ(one_of({"eco", "spin"})("now").error().message,
-              "'now' is not known here: write eco, spin");
+              "'now' is not known here: use one of eco, spin");
 }
 
 } // namespace

@@ -10,6 +10,20 @@ namespace {
 
 Endpoint endpoint(std::string_view text) { return resolve(parse_host_port(text).value()); }
 
+TEST(Endpoint, ToListenOnMayBeAPortOfLoopback)
+{
+    for (const std::string_view text : {":7001", "7001", "127.0.0.1:7001"}) {
+        const auto address = parse_listen_address(text);
+        ASSERT_TRUE(address) << text;
+        EXPECT_EQ(address->host, "127.0.0.1") << text;
+        EXPECT_EQ(address->port, 7001) << text;
+    }
+    EXPECT_EQ(parse_listen_address("[::1]:7001")->host, "::1");
+    for (const std::string_view text : {"", ":", "here", "70000", ":x", "-1"}) {
+        EXPECT_FALSE(parse_listen_address(text)) << text;
+    }
+}
+
 TEST(Endpoint, TakesHostAndPortApart)
 {
     const auto v4 = parse_host_port("127.0.0.1:7001").value();

@@ -29,13 +29,13 @@ struct Crowd {
         const Slot from = bodies.slot_of[id];
         bodies.put_to_sleep(from);
         pair_finder.on_sleep(bodies, id, from);
-        pair_finder.settle();
+        pair_finder.apply_changes();
     }
     void wake(BodyId id)
     {
         bodies.wake(bodies.slot_of[id]);
         pair_finder.on_wake(bodies, id);
-        pair_finder.settle();
+        pair_finder.apply_changes();
     }
     [[nodiscard]] std::vector<std::pair<BodyId, BodyId>> pairs()
     {

@@ -73,7 +73,7 @@ TYPED_TEST(NeighboursOf, AreFoundByABodyThatTurnsSlowlyTowardsThem)
 TYPED_TEST(NeighboursOf, AreFoundByABodyThatIsSpunUpAllAtOnce)
 {
     typename TestFixture::Subject crowd{bar_below_a_cube()};
-    crowd.bodies.spin(crowd.bodies.slot_of[0], {0.0, 0.0, 1000.0});
+    crowd.bodies.set_angular_velocity(crowd.bodies.slot_of[0], {0.0, 0.0, 1000.0});
     crowd.pair_finder.update(crowd.bodies);
     EXPECT_EQ(crowd.pairs(), (List{{0, 1}}));
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "scene/maths/first_root.hpp"
+#include "scene/maths/oscillator.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ StepResponse twice(const Oscillator& oscillator, const StepResponse& r, double t
             way(r.ramp, r.push) + t * r.push + r.ramp};
 }
 
-TEST(MotionResponse, OfAFreeBodyIsAParabola)
+TEST(StepResponse, OfAFreeBodyIsAParabola)
 {
     const StepResponse r = step_response({}, tick);
     EXPECT_EQ(r.rate, 1.0);
@@ -41,7 +41,7 @@ TEST(MotionResponse, OfAFreeBodyIsAParabola)
     EXPECT_DOUBLE_EQ(r.ramp, tick * tick * tick / 6.0);
 }
 
-TEST(MotionResponse, OfAnOscillatorIsItsSineAndCosine)
+TEST(StepResponse, OfAnOscillatorIsItsSineAndCosine)
 {
     const double w = 4321.0;
     const StepResponse r = step_response({.stiffness = w * w}, tick);
@@ -50,7 +50,7 @@ TEST(MotionResponse, OfAnOscillatorIsItsSineAndCosine)
     EXPECT_NEAR(r.push, (1.0 - std::cos(w * tick)) / (w * w), 1e-14 * tick * tick);
 }
 
-TEST(MotionResponse, OfADecayIsItsExponential)
+TEST(StepResponse, OfADecayIsItsExponential)
 {
     const StepResponse r = step_response({.damping = 3000.0}, tick);
     EXPECT_NEAR(r.rate, std::exp(-3.0), 1e-15);
@@ -58,7 +58,7 @@ TEST(MotionResponse, OfADecayIsItsExponential)
     EXPECT_NEAR(r.push, (tick + std::expm1(-3.0) / 3000.0) / 3000.0, 1e-15 * tick * tick);
 }
 
-TEST(MotionResponse, OfTheCriticalCaseIsItsLimit)
+TEST(StepResponse, OfTheCriticalCaseIsItsLimit)
 {
     const StepResponse r =
         step_response({.damping = 2.0 * 2500.0, .stiffness = 2500.0 * 2500.0}, tick);
@@ -66,7 +66,7 @@ TEST(MotionResponse, OfTheCriticalCaseIsItsLimit)
     EXPECT_NEAR(r.rate, (1.0 - 2.5) * std::exp(-2.5), 1e-15);
 }
 
-TEST(MotionResponse, TwoHalvesMakeAWholeForEveryDampingAndStiffness)
+TEST(StepResponse, TwoHalvesMakeAWholeForEveryDampingAndStiffness)
 {
     for (double damping = 1e-7; damping < 1e5; damping *= 2.1) {
         for (double stiffness = 1e-7; stiffness < 1e4; stiffness *= 3.3) {
@@ -102,7 +102,7 @@ StepResponse by_taylor(const Oscillator& oscillator, double t)
             static_cast<double>(ramp * time * time * time)};
 }
 
-TEST(MotionResponse, OfAWeakLawIsItsTaylorSeries)
+TEST(StepResponse, OfAWeakOscillatorIsItsTaylorSeries)
 {
     for (const double damping : {0.0, 1e-9, 0.01, 0.12, 0.13, 0.9, 1.0}) {
         for (const double stiffness : {0.0, 1e-9, 0.001, 0.031, 0.032, 0.5, 1.0}) {
@@ -115,7 +115,7 @@ TEST(MotionResponse, OfAWeakLawIsItsTaylorSeries)
     }
 }
 
-TEST(MotionResponse, StaysFiniteAtTheStiffestThatAnyDescriptionAllows)
+TEST(StepResponse, StaysFiniteAtTheStiffestThatAnyDescriptionAllows)
 {
     for (const Oscillator& oscillator : {Oscillator{0.0, 8e15}, Oscillator{8e12, 8e15},
                                          Oscillator{1e12, 0.0}, Oscillator{1.8e8, 8e15}}) {
@@ -123,64 +123,6 @@ TEST(MotionResponse, StaysFiniteAtTheStiffestThatAnyDescriptionAllows)
         EXPECT_TRUE(std::isfinite(r.rate + r.step + r.push + r.ramp));
         EXPECT_LE(std::abs(r.rate), 1.0);
     }
-}
-
-class MotionRoot : public testing::Test {
-protected:
-    Propagator kernel_{{.stiffness = 1e8}, tick}; // 1.6 periods a tick
-    Trajectories trajectories_{Trajectory{&kernel_, 1.0, 0.0, 0.0}, Trajectory{}, Trajectory{}};
-    WatchedQuantity watch_;
-
-    std::optional<double> root() { return first_root(watch_, trajectories_, 0.0, tick); }
-};
-
-TEST_F(MotionRoot, IsTheFirstOfMany)
-{
-    watch_.level = 0.5e-4; // the way is sin(1e4 t) / 1e4
-    watch_.displacement_weight[0] = 1.0;
-    const auto found = root();
-    ASSERT_TRUE(found);
-    EXPECT_NEAR(*found, 3.66519142918809213e-4, 1e-15); // 7 pi / 6
-}
-
-TEST_F(MotionRoot, IsNotThereWhereTheWaveStaysJustAbove)
-{
-    watch_.level = 1.0000001e-4;
-    watch_.displacement_weight[0] = 1.0;
-    EXPECT_FALSE(root());
-}
-
-TEST_F(MotionRoot, IsFoundWhereTheWaveOnlyJustGetsThere)
-{
-    watch_.level = 0.9999999e-4;
-    watch_.displacement_weight[0] = 1.0;
-    const auto found = root();
-    ASSERT_TRUE(found);
-    EXPECT_NEAR(*found, (4.71238898038468986 - std::acos(0.9999999)) * 1e-4, 1e-12);
-}
-
-TEST_F(MotionRoot, IsAtOnceWhenItFallsFromZero)
-{
-    watch_.displacement_weight[0] = -1.0;
-    EXPECT_EQ(root(), 0.0);
-}
-
-TEST_F(MotionRoot, IsTheReturnWhenItRisesFromZero)
-{
-    watch_.displacement_weight[0] = 1.0;
-    const auto found = root();
-    ASSERT_TRUE(found);
-    EXPECT_NEAR(*found, 3.14159265358979324e-4, 1e-15);
-}
-
-TEST_F(MotionRoot, TakesTheNonzeroLevelOfAnythingThatStandsStill)
-{
-    trajectories_[0] = {};
-    watch_.level = 1.0;
-    watch_.slope = -4000.0;
-    EXPECT_EQ(root(), 2.5e-4);
-    watch_.slope = -999.0;
-    EXPECT_FALSE(root());
 }
 
 } // namespace

@@ -121,7 +121,7 @@ TEST(Rotation, BeyondAllSenseNothingTurnsAndNothingBreaks)
 
 TEST(Rotation, AxesAreThoseOfTheQuaternion)
 {
-    const glm::dquat orientation = unit({0.3, -0.5, 0.7, 0.2});
+    const glm::dquat orientation = base::normalized({0.3, -0.5, 0.7, 0.2});
     const glm::dmat3 axes = axes_of(orientation);
     const glm::dmat3 expected = glm::mat3_cast(orientation);
     for (int column = 0; column < 3; ++column) {

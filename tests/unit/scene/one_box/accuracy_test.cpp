@@ -11,7 +11,7 @@ namespace {
 constexpr double mass = 0.1;
 constexpr double touching = 0.025; // a hand's centre from the cube's when they just touch
 
-TEST(Sliding, FliesAParabolaForASecondWithin1e12Metres)
+TEST(OneBox, FliesAParabolaForASecondWithin1e12Metres)
 {
     Description scene = lone_cube();
     scene.gravity = {0.0, -9.81, 0.0};
@@ -23,7 +23,7 @@ TEST(Sliding, FliesAParabolaForASecondWithin1e12Metres)
     EXPECT_NEAR(rig.position().z, -0.2, 1e-12);
 }
 
-TEST(Sliding, DryFrictionStopsItWhereCoulombSaysAtAnyAngle)
+TEST(OneBox, DryFrictionStopsItWhereCoulombSaysAtAnyAngle)
 {
     const double friction = 0.3;
     const double speed = 0.5;
@@ -40,7 +40,7 @@ TEST(Sliding, DryFrictionStopsItWhereCoulombSaysAtAnyAngle)
     }
 }
 
-TEST(Sliding, DragOnAPlaneBringsItToRestWhereItShould)
+TEST(OneBox, DragOnAPlaneBringsItToRestWhereItShould)
 {
     Rig<false> rig{cube_on_platform(0.0, 10.0)};
     rig.place({0.0, 0.0, 0.0}, {0.3, 0.0, 0.1});
@@ -49,7 +49,7 @@ TEST(Sliding, DragOnAPlaneBringsItToRestWhereItShould)
     EXPECT_NEAR(rig.position().z, 0.1 * mass / 10.0, 1e-16);
 }
 
-TEST(Sliding, ABounceOnAHandKeepsItsEnergyForEveryStiffnessAndTick)
+TEST(OneBox, ABounceOnAHandKeepsItsEnergyForEveryStiffnessAndTick)
 {
     for (const double stiffness : {0.01, 0.1, 0.32, 1.0, 3.2, 10.0, 100.0, 1000.0}) {
         for (const double tick : {4e-3, 2e-3, 1e-3, 0.5e-3, 0.25e-3}) {
@@ -68,7 +68,7 @@ TEST(Sliding, ABounceOnAHandKeepsItsEnergyForEveryStiffnessAndTick)
     }
 }
 
-TEST(Sliding, ASteadyPushAgainstDragHasNoLagAndNoRipple)
+TEST(OneBox, ASteadyPushAgainstDragHasNoLagAndNoRipple)
 {
     Description scene = cube_on_platform(0.0, 10.0);
     scene.hands.damping_ns_per_m = 2.0;
@@ -84,7 +84,7 @@ TEST(Sliding, ASteadyPushAgainstDragHasNoLagAndNoRipple)
     }
 }
 
-TEST(Sliding, ASteadyPushAgainstDryFrictionSettlesAtTheFrictionForce)
+TEST(OneBox, ASteadyPushAgainstDryFrictionSettlesAtTheFrictionForce)
 {
     const double friction = 0.3;
     Description scene = cube_on_platform(friction);
@@ -104,7 +104,7 @@ TEST(Sliding, ASteadyPushAgainstDryFrictionSettlesAtTheFrictionForce)
     EXPECT_EQ(rig.stepper.crowded_ticks(), 0U);
 }
 
-TEST(Sliding, ASymmetricSqueezeDoesNotDriftAtAll)
+TEST(OneBox, ASymmetricSqueezeDoesNotDriftAtAll)
 {
     Description scene = cube_on_platform(0.0, 10.0);
     scene.hands.damping_ns_per_m = 2.0;
@@ -118,7 +118,7 @@ TEST(Sliding, ASymmetricSqueezeDoesNotDriftAtAll)
     EXPECT_EQ(rig.touch(0).on_hand.x(), -rig.touch(1).on_hand.x());
 }
 
-TEST(Sliding, BetweenTwoHandsItOscillatesForTenSecondsWithoutLosingAnything)
+TEST(OneBox, BetweenTwoHandsItOscillatesForTenSecondsWithoutLosingAnything)
 {
     for (const double tick : {4e-3, 1e-3, 0.25e-3}) {
         Description scene = lone_cube();
@@ -138,7 +138,7 @@ TEST(Sliding, BetweenTwoHandsItOscillatesForTenSecondsWithoutLosingAnything)
     }
 }
 
-TEST(Sliding, ItBouncesOffAWallByTheRestitutionAndNeverEntersIt)
+TEST(OneBox, ItBouncesOffAWallByTheRestitutionAndNeverEntersIt)
 {
     for (const double restitution : {0.0, 0.5, 1.0}) {
         Description scene = cube_on_platform();

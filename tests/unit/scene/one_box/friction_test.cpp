@@ -12,7 +12,7 @@ constexpr double mass = 0.1;
 constexpr double friction = 0.3;
 constexpr double touching = 0.025;
 
-TEST(SlidingFriction, HoldsABoxExactlyUntilTheForceExceedsIt)
+TEST(OneBoxFriction, HoldsABoxExactlyUntilTheForceExceedsIt)
 {
     Rig<true> rig{cube_on_platform(friction)};
     const double limit = friction * mass * 9.81;
@@ -30,7 +30,7 @@ TEST(SlidingFriction, HoldsABoxExactlyUntilTheForceExceedsIt)
     EXPECT_NEAR(rig.velocity().z, 0.8 * acceleration * 1e-3, 1e-17);
 }
 
-TEST(SlidingFriction, StartsWithinTheTickInWhichTheHandHasPressedEnough)
+TEST(OneBoxFriction, StartsWithinTheTickInWhichTheHandHasPressedEnough)
 {
     Rig<true> rig{cube_on_platform(friction)};
     const double limit = friction * mass * 9.81;
@@ -45,7 +45,7 @@ TEST(SlidingFriction, StartsWithinTheTickInWhichTheHandHasPressedEnough)
     EXPECT_NEAR(rig.position().x, speed * (since - std::sin(frequency * since) / frequency), 1e-16);
 }
 
-TEST(SlidingFriction, AHandFromAboveMakesItStopSooner)
+TEST(OneBoxFriction, AHandFromAboveMakesItStopSooner)
 {
     Rig<true> rig{cube_on_platform(friction)};
     rig.place({0.0, 0.0, 0.0}, {0.2, 0.0, 0.0});
@@ -56,7 +56,7 @@ TEST(SlidingFriction, AHandFromAboveMakesItStopSooner)
     EXPECT_EQ(rig.position().y, 0.0);
 }
 
-TEST(SlidingFriction, AHandThatComesDownMakesItGrowSteadily)
+TEST(OneBoxFriction, AHandThatComesDownMakesItGrowSteadily)
 {
     Rig<true> rig{cube_on_platform(friction)};
     const double speed = 0.05;
@@ -85,7 +85,7 @@ glm::dvec3 turning(double tick)
     return rig.position();
 }
 
-TEST(SlidingFriction, IsOfSecondOrderWhereTheWayTurns)
+TEST(OneBoxFriction, IsOfSecondOrderWhereTheWayTurns)
 {
     const glm::dvec3 truth = turning(0.064 / 4096);
     const auto error = [&](double tick) {
@@ -97,7 +97,7 @@ TEST(SlidingFriction, IsOfSecondOrderWhereTheWayTurns)
     EXPECT_NEAR(error(4e-3) / error(2e-3), 4.0, 0.5);
 }
 
-TEST(SlidingFriction, OfAWallCountsToo)
+TEST(OneBoxFriction, OfAWallCountsToo)
 {
     Description scene = lone_cube(); // no gravity: only the wall presses
     BodyDescription wall{.name = "wall", .movable = false};

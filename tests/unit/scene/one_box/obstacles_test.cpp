@@ -16,7 +16,7 @@ BodyDescription fixed_at(const glm::dvec3& position, const glm::dvec3& half = gl
     return box;
 }
 
-TEST(SlidingObstacles, ABouncingBoxComesToRestExactlyOnThePlane)
+TEST(OneBoxObstacles, ABouncingBoxComesToRestExactlyOnThePlane)
 {
     Description scene = cube_on_platform();
     scene.bodies[0].material.restitution = 0.5;
@@ -37,7 +37,7 @@ TEST(SlidingObstacles, ABouncingBoxComesToRestExactlyOnThePlane)
     EXPECT_EQ(rig.stepper.crowded_ticks(), 0U);
 }
 
-TEST(SlidingObstacles, AnElasticBoxBouncesToTheSameHeightForTenSeconds)
+TEST(OneBoxObstacles, AnElasticBoxBouncesToTheSameHeightForTenSeconds)
 {
     Description scene = cube_on_platform();
     scene.bodies[0].material.restitution = 1.0;
@@ -48,7 +48,7 @@ TEST(SlidingObstacles, AnElasticBoxBouncesToTheSameHeightForTenSeconds)
     EXPECT_NEAR(height, 0.05, 1e-9 * 0.05);
 }
 
-TEST(SlidingObstacles, NoSpeedPassesAThinWall)
+TEST(OneBoxObstacles, NoSpeedPassesAThinWall)
 {
     for (const double speed : {1.0, 30.0, 1000.0, 10000.0}) {
         Description scene = lone_cube();
@@ -61,7 +61,7 @@ TEST(SlidingObstacles, NoSpeedPassesAThinWall)
     }
 }
 
-TEST(SlidingObstacles, ItSlidesOffTheEdgeOfABoxAndFalls)
+TEST(OneBoxObstacles, ItSlidesOffTheEdgeOfABoxAndFalls)
 {
     Description scene = lone_cube();
     scene.gravity = {0.0, -9.81, 0.0};
@@ -74,7 +74,7 @@ TEST(SlidingObstacles, ItSlidesOffTheEdgeOfABoxAndFalls)
     EXPECT_NEAR(rig.position().y, -0.5 * 9.81 * gravity_on * gravity_on, 1e-15);
 }
 
-TEST(SlidingObstacles, ItCrossesTheSeamsOfATiledFloorWithoutNoticing)
+TEST(OneBoxObstacles, ItCrossesTheSeamsOfATiledFloorWithoutNoticing)
 {
     Description scene = lone_cube();
     scene.gravity = {0.0, -9.81, 0.0};
@@ -88,7 +88,7 @@ TEST(SlidingObstacles, ItCrossesTheSeamsOfATiledFloorWithoutNoticing)
     EXPECT_EQ(rig.position().y, 0.0);
 }
 
-TEST(SlidingObstacles, ItPassesABoxThatItDoesNotMeet)
+TEST(OneBoxObstacles, ItPassesABoxThatItDoesNotMeet)
 {
     Description scene = lone_cube();
     scene.bodies.push_back(fixed_at({0.1, 0.0401, 0.0}));
@@ -98,7 +98,7 @@ TEST(SlidingObstacles, ItPassesABoxThatItDoesNotMeet)
     EXPECT_NEAR(rig.position().x, 0.2, 1e-14);
 }
 
-TEST(SlidingObstacles, ADeepBoxIsPutOutThroughTheNearestFace)
+TEST(OneBoxObstacles, ADeepBoxIsPutOutThroughTheNearestFace)
 {
     Description scene = lone_cube();
     scene.bodies.push_back(fixed_at({0.0, 0.0, 0.0}));
@@ -109,7 +109,7 @@ TEST(SlidingObstacles, ADeepBoxIsPutOutThroughTheNearestFace)
     EXPECT_EQ(rig.velocity(), glm::dvec3{0.0});
 }
 
-TEST(SlidingObstacles, PressedIntoAWallByAHandItStaysAtTheWall)
+TEST(OneBoxObstacles, PressedIntoAWallByAHandItStaysAtTheWall)
 {
     Description scene = lone_cube();
     scene.bodies.push_back(fixed_at({0.05, 0.0, 0.0}));
@@ -126,7 +126,7 @@ TEST(SlidingObstacles, PressedIntoAWallByAHandItStaysAtTheWall)
     EXPECT_GT(rig.touch(0).on_body.x(), 0.5);
 }
 
-TEST(SlidingObstacles, LockedAxesKeepTheirCoordinate)
+TEST(OneBoxObstacles, LockedAxesKeepTheirCoordinate)
 {
     Description scene = lone_cube();
     scene.gravity = {0.0, -9.81, 0.0};

@@ -8,7 +8,7 @@
 
 namespace hapnet::scene {
 
-/// A sliding tick on a stage of its own.
+/// A one-box stepper with a state of its own.
 template <bool coulomb>
 struct Rig {
     WorldConfig config;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "proto/base/ensure.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/world.hpp"
 
 #include <algorithm>
@@ -43,8 +44,6 @@ inline void run(World& world, std::uint64_t ticks)
 {
     for (std::uint64_t i = 0; i < ticks; ++i) world.tick();
 }
-
-inline double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 /// How far it is turned from where it began upright, radians (small ones).
 inline double rotated(const BodyState& state)

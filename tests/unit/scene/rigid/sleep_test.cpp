@@ -64,9 +64,9 @@ TYPED_TEST(SleepOf, ABodyComesAfterATenthOfASecondAtRestAndNotBefore)
 {
     typename TestFixture::Subject crowd{row_of_cubes(3, 1.0)};
     crowd.still(1);
-    crowd.rest(rest_ticks - 1);
+    crowd.update(rest_ticks - 1);
     EXPECT_EQ(crowd.awake(), "aaa");
-    crowd.rest(1);
+    crowd.update(1);
     EXPECT_EQ(crowd.awake(), "asa");
 }
 
@@ -77,7 +77,7 @@ TYPED_TEST(SleepOf, WhatCreepsBelowTheLimitStopsExactlyAndWhatIsFasterDoesNot)
     crowd.speed(1, 2e-3);
     crowd.still(2);
     crowd.bodies.set_angular_velocity(2, {0.0, 0.1, 0.0}); // corners at 3.5e-3
-    crowd.rest(rest_ticks);
+    crowd.update(rest_ticks);
     EXPECT_EQ(crowd.awake(), "saa");
     EXPECT_EQ(crowd.bodies.velocity.at(crowd.bodies.slot_of[0]), glm::dvec3{0.0});
 }
@@ -89,10 +89,10 @@ TYPED_TEST(SleepOf, AnIslandWaitsForTheLastOfItsBodies)
     crowd.touch(1, 2, 1e-3);
     crowd.touch(2, 3, 0.0); // near, and carries nothing
     for (BodyId id : {0U, 1U, 3U}) crowd.still(id);
-    crowd.rest(rest_ticks);
+    crowd.update(rest_ticks);
     EXPECT_EQ(crowd.awake(), "aaas");
     crowd.still(2);
-    crowd.rest(rest_ticks);
+    crowd.update(rest_ticks);
     EXPECT_EQ(crowd.awake(), "ssss");
     EXPECT_TRUE(crowd.pair_finder.pairs().empty());
 }
@@ -106,7 +106,7 @@ TYPED_TEST(SleepOf, FixedBodiesConnectNothing)
     crowd.touch(1, 2, 1e-3);
     crowd.still(0);
     crowd.speed(2, 1.0);
-    crowd.rest(rest_ticks);
+    crowd.update(rest_ticks);
     EXPECT_FALSE(crowd.is_awake(0));
     EXPECT_TRUE(crowd.is_awake(2));
 }
@@ -116,7 +116,7 @@ TYPED_TEST(SleepOf, WakingOneWakesWhatItTouchesAndNobodyElseAndContactsKeepTheir
     typename TestFixture::Subject crowd{row_of_cubes(5, 0.0401)};
     for (BodyId id = 0; id < 3; ++id) crowd.touch(id, id + 1, 1e-3 * (id + 1));
     for (BodyId id = 0; id < 5; ++id) crowd.still(id);
-    crowd.rest(rest_ticks);
+    crowd.update(rest_ticks);
     ASSERT_EQ(crowd.awake(), "sssss");
     crowd.sleep.wake(2, crowd.bodies, crowd.pair_finder);
     EXPECT_EQ(crowd.awake(), "aaaas");
@@ -132,15 +132,15 @@ TYPED_TEST(SleepOf, EndsForWhatAMovingBodyTouchesAndNotForWhatOneAtRestDoes)
     typename TestFixture::Subject crowd{row_of_cubes(4, 0.0401)};
     crowd.touch(0, 1, 1e-3);
     for (BodyId id = 0; id < 4; ++id) crowd.still(id);
-    crowd.rest(rest_ticks);
+    crowd.update(rest_ticks);
     ASSERT_EQ(crowd.awake(), "ssss");
     crowd.sleep.wake(2, crowd.bodies, crowd.pair_finder);
     const auto touching = [&](PairIndex index) { return crowd.pair_finder.pair(index).a != 2; };
     crowd.still(2);
-    crowd.rest(1);
+    crowd.update(1);
     EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
     crowd.speed(2, 0.1);
-    crowd.rest(1);
+    crowd.update(1);
     EXPECT_TRUE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
     EXPECT_EQ(crowd.awake(), "aaas");
     EXPECT_FALSE(crowd.pair_finder.pairs_added().empty());
@@ -153,7 +153,7 @@ TYPED_TEST(SleepOf, DoesNotComeToABodyThatIsKeptAwake)
     for (BodyId id : {0U, 1U}) crowd.still(id);
     for (int tick = 0; tick < 2 * rest_ticks; ++tick) {
         crowd.sleep.keep_awake(crowd.bodies, 1);
-        crowd.rest(1);
+        crowd.update(1);
     }
     EXPECT_EQ(crowd.awake(), "sa");
 }
@@ -164,7 +164,7 @@ TYPED_TEST(SleepOf, IsNotWhenItIsOff)
     crowd.config.sleeping = false;
     crowd.sleep = Sleep{crowd.config, crowd.bodies};
     for (BodyId id : {0U, 1U}) crowd.still(id);
-    crowd.rest(3 * rest_ticks);
+    crowd.update(3 * rest_ticks);
     EXPECT_EQ(crowd.awake(), "aa");
 }
 

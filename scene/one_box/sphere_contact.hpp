@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/collide/sphere_box.hpp"
 #include "scene/maths/vector.hpp"
 
 #include <cmath>
@@ -9,19 +10,6 @@
 #include <optional>
 
 namespace hapnet::scene {
-
-inline constexpr std::uint8_t no_axis = 3;
-
-/// The face of a box, parallel to the axes, through which a hand's centre went in.
-struct BoxFace {
-    std::uint8_t axis = no_axis;
-    std::int8_t sign = 1;
-};
-/// The one across `axis` on the side of a place, given from the box's centre.
-[[nodiscard]] inline BoxFace face_at(std::size_t axis, double place)
-{
-    return {static_cast<std::uint8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};
-}
 
 /// A hand as a box sees it: from the box's centre, relative to the box's velocity.
 struct SphereMotion {
@@ -31,7 +19,7 @@ struct SphereMotion {
     double tick = 0.0;
 };
 
-/// How a hand meets a box within a tick. The normal holds for the whole tick.
+/// The contact of a hand's sphere and a box within a tick. The normal holds for the whole tick.
 struct SphereContact {
     BoxFace face;          // none at an edge or a corner
     double depth = 0.0;    // at the start of the tick, along the normal; < 0: still apart

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "scene/one_box/spring.hpp"
+#include "scene/hand/spring.hpp"
 
 namespace hapnet::scene {
 

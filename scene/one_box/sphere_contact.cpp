@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "scene/one_box/meeting.hpp"
+#include "scene/one_box/sphere_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +8,6 @@
 namespace hapnet::scene {
 
 namespace {
-
-BoxFace nearest_face(const PerAxis& place, const PerAxis& half)
-{
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-        if (half[i] - std::abs(place[i]) < half[nearest] - std::abs(place[nearest])) nearest = i;
-    }
-    return face_at(nearest, place[nearest]);
-}
 
 /// When and through which face of the box grown by the radius the hand comes in.
 struct Entry {

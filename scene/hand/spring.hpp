@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/state.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace hapnet::scene {
+
+// What a hand does to what it touches, the same for every stepper. A hand pushes through a spring
+// and a damper: clamp(stiffness depth + damping closing speed, 0, force_max) along the normal while
+// they overlap, else nothing. A hand that grips also pulls, in all directions.
+
+enum class SpringPhase : std::uint8_t {
+    apart,    // no overlap
+    slack,    // they overlap, but the spring would have to pull: no force either
+    pressing, // between nothing and the greatest force
+    limited,  // the greatest force
+};
+
+/// The push of the spring and damper at one moment, N.
+[[nodiscard]] inline double force_at(const HandDescription& hands, double depth, double closing)
+{
+    if (depth <= 0.0) return 0.0;
+    return std::clamp(hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing, 0.0,
+                      hands.force_max_n);
+}
+
+/// The impulse of that push over `time` on something that stands still, N s: exact, since the depth
+/// is linear.
+[[nodiscard]] double impulse_at_constant_velocity(const HandDescription& hands, double depth,
+                                                  double closing, double time);
+
+/// How near to a hand's centre a surface must be for the hand to grip it.
+[[nodiscard]] inline double grip_distance(const HandDescription& hands)
+{
+    return hands.radius_m + hands.grip_reach_m;
+}
+
+/// The force of a grip at one moment on what it holds, were there no limit. `stretch` goes from
+/// where it holds to the hand; `velocity` is the hand's relative to that point.
+[[nodiscard]] inline base::Force grip_force(const HandDescription& hands, const glm::dvec3& stretch,
+                                            const glm::dvec3& velocity)
+{
+    return {hands.stiffness_n_per_m * stretch + hands.damping_ns_per_m * velocity};
+}
+
+/// Notes a push in what the hand feels at the start of the tick.
+inline void note_push(HandTouch& touch, double depth, const glm::dvec3& force_on_hand)
+{
+    touch.depth_m = std::max(touch.depth_m, depth);
+    touch.on_hand_at_start.value += force_on_hand;
+}
+
+/// Notes a grip; `distance` is from the hand's centre to the surface.
+inline void note_grip(HandTouch& touch, const HandDescription& hands, double distance,
+                      base::Force force_on_body)
+{
+    touch.holding = true;
+    touch.depth_m = std::max(touch.depth_m, std::max(hands.radius_m - distance, 0.0));
+    touch.on_hand_at_start += -force_on_body;
+}
+
+} // namespace hapnet::scene
