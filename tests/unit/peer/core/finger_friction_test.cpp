@@ -110,8 +110,8 @@ TEST(SceneLift, LetsTwoFingersLiftTheCubeOffThePlatformAndItComesBack)
     ASSERT_TRUE(description);
     auto world = scene::World::freeze(*description);
     ASSERT_TRUE(world);
-    std::array<FingerFriction, 2> friction{FingerFriction{description->hips},
-                                           FingerFriction{description->hips}};
+    std::array<FingerFriction, 2> friction{FingerFriction{description->hands},
+                                           FingerFriction{description->hands}};
     const auto height_after = [&](double finger_from, double finger_to, double depth) {
         for (int ms = 0; ms < 1000; ++ms) {
             const double speed = finger_to - finger_from;
