@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace hapnet::scene {
+namespace hapnet::scene::world_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -166,7 +166,7 @@ void play(World& world, int ticks)
     }
 }
 
-class EveryProfile : public testing::TestWithParam<StepperKind> {
+class EveryProfile : public ::testing::TestWithParam<StepperKind> {
 protected:
     [[nodiscard]] static World world()
     {
@@ -207,8 +207,8 @@ TEST_P(EveryProfile, ACopyRunsOnItsOwn)
 }
 
 INSTANTIATE_TEST_SUITE_P(World, EveryProfile,
-                         testing::Values(StepperKind::sliding, StepperKind::sliding_coulomb,
-                                         StepperKind::lone, StepperKind::few, StepperKind::many),
+                         ::testing::Values(StepperKind::sliding, StepperKind::sliding_coulomb,
+                                           StepperKind::lone, StepperKind::few, StepperKind::many),
                          [](const auto& each) {
                              std::string name{name_of(each.param)};
                              std::erase(name, '-');
@@ -216,4 +216,4 @@ INSTANTIATE_TEST_SUITE_P(World, EveryProfile,
                          });
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::world_test

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::link_test {
 
 namespace {
 
@@ -155,4 +155,4 @@ TEST(Link, GivesTheNthDatagramTheSameFateWhateverTheArrivalsAre)
     }
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::link_test

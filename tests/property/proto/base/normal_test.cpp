@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <utility>
 
-namespace hapnet::base {
+namespace hapnet::base::normal_test {
 namespace {
 
 constexpr std::uint64_t points = 20'000;
@@ -76,4 +76,4 @@ TEST(Normal, BothAscend)
 }
 
 } // namespace
-} // namespace hapnet::base
+} // namespace hapnet::base::normal_test

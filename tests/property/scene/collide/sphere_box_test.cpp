@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace hapnet::scene {
+namespace hapnet::scene::sphere_box_test {
 namespace {
 
 constexpr std::uint64_t seeds = 300;
@@ -95,4 +95,4 @@ TEST(SphereBox, GivesTheSameInAnyFrame)
 }
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::sphere_box_test

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace hapnet::scene {
+namespace hapnet::scene::time_of_impact_test {
 namespace {
 
 constexpr std::uint64_t pairs = 200;
@@ -85,4 +85,4 @@ TEST(FirstTouch, IsNotMissed)
 }
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::time_of_impact_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hapnet::scene {
+namespace hapnet::scene::reference_test {
 namespace {
 
 constexpr double tick = 1e-3;
@@ -101,4 +101,4 @@ TEST(OneBoxReference, SticksAndSlipsWhereTheTruthDoes)
 }
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::reference_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace hapnet::scene {
+namespace hapnet::scene::sweeps_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -49,7 +49,7 @@ void put_hand(World& world, std::uint32_t hand, const glm::dvec3& at)
     ASSERT_FALSE(world.set_hand(hand, {.position = {at}}));
 }
 
-class Stiffness : public testing::TestWithParam<double> {};
+class Stiffness : public ::testing::TestWithParam<double> {};
 
 TEST_P(Stiffness, ABounceOffAHandKeepsTheEnergy)
 {
@@ -86,9 +86,9 @@ TEST_P(Stiffness, ASqueezedCubeSwingsNoFartherThanItBegan)
 }
 
 INSTANTIATE_TEST_SUITE_P(Sweep, Stiffness,
-                         testing::Values(0.01, 0.1, 0.32, 1.0, 1.8, 3.2, 10.0, 100.0, 1000.0));
+                         ::testing::Values(0.01, 0.1, 0.32, 1.0, 1.8, 3.2, 10.0, 100.0, 1000.0));
 
-class Tick : public testing::TestWithParam<std::chrono::microseconds> {};
+class Tick : public ::testing::TestWithParam<std::chrono::microseconds> {};
 
 TEST_P(Tick, AFallIsAParabola)
 {
@@ -121,7 +121,7 @@ TEST_P(Tick, AStackOfTenStands)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sweep, Tick, testing::Values(250us, 500us, 1000us, 2000us, 4000us));
+INSTANTIATE_TEST_SUITE_P(Sweep, Tick, ::testing::Values(250us, 500us, 1000us, 2000us, 4000us));
 
 TEST(MassRatio, TheHeavyStandsOnTheLightUpToAThousandToOne)
 {
@@ -172,4 +172,4 @@ TEST(Speed, NothingPassesAThinWallUpToAThousandMetresPerSecond)
 }
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::sweeps_test

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
-namespace hapnet::device {
+namespace hapnet::device::replay_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -115,4 +115,4 @@ TEST(Replay, SaysWhatItPlays)
 }
 
 } // namespace
-} // namespace hapnet::device
+} // namespace hapnet::device::replay_test

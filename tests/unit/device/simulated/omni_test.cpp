@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace hapnet::device {
+namespace hapnet::device::omni_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -209,4 +209,4 @@ TEST(SimulatedOmni, SaysThatItIsSimulated)
 }
 
 } // namespace
-} // namespace hapnet::device
+} // namespace hapnet::device::omni_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hapnet::device {
+namespace hapnet::device::script_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -154,4 +154,4 @@ TEST(Tasks, AreMadeForScenes)
 }
 
 } // namespace
-} // namespace hapnet::device
+} // namespace hapnet::device::script_test

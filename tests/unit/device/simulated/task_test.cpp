@@ -10,7 +10,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hapnet::device {
+namespace hapnet::device::task_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -207,4 +207,4 @@ TEST(EveryTask, TakesTheHands20MmOffWithinHalfASecondAtItsEndAndLeavesThemThere)
 }
 
 } // namespace
-} // namespace hapnet::device
+} // namespace hapnet::device::task_test

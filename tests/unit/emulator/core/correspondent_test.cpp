@@ -5,7 +5,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::correspondent_test {
 
 namespace {
 
@@ -62,4 +62,4 @@ TEST(Correspondent, WelcomesASilentSenderBackWhenNobodyTookItsSeat)
     EXPECT_EQ(correspondent.judge(alice, start + 1h), Sender::known);
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::correspondent_test

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::delay_line_test {
 
 namespace {
 
@@ -137,4 +137,4 @@ TEST(Slab, HoldsTheLargestDatagramAndTheEmptyOne)
     EXPECT_TRUE(slab.bytes(*empty).empty());
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::delay_line_test

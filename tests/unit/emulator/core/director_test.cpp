@@ -8,7 +8,7 @@
 #include <string>
 #include <variant>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::director_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -263,4 +263,4 @@ TEST(Director, SaysWhatRemainsInAProfileThatChangesNothingWhenApplied)
 }
 
 } // namespace
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::director_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::lens_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -129,4 +129,4 @@ TEST(Lens, TakesNoNoticeOfCopies)
 }
 
 } // namespace
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::lens_test

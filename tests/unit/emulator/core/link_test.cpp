@@ -13,7 +13,7 @@
 #include <tuple>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::link_test {
 
 namespace {
 
@@ -368,4 +368,4 @@ TEST(Link, TakesAnArrivalThatIsStampedBeforeTheLastAsArrivedTogether)
     EXPECT_EQ(numbers_of(all_of(link)), (std::vector<std::uint64_t>{0, 1}));
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::link_test

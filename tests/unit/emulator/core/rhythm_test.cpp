@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::rhythm_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -139,4 +139,4 @@ TEST(Rhythm, LearnsNothingFromASleepThatADatagramEnded)
 }
 
 } // namespace
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::rhythm_test

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::signals_test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -191,4 +191,4 @@ TEST(Spread, IsThatOfThePopulation)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::signals_test

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace hapnet::lab {
+namespace hapnet::lab::runner_test {
 
 namespace {
 
@@ -196,4 +196,4 @@ TEST(ProgressText, SaysHowMuchIsLeftOnceAPartIsDone)
     EXPECT_EQ(progress_text({10, 10, {60, 40}}, 6s), "100/100 sessions (100 %), 10.0/s");
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::runner_test

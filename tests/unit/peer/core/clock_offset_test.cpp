@@ -5,7 +5,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
-namespace hapnet::peer {
+namespace hapnet::peer::clock_offset_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -92,4 +92,4 @@ TEST(ClockOffset, IsUnknownAgainAfterAReset)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::clock_offset_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace hapnet::peer {
+namespace hapnet::peer::passivity_test {
 namespace {
 
 constexpr double tick = 1e-3;
@@ -90,4 +90,4 @@ TEST(Passivity, AStifferWallIsRenderedSofterAndThenWithinTheBound)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::passivity_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hapnet::scene {
+namespace hapnet::scene::box_plane_test {
 namespace {
 
 const PlaneSurface ground{.normal{0.0, 1.0, 0.0}, .offset = 1.0};
@@ -93,4 +93,4 @@ TEST(BoxPlane, TouchesWithTheSameCornersOfEachOfTheSixFaces)
 }
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::box_plane_test

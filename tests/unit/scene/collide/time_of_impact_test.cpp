@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hapnet::scene {
+namespace hapnet::scene::time_of_impact_test {
 namespace {
 
 OrientedBox cube(const glm::dvec3& centre) { return {.centre = centre, .half = glm::dvec3{0.5}}; }
@@ -93,4 +93,4 @@ TEST(FirstTouch, IsOnTheAxisOfTheEdgesWhenEdgesMeet)
 }
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::time_of_impact_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hapnet::scene {
+namespace hapnet::scene::friction_test {
 namespace {
 
 constexpr double mass = 0.1;
@@ -113,4 +113,4 @@ TEST(OneBoxFriction, OfAWallCountsToo)
 }
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::friction_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hapnet::scene {
+namespace hapnet::scene::hands_test {
 namespace {
 
 constexpr double mass = 0.1;
@@ -137,4 +137,4 @@ TEST(BoxHands, ThatAreAbsentLeaveTheBoxAlone)
 }
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::hands_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hapnet::scene {
+namespace hapnet::scene::sleep_test {
 namespace {
 
 constexpr int rest_ticks = 100; // a tenth of a second
@@ -52,12 +52,12 @@ struct Sleepers : Crowd<broad_phase> {
 };
 
 template <typename Kind>
-class SleepOf : public testing::Test {
+class SleepOf : public ::testing::Test {
 protected:
     using Subject = Sleepers<Kind::value>;
 };
-using Kinds = testing::Types<std::integral_constant<BroadPhase, BroadPhase::all_pairs>,
-                             std::integral_constant<BroadPhase, BroadPhase::grid>>;
+using Kinds = ::testing::Types<std::integral_constant<BroadPhase, BroadPhase::all_pairs>,
+                               std::integral_constant<BroadPhase, BroadPhase::grid>>;
 TYPED_TEST_SUITE(SleepOf, Kinds);
 
 TYPED_TEST(SleepOf, ABodyComesAfterATenthOfASecondAtRestAndNotBefore)
@@ -169,4 +169,4 @@ TYPED_TEST(SleepOf, IsNotWhenItIsOff)
 }
 
 } // namespace
-} // namespace hapnet::scene
+} // namespace hapnet::scene::sleep_test

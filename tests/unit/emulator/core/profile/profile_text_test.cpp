@@ -7,7 +7,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::profile_text_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -227,4 +227,4 @@ TEST(ProfileText, QuantitiesOfDataHaveUnits)
 }
 
 } // namespace
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::profile_text_test

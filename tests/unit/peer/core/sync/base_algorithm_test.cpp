@@ -7,7 +7,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
-namespace hapnet::peer {
+namespace hapnet::peer::base_algorithm_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -211,4 +211,4 @@ TEST(Algorithms, HaveNames)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::base_algorithm_test

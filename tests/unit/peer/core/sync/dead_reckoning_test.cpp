@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace hapnet::peer {
+namespace hapnet::peer::dead_reckoning_test {
 namespace {
 
 constexpr double nm = 1e-6; // in millimetres: rounding
@@ -257,4 +257,4 @@ TEST(OneWayDelay, HasAMedianThatOneOutlierMovesByATenthOfAMillisecond)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::dead_reckoning_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace hapnet::peer {
+namespace hapnet::peer::estimator_predictor_test {
 namespace {
 
 constexpr double rounding = 1e-9;
@@ -196,4 +196,4 @@ TEST(EstimatorPredictor, LeavesTheBodysPoseAlone)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::estimator_predictor_test
