@@ -31,11 +31,9 @@ need the same task, and should be given the same --duration. A peer waits for th
 a limit; --duration counts from their common start.
 
 Algorithms (docs/design/algorithms.md; the two peers may use different ones):
-  base            the paper's: the sum of both forces moves a cube that both push; a cube that only
-                  the other peer pushes is where that peer last said
+  base            the paper's: forces add up where both push; where one pushes, its report holds
   dead-reckoning  the same, with the other peer's cube extrapolated to now
-  sep             the same, with the other hand's force extrapolated to now; the open stand-in for
-                  TiDeC
+  sep             the same, with the other hand's force extrapolated; open stand-in for TiDeC
 A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from.
 
 Examples:
