@@ -3,6 +3,7 @@
 #include "emulator/core/profile/text.hpp"
 #include "emulator/dry_run.hpp"
 #include "emulator/profile_file.hpp"
+#include "emulator/tools/describe.hpp"
 #include "emulator/tools/predict.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -15,7 +16,7 @@ std::string in_words(std::string_view title, const Conditions& conditions, const
                      const DirectionPrediction& prediction)
 {
     std::string text = fmt::format("# {}\n", title);
-    for (const auto& stage : stages_in_words(conditions, stream)) {
+    for (const auto& stage : describe(conditions, stream)) {
         text += fmt::format("#   {}\n", stage);
     }
     for (const auto& warning : warnings(conditions, stream, prediction)) {
@@ -32,7 +33,7 @@ base::Result<int> check_profile(const DryRun& dry_run)
     // What holds at the beginning; changes are not in it.
     const Profile beginning{profile->name, profile->seed, profile->path, {}};
     const Stream& stream = dry_run.stream;
-    const auto prediction = predicted(beginning, stream, seed_of(dry_run, *profile));
+    const auto prediction = predict(beginning, stream, seed_of(dry_run, *profile));
     const auto& [up, down] = profile->path;
     fmt::print("{}\n", to_text(*profile));
     if (up == down) {

@@ -6,6 +6,7 @@
 #include "emulator/core/profile/timeline.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
+#include "emulator/tools/describe.hpp"
 #include "emulator/tools/netem.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/text.hpp"
@@ -61,7 +62,7 @@ void warn_of_conditions(Scenario& scenario)
     const Profile beginning{"", scenario.seed, scenario.profile.path, {}};
     const auto& [up, down] = beginning.path;
     if (up == Conditions{} && down == Conditions{}) return;
-    const Prediction prediction = predicted(beginning, stream, scenario.seed);
+    const Prediction prediction = predict(beginning, stream, scenario.seed);
     const auto warn = [&](const char* where, const std::vector<std::string>& warnings) {
         for (const std::string& warning : warnings) {
             scenario.warnings.push_back(fmt::format("{}: {}", where, warning));
@@ -120,12 +121,12 @@ base::Result<Scenario> scenario_of(const Options& options)
     auto path = with_typed(scenario.profile.path, options.settings);
     if (!path) return tl::unexpected{path.error()};
     scenario.profile.path = *std::move(path);
-    if (const auto fault = Timeline::fault_of(scenario.profile)) {
-        return base::fail(fmt::format("what is said on the command line does not go with change {} "
-                                      "of the profile's timeline, at {}: {}",
-                                      fault->change + 1,
-                                      base::to_text(scenario.profile.timeline[fault->change].time),
-                                      fault->what));
+    if (const auto valid = Timeline::validate(scenario.profile); !valid) {
+        const auto& [index, message] = valid.error();
+        return base::fail(
+            fmt::format("the options conflict with change {} of the profile's "
+                        "timeline, at {}: {}",
+                        index + 1, base::to_text(scenario.profile.timeline[index].time), message));
     }
     scenario.seed = options.seed.value_or(scenario.profile.seed.value_or(base::Seed{1}));
     scenario.profile.seed = scenario.seed;

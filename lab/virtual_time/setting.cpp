@@ -25,8 +25,9 @@ std::optional<std::string> objection(const Setting& setting)
         return player.replay && player.replay->empty();
     });
     if (!are_traces) return "a hand's trace has at least one moment";
-    if (const auto fault = emulator::Timeline::fault_of(setting.profile)) {
-        return fmt::format("change {} of the timeline: {}", fault->change + 1, fault->what);
+    if (const auto valid = emulator::Timeline::validate(setting.profile); !valid) {
+        return fmt::format("change {} of the timeline: {}", valid.error().index + 1,
+                           valid.error().message);
     }
     return std::nullopt;
 }
