@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/emulate.hpp"
-
+#include "emulator/commands.hpp"
 #include "emulator/control/reply.hpp"
 #include "emulator/core/emulated_path.hpp"
 #include "emulator/endpoints.hpp"
@@ -150,8 +149,8 @@ private:
             return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
         std::ignore = path_.apply(Apply{scenario->profile}, now); // is never refused
-        tell(fmt::format("SIGHUP: {} is read again, generation {}", *run_.options.profile,
-                         path_.director().generation()));
+        tell(fmt::format("SIGHUP: {} is read again, generation {}",
+                         *run_.options.conditions.profile, path_.director().generation()));
     }
 
     /// Once, and while there is time to make room or to begin again.
@@ -182,6 +181,8 @@ private:
     Status status_;
 };
 
+} // namespace
+
 base::Result<int> run(const Options& options)
 {
     const auto scenario = scenario_of(options);
@@ -189,15 +190,11 @@ base::Result<int> run(const Options& options)
     const auto endpoints = look_up(options);
     if (!endpoints) return tl::unexpected{endpoints.error()};
     // Without a profile there is nothing to read again, and a closed terminal ends the run.
-    net::StopSignal stop{options.profile ? net::Hangup::reload : net::Hangup::stop};
+    net::StopSignal stop{options.conditions.profile ? net::Hangup::reload : net::Hangup::stop};
     Session session{options, *scenario, *endpoints};
     session.announce();
     session.relay_until_stopped(stop);
     return session.finish();
 }
-
-} // namespace
-
-int emulate(std::span<char*> words) { return net::run_program(program, parse_options(words), run); }
 
 } // namespace hapnet::emulator

@@ -159,7 +159,7 @@ base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFi
         player.person = parts.take(device::load_operator("the/peer's operator", text_of_person));
     }
     if (parts.error()) return base::fail(*parts.error());
-    if (auto why = objection(setting)) return base::fail(*std::move(why));
+    if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
     return setting;
 }
 

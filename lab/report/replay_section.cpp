@@ -129,7 +129,7 @@ std::optional<Section> replay_section(const Results& results)
     Json replays = Json::array();
     for (const Replay& replay : results.replays) replays.push_back(packed(replay));
     const Json data{{"bodies", bodies()},
-                    {"hip_radius", 1e3 * scene::paper_scene().hips.radius_m},
+                    {"hip_radius", 1e3 * scene::paper_scene().hands.radius_m},
                     {"replays", replays}};
     return Section{"replay", "Look at it",
                    "<p>Both computers hold a copy of the blue cube. Each picture shows one of "

@@ -22,7 +22,7 @@ VirtualWorld::VirtualWorld(const Setting& setting, emulator::QueueLimits limits)
 VirtualWorld::VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits)
 {
     pairs_.reserve(settings.size());
-    seats_.reserve(2 * settings.size());
+    sides_.reserve(2 * settings.size());
     for (const Setting& setting : settings) add(setting, limits);
 }
 
@@ -34,24 +34,24 @@ void VirtualWorld::add(const Setting& setting, emulator::QueueLimits limits)
                                                        .limits = limits,
                                                        .has_stream_statistics = false}}});
     for (const PlayerSetting& player : setting.players) {
-        seats_.push_back({.player = std::nullopt,
+        sides_.push_back({.player = std::nullopt,
                           .undelayed = {},
                           .next_tick = start + setting.tick + player.phase,
                           .tick = setting.tick});
-        revive(seats_.size() - 1);
+        revive(sides_.size() - 1);
     }
 }
 
 void VirtualWorld::revive(std::size_t side)
 {
     Pair& pair = pairs_[side / 2];
-    seats_[side].player.emplace(pair.setting, Seat{side % 2, pair.next_nonce++});
+    sides_[side].player.emplace(pair.setting, PlayerId{side % 2, pair.next_nonce++});
 }
 
 base::TimePoint VirtualWorld::next_deadline() const
 {
-    base::TimePoint next = seats_.front().next_tick;
-    for (const Place& place : seats_) next = std::min(next, place.next_tick);
+    base::TimePoint next = sides_.front().next_tick;
+    for (const Side& side : sides_) next = std::min(next, side.next_tick);
     for (const Pair& pair : pairs_) {
         if (const auto change = pair.path.director().next_change()) next = std::min(next, *change);
     }
@@ -62,14 +62,14 @@ void VirtualWorld::step()
 {
     now_ = next_deadline();
     for (Pair& pair : pairs_) pair.path.advance(now_);
-    // What is sent at a tick reaches nobody whose tick is at the same time.
-    for (std::size_t side = 0; side < seats_.size(); ++side) {
-        if (seats_[side].next_tick == now_) deliver(side);
+    // A datagram that is sent in a tick does not reach a tick at the same time.
+    for (std::size_t side = 0; side < sides_.size(); ++side) {
+        if (sides_[side].next_tick == now_) deliver(side);
     }
-    for (std::size_t side = 0; side < seats_.size(); ++side) {
-        if (seats_[side].next_tick != now_) continue;
-        if (seats_[side].player) turn(side);
-        seats_[side].next_tick += seats_[side].tick;
+    for (std::size_t side = 0; side < sides_.size(); ++side) {
+        if (sides_[side].next_tick != now_) continue;
+        if (sides_[side].player) play(side);
+        sides_[side].next_tick += sides_[side].tick;
     }
 }
 
@@ -85,29 +85,29 @@ void VirtualWorld::deliver(std::size_t to)
     const std::size_t from = partner_of(to);
     const Direction direction = direction_of(from);
     emulator::EmulatedPath& path = pairs_[from / 2].path;
-    auto& receiver = seats_[to].player;
-    for (const Passing& passing : seats_[from].undelayed) {
+    auto& receiver = sides_[to].player;
+    for (const Passing& passing : sides_[from].undelayed) {
         emulator::Datagram datagram = passing.departure;
         datagram.bytes = passing.datagram.bytes();
         if (receiver) receiver->receive(datagram.bytes, datagram.due);
         path.on_sent(direction, datagram, datagram.due);
     }
-    seats_[from].undelayed.clear();
+    sides_[from].undelayed.clear();
     while (const auto datagram = path.poll(direction, now_)) {
         if (receiver) receiver->receive(datagram->bytes, datagram->due);
         path.on_sent(direction, *datagram, datagram->due);
     }
 }
 
-void VirtualWorld::turn(std::size_t side)
+void VirtualWorld::play(std::size_t side)
 {
-    Place& place = seats_[side];
-    place.player->turn(now_);
-    while (const auto datagram = place.player->peer->poll()) {
+    Side& here = sides_[side];
+    here.player->step(now_);
+    while (const auto datagram = here.player->side->poll()) {
         if (pairs_[side / 2].is_cut) continue;
         const auto admission =
             pairs_[side / 2].path.on_packet(direction_of(side), datagram->bytes(), now_);
-        if (admission.departure) place.undelayed.push_back({*admission.departure, *datagram});
+        if (admission.departure) here.undelayed.push_back({*admission.departure, *datagram});
     }
 }
 

@@ -160,7 +160,10 @@ std::vector<std::string> long_functions(const SourceFile& file)
         const auto indent = line.find_first_not_of(' ');
         if (indent == std::string::npos || line.substr(indent) != "{") continue;
         const std::string close = std::string(indent, ' ') + "}";
-        for (std::size_t end = i; end < file.lines.size() && file.lines[end] != close; ++end) {
+        // A concept ends with "};" and is no function.
+        for (std::size_t end = i; end < file.lines.size() && file.lines[end] != close &&
+                                  file.lines[end] != close + ';';
+             ++end) {
             if (end - i + 2 <= function_lines_max) continue;
             complaints.push_back(at(i, "a function of more than 60 lines"));
             break;

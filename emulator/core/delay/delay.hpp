@@ -39,14 +39,10 @@ using DelayLaw = std::variant<ConstantLaw, UniformLaw, NormalLaw, LogNormalLaw, 
 template <typename Sampler, typename Law>
 concept DelaySamplerOf = std::constructible_from<Sampler, const Law&> &&(
     requires(Sampler sampler) {
-        {
-            sampler.quantile(0.5)
-            } -> std::same_as<base::Duration>;
+        requires std::same_as<decltype(sampler.quantile(0.5)), base::Duration>;
     } ||
     requires(const Sampler sampler, const Packet& packet) {
-        {
-            sampler.at(packet)
-            } -> std::same_as<base::Duration>;
+        requires std::same_as<decltype(sampler.at(packet)), base::Duration>;
     });
 
 /// What every law of delay has. fields_of() names it in profiles, and its parameters.
@@ -54,12 +50,9 @@ template <typename Law>
 concept LawOfDelay = base::Described<Law> && std::equality_comparable<Law> &&
     DelaySamplerOf<typename Law::Sampler, Law> && requires(const Law& law)
 {
-    {
-        law.validate() // in words that follow the name of the setting
-        } -> std::same_as<base::Result<void>>;
-    {
-        law.moments()
-        } -> std::same_as<LawMoments>;
+    // in words that follow the name of the setting
+    requires std::same_as<decltype(law.validate()), base::Result<void>>;
+    requires std::same_as<decltype(law.moments()), LawMoments>;
 };
 
 template <typename Laws>

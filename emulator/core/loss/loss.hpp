@@ -43,9 +43,7 @@ concept LossModelOf = requires(Model model, const Law& law, const base::RandomSt
                                const Packet& packet)
 {
     Model{law, stream};
-    {
-        model.on_packet(packet, stream)
-        } -> std::same_as<bool>;
+    requires std::same_as<decltype(model.on_packet(packet, stream)), bool>;
     model.change(law, stream);
 };
 
@@ -56,21 +54,16 @@ concept LawOfLoss = base::Described<Law> && std::equality_comparable<Law> &&
     LossModelOf<typename Law::Model, Law> &&
     requires(const Law& law, const Arrivals& arrivals, const RunFacts& facts)
 {
-    {
-        Law::cause // of the drops, in statistics and fates
-        } -> std::convertible_to<DropCause>;
-    {
-        Law::is_in_time // whether its losses depend on when datagrams come
-        } -> std::convertible_to<bool>;
-    {
-        law.validate() // what is impossible, in the units that a person writes
-        } -> std::same_as<base::Result<void>>;
-    {
-        law.theory(arrivals) // closed forms for people
-        } -> std::same_as<LossTheory>;
-    {
-        law.properties(facts) // tests that a run of it passes
-        } -> std::same_as<std::vector<LossProperty>>;
+    // of the drops, in statistics and fates
+    requires std::convertible_to<decltype(Law::cause), DropCause>;
+    // whether its losses depend on when datagrams come
+    requires std::convertible_to<decltype(Law::is_in_time), bool>;
+    // what is impossible, in the units that a person writes
+    requires std::same_as<decltype(law.validate()), base::Result<void>>;
+    // closed forms for people
+    requires std::same_as<decltype(law.theory(arrivals)), LossTheory>;
+    // tests that a run of it passes
+    requires std::same_as<decltype(law.properties(facts)), std::vector<LossProperty>>;
 };
 
 /// Runs one of some laws: one datagram after the other. What becomes of datagram n is a function of
