@@ -3,6 +3,7 @@
 #include "emulator/commands.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/scenario.hpp"
+#include "emulator/tools/describe.hpp"
 #include "emulator/tools/predict.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -17,7 +18,7 @@ std::string in_words(std::string_view title, const Conditions& conditions, const
                      const DirectionPrediction& prediction)
 {
     std::string text = fmt::format("# {}\n", title);
-    for (const auto& stage : stages_in_words(conditions, stream)) {
+    for (const auto& stage : describe(conditions, stream)) {
         text += fmt::format("#   {}\n", stage);
     }
     for (const auto& warning : warnings(conditions, stream, prediction)) {
@@ -37,7 +38,7 @@ base::Result<int> run(const CheckOptions& options)
     // What holds at the beginning; changes are not in it.
     const Profile beginning{profile->name, profile->seed, profile->path, {}};
     const Stream& stream = options.stream;
-    const auto prediction = predicted(beginning, stream, seed_of(options.conditions, *profile));
+    const auto prediction = predict(beginning, stream, seed_of(options.conditions, *profile));
     const auto& [up, down] = profile->path;
     fmt::print("{}\n", to_text(*profile));
     for (const std::string& warning : netem_warnings) fmt::print("# warning: {}\n", warning);

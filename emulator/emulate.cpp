@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
 #include "emulator/control/reply.hpp"
-#include "emulator/core/director.hpp"
+#include "emulator/core/emulated_path.hpp"
+#include "emulator/endpoints.hpp"
 #include "emulator/options.hpp"
 #include "emulator/pacer.hpp"
-#include "emulator/places.hpp"
 #include "emulator/ports/relay.hpp"
 #include "emulator/profile_file.hpp"
 #include "emulator/recorder.hpp"
@@ -43,13 +43,14 @@ void say(std::string_view text) { net::say(program, text); }
 /// the thread that constructs it.
 class Session {
 public:
-    Session(const Options& options, const Scenario& scenario, const Places& places)
+    Session(const Options& options, const Scenario& scenario, const Endpoints& endpoints)
         : start_{net::monotonic_now()},
           scenario_{scenario},
           recorder_{{options.fates, options.capture}},
-          director_{scenario.profile, start_},
-          relay_{places, {director_.path(), scenario.seed, start_, scenario.replay}, recorder_},
-          run_{options, scenario_, director_, relay_, recorder_, {}, {}},
+          path_{scenario.profile,
+                {.seed = scenario.seed, .start = start_, .replay = scenario.replay}},
+          relay_{endpoints, path_, recorder_},
+          run_{options, scenario_, path_.director(), relay_, recorder_, {}, {}},
           status_{start_}
     {
         if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
@@ -77,13 +78,13 @@ public:
         auto now = start_;
         while (!stop.requested() && !base::is_due(end_, now)) {
             pacer.wait(descriptors, next_deadline());
-            const bool adopted = relay_.receive(director_) > 0;
+            const bool adopted = relay_.receive() > 0;
             now = net::monotonic_now();
-            if (director_.advance(now)) relay_.change(director_.path(), now);
+            path_.advance(now);
             relay_.release(now);
             run_.elapsed = now - start_;
             if (adopted) tell(endpoints_line(relay_));
-            if (control_) control_->serve(subject, now, relay_.next_deadline());
+            if (control_) control_->serve(subject, now, path_.next_due());
             if (stop.reload_requested()) reload(now);
             tell_of_files();
             status_.show(run_, now);
@@ -116,8 +117,8 @@ public:
 private:
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const
     {
-        auto deadline = base::earlier(relay_.next_deadline(), director_.next_change());
-        deadline = base::earlier(deadline, base::earlier(end_, status_.next_deadline()));
+        auto deadline = base::earlier(path_.next_deadline(), end_);
+        deadline = base::earlier(deadline, status_.next_deadline());
         return control_ ? base::earlier(deadline, control_->next_deadline()) : deadline;
     }
 
@@ -133,16 +134,9 @@ private:
             }
             return net::text_of_file(path);
         };
-        return {
-            .director = director_,
-            .enact = [this](const Path& path, base::TimePoint now) { relay_.change(path, now); },
-            .next_numbers =
-                [this] {
-                    return NextNumbers{relay_.a().link.statistics().received,
-                                       relay_.b().link.statistics().received};
-                },
-            .statistics_json = [this] { return statistics_json(run_); },
-            .open = open};
+        return {.path = path_,
+                .statistics_json = [this] { return statistics_json(run_); },
+                .open = open};
     }
 
     /// Reads the profile again. One that is wrong changes nothing.
@@ -154,10 +148,9 @@ private:
         if (!scenario) {
             return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
-        std::ignore = director_.apply(Apply{scenario->profile}, now); // is never refused
-        relay_.change(director_.path(), now);
+        std::ignore = path_.apply(Apply{scenario->profile}, now); // is never refused
         tell(fmt::format("SIGHUP: {} is read again, generation {}",
-                         *run_.options.conditions.profile, director_.generation()));
+                         *run_.options.conditions.profile, path_.director().generation()));
     }
 
     /// Once, and while there is time to make room or to begin again.
@@ -178,7 +171,7 @@ private:
     base::TimePoint start_;
     const Scenario& scenario_;
     Recorder recorder_;
-    Director director_;
+    EmulatedPath path_;
     Relay relay_;
     std::optional<control::Server> control_;
     std::optional<net::ResultFile> stats_;
@@ -194,11 +187,11 @@ base::Result<int> run(const Options& options)
 {
     const auto scenario = scenario_of(options);
     if (!scenario) return tl::unexpected{scenario.error()};
-    const auto places = look_up(options);
-    if (!places) return tl::unexpected{places.error()};
+    const auto endpoints = look_up(options);
+    if (!endpoints) return tl::unexpected{endpoints.error()};
     // Without a profile there is nothing to read again, and a closed terminal ends the run.
     net::StopSignal stop{options.conditions.profile ? net::Hangup::reload : net::Hangup::stop};
-    Session session{options, *scenario, *places};
+    Session session{options, *scenario, *endpoints};
     session.announce();
     session.relay_until_stopped(stop);
     return session.finish();

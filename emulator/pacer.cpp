@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Rhythm::Margin margin_of(Timing timing)
+SleepPolicy::Margin margin_of(Timing timing)
 {
     switch (timing) {
     case Timing::eco: return {0us, 0us};
@@ -26,25 +26,25 @@ Rhythm::Margin margin_of(Timing timing)
 
 } // namespace
 
-Pacer::Pacer(Timing timing, base::TimePoint now) : rhythm_{margin_of(timing), now} {}
+Pacer::Pacer(Timing timing, base::TimePoint now) : policy_{margin_of(timing), now} {}
 
 void Pacer::wait(std::span<const int> descriptors, std::optional<base::TimePoint> deadline)
 {
     const auto before = net::monotonic_now();
-    const auto plan = rhythm_.plan(deadline, before);
-    if (const auto* watch = std::get_if<Rhythm::Watch>(&plan)) {
-        if (!watch->warm_up) return;
+    const auto plan = policy_.plan(deadline, before);
+    if (const auto* spin = std::get_if<SleepPolicy::Spin>(&plan)) {
+        if (!spin->warm_up) return;
         warm_up_.run();
-        rhythm_.on_warm_up();
+        policy_.on_warm_up();
         return;
     }
     bool by_datagram = false;
-    if (const auto* rest = std::get_if<Rhythm::Rest>(&plan)) {
-        net::sleep_until(rest->until);
+    if (const auto* yield = std::get_if<SleepPolicy::Yield>(&plan)) {
+        net::sleep_until(yield->until);
     } else {
-        by_datagram = net::wait_readable(descriptors, std::get<Rhythm::Sleep>(plan).until);
+        by_datagram = net::wait_readable(descriptors, std::get<SleepPolicy::Sleep>(plan).until);
     }
-    rhythm_.on_wake_up(plan, {before, net::monotonic_now(), by_datagram});
+    policy_.on_wake_up(plan, {before, net::monotonic_now(), by_datagram});
 }
 
 } // namespace hapnet::emulator

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/rhythm.hpp"
+#include "emulator/core/sleep_policy.hpp"
 #include "emulator/options.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/warm_up.hpp"
@@ -12,7 +12,7 @@
 
 namespace hapnet::emulator {
 
-/// Waits for datagrams and deadlines as Rhythm decides.
+/// Waits for datagrams and deadlines as SleepPolicy decides.
 class Pacer {
 public:
     Pacer(Timing timing, base::TimePoint now);
@@ -21,7 +21,7 @@ public:
     void wait(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
 
 private:
-    Rhythm rhythm_;
+    SleepPolicy policy_;
     net::WarmUp warm_up_;
 };
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
-#include "emulator/lens_json.hpp"
 #include "emulator/scenario.hpp"
+#include "emulator/stream_json.hpp"
+#include "emulator/tools/describe.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/version.hpp"
 
@@ -38,31 +39,33 @@ Json json_of(const DirectionPrediction& of, const Conditions& conditions, const 
         if (of.statistics.dropped_by(cause) == 0) continue;
         dropped[std::string{to_text(cause)}] = of.statistics.dropped_by(cause);
     }
-    const LensReport& lens = of.lens;
-    return {{"theory", stages_in_words(conditions, stream)},
-            {"warnings", warnings(conditions, stream, of)},
-            {"received", of.statistics.received},
-            {"delivered", of.statistics.delivered},
-            {"duplicated", of.statistics.duplicated},
-            {"corrupted", of.statistics.corrupted},
-            {"dropped", dropped},
-            {"loss",
-             {{"share", of.loss_share()},
-              {"runs", of.loss_runs},
-              {"run_mean", json_of(of.loss_run_mean())},
-              {"run_max", of.loss_run_max}}},
-            {"requested_delay_ms", json_in_ms(lens.requested_delay)},
-            {"delay_ms", json_in_ms(lens.delay)},
-            {"delay_quantiles_ms", json_in_ms(lens.delay_quantiles)},
-            {"added_by_queues_ms", in_ms(of.added_by_queues)},
-            {"jitter_ms", json_in_ms(lens.delay_variation)},
-            {"gap_ms", json_in_ms(lens.gap)},
-            {"clumped_share", json_of(lens.clumped_share)},
-            {"reordered_share", share_of(lens.reordered, of)},
-            {"reorder_extent",
-             {{"mean", json_of(lens.reorder_extent_mean)}, {"max", lens.reorder_extent_max}}},
-            {"age_ms",
-             {{"mean", json_in_ms(lens.age_mean)}, {"peak_max", json_in_ms(lens.peak_age_max)}}}};
+    const StreamReport& measured = of.measured;
+    return {
+        {"theory", describe(conditions, stream)},
+        {"warnings", warnings(conditions, stream, of)},
+        {"received", of.statistics.received},
+        {"delivered", of.statistics.delivered},
+        {"duplicated", of.statistics.duplicated},
+        {"corrupted", of.statistics.corrupted},
+        {"dropped", dropped},
+        {"loss",
+         {{"share", of.loss_share()},
+          {"runs", of.loss_runs},
+          {"run_mean", json_of(of.loss_run_mean())},
+          {"run_max", of.loss_run_max}}},
+        {"requested_delay_ms", json_in_ms(measured.requested_delay)},
+        {"delay_ms", json_in_ms(measured.delay)},
+        {"delay_quantiles_ms", json_in_ms(measured.delay_quantiles)},
+        {"added_by_queues_ms", in_ms(of.added_by_queues)},
+        {"jitter_ms", json_in_ms(measured.delay_variation)},
+        {"gap_ms", json_in_ms(measured.gap)},
+        {"clumped_share", json_of(measured.clumped_share)},
+        {"reordered_share", share_of(measured.reordered, of)},
+        {"reorder_extent",
+         {{"mean", json_of(measured.reorder_extent_mean)}, {"max", measured.reorder_extent_max}}},
+        {"age_ms",
+         {{"mean", json_in_ms(measured.age_mean)},
+          {"peak_max", json_in_ms(measured.peak_age_max)}}}};
 }
 
 std::string in_words(const std::optional<Quantiles>& quantiles)
@@ -83,9 +86,9 @@ std::string in_words(const std::optional<Moments>& moments)
 std::string in_words(std::string_view title, const DirectionPrediction& of,
                      const Conditions& conditions, const Stream& stream)
 {
-    const LensReport& lens = of.lens;
+    const StreamReport& measured = of.measured;
     std::string text = fmt::format("{}\n", title);
-    for (const auto& stage : stages_in_words(conditions, stream)) {
+    for (const auto& stage : describe(conditions, stream)) {
         text += fmt::format("  theory     {}\n", stage);
     }
     const auto& s = of.statistics;
@@ -101,16 +104,16 @@ std::string in_words(std::string_view title, const DirectionPrediction& of,
         if (s.dropped_by(cause) == 0) continue;
         text += fmt::format("  dropped    {} by {}\n", s.dropped_by(cause), to_text(cause));
     }
-    text += fmt::format("  drawn      {}\n", in_words(lens.requested_delay));
+    text += fmt::format("  drawn      {}\n", in_words(measured.requested_delay));
     text += fmt::format("  delay      {}; {:+.4g} ms by the order and the queue\n",
-                        in_words(lens.delay), in_ms(of.added_by_queues));
-    text += fmt::format("             {}\n", in_words(lens.delay_quantiles));
-    text += fmt::format("  variation  {} (IPDV)\n", in_words(lens.delay_variation));
+                        in_words(measured.delay), in_ms(of.added_by_queues));
+    text += fmt::format("             {}\n", in_words(measured.delay_quantiles));
+    text += fmt::format("  variation  {} (IPDV)\n", in_words(measured.delay_variation));
     text += fmt::format("  reordered  {:.4g} %, by {:.3g} places on average, {} at most\n",
-                        100.0 * share_of(lens.reordered, of),
-                        lens.reorder_extent_mean.value_or(0.0), lens.reorder_extent_max);
+                        100.0 * share_of(measured.reordered, of),
+                        measured.reorder_extent_mean.value_or(0.0), measured.reorder_extent_max);
     text += fmt::format("  clumped    {:.4g} % of the gaps are below 50 us\n",
-                        100.0 * lens.clumped_share.value_or(0.0));
+                        100.0 * measured.clumped_share.value_or(0.0));
     for (const auto& warning : warnings(conditions, stream, of)) {
         text += fmt::format("  warning    {}\n", warning);
     }
@@ -127,7 +130,7 @@ base::Result<int> run(const PredictOptions& options)
     for (const std::string& warning : netem_warnings) net::say("hapnet-emulator", warning);
     const Stream& stream = options.stream;
     const auto seed = seed_of(options.conditions, *profile);
-    const auto [up, down] = predicted(*profile, stream, seed);
+    const auto [up, down] = predict(*profile, stream, seed);
     const auto& path = profile->path;
     if (options.as_json) {
         const Json json{{"program", "hapnet-emulator predict"},

@@ -25,8 +25,8 @@ namespace {
 
 constexpr base::Duration write_every = std::chrono::milliseconds{20};
 constexpr std::size_t buffer_bytes = 1 << 18;
-/// So many entries of one queue before the other has its turn.
-constexpr std::size_t turn = 4096;
+/// Entries written of one queue before the other.
+constexpr std::size_t batch_max = 4096;
 
 [[noreturn]] void refuse(const std::string& what)
 {
@@ -88,7 +88,7 @@ Recorder::Fates::~Fates() { close(down_descriptor); }
 void Recorder::Fates::write()
 {
     FateEntry entry;
-    for (std::size_t i = 0; i < turn && queue.try_dequeue(entry); ++i) {
+    for (std::size_t i = 0; i < batch_max && queue.try_dequeue(entry); ++i) {
         append_row(entry.direction == Direction::up ? up : down, entry.direction, entry.number,
                    entry.fate);
     }
@@ -124,7 +124,7 @@ Recorder::Capture::Capture(const std::string& path)
 void Recorder::Capture::write()
 {
     Part part;
-    for (std::size_t i = 0; i < turn && queue.try_dequeue(part); ++i) {
+    for (std::size_t i = 0; i < batch_max && queue.try_dequeue(part); ++i) {
         take(part);
         if (bytes.size() < buffer_bytes) continue;
         file.append(bytes);
@@ -134,37 +134,36 @@ void Recorder::Capture::write()
     bytes.clear();
 }
 
-/// A packet whose pieces do not all come was lost: the next one begins instead.
+/// A packet whose chunks do not all come was lost: the next one begins instead.
 void Recorder::Capture::take(const Part& part)
 {
-    if (const auto* beginning = std::get_if<Head>(&part)) {
+    if (const auto* beginning = std::get_if<CaptureHeader>(&part)) {
         head = *beginning;
         payload.clear();
     } else {
-        const auto& piece = std::get<Piece>(part);
-        payload.insert(payload.end(), piece.bytes.begin(),
-                       piece.bytes.begin() + static_cast<std::ptrdiff_t>(piece.count));
+        const auto& chunk = std::get<CaptureChunk>(part);
+        payload.insert(payload.end(), chunk.bytes.begin(),
+                       chunk.bytes.begin() + static_cast<std::ptrdiff_t>(chunk.count));
     }
-    if (!head || payload.size() < head->sight.bytes.size()) return;
+    if (!head || payload.size() < head->observed.bytes.size()) return;
     append(*head);
     head.reset();
 }
 
-void Recorder::Capture::append(const Head& complete)
+void Recorder::Capture::append(const CaptureHeader& complete)
 {
     comment.clear();
-    const auto* departed = std::get_if<Departed>(&complete.what);
-    if (departed != nullptr) {
-        append_departure_comment(comment, departed->late, departed->is_copy);
+    if (complete.verdict) {
+        append_arrival_comment(comment, *complete.verdict);
     } else {
-        append_arrival_comment(comment, std::get<Fate>(complete.what));
+        append_departure_comment(comment, complete.late, complete.is_copy);
     }
-    const Sight& sight = complete.sight;
-    append_packet(bytes, {.side = sight.side,
-                          .is_outbound = departed != nullptr,
-                          .time = sight.at.time_since_epoch() + since_1970,
-                          .from = sight.from,
-                          .to = sight.to,
+    const Observation& observed = complete.observed;
+    append_packet(bytes, {.side = observed.side,
+                          .is_outbound = !complete.verdict,
+                          .time = observed.at.time_since_epoch() + since_1970,
+                          .from = observed.from,
+                          .to = observed.to,
                           .payload = payload,
                           .comment = comment});
 }
@@ -188,25 +187,25 @@ void Recorder::on_fate(Direction direction, std::uint64_t number, const Fate& fa
     if (!fates_->queue.try_enqueue({fate, number, direction})) fates_lost_.fetch_add(1, relaxed);
 }
 
-void Recorder::on_arrival(const Sight& sight, const Fate& fate)
+void Recorder::on_arrival(const Observation& observed, const Verdict& verdict)
 {
-    if (capture_) put(sight, fate);
+    if (capture_) put({.observed = observed, .verdict = verdict});
 }
 
-void Recorder::on_departure(const Sight& sight, base::Duration late, bool is_copy)
+void Recorder::on_departure(const Observation& observed, base::Duration late, bool is_copy)
 {
-    if (capture_) put(sight, Departed{late, is_copy});
+    if (capture_) put({.observed = observed, .late = late, .is_copy = is_copy});
 }
 
-void Recorder::put(const Sight& sight, const std::variant<Fate, Departed>& what)
+void Recorder::put(const CaptureHeader& header)
 {
-    bool fits = capture_->queue.try_enqueue(Part{Head{sight, what}});
-    for (auto rest = sight.bytes; fits && !rest.empty();) {
-        Part part{std::in_place_type<Piece>};
-        auto& piece = std::get<Piece>(part);
-        piece.count = std::min(rest.size(), piece.bytes.size());
-        std::copy_n(rest.begin(), piece.count, piece.bytes.begin());
-        rest = rest.subspan(piece.count);
+    bool fits = capture_->queue.try_enqueue(Part{header});
+    for (auto rest = header.observed.bytes; fits && !rest.empty();) {
+        Part part{std::in_place_type<CaptureChunk>};
+        auto& chunk = std::get<CaptureChunk>(part);
+        chunk.count = std::min(rest.size(), chunk.bytes.size());
+        std::copy_n(rest.begin(), chunk.count, chunk.bytes.begin());
+        rest = rest.subspan(chunk.count);
         fits = capture_->queue.try_enqueue(std::move(part));
     }
     if (!fits) capture_lost_.fetch_add(1, relaxed);
@@ -227,7 +226,7 @@ void Recorder::run()
     try {
         while (!stop_.load(std::memory_order_acquire)) {
             write();
-            if (waiting() < turn) net::sleep_until(net::monotonic_now() + write_every);
+            if (waiting() < batch_max) net::sleep_until(net::monotonic_now() + write_every);
         }
         do {
             write();

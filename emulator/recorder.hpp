@@ -28,7 +28,7 @@ namespace hapnet::emulator {
 [[nodiscard]] UdpAddress udp_address_of(const net::Endpoint& endpoint);
 
 /// A datagram that came or went.
-struct Sight {
+struct Observation {
     CaptureSide side = CaptureSide::a; // whose socket it passed
     base::TimePoint at{};
     UdpAddress from;
@@ -61,10 +61,10 @@ public:
 
     /// The datagram of this number was given this fate.
     void on_fate(Direction direction, std::uint64_t number, const Fate& fate);
-    /// A datagram arrived that was given this fate.
-    void on_arrival(const Sight& sight, const Fate& fate);
+    /// A datagram arrived, and this becomes of it.
+    void on_arrival(const Observation& observed, const Verdict& verdict);
     /// A datagram left, so much after it was due.
-    void on_departure(const Sight& sight, base::Duration late, bool is_copy);
+    void on_departure(const Observation& observed, base::Duration late, bool is_copy);
 
     /// How many fates and how many packets are missing in their files: if any, the file is not
     /// complete.
@@ -86,21 +86,18 @@ private:
         std::uint64_t number = 0;
         Direction direction = Direction::up;
     };
-    /// How late a datagram left.
-    struct Departed {
-        base::Duration late{};
+    /// The beginning of a packet; its bytes follow in chunks.
+    struct CaptureHeader {
+        Observation observed;             // its bytes: only how many
+        std::optional<Verdict> verdict{}; // nullopt: it left
+        base::Duration late{};            // when it left
         bool is_copy = false;
     };
-    /// The beginning of a packet; its bytes follow in pieces.
-    struct Head {
-        Sight sight; // its bytes: only how many
-        std::variant<Fate, Departed> what;
-    };
-    struct Piece {
-        std::array<std::byte, 240> bytes; // most datagrams are one piece
+    struct CaptureChunk {
+        std::array<std::byte, 240> bytes; // most datagrams are one chunk
         std::size_t count;
     };
-    using Part = std::variant<Head, Piece>;
+    using Part = std::variant<CaptureHeader, CaptureChunk>;
 
     // Of the two queues of their package the one that ThreadSanitizer can follow. As long as
     // nobody waits for them, and nobody here does, they make no system call.
@@ -128,19 +125,19 @@ private:
 
         void write();
         void take(const Part& part);
-        void append(const Head& complete);
+        void append(const CaptureHeader& complete);
 
         static constexpr std::size_t capacity = 1 << 17; // 1.6 s at 20 000 datagrams/s
         Queue<Part> queue{capacity};
         net::ResultFile file;
         base::Duration since_1970; // of the time point 0
         std::string bytes;
-        std::optional<Head> head; // of the packet whose pieces come
+        std::optional<CaptureHeader> head; // of the packet whose chunks come
         std::vector<std::byte> payload;
         std::string comment;
     };
 
-    void put(const Sight& sight, const std::variant<Fate, Departed>& what);
+    void put(const CaptureHeader& header);
     void run();
 
     std::unique_ptr<Fates> fates_;

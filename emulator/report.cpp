@@ -6,7 +6,7 @@
 #include "emulator/core/profile/settings.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/core/statistics.hpp"
-#include "emulator/lens_json.hpp"
+#include "emulator/stream_json.hpp"
 #include "proto/base/version.hpp"
 
 #include <chrono>
@@ -47,34 +47,34 @@ Json or_null(const std::optional<T>& value)
 Json json_of(Direction direction, const Conditions& conditions)
 {
     Json json = Json::object();
-    for (const auto& [key, value] : texts_of(direction, patch_of(conditions))) {
+    for (const auto& [key, value] : texts_of(direction, to_patch(conditions))) {
         json[key.substr(key.find('.') + 1)] = value;
     }
     return json;
 }
 
-Json json_of(const LensReport& lens)
+Json json_of(const StreamReport& measured)
 {
-    Json delay = json_in_ms(lens.delay);
-    if (lens.delay_quantiles) delay.update(json_in_ms(lens.delay_quantiles));
-    return {{"requested_delay_ms", json_in_ms(lens.requested_delay)},
+    Json delay = json_in_ms(measured.delay);
+    if (measured.delay_quantiles) delay.update(json_in_ms(measured.delay_quantiles));
+    return {{"requested_delay_ms", json_in_ms(measured.requested_delay)},
             {"delay_ms", delay},
-            {"delay_variation_ms", json_in_ms(lens.delay_variation)},
-            {"gap_ms", json_in_ms(lens.gap)},
-            {"clumped", or_null(lens.clumped_share)},
+            {"delay_variation_ms", json_in_ms(measured.delay_variation)},
+            {"gap_ms", json_in_ms(measured.gap)},
+            {"clumped", or_null(measured.clumped_share)},
             {"missing_run_updates",
-             {{"count", lens.missing_runs},
-              {"mean", or_null(lens.missing_run_mean)},
-              {"max", lens.missing_run_max}}},
+             {{"count", measured.missing_runs},
+              {"mean", or_null(measured.missing_run_mean)},
+              {"max", measured.missing_run_max}}},
             {"reorder_extent",
-             {{"count", lens.reordered},
-              {"mean", or_null(lens.reorder_extent_mean)},
-              {"max", lens.reorder_extent_max},
-              {"beyond_look_back", lens.beyond_look_back}}},
+             {{"count", measured.reordered},
+              {"mean", or_null(measured.reorder_extent_mean)},
+              {"max", measured.reorder_extent_max},
+              {"beyond_look_back", measured.beyond_look_back}}},
             {"age_ms",
-             {{"mean", json_in_ms(lens.age_mean)},
-              {"peak_mean", json_in_ms(lens.peak_age_mean)},
-              {"peak_max", json_in_ms(lens.peak_age_max)}}}};
+             {{"mean", json_in_ms(measured.age_mean)},
+              {"peak_mean", json_in_ms(measured.peak_age_mean)},
+              {"peak_max", json_in_ms(measured.peak_age_max)}}}};
 }
 
 Json json_of(const Relay::Side& side, base::Duration budget)
@@ -98,12 +98,12 @@ Json json_of(const Relay::Side& side, base::Duration budget)
             {"overflowed", side.socket.overflowed()},
             {"over_budget", s.late_beyond(budget)},
             {"valid", s.is_valid(budget)},
-            {"lens", json_of(side.link.lens().report())}};
+            {"lens", json_of(side.link.stream_statistics().report())}};
 }
 
 Json address_of(const Relay::Side& side)
 {
-    const auto& address = side.correspondent.address();
+    const auto& address = side.filter.address();
     return address ? Json(address->to_text()) : Json(nullptr);
 }
 
@@ -149,10 +149,10 @@ std::string in_words(const char* title, const Relay::Side& side, base::Duration 
                             Microseconds{*p99}.count(), Microseconds{*s.lateness.max()}.count());
     }
     if (!s.is_valid(budget)) text += "; NOT VALID: p99 exceeds the budget";
-    const LensReport lens = side.link.lens().report();
-    if (lens.requested_delay && lens.delay) {
+    const StreamReport measured = side.link.stream_statistics().report();
+    if (measured.requested_delay && measured.delay) {
         text += fmt::format("; delay {} as drawn, {} as it came out",
-                            in_words(*lens.requested_delay), in_words(*lens.delay));
+                            in_words(*measured.requested_delay), in_words(*measured.delay));
     }
     return text + "\n";
 }
@@ -181,7 +181,7 @@ std::string ready_line(const Run& run)
 std::string endpoints_line(const Relay& relay)
 {
     const auto in_words = [](const Relay::Side& side) {
-        const auto& address = side.correspondent.address();
+        const auto& address = side.filter.address();
         return address ? address->to_text() : std::string{"not known yet"};
     };
     return fmt::format("a is {}, b is {}", in_words(relay.a()), in_words(relay.b()));

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "emulator/core/director.hpp"
+#include "emulator/endpoints.hpp"
 #include "emulator/options.hpp"
-#include "emulator/places.hpp"
 #include "emulator/ports/relay.hpp"
 #include "emulator/scenario.hpp"
 #include "proto/base/time.hpp"

@@ -7,6 +7,7 @@
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
 #include "emulator/setting_hints.hpp"
+#include "emulator/tools/describe.hpp"
 #include "emulator/tools/netem.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/text.hpp"
@@ -61,7 +62,7 @@ void warn_of_conditions(Scenario& scenario)
     const Profile beginning{"", scenario.seed, scenario.profile.path, {}};
     const auto& [up, down] = beginning.path;
     if (up == Conditions{} && down == Conditions{}) return;
-    const Prediction prediction = predicted(beginning, stream, scenario.seed);
+    const Prediction prediction = predict(beginning, stream, scenario.seed);
     const auto warn = [&](const char* where, const std::vector<std::string>& warnings) {
         for (const std::string& warning : warnings) {
             scenario.warnings.push_back(fmt::format("{}: {}", where, warning));
@@ -119,11 +120,12 @@ base::Result<Profile> profile_for(const ConditionOptions& options,
     auto path = with_typed(profile->path, options.settings);
     if (!path) return tl::unexpected{path.error()};
     profile->path = *std::move(path);
-    if (const auto fault = Timeline::fault_of(*profile)) {
-        return base::fail(fmt::format(
-            "the settings of the command line contradict change {} of "
-            "the profile's timeline, at {}: {}",
-            fault->change + 1, base::to_text(profile->timeline[fault->change].time), fault->what));
+    if (const auto valid = Timeline::validate(*profile); !valid) {
+        const auto& [index, message] = valid.error();
+        return base::fail(fmt::format("the settings of the command line contradict change {} of "
+                                      "the profile's timeline, at {}: {}",
+                                      index + 1, base::to_text(profile->timeline[index].time),
+                                      message));
     }
     return profile;
 }

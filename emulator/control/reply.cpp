@@ -46,31 +46,24 @@ base::Result<Profile> profile_of(const ProfileText& text, const Emulation& emula
 /// The answer to a command: from when on the conditions hold.
 std::string effect_of(const Command& command, Emulation& emulation, base::TimePoint now)
 {
-    if (const auto done = carry_out(command, emulation, now); !done) {
-        return refusal(done.error().message);
-    }
-    const NextNumbers next = emulation.next_numbers();
-    return line_of(Json{{"ok", true},
-                        {"generation", emulation.director.generation()},
-                        {"elapsed_s", base::to_seconds(emulation.director.elapsed())},
-                        {"effective_at_ns", now.time_since_epoch().count()},
-                        {"effective_at", {{"up", next.up}, {"down", next.down}}}});
+    EmulatedPath& path = emulation.path;
+    if (const auto done = path.apply(command, now); !done) return refusal(done.error().message);
+    const auto next = [&](Direction direction) {
+        return path.link(direction).statistics().received;
+    };
+    return line_of(
+        Json{{"ok", true},
+             {"generation", emulation.path.director().generation()},
+             {"elapsed_s", base::to_seconds(emulation.path.director().elapsed())},
+             {"effective_at_ns", now.time_since_epoch().count()},
+             {"effective_at", {{"up", next(Direction::up)}, {"down", next(Direction::down)}}}});
 }
 
 } // namespace
 
-base::Result<void> carry_out(const Command& command, Emulation& emulation, base::TimePoint now)
-{
-    Director& director = emulation.director;
-    const auto generation = director.generation();
-    auto done = director.apply(command, now);
-    if (director.generation() != generation) emulation.enact(director.path(), now);
-    return done;
-}
-
 std::string reply_to(const ShowRequest& /*request*/, const Emulation& emulation)
 {
-    const Director& director = emulation.director;
+    const Director& director = emulation.path.director();
     const base::TimePoint now = director.now();
     Json live = Json::array();
     for (const Director::Override& one : director.overrides()) {
@@ -93,7 +86,7 @@ std::string reply_to(const ShowRequest& /*request*/, const Emulation& emulation)
 
 std::string reply_to(const SetRequest& request, Emulation& emulation, base::TimePoint now)
 {
-    auto set = set_of(request, emulation.director.path(), files_beside("", emulation));
+    auto set = set_of(request, emulation.path.director().path(), files_beside("", emulation));
     return set ? effect_of(*std::move(set), emulation, now) : refusal(set.error().message);
 }
 
@@ -108,7 +101,7 @@ std::string reply_to(const DiffRequest& request, const Emulation& emulation)
 {
     const auto profile = profile_of(request.profile, emulation);
     if (!profile) return refusal(profile.error().message);
-    const Director& director = emulation.director;
+    const Director& director = emulation.path.director();
     Json changes = Json::array();
     for (const auto& [key, from, to] : differences(director.path(), profile->path)) {
         changes.push_back({{"key", key}, {"from", from}, {"to", to}});
@@ -130,8 +123,8 @@ nlohmann::ordered_json statistics_of(const Emulation& emulation)
     auto json = Json::parse(emulation.statistics_json(), nullptr,
                             /*allow_exceptions*/ false);
     base::ensure(json.is_object());
-    json["generation"] = emulation.director.generation();
-    json["elapsed_s"] = base::to_seconds(emulation.director.elapsed());
+    json["generation"] = emulation.path.director().generation();
+    json["elapsed_s"] = base::to_seconds(emulation.path.director().elapsed());
     return json;
 }
 

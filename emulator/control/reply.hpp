@@ -34,8 +34,4 @@ namespace hapnet::emulator {
 /// The emulator as its clients see it; it outlives this.
 [[nodiscard]] control::Subject subject_of(Emulation& emulation);
 
-/// Does what is asked, and hands the conditions on when they have changed.
-[[nodiscard]] base::Result<void> carry_out(const Command& command, Emulation& emulation,
-                                           base::TimePoint now);
-
 } // namespace hapnet::emulator

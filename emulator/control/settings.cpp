@@ -71,8 +71,8 @@ std::vector<Difference> differences(const Path& from, const Path& to)
     std::vector<Difference> found;
     for (const Direction direction : {Direction::up, Direction::down}) {
         const bool is_up = direction == Direction::up;
-        const auto before = setting_texts(patch_of(is_up ? from.up : from.down));
-        const auto after = setting_texts(patch_of(is_up ? to.up : to.down));
+        const auto before = setting_texts(to_patch(is_up ? from.up : from.down));
+        const auto after = setting_texts(to_patch(is_up ? to.up : to.down));
         for (std::size_t i = 0; i < before.size(); ++i) {
             if (before[i] == after[i]) continue;
             found.push_back({fmt::format("{}.{}", to_text(direction), setting_keys[i]),

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/delay/law.hpp"
-#include "emulator/core/loss/law.hpp"
+#include "emulator/core/delay/delay.hpp"
+#include "emulator/core/formats.hpp"
+#include "emulator/core/loss/loss.hpp"
 #include "emulator/core/verdict.hpp"
 #include "proto/base/probability.hpp"
+#include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
@@ -19,7 +21,11 @@ namespace hapnet::emulator {
 
 /// Up: from A to B. Down: from B to A.
 enum class Direction : std::uint8_t { up, down };
-[[nodiscard]] std::string_view to_text(Direction direction);
+constexpr auto names_of(base::Tag<Direction>) { return base::names("up", "down"); }
+[[nodiscard]] constexpr std::string_view to_text(Direction direction)
+{
+    return base::name_of(direction);
+}
 
 /// In which order datagrams leave that jitter would let overtake each other.
 enum class Order : std::uint8_t {
@@ -27,7 +33,8 @@ enum class Order : std::uint8_t {
     free,   // each leaves at its own time: wide jitter reorders
     sorted, // the times are drawn as for free, and the datagrams take them in order of arrival
 };
-[[nodiscard]] std::string_view to_text(Order order);
+constexpr auto names_of(base::Tag<Order>) { return base::names("keep", "free", "sorted"); }
+[[nodiscard]] constexpr std::string_view to_text(Order order) { return base::name_of(order); }
 
 /// A second copy of a share of the datagrams, up to `spread` after the original (uniform). A copy
 /// is not lost, copied or corrupted on its own.
@@ -37,6 +44,12 @@ struct Duplication {
 
     friend bool operator==(const Duplication&, const Duplication&) = default;
 };
+constexpr auto fields_of(base::Tag<Duplication>)
+{
+    return base::fields(
+        "duplicate", base::field("share", &Duplication::share, "copied").required(),
+        base::field("spread", &Duplication::spread, "longest time from the original to its copy"));
+}
 
 /// A share of the datagrams leaves behind its turn, whatever the order policy is.
 struct Reordering {
@@ -45,6 +58,13 @@ struct Reordering {
 
     friend bool operator==(const Reordering&, const Reordering&) = default;
 };
+constexpr auto fields_of(base::Tag<Reordering>)
+{
+    return base::fields("reorder", base::field("share", &Reordering::share, "held back").required(),
+                        base::field("displacement", &Reordering::displacement, DisplacementFormat{},
+                                    "how far behind its turn")
+                            .required());
+}
 
 /// `bits` bits of a share of the datagrams are inverted; 1 <= bits <= Flips::most.
 struct Corruption {
@@ -53,6 +73,12 @@ struct Corruption {
 
     friend bool operator==(const Corruption&, const Corruption&) = default;
 };
+constexpr auto fields_of(base::Tag<Corruption>)
+{
+    return base::fields("corrupt", base::field("share", &Corruption::share, "corrupted").required(),
+                        base::field("bits", &Corruption::bits, base::Count{1, Flips::most},
+                                    "inverted in each of them"));
+}
 
 /// Datagrams larger than `bytes_max` with their IP and UDP headers are dropped; 0: no limit.
 struct Mtu {
@@ -62,6 +88,12 @@ struct Mtu {
 
     friend bool operator==(const Mtu&, const Mtu&) = default;
 };
+constexpr auto fields_of(base::Tag<Mtu>)
+{
+    return base::fields("mtu", base::field("limit", &Mtu::bytes_max, base::Size{},
+                                           "largest datagram, with its IP and UDP headers")
+                                   .required());
+}
 
 /// A bottleneck that sends so many bits a second, one datagram after the other, from a queue that
 /// drops what does not fit (drop-tail). 0 bits: no bottleneck.
@@ -72,6 +104,24 @@ struct Rate {
 
     friend bool operator==(const Rate&, const Rate&) = default;
 };
+constexpr auto fields_of(base::Tag<Rate>)
+{
+    return base::fields(
+        "rate",
+        base::field("limit", &Rate::bits_per_second, base::BitRate{}, "of the bottleneck; 0: none")
+            .required(),
+        base::field("overhead", &Rate::overhead_bytes, base::Size{}, "added to each payload"),
+        base::field("queue", &Rate::queue_bytes_max, base::Size{},
+                    "that may wait before the bottleneck"));
+}
+
+// Whether a stage can do what it says; the error says what would be right.
+
+[[nodiscard]] base::Result<void> validate(const Mtu& mtu);
+[[nodiscard]] base::Result<void> validate(const Rate& rate);
+[[nodiscard]] base::Result<void> validate(const Corruption& corruption);
+[[nodiscard]] base::Result<void> validate(const Duplication& duplication);
+[[nodiscard]] base::Result<void> validate(const Reordering& reordering);
 
 /// What one direction does to its datagrams. The defaults do nothing.
 struct Conditions {
@@ -102,6 +152,39 @@ struct Patch {
 
     friend bool operator==(const Patch&, const Patch&) = default;
 };
+
+/// One of the nine settings of a direction: its key, and where it is kept.
+template <typename T>
+struct SettingSlot {
+    std::string_view key;
+    T Conditions::*value;
+    std::optional<T> Patch::*patch;
+};
+
+/// Calls visit(slot) for each setting, in the order of the stages.
+template <typename Visit>
+constexpr void for_each_setting(const Visit& visit)
+{
+    const auto slot = [&]<typename T>(std::string_view key, T Conditions::*value,
+                                      std::optional<T> Patch::*patch) {
+        visit(SettingSlot<T>{key, value, patch});
+    };
+    slot("mtu", &Conditions::mtu, &Patch::mtu);
+    slot("rate", &Conditions::rate, &Patch::rate);
+    slot("loss", &Conditions::loss, &Patch::loss);
+    slot("corrupt", &Conditions::corrupt, &Patch::corrupt);
+    slot("duplicate", &Conditions::duplicate, &Patch::duplicate);
+    slot("delay", &Conditions::delay, &Patch::delay);
+    slot("jitter", &Conditions::jitter, &Patch::jitter);
+    slot("order", &Conditions::order, &Patch::order);
+    slot("reorder", &Conditions::reorder, &Patch::reorder);
+}
+
+/// `a` and what `b` sets besides or instead.
+[[nodiscard]] Patch merged(Patch a, const Patch& b);
+
+/// What `conditions` say that differs from the default.
+[[nodiscard]] Patch to_patch(const Conditions& conditions);
 
 /// The conditions with what `patch` sets.
 [[nodiscard]] Conditions patched(Conditions conditions, const Patch& patch);

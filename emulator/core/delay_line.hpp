@@ -9,17 +9,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace hapnet::emulator {
 
-/// A datagram on its way through the emulator. What its bytes mean is nobody's business here.
+/// A datagram on its way through the emulator.
 struct Datagram {
-    Slab::Slot slot = Slab::no_slot;
+    Slab::Slot slot = Slab::no_slot; // no_slot: the bytes are the caller's own
     bool is_copy = false;
-    std::uint64_t number = 0; // counts what arrived in its direction, from 0
+    std::uint64_t number = 0; // of the datagram in its direction, from 0; a copy has its original's
     base::TimePoint arrival{};
-    base::TimePoint due{}; // when it is to leave: never before
+    base::TimePoint due{};              // never leaves before
+    std::span<const std::byte> bytes{}; // stay where they are until it has left
 };
 
 /// Holds datagrams until they are due. Those due at the same time leave in the order in which they

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/director.hpp"
 
-#include "emulator/core/profile/settings.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
@@ -16,36 +15,18 @@ namespace {
 /// Takes out of `patch` what `later` sets.
 void strip(Patch& patch, const Patch& later)
 {
-    const auto drop = [](auto& mine, const auto& theirs) {
-        if (theirs) mine.reset();
-    };
-    drop(patch.mtu, later.mtu);
-    drop(patch.rate, later.rate);
-    drop(patch.loss, later.loss);
-    drop(patch.corrupt, later.corrupt);
-    drop(patch.duplicate, later.duplicate);
-    drop(patch.delay, later.delay);
-    drop(patch.jitter, later.jitter);
-    drop(patch.order, later.order);
-    drop(patch.reorder, later.reorder);
+    for_each_setting([&](const auto& slot) {
+        if (later.*slot.patch) (patch.*slot.patch).reset();
+    });
 }
 
 /// The settings that `patch` makes, as they are in `conditions`.
 Patch picked(const Conditions& conditions, const Patch& patch)
 {
     Patch picked;
-    const auto pick = [](auto& target, const auto& value, const auto& wanted) {
-        if (wanted) target = value;
-    };
-    pick(picked.mtu, conditions.mtu, patch.mtu);
-    pick(picked.rate, conditions.rate, patch.rate);
-    pick(picked.loss, conditions.loss, patch.loss);
-    pick(picked.corrupt, conditions.corrupt, patch.corrupt);
-    pick(picked.duplicate, conditions.duplicate, patch.duplicate);
-    pick(picked.delay, conditions.delay, patch.delay);
-    pick(picked.jitter, conditions.jitter, patch.jitter);
-    pick(picked.order, conditions.order, patch.order);
-    pick(picked.reorder, conditions.reorder, patch.reorder);
+    for_each_setting([&](const auto& slot) {
+        if (patch.*slot.patch) picked.*slot.patch = conditions.*slot.value;
+    });
     return picked;
 }
 
@@ -134,8 +115,8 @@ base::Result<void> Director::take(const Set& set)
     overrides.push_back({set.up, set.down, until});
     std::erase_if(overrides, sets_nothing);
     if (overrides.size() > overrides_max) {
-        return base::fail(fmt::format("{} settings made for a time hold already: wait for some to "
-                                      "end, or reset",
+        return base::fail(fmt::format("{} temporary settings are already active; wait for one to "
+                                      "expire, or run reset",
                                       overrides_max));
     }
     overrides_ = std::move(overrides);

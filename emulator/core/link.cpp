@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/link.hpp"
 
-#include "emulator/core/flips.hpp"
-
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <span>
 
 namespace hapnet::emulator {
 
@@ -14,6 +14,17 @@ namespace {
 /// How long a datagram waits for later ones to overtake it before it leaves anyway.
 constexpr base::Duration displaced_for_max = std::chrono::seconds{1};
 constexpr std::size_t displaced_max = 1024;
+
+/// Inverts the bits that `flips` names. An empty datagram has none and stays as it is; two flips
+/// of one place undo each other.
+void apply(const Flips& flips, std::span<std::byte> bytes)
+{
+    if (bytes.empty()) return;
+    for (std::size_t i = 0; i < flips.count; ++i) {
+        const std::size_t bit = flips.places[i] % (bytes.size() * 8);
+        bytes[bit / 8] ^= std::byte{1} << (bit % 8);
+    }
+}
 
 } // namespace
 
@@ -43,10 +54,10 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     }
     if (const auto* deliver = std::get_if<Deliver>(&admission.verdict)) {
         if (passes_untouched(*deliver)) {
-            admission.departure = Departure{.bytes = bytes,
-                                            .number = packet.number,
-                                            .arrival = last_arrival_,
-                                            .due = last_arrival_};
+            admission.departure = Datagram{.number = packet.number,
+                                           .arrival = last_arrival_,
+                                           .due = last_arrival_,
+                                           .bytes = bytes};
             last_due_ = std::max(last_due_, last_arrival_);
             ++statistics_.in_flight;
         } else if (!hold(bytes, packet.number, *deliver)) {
@@ -56,7 +67,7 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     if (const auto* drop = std::get_if<Drop>(&admission.verdict)) {
         ++statistics_.dropped_by(drop->cause);
     }
-    if (setup_.has_lens) lens_.on_packet(fate);
+    if (setup_.has_stream_statistics) stream_statistics_.on_packet(fate);
     return admission;
 }
 
@@ -88,12 +99,13 @@ bool Link::hold(std::span<const std::byte> bytes, std::uint64_t number, const De
 {
     const auto slot = store(bytes);
     if (!slot) return false;
+    const auto stored = slab_.bytes(*slot);
     ++statistics_.in_flight;
     if (deliver.flips.count > 0) {
-        apply(deliver.flips, slab_.bytes(*slot));
+        apply(deliver.flips, stored);
         ++statistics_.corrupted;
     }
-    const Held held{{*slot, false, number, last_arrival_, {}}, deliver};
+    const Held held{{*slot, false, number, last_arrival_, {}, stored}, deliver};
     if (bottleneck_.is_on() || !bottleneck_.is_idle()) {
         bottleneck_.push(held, bytes.size(), last_arrival_);
     } else {
@@ -118,7 +130,7 @@ void Link::schedule(const Held& held, base::TimePoint ready)
     last_due_ = std::max(last_due_, datagram.due);
     const Datagram in_turn = datagram;
     if (deliver.displacement.places > 0 && displaced_.size() < displaced_max) {
-        displaced_.push_back({datagram, datagram.number + deliver.displacement.places});
+        displaced_.push_back({datagram, deliver});
     } else if (deliver.displacement.time > base::Duration{0}) {
         datagram.due += deliver.displacement.time;
         line_.push(datagram);
@@ -134,7 +146,7 @@ void Link::schedule(const Held& held, base::TimePoint ready)
 void Link::schedule_copy(const Datagram& original, base::Duration after)
 {
     ++statistics_.duplicated;
-    const auto slot = store(slab_.bytes(original.slot));
+    const auto slot = store(original.bytes);
     if (!slot) {
         ++statistics_.dropped_by(DropCause::queue_full);
         return;
@@ -142,6 +154,7 @@ void Link::schedule_copy(const Datagram& original, base::Duration after)
     ++statistics_.in_flight;
     Datagram copy = original;
     copy.slot = *slot;
+    copy.bytes = slab_.bytes(*slot);
     copy.is_copy = true;
     copy.due = original.due + after;
     if (conditions_.order == Order::sorted) {
@@ -154,8 +167,9 @@ void Link::schedule_copy(const Datagram& original, base::Duration after)
 /// Lets those follow that waited for the datagram `scheduled`, which leaves at `due`.
 void Link::release_displaced(std::uint64_t scheduled, base::TimePoint due)
 {
-    std::erase_if(displaced_, [&](const Displaced& waiting) {
-        if (waiting.behind > scheduled) return false;
+    std::erase_if(displaced_, [&](const Held& waiting) {
+        const auto& [delayed, deliver] = waiting;
+        if (delayed.number + deliver.displacement.places > scheduled) return false;
         Datagram datagram = waiting.datagram;
         datagram.due = std::max(datagram.due, due);
         line_.push(datagram);
@@ -163,17 +177,10 @@ void Link::release_displaced(std::uint64_t scheduled, base::TimePoint due)
     });
 }
 
-std::optional<Departure> Link::poll(base::TimePoint now)
+std::optional<Datagram> Link::poll(base::TimePoint now)
 {
     advance(now);
-    const auto datagram = line_.pop(now);
-    if (!datagram) return std::nullopt;
-    return Departure{.bytes = slab_.bytes(datagram->slot),
-                     .number = datagram->number,
-                     .arrival = datagram->arrival,
-                     .due = datagram->due,
-                     .slot = datagram->slot,
-                     .is_copy = datagram->is_copy};
+    return line_.pop(now);
 }
 
 /// Moves on what has left the bottleneck by `now`, and what has waited long enough to be overtaken.
@@ -183,7 +190,7 @@ void Link::move_on(base::TimePoint now)
         if (sent->item.datagram.slot != Slab::no_slot) schedule(sent->item, sent->at);
     }
     if (displaced_.empty()) return;
-    std::erase_if(displaced_, [&](const Displaced& waiting) {
+    std::erase_if(displaced_, [&](const Held& waiting) {
         const auto latest = waiting.datagram.due + displaced_for_max;
         if (latest > now) return false;
         Datagram datagram = waiting.datagram;
@@ -196,33 +203,32 @@ void Link::move_on(base::TimePoint now)
 std::optional<base::TimePoint> Link::next_deadline() const
 {
     auto deadline = base::earlier(line_.next_due(), bottleneck_.next_sent());
-    for (const Displaced& waiting : displaced_) {
+    for (const Held& waiting : displaced_) {
         deadline = base::earlier(deadline, waiting.datagram.due + displaced_for_max);
     }
     return deadline;
 }
 
-void Link::on_sent(const Departure& departure, base::TimePoint at)
+void Link::on_sent(const Datagram& datagram, base::TimePoint at)
 {
     --statistics_.in_flight;
     ++statistics_.delivered;
-    statistics_.bytes_out += departure.bytes.size();
-    statistics_.lateness.add(at - departure.due);
-    if (setup_.has_lens)
-        lens_.on_sent({departure.number, departure.arrival, at, departure.is_copy});
-    if (departure.number >= beyond_highest_delivered_) {
-        beyond_highest_delivered_ = departure.number + 1;
-    } else if (!departure.is_copy) {
+    statistics_.bytes_out += datagram.bytes.size();
+    statistics_.lateness.add(at - datagram.due);
+    if (setup_.has_stream_statistics) stream_statistics_.on_sent(datagram, at);
+    if (datagram.number >= beyond_highest_delivered_) {
+        beyond_highest_delivered_ = datagram.number + 1;
+    } else if (!datagram.is_copy) {
         ++statistics_.reordered;
     }
-    if (departure.slot != Slab::no_slot) slab_.release(departure.slot);
+    if (datagram.slot != Slab::no_slot) slab_.release(datagram.slot);
 }
 
-void Link::on_failed(const Departure& departure, DropCause cause)
+void Link::on_failed(const Datagram& datagram, DropCause cause)
 {
     --statistics_.in_flight;
     ++statistics_.dropped_by(cause);
-    if (departure.slot != Slab::no_slot) slab_.release(departure.slot);
+    if (datagram.slot != Slab::no_slot) slab_.release(datagram.slot);
 }
 
 void Link::change(const Conditions& conditions, base::TimePoint now)

@@ -6,10 +6,10 @@
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/delay_line.hpp"
 #include "emulator/core/fates/replay.hpp"
-#include "emulator/core/lens.hpp"
 #include "emulator/core/pipeline.hpp"
 #include "emulator/core/slab.hpp"
 #include "emulator/core/statistics.hpp"
+#include "emulator/core/stream_statistics.hpp"
 #include "emulator/core/verdict.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
@@ -22,17 +22,6 @@
 
 namespace hapnet::emulator {
 
-/// A datagram that is to leave now. It comes back through on_sent() or on_failed(), once; until
-/// then it counts as in flight and its bytes stay where they are.
-struct Departure {
-    std::span<const std::byte> bytes;
-    std::uint64_t number = 0; // of the datagram in its direction; a copy has that of its original
-    base::TimePoint arrival{};
-    base::TimePoint due{};           // never left before
-    Slab::Slot slot = Slab::no_slot; // no_slot: the bytes are the caller's own
-    bool is_copy = false;
-};
-
 /// What became of a datagram on its arrival.
 struct Admission {
     std::uint64_t number = 0;
@@ -40,7 +29,7 @@ struct Admission {
     Verdict verdict; // the fate's, or Drop because a queue was full
     /// The datagram itself when nothing holds it: no delay, no queue. Send it before
     /// anything that is polled from now on.
-    std::optional<Departure> departure;
+    std::optional<Datagram> departure;
 };
 
 /// One direction of an emulated path. Does no I/O and reads no clock: feed it with on_packet(),
@@ -52,8 +41,8 @@ public:
         Direction direction = Direction::up;
         base::TimePoint start{}; // time 0 of windows and periods
         QueueLimits limits{};
-        std::optional<Replay> replay{}; // gives the fates instead of the conditions
-        bool has_lens = true;           // false: nobody will ask for lens()
+        std::optional<Replay> replay{};    // gives the fates instead of the conditions
+        bool has_stream_statistics = true; // false: they are not asked for
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
@@ -62,17 +51,18 @@ public:
     /// become of it. A queue or Order::keep may make it leave later than its fate says.
     Admission on_packet(std::span<const std::byte> bytes, base::TimePoint arrival);
 
-    /// A datagram that is due at `now`, the earliest first; nullopt when there is none.
-    [[nodiscard]] std::optional<Departure> poll(base::TimePoint now);
+    /// A datagram that is due at `now`, the earliest first; nullopt when there is none. It comes
+    /// back through on_sent() or on_failed(), once; until then it counts as in flight.
+    [[nodiscard]] std::optional<Datagram> poll(base::TimePoint now);
 
     /// When poll() is to be called again; nullopt when nothing is in flight.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
     /// The datagram left at `at`.
-    void on_sent(const Departure& departure, base::TimePoint at);
+    void on_sent(const Datagram& datagram, base::TimePoint at);
 
     /// The datagram could not be sent.
-    void on_failed(const Departure& departure, DropCause cause);
+    void on_failed(const Datagram& datagram, DropCause cause);
 
     /// Other conditions for what arrives from now on; what is scheduled keeps its time, and what
     /// is being sent at the old rate goes on at the new one from `now`.
@@ -80,19 +70,14 @@ public:
 
     [[nodiscard]] const Conditions& conditions() const { return conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
-    [[nodiscard]] const Lens& lens() const { return lens_; }
+    [[nodiscard]] const StreamStatistics& stream_statistics() const { return stream_statistics_; }
 
 private:
+    /// A datagram and what is still to be done with it.
     struct Held {
         Datagram datagram; // no_slot: it will be lost, and only takes time
         Deliver deliver;
     };
-    /// Waits until a later datagram has been scheduled (Reordering by places).
-    struct Displaced {
-        Datagram datagram;
-        std::uint64_t behind = 0; // the number of that later one
-    };
-
     [[nodiscard]] Fate fate_of(const Packet& packet);
     [[nodiscard]] bool is_over_rate(const Packet& packet, const Verdict& verdict);
     [[nodiscard]] bool passes_untouched(const Deliver& deliver) const;
@@ -115,12 +100,12 @@ private:
     Slab slab_;
     DelayLine line_;
     Bottleneck<Held> bottleneck_;
-    std::vector<Displaced> displaced_;
+    std::vector<Held> displaced_; // until a later datagram is scheduled (Reordering by places)
     base::TimePoint last_arrival_;
     base::TimePoint last_due_ = base::TimePoint::min();
     std::uint64_t beyond_highest_delivered_ = 0; // the highest number that left, plus one
     Statistics statistics_;
-    Lens lens_;
+    StreamStatistics stream_statistics_;
 };
 
 } // namespace hapnet::emulator

@@ -29,7 +29,6 @@ Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction dire
     : seed_{seed},
       direction_{direction},
       mtu_{conditions.mtu},
-
       corrupt_{conditions.corrupt},
       corrupt_stream_{stream_of(seed, direction, "corrupt")},
       duplicate_{conditions.duplicate},
@@ -44,42 +43,55 @@ Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction dire
 
 Fate Pipeline::on_packet(const Packet& packet)
 {
-    Fate fate{draw_delivery(packet), {}};
+    Fate fate;
     std::optional<DropCause> cause;
-    if (mtu_.bytes_max > 0 && packet.bytes + Mtu::header_bytes > mtu_.bytes_max) {
-        cause = DropCause::mtu;
-    }
+    if (is_above_mtu(packet)) cause = DropCause::mtu;
     for (std::size_t i = 0; i < loss_.size(); ++i) {
-        const LossJudgement judgement = loss_[i].process.on_packet(packet);
-        fate.states[i] = judgement.state;
-        if (!cause) cause = judgement.cause;
+        const auto lost = loss_[i].process.on_packet(packet);
+        fate.states[i] = loss_[i].process.state();
+        if (!cause) cause = lost;
     }
-    if (cause) fate.verdict = Drop{*cause};
-    return fate;
-}
-
-Deliver Pipeline::draw_delivery(const Packet& packet)
-{
     Deliver deliver;
-    const auto number = packet.number;
-    if (is_drawn(corrupt_.share, corrupt_stream_, number)) {
-        deliver.flips.count = corrupt_.bits;
-        for (std::uint32_t i = 0; i < corrupt_.bits; ++i) {
-            deliver.flips.places[i] =
-                static_cast<std::uint32_t>(corrupt_stream_.bits(number, 1 + i) >> 32);
-        }
+    if (is_drawn(corrupt_.share, corrupt_stream_, packet.number)) {
+        deliver.flips = draw_flips(packet.number);
     }
-    if (is_drawn(duplicate_.share, duplicate_stream_, number)) {
-        const auto spread = static_cast<double>(duplicate_.spread.count());
-        deliver.copy = base::Duration{
-            static_cast<base::Duration::rep>(duplicate_stream_.uniform(number, 1) * spread)};
+    if (is_drawn(duplicate_.share, duplicate_stream_, packet.number)) {
+        deliver.copy = draw_copy(packet.number);
     }
     const auto after = delay_.on_packet(packet) + jitter_.on_packet(packet);
     deliver.after = std::max(after, base::Duration{0});
-    if (is_drawn(reorder_.share, reorder_stream_, number)) {
+    if (is_drawn(reorder_.share, reorder_stream_, packet.number)) {
         deliver.displacement = reorder_.displacement;
     }
-    return deliver;
+    if (cause) {
+        fate.verdict = Drop{*cause};
+    } else {
+        fate.verdict = deliver;
+    }
+    return fate;
+}
+
+bool Pipeline::is_above_mtu(const Packet& packet) const
+{
+    return mtu_.bytes_max > 0 && packet.bytes + Mtu::header_bytes > mtu_.bytes_max;
+}
+
+Flips Pipeline::draw_flips(std::uint64_t number) const
+{
+    Flips flips;
+    flips.count = corrupt_.bits;
+    for (std::uint32_t i = 0; i < corrupt_.bits; ++i) {
+        flips.places[i] = static_cast<std::uint32_t>(corrupt_stream_.bits(number, 1 + i) >> 32);
+    }
+    return flips;
+}
+
+/// How long after the original the copy leaves.
+base::Duration Pipeline::draw_copy(std::uint64_t number) const
+{
+    const auto spread = static_cast<double>(duplicate_.spread.count());
+    return base::Duration{
+        static_cast<base::Duration::rep>(duplicate_stream_.uniform(number, 1) * spread)};
 }
 
 void Pipeline::change(const Conditions& conditions)
@@ -93,7 +105,7 @@ void Pipeline::change(const Conditions& conditions)
     change_losses(conditions.loss);
 }
 
-Pipeline::Place Pipeline::place_of(const std::vector<LossLaw>& laws, std::size_t index)
+Pipeline::LawIndex Pipeline::index_of(const std::vector<LossLaw>& laws, std::size_t index)
 {
     const auto end = laws.begin() + static_cast<std::ptrdiff_t>(index);
     const auto before = std::count_if(
@@ -105,10 +117,10 @@ Pipeline::Place Pipeline::place_of(const std::vector<LossLaw>& laws, std::size_t
 /// or less in the list shifts nothing.
 Pipeline::LossStage Pipeline::loss_stage(const std::vector<LossLaw>& laws, std::size_t index) const
 {
-    const Place place = place_of(laws, index);
+    const LawIndex position = index_of(laws, index);
     auto name = fmt::format("loss/{}", name_of(laws[index]));
-    if (place.occurrence > 1) name += fmt::format("#{}", place.occurrence);
-    return {place, {laws[index], stream_of(seed_, direction_, name)}};
+    if (position.occurrence > 1) name += fmt::format("#{}", position.occurrence);
+    return {position, {laws[index], stream_of(seed_, direction_, name)}};
 }
 
 void Pipeline::change_losses(const std::vector<LossLaw>& laws)
@@ -116,13 +128,13 @@ void Pipeline::change_losses(const std::vector<LossLaw>& laws)
     base::ensure(laws.size() <= loss_laws_max);
     bool is_same = laws.size() == loss_.size();
     for (std::size_t i = 0; i < laws.size() && is_same; ++i) {
-        is_same = loss_[i].place == place_of(laws, i);
+        is_same = loss_[i].position == index_of(laws, i);
     }
     if (!is_same) {
         std::vector<LossStage> stages;
         for (std::size_t i = 0; i < laws.size(); ++i) {
             const auto old = std::find_if(loss_.begin(), loss_.end(), [&](const LossStage& stage) {
-                return stage.place == place_of(laws, i);
+                return stage.position == index_of(laws, i);
             });
             stages.push_back(old == loss_.end() ? loss_stage(laws, i) : *old);
         }

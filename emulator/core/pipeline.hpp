@@ -3,8 +3,8 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
-#include "emulator/core/delay/process.hpp"
-#include "emulator/core/loss/process.hpp"
+#include "emulator/core/delay/delay.hpp"
+#include "emulator/core/loss/loss.hpp"
 #include "emulator/core/packet.hpp"
 #include "emulator/core/verdict.hpp"
 #include "proto/base/random.hpp"
@@ -32,21 +32,23 @@ public:
 
 private:
     /// A law by its kind: the first random loss, the second one, the first burst, ...
-    struct Place {
+    struct LawIndex {
         std::size_t kind = 0;
         std::size_t occurrence = 1;
 
-        friend bool operator==(const Place&, const Place&) = default;
+        friend bool operator==(const LawIndex&, const LawIndex&) = default;
     };
     struct LossStage {
-        Place place;
+        LawIndex position;
         LossProcess process;
     };
 
-    static Place place_of(const std::vector<LossLaw>& laws, std::size_t index);
+    static LawIndex index_of(const std::vector<LossLaw>& laws, std::size_t index);
     [[nodiscard]] LossStage loss_stage(const std::vector<LossLaw>& laws, std::size_t index) const;
     void change_losses(const std::vector<LossLaw>& laws);
-    [[nodiscard]] Deliver draw_delivery(const Packet& packet);
+    [[nodiscard]] bool is_above_mtu(const Packet& packet) const;
+    [[nodiscard]] Flips draw_flips(std::uint64_t number) const;
+    [[nodiscard]] base::Duration draw_copy(std::uint64_t number) const;
 
     base::Seed seed_;
     Direction direction_;

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
 #include "proto/base/time.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -36,31 +38,23 @@ enum class DropCause : std::uint8_t {
     send_failed,      // any other refusal of the system
 };
 
-inline constexpr std::array drop_causes{
-    DropCause::random_loss,
-    DropCause::block_loss,
-    DropCause::periodic_loss,
-    DropCause::burst_loss,
-    DropCause::gilbert_elliott,
-    DropCause::four_state,
-    DropCause::listed_loss,
-    DropCause::pattern_loss,
-    DropCause::trace_loss,
-    DropCause::outage,
-    DropCause::mtu,
-    DropCause::rate_queue_full,
-    DropCause::replay_ended,
-    DropCause::queue_full,
-    DropCause::no_destination,
-    DropCause::no_route,
-    DropCause::refused,
-    DropCause::too_big,
-    DropCause::send_buffer_full,
-    DropCause::send_failed,
-};
-
 /// "random_loss": the key in statistics.
-[[nodiscard]] std::string_view to_text(DropCause cause);
+constexpr auto names_of(base::Tag<DropCause>)
+{
+    return base::names("random_loss", "block_loss", "periodic_loss", "burst_loss",
+                       "gilbert_elliott", "four_state", "listed_loss", "pattern_loss", "trace_loss",
+                       "outage", "mtu", "rate_queue_full", "replay_ended", "queue_full",
+                       "no_destination", "no_route", "refused", "too_big", "send_buffer_full",
+                       "send_failed");
+}
+[[nodiscard]] constexpr std::string_view to_text(DropCause cause) { return base::name_of(cause); }
+
+/// Each of them, in order.
+inline constexpr auto drop_causes = [] {
+    std::array<DropCause, base::names_of_enum<DropCause>.size()> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<DropCause>(i);
+    return all;
+}();
 
 /// The bits of a datagram that are inverted: each number, modulo the datagram's bits, is a place.
 /// So a fate does not depend on how long the datagram is.
@@ -111,7 +105,12 @@ enum class LossState : std::uint8_t {
     lost_in_burst,
     lost_in_gap,
 };
-[[nodiscard]] std::string_view to_text(LossState state);
+constexpr auto names_of(base::Tag<LossState>)
+{
+    return base::names("none", "good", "bad", "received_in_gap", "received_in_burst",
+                       "lost_in_burst", "lost_in_gap");
+}
+[[nodiscard]] constexpr std::string_view to_text(LossState state) { return base::name_of(state); }
 
 /// The most laws of loss that one direction may have.
 inline constexpr std::size_t loss_laws_max = 8;

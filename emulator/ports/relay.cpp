@@ -7,10 +7,7 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
-#include <utility>
-#include <vector>
 
 namespace hapnet::emulator {
 
@@ -38,11 +35,11 @@ constexpr int release_rounds_max = 32;
 /// What leaves in one direction: gathered and sent together. Flush it before the bytes go.
 class Batch {
 public:
-    Batch(Link& link, Relay::Side& to, Recorder& recorder)
-        : link_{link}, to_{to}, recorder_{recorder}
+    Batch(EmulatedPath& path, Direction direction, Relay::Side& to, Recorder& recorder)
+        : path_{path}, direction_{direction}, to_{to}, recorder_{recorder}
     {}
 
-    void add(const Departure& departure)
+    void add(const Datagram& departure)
     {
         departures_[count_] = departure;
         bytes_[count_] = departure.bytes;
@@ -52,7 +49,7 @@ public:
 
     void flush()
     {
-        const auto& destination = to_.correspondent.address();
+        const auto& destination = to_.filter.address();
         if (count_ > 0 && destination) {
             const auto outcomes = to_.socket.send_batch(*destination, {bytes_.data(), count_});
             const auto at = net::monotonic_now();
@@ -60,12 +57,12 @@ public:
                 if (outcomes[i] == net::SendOutcome::sent) {
                     on_sent(departures_[i], at, *destination);
                 } else {
-                    link_.on_failed(departures_[i], cause_of(outcomes[i]));
+                    path_.on_failed(direction_, departures_[i], cause_of(outcomes[i]));
                 }
             }
         } else {
             for (std::size_t i = 0; i < count_; ++i) {
-                link_.on_failed(departures_[i], DropCause::no_destination);
+                path_.on_failed(direction_, departures_[i], DropCause::no_destination);
             }
         }
         count_ = 0;
@@ -74,61 +71,49 @@ public:
 private:
     [[nodiscard]] bool is_full() const { return count_ == departures_.size(); }
 
-    void on_sent(const Departure& departure, base::TimePoint at, const net::Endpoint& destination)
+    void on_sent(const Datagram& departure, base::TimePoint at, const net::Endpoint& destination)
     {
         if (recorder_.captures()) {
             recorder_.on_departure({to_.side, at, udp_address_of(to_.local),
                                     udp_address_of(destination), departure.bytes},
                                    at - departure.due, departure.is_copy);
         }
-        link_.on_sent(departure, at); // its bytes go
+        path_.on_sent(direction_, departure, at); // its bytes go
     }
 
-    Link& link_;
+    EmulatedPath& path_;
+    Direction direction_;
     Relay::Side& to_;
     Recorder& recorder_;
     std::size_t count_ = 0;
-    std::array<Departure, net::BatchSender::batch_max> departures_;
+    std::array<Datagram, net::BatchSender::batch_max> departures_;
     std::array<std::span<const std::byte>, net::BatchSender::batch_max> bytes_;
 };
 
-Link link_of(const Relay::Setup& setup, Direction direction)
-{
-    const bool is_up = direction == Direction::up;
-    Link::Setup link{setup.seed, direction, setup.start, {}, {}};
-    if (setup.replay) {
-        const auto& fates = is_up ? setup.replay->up : setup.replay->down;
-        link.replay.emplace(std::shared_ptr<const std::vector<Fate>>{setup.replay, &fates});
-    }
-    return Link{is_up ? setup.path.up : setup.path.down, link};
-}
-
 } // namespace
 
-int Relay::pass(Side& from, Side& to, Director& director)
+int Relay::pass(Side& from, Side& to)
 {
     const auto arrived = from.socket.receive();
     if (arrived.empty()) return 0;
     int adopted = 0;
-    const Direction direction = from.side == CaptureSide::a ? Direction::up : Direction::down;
-    Batch undelayed{from.link, to, recorder_};
+    Batch undelayed{path_, from.direction, to, recorder_};
     for (const net::Received& datagram : arrived) {
         // What seems to come from ourselves is forged: adopted, it would go round for ever.
         const bool is_own = datagram.from == from.local || datagram.from == to.local;
         const Sender sender =
-            is_own ? Sender::stranger : from.correspondent.judge(datagram.from, datagram.at);
-        if (sender == Sender::stranger) {
+            is_own ? Sender::unknown : from.filter.classify(datagram.from, datagram.at);
+        if (sender == Sender::unknown) {
             ++from.strangers;
             continue;
         }
         if (sender == Sender::adopted) ++adopted;
-        if (director.advance(datagram.at)) change(director.path(), datagram.at);
-        const Admission admission = from.link.on_packet(datagram.bytes, datagram.at);
-        recorder_.on_fate(direction, admission.number, admission.fate);
+        const Admission admission = path_.on_packet(from.direction, datagram.bytes, datagram.at);
+        recorder_.on_fate(from.direction, admission.number, admission.fate);
         if (recorder_.captures()) {
             recorder_.on_arrival({from.side, datagram.at, udp_address_of(datagram.from),
                                   udp_address_of(from.local), datagram.bytes},
-                                 {admission.verdict, {}});
+                                 admission.verdict);
         }
         if (admission.departure) undelayed.add(*admission.departure);
     }
@@ -140,9 +125,9 @@ int Relay::pass(Side& from, Side& to, Director& director)
 bool Relay::send_due(Side& from, Side& to, base::TimePoint now)
 {
     if (!base::is_due(from.link.next_deadline(), now)) return false;
-    Batch due{from.link, to, recorder_};
+    Batch due{path_, from.direction, to, recorder_};
     for (std::size_t i = 0; i < net::BatchSender::batch_max; ++i) {
-        const auto departure = from.link.poll(now);
+        const auto departure = path_.poll(from.direction, now);
         if (!departure) {
             due.flush();
             return false;
@@ -153,21 +138,23 @@ bool Relay::send_due(Side& from, Side& to, base::TimePoint now)
 }
 
 Relay::Side::Side(CaptureSide which, const net::Endpoint& listen,
-                  const std::optional<net::Endpoint>& peer, Link from_here)
+                  const std::optional<net::Endpoint>& peer, const Link& from_here)
     : side{which},
+      direction{which == CaptureSide::a ? Direction::up : Direction::down},
       socket{listen, net::Load::bulk},
       local{socket.local()},
-      correspondent{peer},
-      link{std::move(from_here)}
+      filter{peer},
+      link{from_here}
 {}
 
-Relay::Relay(const Places& places, const Setup& setup, Recorder& recorder)
-    : recorder_{recorder},
-      a_{CaptureSide::a, places.listen_a, places.a, link_of(setup, Direction::up)},
-      b_{CaptureSide::b, places.listen_b, places.b, link_of(setup, Direction::down)}
+Relay::Relay(const Endpoints& endpoints, EmulatedPath& path, Recorder& recorder)
+    : path_{path},
+      recorder_{recorder},
+      a_{CaptureSide::a, endpoints.listen_a, endpoints.a, path.link(Direction::up)},
+      b_{CaptureSide::b, endpoints.listen_b, endpoints.b, path.link(Direction::down)}
 {}
 
-int Relay::receive(Director& director) { return pass(a_, b_, director) + pass(b_, a_, director); }
+int Relay::receive() { return pass(a_, b_) + pass(b_, a_); }
 
 void Relay::release(base::TimePoint now)
 {
@@ -177,17 +164,6 @@ void Relay::release(base::TimePoint now)
         if (a_has_more) a_has_more = send_due(a_, b_, now);
         if (b_has_more) b_has_more = send_due(b_, a_, now);
     }
-}
-
-void Relay::change(const Path& path, base::TimePoint now)
-{
-    a_.link.change(path.up, now);
-    b_.link.change(path.down, now);
-}
-
-std::optional<base::TimePoint> Relay::next_deadline() const
-{
-    return base::earlier(a_.link.next_deadline(), b_.link.next_deadline());
 }
 
 } // namespace hapnet::emulator

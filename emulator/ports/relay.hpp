@@ -3,73 +3,58 @@
 #pragma once
 
 #include "emulator/core/capture/pcapng.hpp"
-#include "emulator/core/conditions.hpp"
-#include "emulator/core/correspondent.hpp"
-#include "emulator/core/director.hpp"
-#include "emulator/core/fates/fates.hpp"
-#include "emulator/core/link.hpp"
-#include "emulator/places.hpp"
+#include "emulator/core/emulated_path.hpp"
+#include "emulator/core/endpoint_filter.hpp"
+#include "emulator/endpoints.hpp"
 #include "emulator/recorder.hpp"
-#include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/udp_socket.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 namespace hapnet::emulator {
 
-/// The two sockets and the two directions between them. Moves datagrams; every decision is taken
-/// in Link and Correspondent.
+/// The two sockets and the path between them. Moves datagrams; EmulatedPath and EndpointFilter take
+/// every decision.
 class Relay {
 public:
-    struct Setup {
-        const Path& path; // the conditions at the beginning
-        base::Seed seed;
-        base::TimePoint start;               // time 0 of all that depends on time
-        std::shared_ptr<const Fates> replay; // null: fates are drawn
-    };
-
-    /// Binds both sockets. Throws std::system_error when it cannot. The recorder outlives it.
-    Relay(const Places& places, const Setup& setup, Recorder& recorder);
+    /// Binds both sockets. Throws std::system_error when it cannot. The path and the recorder
+    /// outlive it.
+    Relay(const Endpoints& endpoints, EmulatedPath& path, Recorder& recorder);
 
     /// Takes what has arrived, at most one batch a side, so that a flood cannot hold up what is
     /// due, and sends on at once what is not delayed. Conditions that change in the meantime hold
     /// from the first datagram that arrived after their time. Returns how many senders were
     /// adopted by that.
-    int receive(Director& director);
+    int receive();
 
     /// Sends what is due at `now`, the two sides in turn; so much at most that what arrives does
     /// not have to wait long. What is left is still due.
     void release(base::TimePoint now);
 
-    /// Other conditions for what arrives from now on.
-    void change(const Path& path, base::TimePoint now);
-
-    /// When the next datagram is due to leave; nullopt when none is in flight.
-    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
-
     /// One side of the relay, and the direction that begins there.
     struct Side {
         Side(CaptureSide which, const net::Endpoint& listen,
-             const std::optional<net::Endpoint>& peer, Link from_here);
+             const std::optional<net::Endpoint>& peer, const Link& from_here);
 
         CaptureSide side;
+        Direction direction; // of the datagrams that come from here
         net::UdpSocket socket;
         net::Endpoint local;
-        Correspondent<net::Endpoint> correspondent;
-        Link link;
+        EndpointFilter<net::Endpoint> filter;
+        const Link& link;            // of that direction
         std::uint64_t strangers = 0; // datagrams from any other address, our own among them
     };
     [[nodiscard]] const Side& a() const { return a_; }
     [[nodiscard]] const Side& b() const { return b_; }
 
 private:
-    int pass(Side& from, Side& to, Director& director);
+    int pass(Side& from, Side& to);
     bool send_due(Side& from, Side& to, base::TimePoint now);
 
+    EmulatedPath& path_;
     Recorder& recorder_;
     Side a_;
     Side b_;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/netem.hpp"
 
-#include "emulator/core/profile/faults.hpp"
 #include "emulator/tools/netem_words.hpp"
 #include "proto/base/text.hpp"
 
@@ -10,8 +9,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <spdlog/fmt/fmt.h>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -141,8 +142,10 @@ void read_loss(NetemWords& words, Said& said)
         read_random_loss(words, said);
     }
     if (said.loss.size() > 1) return words.complain("netem has only one law of loss");
-    const auto fault = said.loss.empty() ? std::nullopt : fault_of(said.loss.front());
-    if (fault && !words.complaint()) words.complain("this loss is not possible here: " + *fault);
+    const auto valid = said.loss.empty() ? base::Result<void>{} : validate(said.loss.front());
+    if (!valid && !words.complaint()) {
+        words.complain("this loss is not possible here: " + valid.error().message);
+    }
 }
 
 void read_duplicate(NetemWords& words, Said& said)
@@ -362,6 +365,46 @@ base::Result<NetemProfile> parse_netem(std::string_view sentence)
     profile.warnings.insert(profile.warnings.end(), said.warnings.begin(), said.warnings.end());
     profile.seed = said.seed;
     return profile;
+}
+
+double netem_correlated_share(double share, double correlation)
+{
+    if (correlation <= 0.0 || share <= 0.0 || share >= 1.0) return std::clamp(share, 0.0, 1.0);
+    constexpr std::size_t steps = 4096;
+    constexpr double width = 1.0 / static_cast<double>(steps);
+    const double rho = std::min(correlation, 0.999);
+    // F(x) = P(X <= x) on a grid, and its integral; F goes over into the mean of F over the X'
+    // that lead there, until it stays.
+    std::vector<double> f(steps + 1);
+    std::vector<double> sum(steps + 1);
+    for (std::size_t i = 0; i <= steps; ++i) f[i] = static_cast<double>(i) * width;
+    const auto integral = [&](double x) {
+        if (x <= 0.0) return 0.0;
+        if (x >= 1.0) return sum[steps] + (x - 1.0);
+        const auto i = std::min(static_cast<std::size_t>(x / width), steps - 1);
+        const double part = x / width - static_cast<double>(i);
+        const double here = f[i] + (f[i + 1] - f[i]) * part;
+        return sum[i] + 0.5 * (f[i] + here) * part * width;
+    };
+    constexpr int rounds_max = 3000;
+    for (int round = 0; round < rounds_max; ++round) {
+        sum[0] = 0.0;
+        for (std::size_t i = 0; i < steps; ++i)
+            sum[i + 1] = sum[i] + 0.5 * width * (f[i] + f[i + 1]);
+        std::vector<double> next(steps + 1);
+        double change = 0.0;
+        for (std::size_t i = 0; i <= steps; ++i) {
+            const double x = static_cast<double>(i) * width;
+            const double all = integral(x / rho) - integral((x - (1.0 - rho)) / rho);
+            next[i] = std::clamp(all * rho / (1.0 - rho), 0.0, 1.0);
+            change = std::max(change, std::abs(next[i] - f[i]));
+        }
+        f = std::move(next);
+        if (change < 1e-9) break;
+    }
+    const double place = share / width;
+    const auto i = std::min(static_cast<std::size_t>(place), steps - 1);
+    return f[i] + (f[i + 1] - f[i]) * (place - static_cast<double>(i));
 }
 
 } // namespace hapnet::emulator

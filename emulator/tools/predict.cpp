@@ -2,60 +2,32 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/predict.hpp"
 
-#include "emulator/core/link.hpp"
-#include "emulator/core/profile/timeline.hpp"
+#include "emulator/core/emulated_path.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace hapnet::emulator {
 
 namespace {
 
-/// One direction on its way through virtual time.
-class Play {
-public:
-    Play(const Conditions& conditions, base::Seed seed, Direction direction)
-        : link_{conditions, {.seed = seed, .direction = direction}}
-    {}
-
-    void change(const Conditions& conditions, base::TimePoint at)
-    {
-        drain(at);
-        if (conditions != link_.conditions()) link_.change(conditions, at);
-    }
-
-    void packet(std::span<const std::byte> bytes, base::TimePoint at)
-    {
-        drain(at);
-        const Admission admission = link_.on_packet(bytes, at);
-        if (admission.departure) link_.on_sent(*admission.departure, at);
-        count(std::holds_alternative<Drop>(admission.fate.verdict));
-    }
-
-    [[nodiscard]] DirectionPrediction finish()
-    {
-        while (const auto deadline = link_.next_deadline()) drain(*deadline);
-        result_.statistics = link_.statistics();
-        result_.lens = link_.lens().report();
-        const auto& lens = result_.lens;
-        if (lens.delay) result_.added_by_queues = lens.delay->mean - lens.requested_delay->mean;
-        return result_;
-    }
-
-private:
-    /// Lets leave what is due before or at `now`, each at its own time.
-    void drain(base::TimePoint now)
-    {
-        for (auto deadline = link_.next_deadline(); base::is_due(deadline, now);
-             deadline = link_.next_deadline()) {
-            while (const auto departure = link_.poll(*deadline)) {
-                link_.on_sent(*departure, *deadline);
+/// Lets leave what is due before or at `now`, each at its own time.
+void drain(EmulatedPath& path, base::TimePoint now)
+{
+    for (auto due = path.next_due(); base::is_due(due, now); due = path.next_due()) {
+        for (const Direction direction : {Direction::up, Direction::down}) {
+            while (const auto datagram = path.poll(direction, *due)) {
+                path.on_sent(direction, *datagram, *due);
             }
         }
     }
+}
 
-    void count(bool is_lost)
+/// Counts the losses of one direction.
+class Losses {
+public:
+    void add(bool is_lost)
     {
         if (!is_lost) {
             run_ = 0;
@@ -67,7 +39,20 @@ private:
         result_.loss_run_max = std::max(result_.loss_run_max, run_);
     }
 
-    Link link_;
+    /// With what the link saw.
+    [[nodiscard]] DirectionPrediction with(const Link& link) const
+    {
+        DirectionPrediction result = result_;
+        result.statistics = link.statistics();
+        result.measured = link.stream_statistics().report();
+        const auto& measured = result.measured;
+        if (measured.delay) {
+            result.added_by_queues = measured.delay->mean - measured.requested_delay->mean;
+        }
+        return result;
+    }
+
+private:
     DirectionPrediction result_;
     std::uint64_t run_ = 0;
 };
@@ -86,26 +71,30 @@ std::optional<double> DirectionPrediction::loss_run_mean() const
     return static_cast<double>(lost) / static_cast<double>(loss_runs);
 }
 
-Prediction predicted(const Profile& profile, const Stream& stream, base::Seed seed)
+Prediction predict(const Profile& profile, const Stream& stream, base::Seed seed)
 {
     base::ensure(stream.spacing > base::Duration{0} && stream.bytes <= 65'507);
-    const Timeline timeline{profile};
-    const Path start = timeline.at(base::Duration{0});
-    Play up{start.up, seed, Direction::up};
-    Play down{start.down, seed, Direction::down};
+    EmulatedPath path{profile, {.seed = seed}};
     const std::vector<std::byte> bytes(stream.bytes);
-    auto change = timeline.next_change(base::Duration{0});
-    base::Duration now{};
+    Losses up;
+    Losses down;
+    base::TimePoint now{};
     for (std::uint64_t i = 0; i < stream.packets; ++i, now += stream.spacing) {
-        for (; change && *change <= now; change = timeline.next_change(*change)) {
-            const Path path = timeline.at(*change);
-            up.change(path.up, base::TimePoint{*change});
-            down.change(path.down, base::TimePoint{*change});
+        while (base::is_due(path.director().next_change(), now)) {
+            const auto change = *path.director().next_change();
+            drain(path, change);
+            path.advance(change);
         }
-        up.packet(bytes, base::TimePoint{now});
-        down.packet(bytes, base::TimePoint{now});
+        drain(path, now);
+        for (const Direction direction : {Direction::up, Direction::down}) {
+            const Admission admission = path.on_packet(direction, bytes, now);
+            if (admission.departure) path.on_sent(direction, *admission.departure, now);
+            const bool is_lost = std::holds_alternative<Drop>(admission.fate.verdict);
+            (direction == Direction::up ? up : down).add(is_lost);
+        }
     }
-    return {up.finish(), down.finish()};
+    while (const auto due = path.next_due()) drain(path, *due);
+    return {up.with(path.link(Direction::up)), down.with(path.link(Direction::down))};
 }
 
 } // namespace hapnet::emulator

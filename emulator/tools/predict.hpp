@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/lens.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "emulator/core/statistics.hpp"
+#include "emulator/core/stream_statistics.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 
@@ -12,8 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace hapnet::emulator {
 
@@ -29,7 +27,7 @@ struct Stream {
 /// What became of the stream in one direction.
 struct DirectionPrediction {
     Statistics statistics; // nothing in flight any more
-    LensReport lens;
+    StreamReport measured;
     std::uint64_t lost = 0;           // dropped, whatever the cause
     std::uint64_t loss_runs = 0;      // of losses in a row, by their numbers
     std::uint64_t loss_run_max = 0;   // in datagrams
@@ -46,16 +44,6 @@ struct Prediction {
 
 /// Plays a profile to a stream, in virtual time, through the link that real datagrams take. Nothing
 /// is late in virtual time: what it shows is what the profile itself does.
-[[nodiscard]] Prediction predicted(const Profile& profile, const Stream& stream, base::Seed seed);
-
-/// What the conditions of one direction do to a stream that a user may not have meant, with the
-/// numbers that `prediction` found.
-[[nodiscard]] std::vector<std::string> warnings(const Conditions& conditions, const Stream& stream,
-                                                const DirectionPrediction& prediction);
-
-/// One sentence on each stage of a direction that does something, in the order in which they come,
-/// with what theory says of it.
-[[nodiscard]] std::vector<std::string> stages_in_words(const Conditions& conditions,
-                                                       const Stream& stream);
+[[nodiscard]] Prediction predict(const Profile& profile, const Stream& stream, base::Seed seed);
 
 } // namespace hapnet::emulator

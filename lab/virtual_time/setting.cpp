@@ -32,9 +32,9 @@ base::Result<void> validate(const Setting& setting)
         return player.replay && player.replay->empty();
     });
     if (!are_traces) return base::fail("a hand's trace must have at least one row");
-    if (const auto fault = emulator::Timeline::fault_of(setting.profile)) {
-        return base::fail(
-            fmt::format("change {} of the timeline: {}", fault->change + 1, fault->what));
+    if (const auto valid = emulator::Timeline::validate(setting.profile); !valid) {
+        const auto& [index, message] = valid.error();
+        return base::fail(fmt::format("change {} of the timeline: {}", index + 1, message));
     }
     return {};
 }

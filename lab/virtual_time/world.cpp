@@ -28,18 +28,13 @@ VirtualWorld::VirtualWorld(std::span<const Setting> settings, emulator::QueueLim
 
 void VirtualWorld::add(const Setting& setting, emulator::QueueLimits limits)
 {
-    pairs_.push_back({setting, emulator::Director{setting.profile, start}});
-    const emulator::Path& path = pairs_.back().director.path();
-    for (const Direction direction : {Direction::up, Direction::down}) {
-        const bool is_up = direction == Direction::up;
-        const PlayerSetting& player = setting.players.at(is_up ? 0 : 1);
+    pairs_.push_back({setting, emulator::EmulatedPath{setting.profile,
+                                                      {.seed = setting.seed,
+                                                       .start = start,
+                                                       .limits = limits,
+                                                       .has_stream_statistics = false}}});
+    for (const PlayerSetting& player : setting.players) {
         sides_.push_back({.player = std::nullopt,
-                          .out = emulator::Link{is_up ? path.up : path.down,
-                                                {.seed = setting.seed,
-                                                 .direction = direction,
-                                                 .start = start,
-                                                 .limits = limits,
-                                                 .has_lens = false}},
                           .undelayed = {},
                           .next_tick = start + setting.tick + player.phase,
                           .tick = setting.tick});
@@ -58,7 +53,7 @@ base::TimePoint VirtualWorld::next_deadline() const
     base::TimePoint next = sides_.front().next_tick;
     for (const Side& side : sides_) next = std::min(next, side.next_tick);
     for (const Pair& pair : pairs_) {
-        if (const auto change = pair.director.next_change()) next = std::min(next, *change);
+        if (const auto change = pair.path.director().next_change()) next = std::min(next, *change);
     }
     return next;
 }
@@ -66,7 +61,7 @@ base::TimePoint VirtualWorld::next_deadline() const
 void VirtualWorld::step()
 {
     now_ = next_deadline();
-    for (std::size_t pair = 0; pair < pairs_.size(); ++pair) follow_timeline(pair);
+    for (Pair& pair : pairs_) pair.path.advance(now_);
     // A datagram that is sent in a tick does not reach a tick at the same time.
     for (std::size_t side = 0; side < sides_.size(); ++side) {
         if (sides_[side].next_tick == now_) deliver(side);
@@ -85,28 +80,22 @@ void VirtualWorld::run_for(base::Duration duration)
     now_ = end;
 }
 
-void VirtualWorld::follow_timeline(std::size_t pair)
-{
-    emulator::Director& director = pairs_[pair].director;
-    if (!director.advance(now_)) return;
-    sides_[2 * pair].out.change(director.path().up, now_);
-    sides_[2 * pair + 1].out.change(director.path().down, now_);
-}
-
 void VirtualWorld::deliver(std::size_t to)
 {
-    Side& from = sides_[partner_of(to)];
+    const std::size_t from = partner_of(to);
+    const Direction direction = direction_of(from);
+    emulator::EmulatedPath& path = pairs_[from / 2].path;
     auto& receiver = sides_[to].player;
-    for (const Passing& passing : from.undelayed) {
-        emulator::Departure departure = passing.departure;
-        departure.bytes = passing.datagram.bytes();
-        if (receiver) receiver->receive(departure.bytes, departure.due);
-        from.out.on_sent(departure, departure.due);
+    for (const Passing& passing : sides_[from].undelayed) {
+        emulator::Datagram datagram = passing.departure;
+        datagram.bytes = passing.datagram.bytes();
+        if (receiver) receiver->receive(datagram.bytes, datagram.due);
+        path.on_sent(direction, datagram, datagram.due);
     }
-    from.undelayed.clear();
-    while (const auto departure = from.out.poll(now_)) {
-        if (receiver) receiver->receive(departure->bytes, departure->due);
-        from.out.on_sent(*departure, departure->due);
+    sides_[from].undelayed.clear();
+    while (const auto datagram = path.poll(direction, now_)) {
+        if (receiver) receiver->receive(datagram->bytes, datagram->due);
+        path.on_sent(direction, *datagram, datagram->due);
     }
 }
 
@@ -116,7 +105,8 @@ void VirtualWorld::play(std::size_t side)
     here.player->step(now_);
     while (const auto datagram = here.player->side->poll()) {
         if (pairs_[side / 2].is_cut) continue;
-        const auto admission = here.out.on_packet(datagram->bytes(), now_);
+        const auto admission =
+            pairs_[side / 2].path.on_packet(direction_of(side), datagram->bytes(), now_);
         if (admission.departure) here.undelayed.push_back({*admission.departure, *datagram});
     }
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/director.hpp"
-#include "emulator/core/link.hpp"
+#include "emulator/core/emulated_path.hpp"
 #include "lab/virtual_time/player.hpp"
 
 #include <array>
@@ -56,32 +55,38 @@ public:
     }
     [[nodiscard]] base::TimePoint now() const { return now_; }
     [[nodiscard]] std::size_t sides() const { return sides_.size(); }
-    [[nodiscard]] const emulator::Link& link(std::size_t from) const { return sides_[from].out; }
+    [[nodiscard]] const emulator::Link& link(std::size_t from) const
+    {
+        return pairs_[from / 2].path.link(direction_of(from));
+    }
 
 private:
     /// Undelayed: it left at once, and waits in the receiver's socket.
     struct Passing {
-        emulator::Departure departure; // but for its bytes
+        emulator::Datagram departure; // but for its bytes
         wire::Datagram datagram;
     };
     /// The part of a side that outlives a killed player.
     struct Side {
         std::optional<VirtualPlayer> player;
-        emulator::Link out; // to the other side
         std::vector<Passing> undelayed;
         base::TimePoint next_tick;
         base::Duration tick;
     };
     struct Pair {
         Setting setting;
-        emulator::Director director;
+        emulator::EmulatedPath path;
         std::uint32_t next_nonce = 100;
         bool is_cut = false;
     };
 
     void add(const Setting& setting, emulator::QueueLimits limits);
+    /// Of what a side sends.
+    [[nodiscard]] static emulator::Direction direction_of(std::size_t side)
+    {
+        return side % 2 == 0 ? emulator::Direction::up : emulator::Direction::down;
+    }
     [[nodiscard]] base::TimePoint next_deadline() const;
-    void follow_timeline(std::size_t pair);
     void deliver(std::size_t to);
     void play(std::size_t side);
 

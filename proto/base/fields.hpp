@@ -376,6 +376,11 @@ template <typename T>
     return value ? Between{std::in_place, *value} : Between{};
 }
 
+/// Within one alternative.
+template <typename... Types>
+[[nodiscard]] std::optional<std::variant<Types...>>
+between(const std::variant<Types...>& a, const std::variant<Types...>& b, double progress);
+
 /// Field by field.
 template <Described T>
 [[nodiscard]] std::optional<T> between(const T& a, const T& b, double progress)
@@ -390,6 +395,20 @@ template <Described T>
         },
         result, a, b);
     return is_possible ? std::optional<T>{result} : std::nullopt;
+}
+
+template <typename... Types>
+std::optional<std::variant<Types...>> between(const std::variant<Types...>& a,
+                                              const std::variant<Types...>& b, double progress)
+{
+    if (a.index() != b.index()) return std::nullopt;
+    return std::visit(
+        [&]<typename Own>(const Own& to) -> std::optional<std::variant<Types...>> {
+            auto value = between(std::get<Own>(a), to, progress);
+            if (!value) return std::nullopt;
+            return *std::move(value);
+        },
+        b);
 }
 
 } // namespace hapnet::base

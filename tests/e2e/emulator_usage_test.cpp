@@ -88,7 +88,7 @@ TEST(EmulatorUsage, RefusesWhatTheRampsOfTheProfileCannotBeginAt)
                               "[[at]]\ntime = \"1s\"\nramp = \"1s\"\nup.rate = \"2Mbit/s\"\n";
     EXPECT_EQ(run_with({"--profile", profile, "--down.rate", "0"}).exit, 0);
     expect_refusal(run_with({"--profile", profile, "--up.rate", "0"}), 2,
-                   {"change 1", "at 1s", "rate has no straight way"});
+                   {"change 1", "at 1s", "cannot ramp rate"});
 }
 
 TEST(EmulatorUsage, AdoptsOnLoopbackOnly)

@@ -29,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto reply = nlohmann::json::parse(line, nullptr, false);
         base::ensure(reply.is_object() && reply.contains("ok") && reply["ok"].is_boolean());
     }
-    const Profile shown = fake.director.remaining();
+    const Profile shown = fake.director().remaining();
     base::ensure(parse_profile(to_text(shown), "shown", EmulationFake::no_files).value() == shown);
     return 0;
 }

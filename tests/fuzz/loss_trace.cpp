@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/core/loss/pattern.hpp"
 #include "emulator/core/loss/trace.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 

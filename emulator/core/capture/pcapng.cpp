@@ -5,6 +5,8 @@
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::emulator {
 
@@ -191,6 +193,19 @@ void put_interface(std::string& bytes, std::string_view name)
     put_option(bytes, timestamp_resolution, "\x09"); // 10^-9 s
 }
 
+base::Duration::rep microseconds(base::Duration time) { return (time.count() + 500) / 1000; }
+
+void append_delay(std::string& text, base::Duration delay)
+{
+    auto out = std::back_inserter(text);
+    if (const auto us = microseconds(delay); us > 0 && us < 1000) {
+        fmt::format_to(out, "delayed {} us", us);
+    } else {
+        const auto tenths = (us + 50) / 100;
+        fmt::format_to(out, "delayed {}.{} ms", tenths / 10, tenths % 10);
+    }
+}
+
 } // namespace
 
 void append_capture_head(std::string& bytes, std::string_view program)
@@ -227,6 +242,30 @@ void append_packet(std::string& bytes, const CapturedPacket& packet)
     put_option(bytes, comment, packet.comment);
     using namespace std::string_view_literals;
     put_option(bytes, packet_flags, packet.is_outbound ? "\2\0\0\0"sv : "\1\0\0\0"sv);
+}
+
+void append_arrival_comment(std::string& text, const Verdict& verdict)
+{
+    if (const auto* drop = std::get_if<Drop>(&verdict)) {
+        text += "dropped: ";
+        const auto start = static_cast<std::ptrdiff_t>(text.size());
+        text += to_text(drop->cause);
+        std::replace(text.begin() + start, text.end(), '_', '-');
+        return;
+    }
+    const auto& deliver = std::get<Deliver>(verdict);
+    append_delay(text, deliver.after);
+    if (deliver.copy) text += ", copied";
+    if (const int bits = deliver.flips.count; bits > 0) {
+        fmt::format_to(std::back_inserter(text), ", {} bit{} corrupted", bits, bits > 1 ? "s" : "");
+    }
+    if (deliver.displacement != Displacement{}) text += ", displaced";
+}
+
+void append_departure_comment(std::string& text, base::Duration late, bool is_copy)
+{
+    fmt::format_to(std::back_inserter(text), "late {} us{}", microseconds(late),
+                   is_copy ? ", copy" : "");
 }
 
 } // namespace hapnet::emulator

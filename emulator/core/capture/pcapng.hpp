@@ -50,7 +50,7 @@ void append_packet(std::string& bytes, const CapturedPacket& packet);
 /// Appends the comment of a datagram that arrived: "dropped: gilbert-elliott", or
 /// "delayed 163.2 ms" (as drawn; below 1 ms in us) and what else becomes of it: ", copied",
 /// ", 1 bit corrupted", ", displaced".
-void append_arrival_comment(std::string& text, const Fate& fate);
+void append_arrival_comment(std::string& text, const Verdict& verdict);
 
 /// Appends the comment of a datagram that left so late: "late 7 us", and ", copy" if it is one.
 void append_departure_comment(std::string& text, base::Duration late, bool is_copy);

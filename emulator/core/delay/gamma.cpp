@@ -17,6 +17,13 @@ namespace {
 constexpr double expansion_from = 1000.0;
 constexpr double unsolved = std::numeric_limits<double>::quiet_NaN();
 
+double shape_of(const GammaLaw& law)
+{
+    const double ratio =
+        base::to_nanoseconds(law.mean) / std::max(base::to_nanoseconds(law.sd), 1.0);
+    return std::max(ratio * ratio, GammaQuantile::shape_min);
+}
+
 /// log Gamma(x) for x > 0: Stirling's series (DLMF 5.11.1) beyond 10, the recurrence below.
 double log_gamma(double x)
 {
@@ -150,6 +157,35 @@ double GammaQuantile::expansion(double z) const
     const double fourth = z * ((9.0 * y + 256.0) * y - 433.0) / 38880;
     const double fifth = (((12.0 * y - 243.0) * y - 923.0) * y + 1472.0) / 204120;
     return 1.0 + s * (z + s * (first + s * (second + s * (third + s * (fourth + s * fifth)))));
+}
+
+base::Result<void> GammaLaw::validate() const
+{
+    constexpr base::Duration zero{0};
+    static_assert(GammaQuantile::shape_min == 0.01);
+    return all({require_ranges(*this), require(mean > zero, "mean must be more than 0"),
+                require(sd > zero, "sd must be more than 0"),
+                require(sd <= 10 * mean, "sd must be at most 10 times the mean")});
+}
+
+LawMoments GammaLaw::moments() const { return {mean, sd}; }
+
+GammaLaw::Sampler::Sampler(const GammaLaw& law)
+    : mean_{base::to_nanoseconds(law.mean)}, shape_{shape_of(law)}, quantiles_{shape_}
+{}
+
+base::Duration GammaLaw::Sampler::quantile(double u)
+{
+    return bounded(mean_ * quantiles_.at(base::normal_quantile(u)));
+}
+
+void GammaLaw::Sampler::change(const GammaLaw& law)
+{
+    if (shape_ != shape_of(law)) {
+        *this = Sampler{law};
+    } else {
+        mean_ = base::to_nanoseconds(law.mean);
+    }
 }
 
 } // namespace hapnet::emulator

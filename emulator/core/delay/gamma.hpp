@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/delay/bounds.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 namespace hapnet::emulator {
 
@@ -39,6 +44,41 @@ private:
     double log_shape_ = 0.0;
     double log_gamma_ = 0.0;          // of the shape
     std::array<Node, nodes> nodes_{}; // NaN: not worked out yet
+};
+
+/// Gamma on [0, infinity); mean > 0, 0 < sd <= 10 mean.
+struct GammaLaw {
+    base::Duration mean{};
+    base::Duration sd{};
+
+    class Sampler;
+
+    [[nodiscard]] base::Result<void> validate() const;
+    [[nodiscard]] LawMoments moments() const;
+
+    friend bool operator==(const GammaLaw&, const GammaLaw&) = default;
+};
+
+constexpr auto fields_of(base::Tag<GammaLaw>)
+{
+    return base::fields(
+        "gamma", base::field("mean", &GammaLaw::mean, any_delay, "mean").required(),
+        base::field("sd", &GammaLaw::sd, delay_width, "standard deviation").required());
+}
+
+class GammaLaw::Sampler {
+public:
+    explicit Sampler(const GammaLaw& law);
+
+    [[nodiscard]] base::Duration quantile(double u);
+
+    /// Keeps the quantiles that it has worked out while the shape stays.
+    void change(const GammaLaw& law);
+
+private:
+    double mean_;
+    double shape_;
+    GammaQuantile quantiles_;
 };
 
 } // namespace hapnet::emulator

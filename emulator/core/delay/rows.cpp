@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/delay/rows.hpp"
 
-#include "emulator/core/delay/law.hpp"
+#include "emulator/core/delay/bounds.hpp"
 #include "emulator/core/delay/table.hpp"
 #include "proto/base/text.hpp"
 

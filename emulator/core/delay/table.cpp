@@ -49,6 +49,58 @@ double QuantileTable::quantile(double u) const
     return std::min(low + (place - static_cast<double>(piece)) * (high - low), high);
 }
 
+bool TableLaw::is_as_measured() const
+{
+    constexpr base::Duration zero{0};
+    return table->holds_delays() && mean == zero && sd == zero;
+}
+
+base::Result<void> TableLaw::load(const base::Reading& reading)
+{
+    const auto text = reading.open(file);
+    if (!text) return tl::unexpected{text.error()};
+    const bool is_dist = file.ends_with(".dist");
+    auto read = is_dist ? parse_dist(*text) : parse_samples(*text);
+    if (!read) return base::fail(fmt::format("{}: {}", file, read.error().message));
+    table = *std::move(read);
+    return {};
+}
+
+base::Result<void> TableLaw::validate() const
+{
+    base::ensure(table != nullptr);
+    constexpr base::Duration zero{0};
+    return all({require_ranges(*this),
+                require(sd > zero || is_as_measured(), "sd must be more than 0"),
+                require(sd == zero || table->sd() > 0.0,
+                        "all values of the table are equal: leave out sd")});
+}
+
+LawMoments TableLaw::moments() const
+{
+    if (!is_as_measured()) return {mean, sd};
+    return {rounded(table->mean()), rounded(table->sd())};
+}
+
+bool operator==(const TableLaw& a, const TableLaw& b)
+{
+    if (a.file != b.file || a.mean != b.mean || a.sd != b.sd) return false;
+    return a.table == b.table || (a.table && b.table && *a.table == *b.table);
+}
+
+TableLaw::Sampler::Sampler(const TableLaw& law) : table_{law.table}
+{
+    base::ensure(table_ != nullptr);
+    if (law.is_as_measured()) return;
+    scale_ = table_->sd() > 0.0 ? base::to_nanoseconds(law.sd) / table_->sd() : 0.0;
+    offset_ = base::to_nanoseconds(law.mean) - scale_ * table_->mean();
+}
+
+base::Duration TableLaw::Sampler::quantile(double u) const
+{
+    return bounded(offset_ + scale_ * table_->quantile(u));
+}
+
 base::Result<std::shared_ptr<const QuantileTable>> parse_dist(std::string_view text)
 {
     constexpr std::string_view blanks = " \t\r\f\v";

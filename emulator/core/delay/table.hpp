@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/delay/bounds.hpp"
 #include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +42,50 @@ private:
     Unit unit_;
     double mean_ = 0.0;
     double sd_ = 0.0;
+};
+
+/// Drawn from a table: a netem .dist file, which is in units of its own, or a file of measured
+/// delays. Stretched and moved until its mean and sd are exactly these; measured delays are taken
+/// as they are when both are zero.
+struct TableLaw {
+    std::string file;
+    base::Duration mean{};
+    base::Duration sd{};
+    std::shared_ptr<const QuantileTable> table; // never null
+
+    class Sampler;
+
+    [[nodiscard]] bool is_as_measured() const;
+    /// Reads the file.
+    [[nodiscard]] base::Result<void> load(const base::Reading& reading);
+    [[nodiscard]] base::Result<void> validate() const;
+    [[nodiscard]] LawMoments moments() const;
+
+    /// By its contents: the same file read twice is the same law.
+    friend bool operator==(const TableLaw&, const TableLaw&);
+};
+
+constexpr auto fields_of(base::Tag<TableLaw>)
+{
+    return base::fields(
+        "table",
+        base::field("file", &TableLaw::file, "a .dist file of netem, or measured delays")
+            .required(),
+        base::field("mean", &TableLaw::mean, any_delay, "mean; as measured if not given"),
+        base::field("sd", &TableLaw::sd, delay_width,
+                    "standard deviation; as measured if not given"));
+}
+
+class TableLaw::Sampler {
+public:
+    explicit Sampler(const TableLaw& law);
+
+    [[nodiscard]] base::Duration quantile(double u) const;
+
+private:
+    double offset_ = 0.0;
+    double scale_ = 1.0;
+    std::shared_ptr<const QuantileTable> table_;
 };
 
 /// Reads a table in the format of tc-netem: whole numbers between blanks, 8192 of them to one

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/delay/law.hpp"
-#include "emulator/core/delay/sampler.hpp"
+#include "emulator/core/delay/delay.hpp"
 #include "proto/base/time.hpp"
 
 #include <optional>
@@ -11,11 +10,11 @@
 
 namespace hapnet::emulator {
 
-/// What a law promises before anything is drawn. Does not know of the order of departure, nor that
+/// What a law promises before anything is drawn. Leaves out the order of departure, and that
 /// nothing leaves before it arrives (see clipped_share). A correlation changes none of it.
 class DelayTheory {
 public:
-    /// There is no objection() to `law`.
+    /// `law` is one that validate() accepts.
     explicit DelayTheory(const DelayLaw& law);
 
     [[nodiscard]] base::Duration mean() const { return mean_; }
@@ -33,19 +32,13 @@ public:
     [[nodiscard]] std::optional<base::Duration> constant() const;
 
 private:
-    /// A value of a trace, and the share of values that are not greater.
-    struct Step {
-        base::Duration delay;
-        double share;
-    };
-
     base::Duration mean_{};
     std::optional<base::Duration> sd_;
-    Sampler sampler_;
-    std::vector<Step> steps_; // instead of the sampler, when not empty; ascending
+    DelaySampler sampler_;
+    std::vector<TraceLaw::Step> steps_; // of a trace
 };
 
-/// The share of datagrams for which delay and jitter together are less than nothing, and which
+/// The share of datagrams for which delay and jitter together are negative, and which
 /// therefore leave at once: exact when one of the two is constant, else within 1e-3.
 [[nodiscard]] double clipped_share(const DelayLaw& delay, const DelayLaw& jitter);
 

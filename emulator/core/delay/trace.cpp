@@ -6,7 +6,9 @@
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <spdlog/fmt/fmt.h>
 #include <utility>
 
 namespace hapnet::emulator {
@@ -42,6 +44,64 @@ double DelayTrace::share(std::size_t index) const
     const auto end = index + 1 < times_.size() ? times_[index + 1] : period_;
     return static_cast<double>((end - times_[index]).count()) /
            static_cast<double>(period_.count());
+}
+
+base::Result<void> TraceLaw::load(const base::Reading& reading)
+{
+    const auto text = reading.open(file);
+    if (!text) return tl::unexpected{text.error()};
+    auto read = parse_delay_trace(*text);
+    if (!read) return base::fail(fmt::format("{}: {}", file, read.error().message));
+    trace = *std::move(read);
+    return {};
+}
+
+base::Result<void> TraceLaw::validate() const
+{
+    base::ensure(trace != nullptr);
+    return {};
+}
+
+LawMoments TraceLaw::moments() const
+{
+    const auto& delays = trace->delays();
+    double mean = 0.0;
+    for (std::size_t i = 0; i < delays.size(); ++i) {
+        mean += trace->share(i) * base::to_nanoseconds(delays[i]);
+    }
+    double variance = 0.0;
+    for (std::size_t i = 0; i < delays.size(); ++i) {
+        const double distance = base::to_nanoseconds(delays[i]) - mean;
+        variance += trace->share(i) * distance * distance;
+    }
+    return {rounded(mean), rounded(std::sqrt(variance))};
+}
+
+std::vector<TraceLaw::Step> TraceLaw::steps() const
+{
+    const auto& delays = trace->delays();
+    std::vector<Step> steps;
+    for (std::size_t i = 0; i < delays.size(); ++i) steps.push_back({delays[i], trace->share(i)});
+    const auto by_delay = [](const Step& a, const Step& b) { return a.delay < b.delay; };
+    std::sort(steps.begin(), steps.end(), by_delay);
+    double sum = 0.0;
+    for (Step& step : steps) {
+        sum += step.share;
+        step.share = std::min(sum, 1.0);
+    }
+    steps.back().share = 1.0;
+    return steps;
+}
+
+bool operator==(const TraceLaw& a, const TraceLaw& b)
+{
+    if (a.file != b.file) return false;
+    return a.trace == b.trace || (a.trace && b.trace && *a.trace == *b.trace);
+}
+
+TraceLaw::Sampler::Sampler(const TraceLaw& law) : trace_{law.trace}
+{
+    base::ensure(trace_ != nullptr);
 }
 
 base::Result<std::shared_ptr<const DelayTrace>> parse_delay_trace(std::string_view text)

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/delay/bounds.hpp"
 #include "emulator/core/packet.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -41,6 +43,48 @@ private:
     std::vector<base::Duration> delays_;
     std::vector<base::Duration> times_; // empty: by packet
     base::Duration period_{};           // by time; 0: it has only one value
+};
+
+/// Read off a trace instead of drawn: value n for datagram n, or the value at its time; either
+/// begins again at its end.
+struct TraceLaw {
+    std::string file;
+    std::shared_ptr<const DelayTrace> trace; // never null
+
+    class Sampler;
+
+    /// Reads the file.
+    [[nodiscard]] base::Result<void> load(const base::Reading& reading);
+    [[nodiscard]] base::Result<void> validate() const;
+    [[nodiscard]] LawMoments moments() const;
+
+    /// A value, and the share of values that are not greater.
+    struct Step {
+        base::Duration delay;
+        double share;
+    };
+    /// The distribution function; ascending, the last share is 1.
+    [[nodiscard]] std::vector<Step> steps() const;
+
+    /// By its contents: the same file read twice is the same law.
+    friend bool operator==(const TraceLaw&, const TraceLaw&);
+};
+
+constexpr auto fields_of(base::Tag<TraceLaw>)
+{
+    return base::fields(
+        "trace",
+        base::field("file", &TraceLaw::file, "recorded delays, by datagram or by time").required());
+}
+
+class TraceLaw::Sampler {
+public:
+    explicit Sampler(const TraceLaw& law);
+
+    [[nodiscard]] base::Duration at(const Packet& packet) const { return trace_->at(packet); }
+
+private:
+    std::shared_ptr<const DelayTrace> trace_;
 };
 
 /// Reads a trace: by packet from one delay with its unit per line or from CSV with a column

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/fates/fates.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
+#include <optional>
+#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::emulator {
 
@@ -78,6 +82,225 @@ std::string to_text(const Fates& fates)
     number = 0;
     for (const Fate& fate : fates.down) append_row(text, Direction::down, number++, fate);
     return text;
+}
+
+// Reading.
+
+namespace {
+
+enum Column : std::size_t {
+    direction,
+    number,
+    verdict,
+    cause,
+    states,
+    delay,
+    copy,
+    flips,
+    places,
+    displaced,
+    column_count,
+};
+
+using Columns = std::array<std::string_view, column_count>;
+
+/// Takes what stands before the next `separator` off the front of `text`; all of it when there is
+/// none.
+std::string_view take(std::string_view& text, char separator)
+{
+    const auto at = std::min(text.find(separator), text.size());
+    const auto taken = text.substr(0, at);
+    text.remove_prefix(std::min(at + 1, text.size()));
+    return taken;
+}
+
+base::Result<Columns> columns_of(std::string_view line)
+{
+    const auto separators = std::count(line.begin(), line.end(), ',');
+    if (separators != column_count - 1) {
+        return base::fail(
+            fmt::format("expected {} columns, found {}", int{column_count}, separators + 1));
+    }
+    Columns columns;
+    for (auto& column : columns) column = take(line, ',');
+    return columns;
+}
+
+/// A whole number without leading zeros.
+std::optional<std::uint64_t> whole(std::string_view text, std::uint64_t most)
+{
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_whole = error == std::errc{} && end == text.data() + text.size();
+    if (!is_whole || value > most || (text.size() > 1 && text.front() == '0')) return std::nullopt;
+    return value;
+}
+
+base::Result<base::Duration> time_of(std::string_view text, std::string_view column)
+{
+    const auto nanoseconds = whole(text, static_cast<std::uint64_t>(fate_time_max.count()));
+    if (nanoseconds) return base::Duration{static_cast<base::Duration::rep>(*nanoseconds)};
+    return base::fail(fmt::format("{}: expected whole nanoseconds up to {}, found '{}'", column,
+                                  fate_time_max.count(), text));
+}
+
+base::Result<decltype(Fate::states)> states_of(std::string_view text)
+{
+    decltype(Fate::states) read{};
+    if (text.empty()) return read;
+    const auto given = static_cast<std::size_t>(std::count(text.begin(), text.end(), '/')) + 1;
+    if (given > loss_laws_max) {
+        return base::fail(
+            fmt::format("states: expected at most {}, found {}", loss_laws_max, given));
+    }
+    for (std::size_t i = 0; i < given; ++i) {
+        const auto name = take(text, '/');
+        const auto state = base::named<LossState>(name);
+        if (!state) return base::fail(fmt::format("states: unknown state '{}'", name));
+        if (*state == LossState::none && i + 1 == given) {
+            return base::fail("states: leave out 'none' at the end");
+        }
+        read[i] = *state;
+    }
+    return read;
+}
+
+base::Result<Flips> flips_of(std::string_view text)
+{
+    Flips read;
+    if (text.empty()) return read;
+    const auto given = static_cast<std::size_t>(std::count(text.begin(), text.end(), '|')) + 1;
+    if (given > Flips::most) {
+        return base::fail(
+            fmt::format("flipped_bits: expected at most {}, found {}", Flips::most, given));
+    }
+    for (std::size_t i = 0; i < given; ++i) {
+        const auto word = take(text, '|');
+        const auto place = whole(word, std::numeric_limits<std::uint32_t>::max());
+        if (!place) {
+            return base::fail(fmt::format("flipped_bits: expected places, found '{}'", word));
+        }
+        read.places[i] = static_cast<std::uint32_t>(*place);
+    }
+    read.count = static_cast<std::uint8_t>(given);
+    return read;
+}
+
+base::Result<Displacement> displacement_of(const Columns& columns)
+{
+    Displacement read;
+    if (!columns[places].empty()) {
+        const auto count = whole(columns[places], std::numeric_limits<std::uint32_t>::max());
+        if (!count || *count == 0) {
+            return base::fail(
+                fmt::format("displaced_places: expected nothing or a number from 1, found '{}'",
+                            columns[places]));
+        }
+        read.places = static_cast<std::uint32_t>(*count);
+    }
+    if (!columns[displaced].empty()) {
+        const auto time = time_of(columns[displaced], "displaced_ns");
+        if (!time) return tl::unexpected{time.error()};
+        if (*time == base::Duration{0}) {
+            return base::fail("displaced_ns: expected nothing or a number from 1, found '0'");
+        }
+        read.time = *time;
+    }
+    return read;
+}
+
+base::Result<Verdict> delivery_of(const Columns& columns)
+{
+    Deliver deliver;
+    if (!columns[cause].empty())
+        return base::fail("cause: leave it empty, only a drop has a cause");
+    const auto after = time_of(columns[delay], "delay_ns");
+    if (!after) return tl::unexpected{after.error()};
+    deliver.after = *after;
+    if (!columns[copy].empty()) {
+        const auto offset = time_of(columns[copy], "copy_after_ns");
+        if (!offset) return tl::unexpected{offset.error()};
+        deliver.copy = *offset;
+    }
+    const auto inverted = flips_of(columns[flips]);
+    if (!inverted) return tl::unexpected{inverted.error()};
+    deliver.flips = *inverted;
+    const auto displacement = displacement_of(columns);
+    if (!displacement) return tl::unexpected{displacement.error()};
+    deliver.displacement = *displacement;
+    return deliver;
+}
+
+base::Result<Verdict> drop_of(const Columns& columns)
+{
+    const auto why = base::named<DropCause>(columns[cause]);
+    if (!why) return base::fail(fmt::format("cause: unknown cause '{}'", columns[cause]));
+    for (std::size_t i = delay; i < column_count; ++i) {
+        if (!columns[i].empty()) {
+            return base::fail("a drop must be empty after its states");
+        }
+    }
+    return Drop{*why};
+}
+
+base::Result<Fate> fate_of(const Columns& columns)
+{
+    const bool is_drop = columns[verdict] == "drop";
+    if (!is_drop && columns[verdict] != "deliver") {
+        return base::fail(
+            fmt::format("verdict: expected deliver or drop, found '{}'", columns[verdict]));
+    }
+    const auto judged = is_drop ? drop_of(columns) : delivery_of(columns);
+    if (!judged) return tl::unexpected{judged.error()};
+    const auto in_states = states_of(columns[states]);
+    if (!in_states) return tl::unexpected{in_states.error()};
+    return Fate{*judged, *in_states};
+}
+
+/// Adds the fate in `line` to those before it.
+base::Result<void> read_row(std::string_view line, Fates& fates)
+{
+    const auto columns = columns_of(line);
+    if (!columns) return tl::unexpected{columns.error()};
+    const auto way = base::named<Direction>((*columns)[direction]);
+    if (!way) {
+        return base::fail(
+            fmt::format("direction: expected up or down, found '{}'", (*columns)[direction]));
+    }
+    if (way == Direction::up && !fates.down.empty()) {
+        return base::fail("direction: the rows of up must come before those of down");
+    }
+    auto& list = way == Direction::up ? fates.up : fates.down;
+    if (whole((*columns)[number], std::numeric_limits<std::uint64_t>::max()) != list.size()) {
+        return base::fail(
+            fmt::format("number: expected {}, found '{}'", list.size(), (*columns)[number]));
+    }
+    auto fate = fate_of(*columns);
+    if (!fate) return tl::unexpected{fate.error()};
+    list.push_back(*fate);
+    return {};
+}
+
+} // namespace
+
+base::Result<Fates> parse_fates(std::string_view text)
+{
+    Fates fates;
+    for (std::size_t line = 1; line == 1 || !text.empty(); ++line) {
+        const auto refuse = [&](std::string_view reason) {
+            return base::fail(fmt::format("line {}: {}", line, reason));
+        };
+        if (text.find('\n') == std::string_view::npos) {
+            return refuse("the end of the line is missing: was the file cut off?");
+        }
+        const auto row = take(text, '\n');
+        if (line == 1) {
+            if (row != fates_header) return refuse(fmt::format("expected '{}'", fates_header));
+        } else if (const auto read = read_row(row, fates); !read) {
+            return refuse(read.error().message);
+        }
+    }
+    return fates;
 }
 
 } // namespace hapnet::emulator

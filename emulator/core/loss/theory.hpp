@@ -2,15 +2,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/loss/law.hpp"
+#include "emulator/core/packet.hpp"
+#include "emulator/core/verdict.hpp"
+#include "proto/base/fields.hpp"
+#include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace hapnet::emulator {
+
+// What a law of loss states about itself before anything is drawn: closed forms for people, and
+// the properties by which a run is tested.
 
 /// Datagrams at even distances, the first at the beginning of the run.
 struct Arrivals {
@@ -19,29 +27,125 @@ struct Arrivals {
 };
 
 /// What a law of loss amounts to in the long run; for lists and outages, which have an end, over
-/// the arrivals in question. The laws in time depend on the spacing, no other does.
+/// the arrivals in question. Only the laws in time depend on the spacing.
 struct LossTheory {
     double share = 0.0;
     std::optional<double> mean_run{};        // of losses, in datagrams; nullopt: none, or endless
     std::optional<double> loss_after_loss{}; // probability; nullopt: nothing is lost
     /// The correlation of a state of the law with the next one, where it has one number for it.
     std::optional<double> decay{};
-    /// The variance of the share that n datagrams lose, by that of independent losses, for large n:
-    /// (1 + decay) / (1 - decay) for Gilbert's model; 0 for laws that leave nothing to chance.
+    /// The variance of the share that n datagrams lose, divided by that of independent losses, for
+    /// large n: (1 + decay) / (1 - decay) for Gilbert's model; 0 for laws that leave nothing to
+    /// chance.
     double variance_inflation = 0.0;
+    /// The correlation of a loss with the next one as one number that is not too small; nullopt for
+    /// laws that draw nothing, or only a phase.
+    std::optional<double> memory{};
 };
 
-[[nodiscard]] LossTheory theory_of(const LossLaw& law, const Arrivals& arrivals);
+/// `both`: the probability that two neighbours are lost.
+[[nodiscard]] LossTheory theory_from_pairs(double share, double both);
 
-/// How long runs of losses are.
-struct RunLaw {
+/// Of losses that are not drawn, in `runs` runs.
+[[nodiscard]] LossTheory theory_from_counts(double count, double losses, double runs);
+
+/// The same with the memory of losses that are drawn one by one.
+[[nodiscard]] LossTheory with_memory(LossTheory theory);
+
+/// Of what repeats after `size` datagrams.
+template <typename IsLost>
+[[nodiscard]] LossTheory theory_of_period(std::size_t size, IsLost&& is_lost)
+{
+    double losses = 0.0;
+    double runs = 0.0;
+    for (std::size_t i = 0; i < size; ++i) {
+        if (!is_lost(i)) continue;
+        losses += 1.0;
+        if (!is_lost((i + size - 1) % size)) runs += 1.0;
+    }
+    return theory_from_counts(static_cast<double>(size), losses, runs);
+}
+
+// Properties, each a test that emulator/tools/verify knows how to do.
+
+/// Each datagram on its own: the number of losses, and whether neighbours are independent.
+struct IndependentLosses {
+    double share = 0.0;
+};
+
+/// The share that is lost in the long run, within the theory's variance.
+struct LongRunShare {
+    LossTheory theory;
+};
+
+/// How long runs of losses are, for runs of up to at_least.size() datagrams.
+struct RunLengths {
+    static constexpr std::size_t most = 10'000; // longer runs share the last bin
+
     std::vector<double> at_least; // [i]: the probability that a run has i + 1 datagrams or more
     double memory = 0.0;          // the correlation of what a run leaves behind with the next one
 };
 
-/// In closed form, for runs of up to `most` datagrams; nullopt for laws that have none, and where
-/// nothing or everything is lost.
-[[nodiscard]] std::optional<RunLaw> run_law_of(const LossLaw& law, base::Duration spacing,
-                                               std::size_t most);
+/// Exactly `lost` of every `of` from the first datagram on, at places that are equally likely.
+struct ExactBlocks {
+    std::uint32_t lost = 0;
+    std::uint32_t of = 0;
+};
+
+/// `lost` in a row of every `of`, from `phase` on, or from wherever the first of them begins.
+struct RecurringBursts {
+    std::uint32_t lost = 0;
+    std::uint32_t of = 0;
+    std::optional<std::uint32_t> phase{};
+};
+
+/// These and no others: nothing is drawn.
+struct SameLosses {
+    std::vector<std::uint8_t> lost; // 1: lost; by number
+};
+
+/// The share that is lost of the datagrams that meet a state.
+struct LossesInState {
+    LossState state = LossState::none;
+    double share = 0.0;
+};
+
+/// How often one state follows another. Can be told whatever other laws do.
+struct StateStep {
+    LossState from = LossState::none;
+    LossState to = LossState::none;
+    double probability = 0.0;
+};
+
+/// Nothing can be told, for this reason.
+struct Untestable {
+    std::string_view reason;
+};
+
+using LossProperty =
+    std::variant<IndependentLosses, LongRunShare, RunLengths, ExactBlocks, RecurringBursts,
+                 SameLosses, LossesInState, StateStep, Untestable>;
+
+/// What is known of a run besides its losses.
+struct RunFacts {
+    std::uint64_t count = 0;                 // of datagrams
+    std::optional<base::Duration> spacing{}; // of datagrams, if they came evenly; > 0
+};
+
+/// What a law that draws nothing takes of the first `count` datagrams, by running its model.
+template <typename Law>
+[[nodiscard]] SameLosses same_losses(const Law& law, std::uint64_t count)
+{
+    const auto stream = base::Seed{}.stream("");
+    typename Law::Model model{law, stream};
+    SameLosses same;
+    for (std::uint64_t number = 0; number < count; ++number) {
+        same.lost.push_back(model.on_packet({.number = number}, stream) ? 1 : 0);
+    }
+    return same;
+}
+
+/// Runs that go on with the same probability after each datagram; nullopt unless it is in [0, 1).
+[[nodiscard]] std::optional<RunLengths> geometric_runs(double goes_on);
 
 } // namespace hapnet::emulator

@@ -13,8 +13,6 @@ namespace hapnet::emulator {
 
 namespace {
 
-constexpr std::size_t pattern_max = 1'000'000;
-
 /// Takes the first line off the text, without its end.
 std::string_view take_line(std::string_view& text)
 {
@@ -102,25 +100,46 @@ base::Result<LossTrace> parse_loss_table(std::string_view text)
     return trace_of(std::move(lost));
 }
 
-base::Result<std::vector<bool>> parse_pattern(std::string_view text)
+base::Result<void> TraceLoss::load(const base::Reading& reading)
 {
-    if (text.empty() || text.find_first_not_of("01") != std::string_view::npos) {
-        return base::fail(
-            "a pattern is written as 0 (passes) and 1 (lost), such as \"0010\" for every fourth");
-    }
-    if (text.size() > pattern_max) {
-        return base::fail(fmt::format("a pattern of more than {} digits", pattern_max));
-    }
-    std::vector<bool> pattern;
-    for (const char c : text) pattern.push_back(c == '1');
-    return pattern;
+    const auto text = reading.open(file);
+    if (!text) return tl::unexpected{text.error()};
+    // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
+    const bool is_table =
+        text->find_first_of(",abcdefghijklmnopqrstuvwxyz") < text->find_first_of("01#");
+    auto read = is_table ? parse_loss_table(*text) : parse_loss_trace(*text);
+    if (!read) return base::fail(fmt::format("{}: {}", file, read.error().message));
+    trace = std::make_shared<const LossTrace>(*std::move(read));
+    return {};
 }
 
-std::string to_text(const std::vector<bool>& pattern)
+base::Result<void> TraceLoss::validate() const
 {
-    std::string text;
-    for (const bool is_lost : pattern) text += is_lost ? '1' : '0';
-    return text;
+    if (trace) return {};
+    return base::fail("the trace of losses was not read");
+}
+
+LossTheory TraceLoss::theory(const Arrivals& /*arrivals*/) const
+{
+    base::ensure(trace != nullptr);
+    return theory_of_period(trace->size(), [&](std::size_t i) { return trace->is_lost(i); });
+}
+
+std::vector<LossProperty> TraceLoss::properties(const RunFacts& facts) const
+{
+    return {same_losses(*this, facts.count)};
+}
+
+bool operator==(const TraceLoss& a, const TraceLoss& b)
+{
+    if (a.file != b.file) return false;
+    return a.trace == b.trace || (a.trace && b.trace && *a.trace == *b.trace);
+}
+
+void TraceLoss::Model::change(const TraceLoss& law, const base::RandomStream& /*stream*/)
+{
+    base::ensure(law.trace != nullptr);
+    trace_ = law.trace;
 }
 
 } // namespace hapnet::emulator

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/loss/theory.hpp"
+#include "emulator/core/packet.hpp"
+#include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,8 +42,45 @@ private:
 /// The column `lost` (0 or 1) of a table with a header line and commas.
 [[nodiscard]] base::Result<LossTrace> parse_loss_table(std::string_view text);
 
-/// "0010": of every four datagrams the third is lost. At most 10^6 digits.
-[[nodiscard]] base::Result<std::vector<bool>> parse_pattern(std::string_view text);
-[[nodiscard]] std::string to_text(const std::vector<bool>& pattern);
+/// The losses of a recorded run; begins again at its end.
+struct TraceLoss {
+    std::string file;
+    std::shared_ptr<const LossTrace> trace; // never null
+
+    static constexpr DropCause cause = DropCause::trace_loss;
+    static constexpr bool is_in_time = false;
+    class Model;
+
+    /// Reads the file.
+    [[nodiscard]] base::Result<void> load(const base::Reading& reading);
+    [[nodiscard]] base::Result<void> validate() const;
+    [[nodiscard]] LossTheory theory(const Arrivals&) const;
+    [[nodiscard]] std::vector<LossProperty> properties(const RunFacts&) const;
+
+    /// By its contents: the same file read twice is the same law.
+    friend bool operator==(const TraceLoss&, const TraceLoss&);
+};
+
+constexpr auto fields_of(base::Tag<TraceLoss>)
+{
+    return base::fields(
+        "trace", base::field("file", &TraceLoss::file,
+                             "a file of 0 (arrived) and 1 (lost), or a table with a column lost")
+                     .required());
+}
+
+class TraceLoss::Model {
+public:
+    Model(const TraceLoss& law, const base::RandomStream& stream) { change(law, stream); }
+
+    [[nodiscard]] bool on_packet(const Packet& packet, const base::RandomStream&) const
+    {
+        return trace_->is_lost(packet.number);
+    }
+    void change(const TraceLoss& law, const base::RandomStream&);
+
+private:
+    std::shared_ptr<const LossTrace> trace_;
+};
 
 } // namespace hapnet::emulator

@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/laws.hpp"
 
-#include "emulator/core/delay/table.hpp"
-#include "emulator/core/delay/trace.hpp"
-#include "emulator/core/loss/trace.hpp"
-#include "emulator/core/profile/faults.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/text.hpp"
 
 #include <array>
 #include <limits>
-#include <memory>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -19,59 +15,16 @@ namespace hapnet::emulator {
 namespace {
 
 template <typename... Laws>
-constexpr std::array<std::string_view, sizeof...(Laws)> names_of(const std::variant<Laws...>*)
+constexpr std::array<std::string_view, sizeof...(Laws)> names_of_laws(const std::variant<Laws...>*)
 {
-    return {Form<Laws>::name...};
-}
-
-/// Reads the files that a law names; nothing for most.
-template <typename Law>
-void load(Law&, Place, Reading&)
-{}
-
-/// The text of the file of a law as `parse` reads it; nullptr: complained of.
-template <typename Parse>
-auto loaded(const std::string& file, Place place, Reading& reading, Parse parse)
-{
-    using Loaded = std::decay_t<decltype(*parse(std::string_view{}))>;
-    const auto text = reading.open(file);
-    if (!text) {
-        reading.complain(place, text.error().message);
-        return Loaded{};
-    }
-    auto value = parse(std::string_view{*text});
-    if (!value) reading.complain(place, fmt::format("{}: {}", file, value.error().message));
-    return value.value_or(Loaded{});
-}
-
-void load(TableLaw& law, Place place, Reading& reading)
-{
-    const bool is_dist = law.file.ends_with(".dist");
-    law.table = loaded(law.file, place, reading, is_dist ? parse_dist : parse_samples);
-}
-
-void load(TraceLaw& law, Place place, Reading& reading)
-{
-    law.trace = loaded(law.file, place, reading, parse_delay_trace);
-}
-
-void load(TraceLoss& law, Place place, Reading& reading)
-{
-    law.trace = loaded(law.file, place, reading, [](std::string_view text) {
-        // A table begins with the names of its columns, a plain file with a 0 or 1 or a comment.
-        const bool is_table =
-            text.find_first_of(",abcdefghijklmnopqrstuvwxyz") < text.find_first_of("01#");
-        auto trace = is_table ? parse_loss_table(text) : parse_loss_trace(text);
-        return trace.map(
-            [](LossTrace& read) { return std::make_shared<const LossTrace>(std::move(read)); });
-    });
+    return {base::described_name<Laws>...};
 }
 
 /// The law that { law = "name", ... } names, with its parameters.
 template <typename... Laws>
 std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwise)
 {
-    constexpr auto names = names_of(static_cast<std::variant<Laws...>*>(nullptr));
+    constexpr auto names = names_of_laws(static_cast<std::variant<Laws...>*>(nullptr));
     Reading& reading = table.reading();
     std::string name;
     const Node* node = table.require("law");
@@ -79,25 +32,29 @@ std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwi
     read_value(*node, name, reading);
     bool is_found = false;
     const auto read = [&]<typename Law>(std::in_place_type_t<Law>) {
-        if (Form<Law>::name != name) return;
+        if (base::described_name<Law> != name) return;
         is_found = true;
-        Law law = read_fields<Law>(table);
-        if (reading.is_good()) load(law, table.place(), reading);
+        Law law;
+        base::read_fields(table, law);
+        if constexpr (requires { law.load(reading); }) {
+            const auto loaded = reading.is_good() ? law.load(reading) : base::Result<void>{};
+            if (!loaded) reading.complain(table.place(), loaded.error().message);
+        }
         otherwise = std::move(law);
     };
     (read(std::in_place_type<Laws>), ...);
     if (!is_found) {
-        reading.complain(node->place, fmt::format("{} is not a law: {}", base::quoted(name),
+        reading.complain(node->place, fmt::format("unknown law {}: {}", base::quoted(name),
                                                   suggestion(name, names)));
     }
     return otherwise;
 }
 
 template <typename Law>
-void complain_of_fault(const Law& law, Place place, Reading& reading)
+void check(const Law& law, Place place, Reading& reading)
 {
     if (!reading.is_good()) return;
-    if (const auto fault = fault_of(law)) reading.complain(place, *fault);
+    if (const auto valid = validate(law); !valid) reading.complain(place, valid.error().message);
 }
 
 bool is_text(const Node& node, std::string_view text)
@@ -136,7 +93,7 @@ LossLaw read_loss(const Node& node, Reading& reading)
         read_value(node, random.share, reading);
         law = random;
     }
-    complain_of_fault(law, node.place, reading);
+    check(law, node.place, reading);
     return law;
 }
 
@@ -144,10 +101,10 @@ template <typename Law>
 std::vector<std::string> law_texts(const Law& law)
 {
     return std::visit(
-        [](const auto& one) {
-            using One = std::decay_t<decltype(one)>;
-            auto texts = field_texts(one);
-            texts.insert(texts.begin(), fmt::format("law = {}", base::quoted(Form<One>::name)));
+        []<typename One>(const One& one) {
+            auto texts = base::field_texts(one, base::Print::needed);
+            texts.insert(texts.begin(),
+                         fmt::format("law = {}", base::quoted(base::described_name<One>)));
             return texts;
         },
         law);
@@ -165,11 +122,6 @@ std::string loss_text(const LossLaw& law)
 
 } // namespace
 
-std::string_view law_name(const DelayLaw& law)
-{
-    return std::visit([](const auto& one) { return Form<std::decay_t<decltype(one)>>::name; }, law);
-}
-
 Variation read_variation(const Node& node, Role role, std::optional<Order>& order, Reading& reading)
 {
     Variation variation;
@@ -182,7 +134,7 @@ Variation read_variation(const Node& node, Role role, std::optional<Order>& orde
         if (role == Role::delay) variation.law = ConstantLaw{value};
         if (role == Role::jitter) variation.law = UniformLaw{.half_width = value};
     }
-    complain_of_fault(variation, node.place, reading);
+    check(variation, node.place, reading);
     return variation;
 }
 
@@ -212,8 +164,9 @@ std::vector<LossLaw> read_losses(const Node& node, Reading& reading)
     std::vector<LossLaw> laws;
     for (const Node& element : *list) {
         if (laws.size() == loss_laws_max) {
-            reading.complain(element.place,
-                             fmt::format("a direction has at most {} laws of loss", loss_laws_max));
+            reading.complain(
+                element.place,
+                fmt::format("a direction can have at most {} laws of loss", loss_laws_max));
             break;
         }
         laws.push_back(read_loss(element, reading));
@@ -244,20 +197,15 @@ Burst read_burst(const Node& node, Reading& reading)
     }
     reading.complain(node.place, fmt::format("{} is not a burst: write \"40/100\" to lose 40 in a "
                                              "row of every 100",
-                                             text == nullptr ? "this" : base::quoted(*text)));
+                                             base::what_it_is(node)));
     return {1, 1, {}};
 }
 
 Order read_order(const Node& node, Reading& reading)
 {
-    std::string text;
-    read_value(node, text, reading);
-    for (const Order order : {Order::keep, Order::free, Order::sorted}) {
-        if (text == to_text(order)) return order;
-    }
-    reading.complain(node.place, fmt::format("{} is not an order: write keep, free or sorted",
-                                             base::quoted(text)));
-    return Order::keep;
+    Order order = Order::keep;
+    base::Choice{}.read(node, order, reading);
+    return order;
 }
 
 } // namespace hapnet::emulator

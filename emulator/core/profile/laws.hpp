@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/delay/law.hpp"
-#include "emulator/core/loss/law.hpp"
+#include "emulator/core/conditions.hpp"
 #include "emulator/core/profile/reading.hpp"
 
 #include <optional>
@@ -15,9 +14,6 @@ namespace hapnet::emulator {
 /// Which of the two delays of a direction a text is about: "5ms" is 5 ms as a delay, and from
 /// -5 ms to 5 ms as a jitter.
 enum class Role { delay, jitter };
-
-/// The name of a law in a profile; that of a loss is name_of().
-[[nodiscard]] std::string_view law_name(const DelayLaw& law);
 
 /// "160ms", "none" or { law = ..., ..., correlation_time = ... }. What the table says of the order
 /// of departure is put into `order`.

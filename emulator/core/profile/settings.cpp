@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/settings.hpp"
 
-#include "emulator/core/profile/faults.hpp"
 #include "emulator/core/profile/laws.hpp"
 #include "proto/base/ensure.hpp"
+#include "proto/base/fields.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
@@ -17,18 +17,18 @@ namespace {
 template <typename Stage>
 Stage read_stage(const Node& node, Reading& reading)
 {
-    Stage stage = Form<Stage>::defaults();
+    Stage stage;
     const auto* text = std::get_if<std::string>(&node.value);
     if (text != nullptr && *text == "none") return stage;
-    if (const auto* entries = std::get_if<Node::Table>(&node.value)) {
-        TableReader table{*entries, node.place, reading};
-        stage = read_fields<Stage>(table);
-        table.finish();
+    if (std::holds_alternative<Node::Table>(node.value)) {
+        base::read_table(node, stage, reading);
     } else {
-        read_field(node, std::get<0>(Form<Stage>::fields), stage, reading);
+        constexpr auto first = std::get<0>(base::description<Stage>.members);
+        base::read_field(first, node, stage.*first.member, reading);
     }
-    const auto fault = fault_of(stage);
-    if (fault) reading.complain(node.place, *fault);
+    if (const auto valid = validate(stage); !valid) {
+        reading.complain(node.place, valid.error().message);
+    }
     return stage;
 }
 
@@ -36,16 +36,11 @@ Stage read_stage(const Node& node, Reading& reading)
 template <typename Stage>
 std::string stage_text(const Stage& stage)
 {
-    constexpr auto first = std::get<0>(Form<Stage>::fields);
-    Stage as_short = Form<Stage>::defaults();
+    constexpr auto first = std::get<0>(base::description<Stage>.members);
+    Stage as_short;
     as_short.*first.member = stage.*first.member;
-    return stage == as_short ? field_text(first, stage) : table_text(field_texts(stage));
-}
-
-template <typename T, typename ToText>
-std::optional<std::string> text_if(const std::optional<T>& value, ToText to_toml)
-{
-    return value ? std::optional{to_toml(*value)} : std::nullopt;
+    return stage == as_short ? *base::field_text(first, stage.*first.member)
+                             : table_text(base::field_texts(stage, base::Print::needed));
 }
 
 std::vector<LossLaw> read_burst_loss(const Node& node, Reading& reading)
@@ -54,9 +49,62 @@ std::vector<LossLaw> read_burst_loss(const Node& node, Reading& reading)
     if (text != nullptr && *text == "none") return {};
     const Burst burst = read_burst(node, reading);
     if (burst.lost == 0 && burst.of > 0) return {};
-    const auto fault = fault_of(LossLaw{burst});
-    if (fault) reading.complain(node.place, *fault);
+    if (const auto valid = burst.validate(); !valid) {
+        reading.complain(node.place, valid.error().message);
+    }
     return {burst};
+}
+
+void contradict(const Node& node, Reading& reading)
+{
+    reading.complain(node.place, "jitter and order name different orders: write only one of them");
+}
+
+void read_jitter(const Node& node, Patch& patch, Reading& reading)
+{
+    std::optional<Order> order;
+    patch.jitter = read_variation(node, Role::jitter, order, reading);
+    if (order && patch.order && *order != *patch.order) contradict(node, reading);
+    if (order) patch.order = order;
+}
+
+/// The values of a setting as TOML.
+template <typename Stage>
+std::string setting_text(const Stage& stage, std::string_view /*key*/)
+{
+    return stage_text(stage);
+}
+std::string setting_text(const std::vector<LossLaw>& laws, std::string_view /*key*/)
+{
+    return losses_text(laws);
+}
+std::string setting_text(const Variation& variation, std::string_view key)
+{
+    return variation_text(variation, key == "delay" ? Role::delay : Role::jitter);
+}
+std::string setting_text(Order order, std::string_view /*key*/)
+{
+    return base::quoted(to_text(order));
+}
+std::string setting_text(const Reordering& reordering, std::string_view /*key*/)
+{
+    return reordering == Reordering{} ? base::quoted("none") : stage_text(reordering);
+}
+
+void add_bursts(std::vector<LossLaw>& laws, const std::vector<LossLaw>& bursts)
+{
+    std::erase_if(laws, [](const LossLaw& law) {
+        const auto* burst = std::get_if<Burst>(&law);
+        return burst != nullptr && !burst->phase;
+    });
+    laws.insert(laws.end(), bursts.begin(), bursts.end());
+}
+
+template <typename Use>
+void for_each_of(Path& path, std::optional<Direction> direction, Use use)
+{
+    if (direction != Direction::down) use(path.up);
+    if (direction != Direction::up) use(path.down);
 }
 
 } // namespace
@@ -80,19 +128,12 @@ void read_setting(std::string_view key, const Node& node, DirectionSettings& set
     } else if (key == "delay") {
         std::optional<Order> order;
         patch.delay = read_variation(node, Role::delay, order, reading);
-        if (order) reading.complain(node.place, "order is a key of jitter, not of delay");
+        if (order) reading.complain(node.place, "order belongs to jitter, not to delay");
     } else if (key == "jitter") {
-        std::optional<Order> order;
-        patch.jitter = read_variation(node, Role::jitter, order, reading);
-        if (order && patch.order && *order != *patch.order) {
-            reading.complain(node.place, "jitter says another order than the key order");
-        }
-        if (order) patch.order = order;
+        read_jitter(node, patch, reading);
     } else if (key == "order") {
         const Order order = read_order(node, reading);
-        if (patch.order && *patch.order != order) {
-            reading.complain(node.place, "jitter says another order than the key order");
-        }
+        if (patch.order && *patch.order != order) contradict(node, reading);
         patch.order = order;
     } else {
         base::ensure(key == "reorder");
@@ -105,7 +146,7 @@ DirectionSettings read_direction(const Node& node, Reading& reading)
     DirectionSettings settings;
     const auto* entries = std::get_if<Node::Table>(&node.value);
     if (entries == nullptr) {
-        reading.complain(node.place, "a table of settings belongs here, such as [both]");
+        reading.complain(node.place, "expected a table of settings, such as [both]");
         return settings;
     }
     TableReader table{*entries, node.place, reading};
@@ -116,61 +157,74 @@ DirectionSettings read_direction(const Node& node, Reading& reading)
     return settings;
 }
 
-Patch merged(Patch a, const Patch& b)
+SettingTexts setting_texts(const Patch& patch)
 {
-    const auto set = [](auto& target, const auto& value) {
-        if (value) target = value;
-    };
-    set(a.mtu, b.mtu);
-    set(a.rate, b.rate);
-    set(a.loss, b.loss);
-    set(a.corrupt, b.corrupt);
-    set(a.duplicate, b.duplicate);
-    set(a.delay, b.delay);
-    set(a.jitter, b.jitter);
-    set(a.order, b.order);
-    set(a.reorder, b.reorder);
-    return a;
+    SettingTexts texts;
+    for_each_setting([&](const auto& slot) {
+        const auto& value = patch.*slot.patch;
+        if (!value) return;
+        const auto* const key = std::find(setting_keys.begin(), setting_keys.end(), slot.key);
+        texts[static_cast<std::size_t>(key - setting_keys.begin())] =
+            setting_text(*value, slot.key);
+    });
+    return texts;
 }
 
-std::array<std::optional<std::string>, setting_keys.size()> setting_texts(const Patch& patch)
+base::Result<Setting> parse_setting(std::string_view key, std::string_view value,
+                                    const OpenFile& open)
 {
-    const auto stage = [](const auto& value) { return stage_text(value); };
-    return {
-        text_if(patch.mtu, stage),
-        text_if(patch.rate, stage),
-        text_if(patch.loss, losses_text),
-        std::nullopt,
-        text_if(patch.corrupt, stage),
-        text_if(patch.duplicate, stage),
-        text_if(patch.delay, [](const auto& value) { return variation_text(value, Role::delay); }),
-        text_if(patch.jitter,
-                [](const auto& value) { return variation_text(value, Role::jitter); }),
-        text_if(patch.order, [](Order order) { return base::quoted(to_text(order)); }),
-        text_if(patch.reorder,
-                [](const Reordering& value) {
-                    return value == Reordering{} ? base::quoted("none") : stage_text(value);
-                }),
+    Reading reading{std::string{key}, open, false};
+    Setting setting;
+    std::string name{key};
+    const auto take = [&](std::string_view prefix) {
+        if (!name.starts_with(prefix)) return false;
+        name.erase(0, prefix.size());
+        return true;
     };
+    if (take("up.")) {
+        setting.direction = Direction::up;
+    } else if (take("down.")) {
+        setting.direction = Direction::down;
+    } else {
+        take("both.");
+    }
+    std::replace(name.begin(), name.end(), '-', '_');
+    if (std::find(setting_keys.begin(), setting_keys.end(), name) == setting_keys.end()) {
+        return base::fail(
+            fmt::format("{}: unknown setting: {}", key, suggestion(name, setting_keys)));
+    }
+    const auto node = base::parse_option(value, false);
+    if (!node) return base::fail(fmt::format("{}: {}", key, node.error().message));
+    read_setting(name, *node, setting.settings, reading);
+    if (!reading.is_good()) return base::fail(*reading.complaint());
+    return setting;
 }
 
-Patch patch_of(const Conditions& conditions)
+base::Result<Path> with_settings(Path path, std::span<const Setting> settings)
 {
-    const Conditions defaults;
-    Patch patch;
-    const auto set = [&](auto& target, auto member) {
-        if (conditions.*member != defaults.*member) target = conditions.*member;
+    const auto in_turn = [&](auto use) {
+        for (const bool is_of_both : {true, false}) {
+            for (const Setting& setting : settings) {
+                if (!setting.direction.has_value() == is_of_both) use(setting);
+            }
+        }
     };
-    set(patch.mtu, &Conditions::mtu);
-    set(patch.rate, &Conditions::rate);
-    set(patch.loss, &Conditions::loss);
-    set(patch.corrupt, &Conditions::corrupt);
-    set(patch.duplicate, &Conditions::duplicate);
-    set(patch.delay, &Conditions::delay);
-    set(patch.jitter, &Conditions::jitter);
-    set(patch.order, &Conditions::order);
-    set(patch.reorder, &Conditions::reorder);
-    return patch;
+    in_turn([&](const Setting& setting) {
+        for_each_of(path, setting.direction, [&](Conditions& conditions) {
+            conditions = patched(std::move(conditions), setting.settings.patch);
+        });
+    });
+    in_turn([&](const Setting& setting) {
+        if (!setting.settings.burst_loss) return;
+        for_each_of(path, setting.direction, [&](Conditions& conditions) {
+            add_bursts(conditions.loss, *setting.settings.burst_loss);
+        });
+    });
+    if (std::max(path.up.loss.size(), path.down.loss.size()) > loss_laws_max) {
+        return base::fail(
+            fmt::format("a direction can have at most {} laws of loss", loss_laws_max));
+    }
+    return path;
 }
 
 } // namespace hapnet::emulator

@@ -4,9 +4,11 @@
 
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/profile/reading.hpp"
+#include "proto/base/result.hpp"
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,14 +34,25 @@ void read_setting(std::string_view key, const Node& node, DirectionSettings& set
 /// What a table of such keys says. Complains of unknown keys, and of orders that contradict.
 [[nodiscard]] DirectionSettings read_direction(const Node& node, Reading& reading);
 
-/// `a` and what `b` says besides or instead.
-[[nodiscard]] Patch merged(Patch a, const Patch& b);
-
 /// The values of the keys as TOML; nullopt: not set. burst_loss is never set: it is part of loss.
-[[nodiscard]] std::array<std::optional<std::string>, setting_keys.size()>
-setting_texts(const Patch& patch);
+using SettingTexts = std::array<std::optional<std::string>, setting_keys.size()>;
+[[nodiscard]] SettingTexts setting_texts(const Patch& patch);
 
-/// What `conditions` say that differs from the default.
-[[nodiscard]] Patch patch_of(const Conditions& conditions);
+/// One setting, as an option or a live command makes it: `up.delay` and `300ms`.
+struct Setting {
+    std::optional<Direction> direction; // nullopt: both ways
+    DirectionSettings settings;
+};
+
+/// Reads a setting. `key` is NAME, both.NAME, up.NAME or down.NAME with a NAME of setting_keys
+/// ("burst-loss" is as good as "burst_loss"). `value` is what stands in a profile, without the
+/// quotes: 5ms, 40/100, { law = "normal", sd = "3ms" }, ["5%", "40/100"]. Errors begin with `key`.
+[[nodiscard]] base::Result<Setting> parse_setting(std::string_view key, std::string_view value,
+                                                  const OpenFile& open);
+
+/// `path` with the settings: those of both ways first, then those of one way, each in their order.
+/// burst_loss comes last and replaces the bursts without a phase in the list of losses, or is
+/// added to it. The error: more laws than a direction may have.
+[[nodiscard]] base::Result<Path> with_settings(Path path, std::span<const Setting> settings);
 
 } // namespace hapnet::emulator

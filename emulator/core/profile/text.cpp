@@ -52,7 +52,7 @@ void read_time(const Node* node, base::Duration& target, Reading& reading)
 {
     if (node == nullptr) return;
     read_value(*node, target, reading);
-    if (target < base::Duration{0}) reading.complain(node->place, "a time is not negative");
+    if (target < base::Duration{0}) reading.complain(node->place, "a time cannot be negative");
 }
 
 struct PlacedChange {
@@ -66,7 +66,7 @@ PlacedChange read_change(const Node& node, Reading& reading)
     PlacedChange placed{{}, node.place, node.place};
     const auto* entries = std::get_if<Node::Table>(&node.value);
     if (entries == nullptr) {
-        reading.complain(node.place, "a change is a table with a time: [[at]]");
+        reading.complain(node.place, "expected a table with a time: [[at]]");
         return placed;
     }
     TableReader table{*entries, node.place, reading};
@@ -84,7 +84,9 @@ PlacedChange read_change(const Node& node, Reading& reading)
             patch.loss->insert(patch.loss->end(), settings.burst_loss->begin(),
                                settings.burst_loss->end());
             if (patch.loss->size() > loss_laws_max) {
-                reading.complain(side.place, "more laws of loss than a direction may have");
+                reading.complain(
+                    side.place,
+                    fmt::format("a direction can have at most {} laws of loss", loss_laws_max));
             }
         }
         const auto direction = side.setting.direction;
@@ -100,10 +102,11 @@ void read_timeline(const Node* node, Profile& profile, Reading& reading)
     if (node == nullptr) return;
     const auto* list = std::get_if<Node::List>(&node->value);
     if (list == nullptr) {
-        return reading.complain(node->place, "changes are written as [[at]]");
+        return reading.complain(node->place, "write changes as [[at]]");
     }
     if (list->size() > changes_max) {
-        return reading.complain(node->place, fmt::format("more than {} changes", changes_max));
+        return reading.complain(node->place,
+                                fmt::format("a timeline can have at most {} changes", changes_max));
     }
     std::vector<PlacedChange> placed;
     for (const Node& element : *list) placed.push_back(read_change(element, reading));
@@ -111,8 +114,9 @@ void read_timeline(const Node* node, Profile& profile, Reading& reading)
                      [](const auto& a, const auto& b) { return a.change.time < b.change.time; });
     for (const PlacedChange& one : placed) profile.timeline.push_back(one.change);
     if (!reading.is_good()) return;
-    const auto fault = Timeline::fault_of(profile);
-    if (fault) reading.complain(placed[fault->change].ramp_place, fault->what);
+    if (const auto valid = Timeline::validate(profile); !valid) {
+        reading.complain(placed[valid.error().index].ramp_place, valid.error().message);
+    }
 }
 
 std::optional<base::Seed> read_seed(const Node* node, Reading& reading)
@@ -126,23 +130,22 @@ std::optional<base::Seed> read_seed(const Node* node, Reading& reading)
         const auto seed = base::parse_count(*text, std::numeric_limits<std::uint64_t>::max());
         if (seed) return base::Seed{*seed};
     }
-    reading.complain(node->place, "a seed is a whole number from 0 to 2^64 - 1");
+    reading.complain(node->place, "a seed must be a whole number from 0 to 2^64 - 1");
     return std::nullopt;
 }
 
-using Texts = std::array<std::optional<std::string>, setting_keys.size()>;
-
 /// What both say alike.
-Texts common(const Texts& a, const Texts& b)
+SettingTexts common(const SettingTexts& a, const SettingTexts& b)
 {
-    Texts texts;
+    SettingTexts texts;
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (a[i] == b[i]) texts[i] = a[i];
     }
     return texts;
 }
 
-void print(std::string& out, const Texts& texts, const Texts& but, const std::string& prefix)
+void print(std::string& out, const SettingTexts& texts, const SettingTexts& but,
+           const std::string& prefix)
 {
     for (std::size_t i = 0; i < texts.size(); ++i) {
         if (!texts[i] || but[i]) continue;
@@ -150,7 +153,8 @@ void print(std::string& out, const Texts& texts, const Texts& but, const std::st
     }
 }
 
-void print_section(std::string& out, const std::string& name, const Texts& texts, const Texts& but)
+void print_section(std::string& out, const std::string& name, const SettingTexts& texts,
+                   const SettingTexts& but)
 {
     std::string lines;
     print(lines, texts, but, "");
@@ -163,9 +167,9 @@ void print_change(std::string& out, const Change& change)
     if (change.ramp > base::Duration{0}) {
         out += fmt::format("ramp = {}\n", value_text(change.ramp));
     }
-    const Texts up = setting_texts(change.up);
-    const Texts down = setting_texts(change.down);
-    const Texts both = common(up, down);
+    const SettingTexts up = setting_texts(change.up);
+    const SettingTexts down = setting_texts(change.down);
+    const SettingTexts both = common(up, down);
     print(out, both, {}, "both.");
     print(out, up, both, "up.");
     print(out, down, both, "down.");
@@ -204,9 +208,9 @@ std::string to_text(const Profile& profile)
         out += fmt::format("seed = {}\n",
                            profile.seed->value() > largest_integer ? base::quoted(seed) : seed);
     }
-    const Texts up = setting_texts(patch_of(profile.path.up));
-    const Texts down = setting_texts(patch_of(profile.path.down));
-    const Texts both = common(up, down);
+    const SettingTexts up = setting_texts(to_patch(profile.path.up));
+    const SettingTexts down = setting_texts(to_patch(profile.path.down));
+    const SettingTexts both = common(up, down);
     print_section(out, "both", both, {});
     print_section(out, "up", up, both);
     print_section(out, "down", down, both);

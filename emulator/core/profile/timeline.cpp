@@ -31,36 +31,38 @@ std::size_t listed_in(const std::vector<LossLaw>& laws)
 
 } // namespace
 
-std::optional<Timeline::Fault> Timeline::fault_of(const Profile& profile)
+tl::expected<void, Timeline::BadChange> Timeline::validate(const Profile& profile)
 {
     Timeline timeline{profile.path};
     for (std::size_t i = 0; i < profile.timeline.size(); ++i) {
-        if (auto what = timeline.add(profile.timeline[i])) return Fault{i, *std::move(what)};
+        if (const auto added = timeline.add(profile.timeline[i]); !added) {
+            return tl::unexpected{BadChange{i, added.error().message}};
+        }
     }
-    return std::nullopt;
+    return {};
 }
 
 Timeline::Timeline(const Profile& profile) : Timeline{profile.path}
 {
     steps_.reserve(profile.timeline.size());
-    for (const Change& change : profile.timeline) base::ensure(!add(change));
+    for (const Change& change : profile.timeline) base::ensure(add(change).has_value());
 }
 
-std::optional<std::string> Timeline::add(const Change& change)
+base::Result<void> Timeline::add(const Change& change)
 {
     base::ensure(steps_.empty() || steps_.back().change.time <= change.time);
     const std::size_t index = steps_.size();
     Step step{change, at(change.time, index), index};
     listed_ += listed_in(step.before.up.loss) + listed_in(step.before.down.loss);
     if (listed_ > listed_max) {
-        return fmt::format("the lists of losses are too long for so many changes: {} values in "
-                           "all, counted at each change, are the most",
-                           listed_max);
+        return base::fail(fmt::format("the lists of losses are too long for this many changes: at "
+                                      "most {} values in all, counted again at each change",
+                                      listed_max));
     }
     if (change.ramp > base::Duration{0}) {
-        auto fault = ramp_fault(step.before.up, change.up);
-        if (!fault) fault = ramp_fault(step.before.down, change.down);
-        if (fault) return fault;
+        auto valid = validate_ramp(step.before.up, change.up);
+        if (valid) valid = validate_ramp(step.before.down, change.down);
+        if (!valid) return valid;
     }
     for (std::size_t i = index > 0 ? steps_[index - 1].first : 0; i < index; ++i) {
         if (end_of(steps_[i].change) > change.time) {
@@ -68,10 +70,10 @@ std::optional<std::string> Timeline::add(const Change& change)
         }
     }
     if (index - step.first >= ramps_max) {
-        return fmt::format("more than {} ramps go on at this time", ramps_max);
+        return base::fail(fmt::format("more than {} ramps overlap at this time", ramps_max));
     }
     steps_.push_back(std::move(step));
-    return std::nullopt;
+    return {};
 }
 
 Path Timeline::at(base::Duration since_start) const

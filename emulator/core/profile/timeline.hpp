@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/profile/profile.hpp"
+#include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 
 #include <chrono>
@@ -29,15 +30,15 @@ public:
     static constexpr std::size_t listed_max = 10'000'000;
 
     /// A change of a profile that cannot be made.
-    struct Fault {
-        std::size_t change = 0; // its index in the timeline
-        std::string what;
+    struct BadChange {
+        std::size_t index = 0; // in the timeline
+        std::string message;
     };
 
-    /// The first such change; nullopt: none. Ensures that the changes ascend in time.
-    [[nodiscard]] static std::optional<Fault> fault_of(const Profile& profile);
+    /// Whether all changes can be made, or the first that cannot. Ensures that they ascend in time.
+    [[nodiscard]] static tl::expected<void, BadChange> validate(const Profile& profile);
 
-    /// Ensures that there is no fault.
+    /// Ensures that the profile is valid.
     explicit Timeline(const Profile& profile);
 
     /// What holds at that time since the run began, which is not negative.
@@ -55,8 +56,8 @@ private:
 
     explicit Timeline(const Path& start) : start_{start} {}
 
-    /// Adds the next change, or says why it cannot be ramped.
-    [[nodiscard]] std::optional<std::string> add(const Change& change);
+    /// Adds the next change, or says why it cannot be made.
+    [[nodiscard]] base::Result<void> add(const Change& change);
     [[nodiscard]] Path at(base::Duration since_start, std::size_t steps) const;
     /// How many steps have a time <= since_start.
     [[nodiscard]] std::size_t steps_until(base::Duration since_start) const;

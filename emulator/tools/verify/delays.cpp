@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/verify/delays.hpp"
 
-#include "emulator/core/delay/process.hpp"
+#include "emulator/core/delay/delay.hpp"
 #include "emulator/tools/verify/draws.hpp"
 #include "emulator/tools/verify/tails.hpp"
 #include "proto/base/random.hpp"

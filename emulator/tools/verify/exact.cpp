@@ -60,7 +60,7 @@ TestResult test_same_losses(std::span<const std::uint8_t> expected,
         "datagrams");
 }
 
-TestResult test_blocks(std::span<const std::uint8_t> lost, const BlockLoss& law)
+TestResult test_blocks(std::span<const std::uint8_t> lost, const ExactBlocks& law)
 {
     const std::size_t blocks = lost.size() / law.of;
     if (blocks == 0) return unable("blocks", "not one whole block was observed");
@@ -73,7 +73,7 @@ TestResult test_blocks(std::span<const std::uint8_t> lost, const BlockLoss& law)
                             fmt::format("blocks of {} with {} losses", law.of, law.lost));
 }
 
-TestResult test_places(std::span<const std::uint8_t> lost, const BlockLoss& law, double alpha)
+TestResult test_places(std::span<const std::uint8_t> lost, const ExactBlocks& law, double alpha)
 {
     const std::size_t of = law.of;
     const std::size_t whole = lost.size() / of;
@@ -97,7 +97,7 @@ TestResult test_places(std::span<const std::uint8_t> lost, const BlockLoss& law,
     return result;
 }
 
-TestResult test_bursts(std::span<const std::uint8_t> lost, const Burst& law)
+TestResult test_bursts(std::span<const std::uint8_t> lost, const RecurringBursts& law)
 {
     const std::size_t of = law.of;
     if (lost.size() < 2 * of) return unable("bursts", "fewer than two periods were observed");

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/loss/law.hpp"
+#include "emulator/core/loss/theory.hpp"
 #include "emulator/core/verdict.hpp"
 #include "emulator/tools/verify/result.hpp"
 #include "proto/base/time.hpp"
@@ -22,14 +22,15 @@ namespace hapnet::emulator {
                                           std::span<const std::uint8_t> observed);
 
 /// Whether each whole block lost exactly its number.
-[[nodiscard]] TestResult test_blocks(std::span<const std::uint8_t> lost, const BlockLoss& law);
+[[nodiscard]] TestResult test_blocks(std::span<const std::uint8_t> lost, const ExactBlocks& law);
 
 /// Whether each place in a block is lost equally often: chi-square over the places.
-[[nodiscard]] TestResult test_places(std::span<const std::uint8_t> lost, const BlockLoss& law,
+[[nodiscard]] TestResult test_places(std::span<const std::uint8_t> lost, const ExactBlocks& law,
                                      double alpha);
 
 /// Whether the losses are bursts of one length that return with one period, wherever they begin.
-[[nodiscard]] TestResult test_bursts(std::span<const std::uint8_t> lost, const Burst& law);
+[[nodiscard]] TestResult test_bursts(std::span<const std::uint8_t> lost,
+                                     const RecurringBursts& law);
 
 /// Whether datagrams, in the order of their numbers, left in that order.
 [[nodiscard]] TestResult test_order(std::span<const base::TimePoint> departures);

@@ -35,7 +35,8 @@ struct ChiSquare {
 };
 
 /// Neighbouring lengths share a bin until enough are expected in it; the last bin is open.
-ChiSquare compare_lengths(const std::vector<std::uint64_t>& runs, const RunLaw& law, double count)
+ChiSquare compare_lengths(const std::vector<std::uint64_t>& runs, const RunLengths& law,
+                          double count)
 {
     ChiSquare result;
     double observed_left = count;
@@ -133,7 +134,7 @@ TestResult test_number_of_runs(const LossTally& tally, double alpha)
     return result;
 }
 
-TestResult test_run_lengths(const LossTally& tally, const RunLaw& law, double alpha)
+TestResult test_run_lengths(const LossTally& tally, const RunLengths& law, double alpha)
 {
     double count = 0.0;
     double losses = 0.0;

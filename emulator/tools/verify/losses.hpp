@@ -27,7 +27,8 @@ namespace hapnet::emulator {
 
 /// The lengths of runs of losses against their law, by chi-square over bins in which at least 5 are
 /// expected.
-[[nodiscard]] TestResult test_run_lengths(const LossTally& tally, const RunLaw& law, double alpha);
+[[nodiscard]] TestResult test_run_lengths(const LossTally& tally, const RunLengths& law,
+                                          double alpha);
 
 /// Whether two sequences of losses have nothing to do with each other. `memory`: the product of
 /// how much the two are correlated with their own pasts, datagram by datagram.

@@ -3,10 +3,10 @@
 #include "emulator/tools/verify/verify.hpp"
 
 #include "emulator/core/pipeline.hpp"
-#include "emulator/tools/verify/by_law.hpp"
 #include "emulator/tools/verify/delays.hpp"
 #include "emulator/tools/verify/exact.hpp"
 #include "emulator/tools/verify/losses.hpp"
+#include "emulator/tools/verify/properties.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -51,13 +51,14 @@ TestResult verify_seed(const Claim& claim, Direction direction, std::span<const 
 }
 
 /// How much the losses of a direction remember; nullopt when they are not drawn one by one.
-std::optional<double> memory_of(const Conditions& conditions, std::optional<base::Duration> spacing)
+std::optional<double> memory_of(const std::vector<LossLaw>& laws,
+                                std::optional<base::Duration> spacing)
 {
-    if (conditions.loss.empty()) return std::nullopt;
+    if (laws.empty()) return std::nullopt;
     double most = 0.0;
-    for (const LossLaw& law : conditions.loss) {
-        const auto memory = memory_of(law, spacing);
-        if (!memory) return std::nullopt;
+    for (const LossLaw& law : laws) {
+        const auto memory = theory_of(law, {spacing.value_or(base::Duration{1}), 1}).memory;
+        if (!memory || (is_in_time(law) && !spacing)) return std::nullopt;
         most = std::max(most, *memory);
     }
     return most;
@@ -65,8 +66,8 @@ std::optional<double> memory_of(const Conditions& conditions, std::optional<base
 
 Results verify_between(const Claim& claim, std::span<const Fate> up, std::span<const Fate> down)
 {
-    const auto memory_up = memory_of(claim.path.up, claim.spacing);
-    const auto memory_down = memory_of(claim.path.down, claim.spacing);
+    const auto memory_up = memory_of(claim.path.up.loss, claim.spacing);
+    const auto memory_down = memory_of(claim.path.down.loss, claim.spacing);
     if (!memory_up || !memory_down) {
         return {unable("directions", "the losses of one of them are not drawn one by one")};
     }

@@ -97,9 +97,9 @@ TEST_F(RecorderFiles, OfACaptureHoldEveryPacketWholeWithItsComment)
     const UdpAddress to{{std::byte{11}}, 7001, false};
     for (const std::size_t size : {0U, 1U, 239U, 240U, 241U, 480U, 65'507U}) {
         const std::vector<std::byte> payload(size, std::byte{0x5a});
-        const Sight came{CaptureSide::a, base::TimePoint{1s}, from, to, payload};
-        const Sight left{CaptureSide::b, base::TimePoint{2s}, to, from, payload};
-        recorder.on_arrival(came, fate_of(4));
+        const Observation came{CaptureSide::a, base::TimePoint{1s}, from, to, payload};
+        const Observation left{CaptureSide::b, base::TimePoint{2s}, to, from, payload};
+        recorder.on_arrival(came, fate_of(4).verdict);
         recorder.on_departure(left, 7us, true);
         append_packet(expected, {CaptureSide::a, false, {}, from, to, payload, "delayed 4 us"});
         append_packet(expected, {CaptureSide::b, true, {}, to, from, payload, "late 7 us, copy"});
@@ -113,11 +113,11 @@ TEST_F(RecorderFiles, LackExactlyWhatWasCountedAsLost)
 {
     Recorder recorder{{{}, path("capture.pcapng")}};
     const std::vector<std::byte> payload(65'507);
-    const Sight sight{CaptureSide::a, base::TimePoint{1s}, {}, {}, payload};
+    const Observation observed{CaptureSide::a, base::TimePoint{1s}, {}, {}, payload};
     // Each needs a 480th of the queue, and copying is faster than writing with checksums.
     std::uint64_t handed_over = 0;
     for (; handed_over < 20'000 && recorder.capture_lost() == 0; ++handed_over) {
-        recorder.on_departure(sight, 0us, false);
+        recorder.on_departure(observed, 0us, false);
     }
     EXPECT_GT(recorder.capture_lost(), 0U);
     recorder.finish();

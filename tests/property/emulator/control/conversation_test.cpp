@@ -92,9 +92,9 @@ TEST(Conversation, AnswersEachLineInTurnWithOneObjectAndNeverGoesBackAGeneration
                 said += said_to(conversation, line.substr(0, piece), fake, now);
                 line.erase(0, piece);
                 now += std::chrono::microseconds{dice.below(5000)};
-                fake.director.advance(now);
-                EXPECT_GE(fake.director.generation(), generation);
-                generation = fake.director.generation();
+                fake.path.advance(now);
+                EXPECT_GE(fake.director().generation(), generation);
+                generation = fake.director().generation();
             }
         }
         expect_replies(said, seed);
@@ -106,7 +106,7 @@ TEST(Director, IsBackAtItsStartOnceEverythingMadeForATimeIsOver)
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         Dice dice{seed};
         EmulationFake fake{"[both]\ndelay = \"160ms\"\nloss = \"1%\"\n", start};
-        const Path before = fake.director.path();
+        const Path before = fake.director().path();
         constexpr std::array keys{"up.delay", "down.delay", "both.jitter", "up.burst_loss"};
         constexpr std::array values{"1ms", "2ms", "3ms", "4/10"};
         auto now = start;
@@ -121,9 +121,9 @@ TEST(Director, IsBackAtItsStartOnceEverythingMadeForATimeIsOver)
             EXPECT_NE(said.find("\"ok\":true"), std::string::npos) << said;
             now += std::chrono::milliseconds{dice.below(20)};
         }
-        fake.director.advance(now + 100ms);
-        EXPECT_EQ(fake.director.path(), before) << "seed " << seed;
-        EXPECT_EQ(fake.director.next_change(), std::nullopt);
+        fake.path.advance(now + 100ms);
+        EXPECT_EQ(fake.director().path(), before) << "seed " << seed;
+        EXPECT_EQ(fake.director().next_change(), std::nullopt);
     }
 }
 

@@ -76,7 +76,7 @@ struct Scenario {
     base::RandomStream chance;
 };
 
-void check_departure(const Departure& departure, const Conditions& conditions, base::TimePoint now)
+void check_departure(const Datagram& departure, const Conditions& conditions, base::TimePoint now)
 {
     ASSERT_GE(now, departure.due);
     ASSERT_GE(departure.due, departure.arrival);
@@ -105,7 +105,7 @@ void run_scenario(const Scenario& scenario, const Scenario& other)
         now += base::Duration{static_cast<std::int64_t>(chance.below(2'000'000, step, 0))};
         if (changes && step == 300) link.change(other.conditions(), now);
         const auto size = static_cast<std::size_t>(chance.below(300, step, 1));
-        const auto leave = [&](const Departure& departure) {
+        const auto leave = [&](const Datagram& departure) {
             if (!changes) check_departure(departure, conditions, now);
             if (chance.below(10, departure.number, 2) == 0) {
                 link.on_failed(departure, DropCause::send_buffer_full);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/tools/describe.hpp"
 #include "emulator/tools/predict.hpp"
 
 #include <chrono>
@@ -55,12 +56,12 @@ TEST(Predict, TheTableOfJitterAndOrderAtAThousandPacketsASecond)
         profile.path.up.jitter = row.jitter;
         profile.path.up.order = row.order;
         const Stream stream{.packets = 200'000};
-        const auto up = predicted(profile, stream, base::Seed{1}).up;
+        const auto up = predict(profile, stream, base::Seed{1}).up;
         EXPECT_NEAR(in_ms(up.added_by_queues), row.added_ms, tolerance_ms);
-        EXPECT_NEAR(in_ms(*up.lens.delay->sd), row.sd_ms, tolerance_ms);
+        EXPECT_NEAR(in_ms(*up.measured.delay->sd), row.sd_ms, tolerance_ms);
         const auto packets = static_cast<double>(stream.packets);
-        EXPECT_NEAR(static_cast<double>(up.lens.reordered) / packets, row.reordered, 0.01);
-        EXPECT_NEAR(*up.lens.clumped_share, row.clumped, 0.01);
+        EXPECT_NEAR(static_cast<double>(up.measured.reordered) / packets, row.reordered, 0.01);
+        EXPECT_NEAR(*up.measured.clumped_share, row.clumped, 0.01);
     }
 }
 
@@ -68,7 +69,7 @@ TEST(Predict, LossesAreCountedInShareAndRuns)
 {
     Profile profile;
     profile.path.up.loss = {Burst{40, 100, 0}};
-    const auto [up, down] = predicted(profile, {.packets = 10'000}, base::Seed{1});
+    const auto [up, down] = predict(profile, {.packets = 10'000}, base::Seed{1});
     EXPECT_EQ(up.lost, 4'000U);
     EXPECT_EQ(up.loss_runs, 100U);
     EXPECT_EQ(up.loss_run_max, 40U);
@@ -84,8 +85,8 @@ TEST(Predict, TheTimelineIsPlayed)
     change.time = 5s;
     change.up.delay = constant(20ms);
     profile.timeline = {change};
-    const auto up = predicted(profile, {.packets = 10'000}, base::Seed{1}).up;
-    EXPECT_EQ(up.lens.delay->mean, 10ms);
+    const auto up = predict(profile, {.packets = 10'000}, base::Seed{1}).up;
+    EXPECT_EQ(up.measured.delay->mean, 10ms);
 }
 
 TEST(Predict, AWideJitterThatKeepsTheOrderIsWarnedOf)
@@ -94,13 +95,13 @@ TEST(Predict, AWideJitterThatKeepsTheOrderIsWarnedOf)
     profile.path.up.delay = constant(160ms);
     profile.path.up.jitter = uniform(15ms);
     const Stream stream{.packets = 100'000};
-    const auto up = predicted(profile, stream, base::Seed{1}).up;
+    const auto up = predict(profile, stream, base::Seed{1}).up;
     const auto list = warnings(profile.path.up, stream, up);
     ASSERT_EQ(list.size(), 1U);
     EXPECT_EQ(list[0].substr(0, 85), "keeping the order makes the mean 8.95 ms longer and the sd "
                                      "3.27 ms instead of 8.65 ms");
     EXPECT_EQ(
-        stages_in_words(profile.path.up, stream),
+        describe(profile.path.up, stream),
         (std::vector<std::string>{"delay: 160 ms",
                                   "jitter uniform: mean 0 ms, sd 8.66 ms, each datagram on its own",
                                   "order keep: none leaves before one that came earlier"}));

@@ -32,7 +32,7 @@ struct Talk : testing::Test {
     {
         const auto reply = ask(request);
         EXPECT_EQ(reply["ok"], false) << reply;
-        EXPECT_FALSE(fake.enacted);
+        EXPECT_EQ(fake.director().generation(), 1U);
         return reply["error"];
     }
 
@@ -44,31 +44,30 @@ json set(const json& settings) { return {{"command", "set"}, {"settings", settin
 
 TEST_F(Talk, AnswersAChangeWithTheTimeTheGenerationAndTheDatagramsFromWhichItHolds)
 {
-    fake.next = {12345, 12340};
+    for (int i = 0; i < 5; ++i) std::ignore = fake.path.on_packet(Direction::up, {}, start);
+    for (int i = 0; i < 3; ++i) std::ignore = fake.path.on_packet(Direction::down, {}, start);
     const auto reply = ask(set({{"both.delay", "80ms"}}), start + 1s);
     EXPECT_EQ(reply, (json{{"ok", true},
                            {"generation", 2},
                            {"elapsed_s", 1.0},
                            {"effective_at_ns", 101'000'000'000},
-                           {"effective_at", {{"up", 12345}, {"down", 12340}}}}));
-    ASSERT_TRUE(fake.enacted);
-    EXPECT_EQ(fake.enacted->up.delay.law, DelayLaw{ConstantLaw{80ms}});
-    EXPECT_EQ(fake.enacted->down.delay.law, DelayLaw{ConstantLaw{80ms}});
+                           {"effective_at", {{"up", 5}, {"down", 3}}}}));
+    EXPECT_EQ(fake.delay(Direction::up), DelayLaw{ConstantLaw{80ms}});
+    EXPECT_EQ(fake.delay(Direction::down), DelayLaw{ConstantLaw{80ms}});
 }
 
 TEST_F(Talk, LetsOneWayWinOverBothWaysInOneRequest)
 {
     ask(json::parse(R"({"command":"set","settings":{"up.delay":"10ms","both.delay":"20ms"}})"));
-    ASSERT_TRUE(fake.enacted);
-    EXPECT_EQ(fake.enacted->up.delay.law, DelayLaw{ConstantLaw{10ms}});
-    EXPECT_EQ(fake.enacted->down.delay.law, DelayLaw{ConstantLaw{20ms}});
+    EXPECT_EQ(fake.delay(Direction::up), DelayLaw{ConstantLaw{10ms}});
+    EXPECT_EQ(fake.delay(Direction::down), DelayLaw{ConstantLaw{20ms}});
 }
 
 TEST_F(Talk, MakesAllSettingsOfARequestOrNone)
 {
     const auto error = refused(set({{"both.delay", "80ms"}, {"both.loss", "101%"}}));
     EXPECT_NE(error.find("both.loss"), std::string::npos) << error;
-    EXPECT_EQ(fake.director.path().up.delay.law, DelayLaw{ConstantLaw{160ms}});
+    EXPECT_EQ(fake.director().path().up.delay.law, DelayLaw{ConstantLaw{160ms}});
 }
 
 TEST_F(Talk, NamesWhatItRefuses)
@@ -111,12 +110,12 @@ TEST_F(Talk, ShowsAProfileThatChangesNothingWhenApplied)
     const auto shown = ask({{"command", "show"}});
     EXPECT_EQ(shown["live"][0]["settings"], (json{{"up.loss", "5%"}}));
     EXPECT_EQ(shown["live"][0]["remaining_s"], nullptr);
-    const auto before = fake.director.path();
+    const auto before = fake.director().path();
     const auto diff = ask({{"command", "diff"}, {"profile", shown["profile"]}});
     EXPECT_EQ(diff["changes"], json::array());
     EXPECT_EQ(diff["is_other_timeline"], false);
     ASSERT_EQ(ask({{"command", "apply"}, {"profile", shown["profile"]}})["ok"], true);
-    EXPECT_EQ(fake.director.path(), before);
+    EXPECT_EQ(fake.director().path(), before);
 }
 
 TEST_F(Talk, SaysHowLongASettingStillHolds)
@@ -124,7 +123,7 @@ TEST_F(Talk, SaysHowLongASettingStillHolds)
     auto request = set({{"up.delay", "1s"}});
     request["for"] = "30s";
     ask(request);
-    fake.director.advance(start + 10s);
+    fake.path.advance(start + 10s);
     const auto shown = ask({{"command", "show"}}, start + 10s);
     EXPECT_EQ(shown["live"][0]["remaining_s"], 20.0);
     EXPECT_EQ(shown["timeline"]["next_change_in_s"], 20.0);
@@ -138,14 +137,14 @@ TEST_F(Talk, SaysWhatApplyWouldChangeAndChangesNothing)
     EXPECT_EQ(reply["changes"], (json{{{"key", "down.loss"}, {"from", "none"}, {"to", "5%"}}}));
     EXPECT_EQ(reply["timeline"], (json{{"from", 0}, {"to", 1}}));
     EXPECT_EQ(reply["is_other_timeline"], true);
-    EXPECT_EQ(fake.director.generation(), 1U);
+    EXPECT_EQ(fake.director().generation(), 1U);
 }
 
 TEST_F(Talk, GoesBackToTheBeginningOnReset)
 {
     ask(set({{"both.delay", "80ms"}}));
     EXPECT_EQ(ask({{"command", "reset"}})["generation"], 3);
-    EXPECT_EQ(fake.enacted->up.delay.law, DelayLaw{ConstantLaw{160ms}});
+    EXPECT_EQ(fake.delay(Direction::up), DelayLaw{ConstantLaw{160ms}});
 }
 
 TEST_F(Talk, GivesTheStatisticsWithTheGeneration)
@@ -266,7 +265,7 @@ TEST_F(Talk, DoesWhatAClientAskedThatHasGone)
     conversation.advance(fake.subject, start);
     conversation.on_gone();
     while (conversation.advance(fake.subject, start)) {}
-    EXPECT_TRUE(fake.enacted);
+    EXPECT_EQ(fake.delay(Direction::up), DelayLaw{ConstantLaw{1ms}});
     EXPECT_TRUE(conversation.is_over());
     EXPECT_EQ(conversation.output(), "");
 }

@@ -21,7 +21,8 @@ using control::Conversation;
 /// An emulator that is only what its control sees of it.
 struct EmulationFake {
     explicit EmulationFake(std::string_view toml, base::TimePoint start)
-        : director{parse_profile(toml, "fake.toml", no_files).value(), start}
+        : path{parse_profile(toml, "fake.toml", no_files).value(),
+               {.start = start, .limits = {.datagrams_max = 16}}}
     {}
 
     static base::Result<std::string> no_files(const std::string& name)
@@ -29,15 +30,20 @@ struct EmulationFake {
         return base::fail("no file " + name);
     }
 
-    Director director;
-    NextNumbers next{};
-    std::optional<Path> enacted; // nullopt: nothing has changed
+    [[nodiscard]] const Director& director() const { return path.director(); }
+
+    /// The delay of the datagrams that come now.
+    [[nodiscard]] DelayLaw delay(Direction direction) const
+    {
+        return path.link(direction).conditions().delay.law;
+    }
+
+    EmulatedPath path;
     nlohmann::json statistics{{"up", {{"received", 0}, {"lateness_us", {{"p50", nullptr}}}}},
                               {"down", {{"received", 0}}},
                               {"program", "fake"},
                               {"valid", true}};
-    Emulation emulation{director, [this](const Path& path, base::TimePoint) { enacted = path; },
-                        [this] { return next; }, [this] { return statistics.dump(2); },
+    Emulation emulation{path, [this] { return statistics.dump(2); },
                         [](const std::string& name, const std::string&) { return no_files(name); }};
     control::Subject subject = subject_of(emulation);
 };

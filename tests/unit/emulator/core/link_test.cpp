@@ -29,9 +29,9 @@ Link link_of(const Conditions& conditions, QueueLimits limits = {.datagrams_max 
 }
 
 /// What leaves until an hour has passed, in its order.
-std::vector<Departure> all_of(Link& link)
+std::vector<Datagram> all_of(Link& link)
 {
-    std::vector<Departure> departures;
+    std::vector<Datagram> departures;
     while (const auto departure = link.poll(start + 1h)) {
         departures.push_back(*departure);
         link.on_sent(*departure, departure->due);
@@ -39,10 +39,10 @@ std::vector<Departure> all_of(Link& link)
     return departures;
 }
 
-std::vector<std::uint64_t> numbers_of(const std::vector<Departure>& departures)
+std::vector<std::uint64_t> numbers_of(const std::vector<Datagram>& departures)
 {
     std::vector<std::uint64_t> numbers;
-    for (const Departure& departure : departures) numbers.push_back(departure.number);
+    for (const Datagram& departure : departures) numbers.push_back(departure.number);
     return numbers;
 }
 
@@ -61,14 +61,14 @@ TEST(Link, DoesTheSameWithoutALens)
     const Conditions conditions{.loss = {RandomLoss{20_percent}}, .delay = constant(5ms)};
     Link::Setup setup{base::Seed{7}, Direction::up, start, {.datagrams_max = 1024}};
     Link seen{conditions, setup};
-    setup.has_lens = false;
+    setup.has_stream_statistics = false;
     Link unseen{conditions, setup};
     for (Link* link : {&seen, &unseen}) {
         for (int ms = 0; ms < 100; ++ms) std::ignore = link->on_packet(payload, start + ms * 1ms);
     }
     EXPECT_EQ(numbers_of(all_of(seen)), numbers_of(all_of(unseen)));
-    EXPECT_TRUE(seen.lens().report().delay);
-    EXPECT_FALSE(unseen.lens().report().delay);
+    EXPECT_TRUE(seen.stream_statistics().report().delay);
+    EXPECT_FALSE(unseen.stream_statistics().report().delay);
 }
 
 TEST(Link, HoldsADatagramUntilItsDelayHasPassedAndNotANanosecondLonger)
@@ -185,7 +185,7 @@ TEST(Link, SortedLeavesAtTheTimesOfFree)
         Link link = link_of({.delay = constant(10ms), .jitter = uniform(10ms), .order = order});
         for (int i = 0; i < 200; ++i) link.on_packet(payload, start + i * 1ms);
         std::vector<base::TimePoint> dues;
-        for (const Departure& departure : all_of(link)) dues.push_back(departure.due);
+        for (const Datagram& departure : all_of(link)) dues.push_back(departure.due);
         return dues;
     };
     EXPECT_EQ(times(Order::sorted), times(Order::free));
@@ -210,8 +210,8 @@ TEST(Link, KeepsOrderByTheLaterOfOwnDelayAndPredecessor)
 TEST(Link, CountsAsReorderedWhatLeavesAfterAHigherNumber)
 {
     Link link = link_of({});
-    std::array<Departure, 4> taken;
-    for (Departure& departure : taken) departure = *link.on_packet(payload, start).departure;
+    std::array<Datagram, 4> taken;
+    for (Datagram& departure : taken) departure = *link.on_packet(payload, start).departure;
     for (const std::size_t number : {1U, 0U, 3U, 2U}) link.on_sent(taken[number], start);
     EXPECT_EQ(link.statistics().reordered, 2U); // 0 after 1, 2 after 3 (RFC 4737)
 }

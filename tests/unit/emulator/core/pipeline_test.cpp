@@ -62,7 +62,7 @@ TEST(Pipeline, DrawsFromStreamsNamedByDirectionAndStage)
     DelayProcess jitter{uniform(1s), seed.stream("down/jitter")};
     for (std::uint64_t number = 0; number < 100; ++number) {
         const Packet packet{number, 96, 1ms};
-        const auto lost = loss.on_packet(packet).cause;
+        const auto lost = loss.on_packet(packet);
         const Deliver deliver{.after = 1s + jitter.on_packet(packet)};
         EXPECT_EQ(pipeline.on_packet(packet).verdict,
                   lost ? Verdict{Drop{*lost}} : Verdict{deliver});

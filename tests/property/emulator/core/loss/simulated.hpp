@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/loss/process.hpp"
-#include "emulator/tools/verify/by_law.hpp"
+#include "emulator/core/loss/loss.hpp"
+#include "emulator/tools/verify/properties.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -32,10 +32,10 @@ inline LossRecord simulated(const LossLaw& law, std::uint64_t count, std::uint64
     record.lost.reserve(count);
     record.states[0].reserve(count);
     for (std::uint64_t n = 0; n < count; ++n) {
-        const auto [cause, state] =
+        const auto cause =
             process.on_packet({n, 96, spacing * static_cast<base::Duration::rep>(n)});
         record.lost.push_back(cause ? 1 : 0);
-        record.states[0].push_back(state);
+        record.states[0].push_back(process.state());
     }
     return record;
 }

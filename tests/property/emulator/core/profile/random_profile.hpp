@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/profile/faults.hpp"
-#include "emulator/core/profile/form.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "proto/base/random.hpp"
 
@@ -106,9 +104,8 @@ private:
     template <typename T>
     T fields()
     {
-        T drawn = Form<T>::defaults();
-        std::apply([&](const auto&... field) { (draw(drawn.*field.member), ...); },
-                   Form<T>::fields);
+        T drawn;
+        base::for_each_field([&](const auto& /*field*/, auto& value) { draw(value); }, drawn);
         return drawn;
     }
 
@@ -118,7 +115,7 @@ private:
     {
         for (;;) {
             const T drawn = fields<T>();
-            if (!fault_of(As{drawn})) return drawn;
+            if (validate(As{drawn})) return drawn;
         }
     }
 
@@ -138,7 +135,7 @@ private:
             drawn.law = one_of<DelayLaw, ConstantLaw, UniformLaw, NormalLaw, LogNormalLaw,
                                ExponentialLaw, ParetoLaw, GammaLaw>();
             if (below(2) == 0) draw(drawn.correlation_time);
-            if (!fault_of(drawn)) return drawn;
+            if (validate(drawn)) return drawn;
         }
     }
 
@@ -149,7 +146,7 @@ private:
             auto law = one_of<LossLaw, RandomLoss, BlockLoss, PeriodicLoss, Burst, TimedBurst,
                               Gilbert, GilbertElliott, TimedGilbertElliott, FourState, ListedLoss,
                               PatternLoss, Outage>();
-            if (!fault_of(law)) laws.push_back(std::move(law));
+            if (validate(law)) laws.push_back(std::move(law));
         }
         return laws;
     }

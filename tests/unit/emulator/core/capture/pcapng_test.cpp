@@ -39,7 +39,7 @@ UdpAddress mapped(std::uint8_t last, std::uint16_t port)
 std::string arrival_comment(const Fate& fate)
 {
     std::string text;
-    append_arrival_comment(text, fate);
+    append_arrival_comment(text, fate.verdict);
     return text;
 }
 

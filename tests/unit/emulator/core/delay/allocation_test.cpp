@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/core/delay/process.hpp"
+#include "emulator/core/delay/delay.hpp"
 #include "tests/support/allocations.hpp"
 
 #include <chrono>

@@ -2,10 +2,20 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/loss/trace.hpp"
 
+#include "tests/unit/emulator/core/loss/running.hpp"
+
 #include <gtest/gtest.h>
+#include <memory>
 #include <string>
 
 namespace hapnet::emulator {
+
+namespace {
+
+using test::losses;
+using test::refusal;
+
+} // namespace
 
 TEST(LossTrace, IsReadFromLinesOrFromARow)
 {
@@ -40,11 +50,22 @@ TEST(LossTrace, HasABound)
               "line 2: more than 10000000 datagrams in a trace of losses");
 }
 
-TEST(Pattern, IsReadAndPrintedAsDigits)
+TEST(TraceLoss, BeginsAgainAtItsEnd)
 {
-    EXPECT_EQ(parse_pattern("0010").value(), (std::vector<bool>{false, false, true, false}));
-    EXPECT_EQ(to_text(parse_pattern("0010").value()), "0010");
-    for (const char* wrong : {"", "012", "0 1"}) EXPECT_FALSE(parse_pattern(wrong)) << wrong;
+    const auto trace = std::make_shared<const LossTrace>(parse_loss_trace("110").value());
+    EXPECT_EQ(losses(TraceLoss{"", trace}, 8), "11011011");
 }
+
+TEST(TraceLoss, IsEqualWhenItsFileAndItsContentsAre)
+{
+    const auto made = [](const char* text) {
+        return std::make_shared<const LossTrace>(parse_loss_trace(text).value());
+    };
+    EXPECT_EQ((TraceLoss{"a", made("110")}), (TraceLoss{"a", made("1 1\n0")}));
+    EXPECT_NE((TraceLoss{"a", made("110")}), (TraceLoss{"a", made("111")}));
+    EXPECT_NE((TraceLoss{"a", made("110")}), (TraceLoss{"b", made("110")}));
+}
+
+TEST(TraceLoss, WantsItsTrace) { EXPECT_NE(refusal(TraceLoss{}), ""); }
 
 } // namespace hapnet::emulator

@@ -55,9 +55,9 @@ TEST(ProfileFiles, BetweenDelaysAsMeasuredAndATableWithMeanAndSdThereIsNoRamp)
     Patch to;
     to.delay = with(50ms, 5ms);
     from.delay = with(0ms, 0ms);
-    EXPECT_TRUE(ramp_fault(from, to));
+    EXPECT_FALSE(validate_ramp(from, to));
     from.delay = with(20ms, 1ms);
-    EXPECT_FALSE(ramp_fault(from, to));
+    EXPECT_TRUE(validate_ramp(from, to));
     EXPECT_EQ(ramped(from, from, to, 0.5).delay, with(35ms, 3ms));
 }
 

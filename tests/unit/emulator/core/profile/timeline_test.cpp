@@ -76,11 +76,11 @@ TEST(Timeline, KeepsListsOfLossesInBoundedMemory)
     Profile profile;
     profile.path.up.loss = {ListedLoss{std::vector<std::uint64_t>(Timeline::listed_max / 3)}};
     for (int i = 1; i <= 3; ++i) profile.timeline.push_back({1s * i, {}, {}, {}});
-    EXPECT_FALSE(Timeline::fault_of(profile));
+    EXPECT_TRUE(Timeline::validate(profile));
     profile.timeline.push_back({4s, {}, {}, {}});
-    const auto fault = Timeline::fault_of(profile);
-    ASSERT_TRUE(fault);
-    EXPECT_EQ(fault->change, 3U);
+    const auto valid = Timeline::validate(profile);
+    ASSERT_FALSE(valid);
+    EXPECT_EQ(valid.error().index, 3U);
 }
 
 TEST(Timeline, ChangesAtOneTimeHoldInTheirOrder)

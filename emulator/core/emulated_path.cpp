@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/emulated_path.hpp"
+
+#include <vector>
+
+namespace hapnet::emulator {
+
+namespace {
+
+Link make_link(const Path& path, const EmulatedPath::Setup& setup, Direction direction)
+{
+    const bool is_up = direction == Direction::up;
+    Link::Setup link{.seed = setup.seed,
+                     .direction = direction,
+                     .start = setup.start,
+                     .limits = setup.limits,
+                     .has_stream_statistics = setup.has_stream_statistics};
+    if (setup.replay) {
+        const auto& fates = is_up ? setup.replay->up : setup.replay->down;
+        link.replay.emplace(std::shared_ptr<const std::vector<Fate>>{setup.replay, &fates});
+    }
+    return Link{is_up ? path.up : path.down, link};
+}
+
+} // namespace
+
+EmulatedPath::EmulatedPath(const Profile& profile, const Setup& setup)
+    : director_{profile, setup.start},
+      up_{make_link(director_.path(), setup, Direction::up)},
+      down_{make_link(director_.path(), setup, Direction::down)}
+{}
+
+base::Result<void> EmulatedPath::apply(const Command& command, base::TimePoint now)
+{
+    const auto generation = director_.generation();
+    auto done = director_.apply(command, now);
+    if (director_.generation() != generation) enact(now);
+    return done;
+}
+
+void EmulatedPath::enact(base::TimePoint now)
+{
+    up_.change(director_.path().up, now);
+    down_.change(director_.path().down, now);
+}
+
+} // namespace hapnet::emulator

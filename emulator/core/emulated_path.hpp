@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/director.hpp"
+#include "emulator/core/fates/fates.hpp"
+#include "emulator/core/link.hpp"
+#include "proto/base/random.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace hapnet::emulator {
+
+/// Both ways of an emulated path: two links, and the director that decides which conditions hold
+/// on them. Does no I/O and reads no clock: feed it with on_packet(), drain it with poll(), and
+/// call advance() by next_deadline(). Conditions that change in between hold from the first
+/// datagram that arrives after their time.
+class EmulatedPath {
+public:
+    struct Setup {
+        base::Seed seed{1};
+        base::TimePoint start{};               // time 0 of all that depends on time
+        QueueLimits limits{};                  // of each direction
+        std::shared_ptr<const Fates> replay{}; // null: fates are drawn
+        bool has_stream_statistics = true;     // false: they are not asked for
+    };
+
+    EmulatedPath(const Profile& profile, const Setup& setup);
+
+    /// Follows the timeline up to `now`. Cheap when nothing changes.
+    void advance(base::TimePoint now)
+    {
+        if (director_.advance(now)) enact(now);
+    }
+
+    /// Takes the next datagram of a direction, which arrived at `arrival`; see Link::on_packet().
+    Admission on_packet(Direction direction, std::span<const std::byte> bytes,
+                        base::TimePoint arrival)
+    {
+        advance(arrival);
+        return link_of(direction).on_packet(bytes, arrival);
+    }
+
+    /// A datagram of a direction that is due at `now`, the earliest first.
+    [[nodiscard]] std::optional<Datagram> poll(Direction direction, base::TimePoint now)
+    {
+        return link_of(direction).poll(now);
+    }
+
+    /// The datagram left at `at`.
+    void on_sent(Direction direction, const Datagram& datagram, base::TimePoint at)
+    {
+        link_of(direction).on_sent(datagram, at);
+    }
+
+    /// The datagram could not be sent.
+    void on_failed(Direction direction, const Datagram& datagram, DropCause cause)
+    {
+        link_of(direction).on_failed(datagram, cause);
+    }
+
+    /// When the next datagram is due; nullopt when none is in flight.
+    [[nodiscard]] std::optional<base::TimePoint> next_due() const
+    {
+        return base::earlier(up_.next_deadline(), down_.next_deadline());
+    }
+
+    /// When a datagram is due or the conditions may change.
+    [[nodiscard]] std::optional<base::TimePoint> next_deadline() const
+    {
+        return base::earlier(next_due(), director_.next_change());
+    }
+
+    /// Does what is asked, at once; see Director::apply().
+    base::Result<void> apply(const Command& command, base::TimePoint now);
+
+    [[nodiscard]] const Director& director() const { return director_; }
+    [[nodiscard]] const Link& link(Direction direction) const
+    {
+        return direction == Direction::up ? up_ : down_;
+    }
+
+private:
+    [[nodiscard]] Link& link_of(Direction direction)
+    {
+        return direction == Direction::up ? up_ : down_;
+    }
+    /// Hands the director's conditions to the links.
+    void enact(base::TimePoint now);
+
+    Director director_;
+    Link up_;
+    Link down_;
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/loss/burst.hpp"
+#include "emulator/core/loss/four_state.hpp"
+#include "emulator/core/loss/gilbert.hpp"
+#include "emulator/core/loss/k_of_n.hpp"
+#include "emulator/core/loss/list.hpp"
+#include "emulator/core/loss/outage.hpp"
+#include "emulator/core/loss/pattern.hpp"
+#include "emulator/core/loss/periodic.hpp"
+#include "emulator/core/loss/random.hpp"
+#include "emulator/core/loss/theory.hpp"
+#include "emulator/core/loss/trace.hpp"
+#include "emulator/core/packet.hpp"
+#include "emulator/core/verdict.hpp"
+#include "proto/base/random.hpp"
+#include "proto/base/result.hpp"
+
+#include <concepts>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace hapnet::emulator {
+
+// The laws of loss. Each has a file of its own with its parameters, its model, its theory, and what
+// is impossible about it; docs/design/add-a-loss-law.md walks through one.
+
+/// The laws, as a person states them. A law that advances by datagrams counts every datagram of its
+/// direction, whatever other laws do to them.
+using LossLaw =
+    std::variant<RandomLoss, BlockLoss, PeriodicLoss, Burst, TimedBurst, Gilbert, GilbertElliott,
+                 TimedGilbertElliott, FourState, ListedLoss, PatternLoss, TraceLoss, Outage>;
+
+/// A law at work: made from the law and a stream, shown every datagram in the order of their
+/// numbers, says whether it is lost, and may be changed to other numbers. One with states also has
+///     LossState state() const;  in which the last datagram was judged
+template <typename Model, typename Law>
+concept LossModelOf = requires(Model model, const Law& law, const base::RandomStream& stream,
+                               const Packet& packet)
+{
+    Model{law, stream};
+    requires std::same_as<decltype(model.on_packet(packet, stream)), bool>;
+    model.change(law, stream);
+};
+
+/// What every law of loss has. fields_of() names it, in profiles and in the name of its stream, and
+/// its parameters.
+template <typename Law>
+concept LawOfLoss = base::Described<Law> && std::equality_comparable<Law> &&
+    LossModelOf<typename Law::Model, Law> &&
+    requires(const Law& law, const Arrivals& arrivals, const RunFacts& facts)
+{
+    // of the drops, in statistics and fates
+    requires std::convertible_to<decltype(Law::cause), DropCause>;
+    // whether its losses depend on when datagrams come
+    requires std::convertible_to<decltype(Law::is_in_time), bool>;
+    // what is impossible, in the units that a person writes
+    requires std::same_as<decltype(law.validate()), base::Result<void>>;
+    // closed forms for people
+    requires std::same_as<decltype(law.theory(arrivals)), LossTheory>;
+    // tests that a run of it passes
+    requires std::same_as<decltype(law.properties(facts)), std::vector<LossProperty>>;
+};
+
+/// Runs one of some laws: one datagram after the other. What becomes of datagram n is a function of
+/// the stream, of n, and for laws with a state or in time of the datagrams before. Allocates
+/// nothing. The law has to be one that validate() accepts.
+template <typename Laws>
+class LossProcessOf;
+
+template <LawOfLoss... Laws>
+class LossProcessOf<std::variant<Laws...>> {
+public:
+    using Law = std::variant<Laws...>;
+
+    LossProcessOf(const Law& law, const base::RandomStream& stream)
+        : stream_{stream}, running_{started(law, stream)}
+    {}
+
+    /// Why the datagram is lost; nullopt: it passes. Every datagram of the direction is shown here
+    /// once, in the order of their numbers.
+    [[nodiscard]] std::optional<DropCause> on_packet(const Packet& packet)
+    {
+        return std::visit(
+            [&]<typename One>(Running<One>& running) -> std::optional<DropCause> {
+                const bool is_lost = running.model.on_packet(packet, stream_);
+                if constexpr (requires { running.model.state(); }) state_ = running.model.state();
+                return is_lost ? std::optional{One::cause} : std::nullopt;
+            },
+            running_);
+    }
+
+    /// In which the law judged the last datagram.
+    [[nodiscard]] LossState state() const { return state_; }
+
+    /// Holds from the next datagram on. A law of the same kind goes on from its state.
+    void change(const Law& law)
+    {
+        std::visit(
+            [&]<typename One>(const One& one) {
+                if (auto* running = std::get_if<Running<One>>(&running_)) {
+                    running->model.change(one, stream_);
+                } else {
+                    running_ = started(one, stream_);
+                    state_ = LossState::none;
+                }
+            },
+            law);
+    }
+
+private:
+    /// Laws may share a type of model.
+    template <typename One>
+    struct Running {
+        typename One::Model model;
+    };
+    using AnyRunning = std::variant<Running<Laws>...>;
+
+    [[nodiscard]] static AnyRunning started(const Law& law, const base::RandomStream& stream)
+    {
+        return std::visit(
+            [&]<typename One>(const One& one) {
+                return AnyRunning{Running<One>{typename One::Model{one, stream}}};
+            },
+            law);
+    }
+
+    base::RandomStream stream_;
+    AnyRunning running_;
+    LossState state_ = LossState::none;
+};
+
+extern template class LossProcessOf<LossLaw>;
+using LossProcess = LossProcessOf<LossLaw>;
+
+/// "random", "k-of-n", ...: the name of a law in profiles and in the name of its stream.
+[[nodiscard]] std::string_view name_of(const LossLaw& law);
+
+/// Whether the law can be done. The error says what is impossible and what would be right, in the
+/// units that a person writes, without naming the law or the place.
+[[nodiscard]] base::Result<void> validate(const LossLaw& law);
+
+/// Whether the losses depend on when datagrams come.
+[[nodiscard]] bool is_in_time(const LossLaw& law);
+
+[[nodiscard]] LossTheory theory_of(const LossLaw& law, const Arrivals& arrivals);
+[[nodiscard]] std::vector<LossProperty> properties_of(const LossLaw& law, const RunFacts& facts);
+
+} // namespace hapnet::emulator

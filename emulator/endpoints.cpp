@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/endpoints.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <utility>
+
+namespace hapnet::emulator {
+
+namespace {
+
+/// One side: where the emulator listens, and who is there.
+struct Side {
+    net::Endpoint listen;
+    std::optional<net::Endpoint> peer;
+};
+
+base::Result<Side> look_up_side(const char* name, const net::HostPort& listen,
+                                const std::optional<net::HostPort>& peer)
+{
+    Side side{net::resolve(listen), std::nullopt};
+    if (!peer) {
+        if (side.listen.is_loopback()) return side;
+        return base::fail(
+            fmt::format("--listen-{0} {1} can be reached from other machines: say who "
+                        "may use it with --{0} HOST:PORT",
+                        name, side.listen.to_text()));
+    }
+    side.peer = net::resolve(*peer, side.listen.family());
+    if (side.listen.is_loopback() && !side.peer->is_loopback()) {
+        return base::fail(
+            fmt::format("--{0} {1} cannot be reached from --listen-{0} {2}: listen on "
+                        "an address of this machine that it knows, or on 0.0.0.0",
+                        name, side.peer->to_text(), side.listen.to_text()));
+    }
+    net::require_route(*side.peer);
+    return side;
+}
+
+/// Whether what is sent to `peer` arrives where the emulator itself listens.
+bool is_own(const net::Endpoint& peer, const net::Endpoint& listen)
+{
+    return peer == listen || (listen.is_any() && peer.is_loopback() &&
+                              peer.port() == listen.port() && peer.family() == listen.family());
+}
+
+/// A datagram that is sent to the emulator itself would go round for ever.
+base::Result<Endpoints> without_loop(Endpoints endpoints)
+{
+    for (const auto& [name, peer] : {std::pair{"a", endpoints.a}, std::pair{"b", endpoints.b}}) {
+        for (const auto& listen : {endpoints.listen_a, endpoints.listen_b}) {
+            if (!peer || !is_own(*peer, listen)) continue;
+            return base::fail(fmt::format("--{} {} is where the emulator itself listens: name the "
+                                          "other program's address",
+                                          name, peer->to_text()));
+        }
+    }
+    return endpoints;
+}
+
+} // namespace
+
+base::Result<Endpoints> look_up(const Options& options)
+{
+    const auto a = look_up_side("a", options.listen_a, options.a);
+    if (!a) return tl::unexpected{a.error()};
+    const auto b = look_up_side("b", options.listen_b, options.b);
+    if (!b) return tl::unexpected{b.error()};
+    return without_loop({a->listen, b->listen, a->peer, b->peer});
+}
+
+} // namespace hapnet::emulator

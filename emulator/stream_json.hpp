@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/stream_statistics.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace hapnet::emulator {
+
+// Numbers of a measured as every report writes them, in milliseconds; what is unknown is null.
+
+[[nodiscard]] nlohmann::ordered_json json_in_ms(std::optional<base::Duration> duration);
+[[nodiscard]] nlohmann::ordered_json json_in_ms(const std::optional<Moments>& moments);
+[[nodiscard]] nlohmann::ordered_json json_in_ms(const std::optional<Quantiles>& quantiles);
+
+} // namespace hapnet::emulator

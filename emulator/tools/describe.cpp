@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/tools/describe.hpp"
+#include "emulator/core/delay/theory.hpp"
+
+#include "emulator/core/delay/theory.hpp"
+#include "emulator/core/loss/loss.hpp"
+#include "proto/base/text.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::emulator {
+
+namespace {
+
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+std::string in_ms(base::Duration duration)
+{
+    const double value = Milliseconds{duration}.count();
+    return std::abs(value) < 100.0 ? fmt::format("{:.3g} ms", value)
+                                   : fmt::format("{:.0f} ms", value);
+}
+
+std::string in_percent(double share) { return fmt::format("{:.4g} %", 100.0 * share); }
+
+double rate_of(const Stream& stream) { return 1.0 / base::to_seconds(stream.spacing); }
+
+double load_of(const Conditions& conditions, const Stream& stream)
+{
+    constexpr double bits_per_byte = 8.0;
+    const auto bytes = static_cast<double>(stream.bytes + conditions.rate.overhead_bytes);
+    return bytes * bits_per_byte * rate_of(stream);
+}
+
+std::string rate_in_words(const Conditions& conditions, const Stream& stream)
+{
+    const Rate& rate = conditions.rate;
+    constexpr double bits_per_byte = 8.0;
+    const auto limit = static_cast<double>(rate.bits_per_second);
+    const double each = static_cast<double>(stream.bytes + rate.overhead_bytes) * bits_per_byte;
+    return fmt::format("rate: {} with {} of overhead for each datagram; {} B take {:.3g} ms, the "
+                       "stream fills {:.3g} % of it; a queue of {} holds {:.3g} ms",
+                       base::bit_rate_text(rate.bits_per_second),
+                       base::size_text(rate.overhead_bytes), stream.bytes, 1e3 * each / limit,
+                       100.0 * load_of(conditions, stream) / limit,
+                       base::size_text(rate.queue_bytes_max),
+                       1e3 * static_cast<double>(rate.queue_bytes_max) * bits_per_byte / limit);
+}
+
+std::string loss_in_words(const LossLaw& law, const Stream& stream)
+{
+    const LossTheory theory =
+        theory_of(law, {stream.spacing, std::max<std::uint64_t>(stream.packets, 1)});
+    std::string text = fmt::format("loss {}: {} lost", name_of(law), in_percent(theory.share));
+    if (theory.mean_run) text += fmt::format(", runs of {:.4g} on average", *theory.mean_run);
+    if (theory.loss_after_loss) {
+        text += fmt::format(", after a loss {}", in_percent(*theory.loss_after_loss));
+    }
+    return text;
+}
+
+std::string variation_in_words(std::string_view name, const Variation& variation)
+{
+    const DelayTheory theory{variation.law};
+    if (theory.constant()) return fmt::format("{}: {}", name, in_ms(*theory.constant()));
+    std::string text =
+        fmt::format("{} {}: mean {}", name, name_of(variation.law), in_ms(theory.mean()));
+    text += theory.sd() ? fmt::format(", sd {}", in_ms(*theory.sd())) : ", sd infinite";
+    if (variation.correlation_time > base::Duration{0}) {
+        text += fmt::format(", correlated over {}", in_ms(variation.correlation_time));
+    } else {
+        text += ", each datagram on its own";
+    }
+    return text;
+}
+
+std::string order_in_words(Order order)
+{
+    switch (order) {
+    case Order::keep: return "order keep: none leaves before one that came earlier";
+    case Order::free: return "order free: each leaves at its own time, also before earlier ones";
+    case Order::sorted: break;
+    }
+    return "order sorted: the times of leaving are taken in the order of coming";
+}
+
+std::string reorder_in_words(const Reordering& reorder)
+{
+    const auto& displacement = reorder.displacement;
+    return fmt::format("reorder: {} leave {}", base::to_text(reorder.share),
+                       displacement.places > 0
+                           ? fmt::format("after {} later ones", displacement.places)
+                           : fmt::format("{} behind their turn", in_ms(displacement.time)));
+}
+
+bool varies(const Variation& variation)
+{
+    return !DelayTheory{variation.law}.constant().has_value();
+}
+
+} // namespace
+
+std::vector<std::string> describe(const Conditions& conditions, const Stream& stream)
+{
+    std::vector<std::string> words;
+    const auto& [mtu, rate, loss, corrupt, duplicate, delay, jitter, order, reorder] = conditions;
+    const auto is_on = [](base::Probability share) { return share.fraction() > 0.0; };
+    if (mtu.bytes_max > 0) {
+        words.push_back(fmt::format("mtu: what is larger than {} with its headers is dropped",
+                                    base::size_text(mtu.bytes_max)));
+    }
+    if (rate.bits_per_second > 0) words.push_back(rate_in_words(conditions, stream));
+    for (const LossLaw& law : loss) words.push_back(loss_in_words(law, stream));
+    if (is_on(corrupt.share)) {
+        words.push_back(fmt::format("corrupt: {} have {} of their bits inverted",
+                                    base::to_text(corrupt.share), corrupt.bits));
+    }
+    if (is_on(duplicate.share)) {
+        words.push_back(fmt::format("duplicate: {} are followed by a copy within {}",
+                                    base::to_text(duplicate.share), in_ms(duplicate.spread)));
+    }
+    if (!is_nothing(delay)) words.push_back(variation_in_words("delay", delay));
+    if (!is_nothing(jitter)) words.push_back(variation_in_words("jitter", jitter));
+    if (varies(delay) || varies(jitter)) words.push_back(order_in_words(order));
+    if (is_on(reorder.share)) words.push_back(reorder_in_words(reorder));
+    if (words.empty()) words.push_back("nothing: datagrams pass at once");
+    return words;
+}
+
+std::vector<std::string> warnings(const Conditions& conditions, const Stream& stream,
+                                  const DirectionPrediction& prediction)
+{
+    std::vector<std::string> list;
+    const StreamReport& measured = prediction.measured;
+    const auto at_rate = fmt::format("at {:.6g} packets/s", rate_of(stream));
+    const bool has_jitter = varies(conditions.delay) || varies(conditions.jitter);
+    const bool has_rate = conditions.rate.bits_per_second > 0;
+    const double clipped = clipped_share(conditions.delay.law, conditions.jitter.law);
+    if (clipped > 1e-4) {
+        list.push_back(fmt::format("{} of the datagrams would have to leave before they came; they "
+                                   "leave at once, which raises the mean: use more delay or less "
+                                   "jitter",
+                                   in_percent(clipped)));
+    }
+    const bool is_measured = measured.delay && measured.delay->sd && measured.requested_delay->sd;
+    const auto noticeable = std::chrono::microseconds{50};
+    if (has_jitter && !has_rate && is_measured && conditions.order == Order::keep &&
+        prediction.added_by_queues > noticeable) {
+        list.push_back(fmt::format(
+            "keeping the order makes the mean {} longer and the sd {} instead of {} {}, with {} of "
+            "the gaps below 50 us; {} keeps order, mean and sd, and order = \"free\" reorders",
+            in_ms(prediction.added_by_queues), in_ms(*measured.delay->sd),
+            in_ms(*measured.requested_delay->sd), at_rate,
+            in_percent(measured.clumped_share.value_or(0.0)),
+            conditions.jitter.correlation_time > base::Duration{0}
+                ? "a longer correlation_time"
+                : "a correlation_time (100ms, say)"));
+    }
+    if (has_jitter && conditions.order == Order::free && measured.reordered > 0) {
+        const auto delivered =
+            static_cast<double>(prediction.statistics.delivered - prediction.statistics.duplicated);
+        list.push_back(fmt::format("order = \"free\" reorders {} of the datagrams {}, by up to {} "
+                                   "places",
+                                   in_percent(static_cast<double>(measured.reordered) / delivered),
+                                   at_rate, measured.reorder_extent_max));
+    }
+    if (has_rate &&
+        load_of(conditions, stream) > static_cast<double>(conditions.rate.bits_per_second)) {
+        list.push_back(fmt::format("the rate is less than the stream of {} B {} needs ({:.4g} "
+                                   "Mbit/s with overhead): its queue stays full",
+                                   stream.bytes, at_rate, load_of(conditions, stream) / 1e6));
+    }
+    if (prediction.statistics.dropped_by(DropCause::queue_full) > 0) {
+        list.push_back("more is in flight than the emulator holds: what is over is dropped as "
+                       "queue_full");
+    }
+    return list;
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "emulator/tools/predict.hpp"
+
+#include <string>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// One sentence for each stage of a direction that does something, in the order of the stages, with
+/// what theory says of it.
+[[nodiscard]] std::vector<std::string> describe(const Conditions& conditions, const Stream& stream);
+
+/// Effects on a stream that a user may not have meant, with the numbers that `prediction` found.
+[[nodiscard]] std::vector<std::string> warnings(const Conditions& conditions, const Stream& stream,
+                                                const DirectionPrediction& prediction);
+
+} // namespace hapnet::emulator

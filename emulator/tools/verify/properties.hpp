@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/loss/loss.hpp"
+#include "emulator/core/verdict.hpp"
+#include "emulator/tools/verify/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// What is known of the losses of a direction: entry n is that of datagram n.
+struct LossRecord {
+    std::vector<std::uint8_t> lost;             // 1: lost
+    std::vector<std::vector<LossState>> states; // of each law
+    bool is_hidden = false; // datagrams were dropped before the laws of loss could take them
+};
+[[nodiscard]] LossRecord loss_record(std::span<const Fate> fates, std::size_t laws);
+
+/// One test for each property that a law states. `states` are those of the law.
+[[nodiscard]] std::vector<TestResult> verify_properties(const std::vector<LossProperty>& properties,
+                                                        std::span<const std::uint8_t> lost,
+                                                        std::span<const LossState> states,
+                                                        double alpha);
+
+/// The tests that apply to the losses of a direction under its laws. Where several laws act
+/// together only the share that they lose, and the steps of each chain, can be told.
+[[nodiscard]] std::vector<TestResult> verify_losses(const std::vector<LossLaw>& laws,
+                                                    const LossRecord& record,
+                                                    std::optional<base::Duration> spacing,
+                                                    double alpha);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/loss/theory.hpp"
+#include "emulator/core/verdict.hpp"
+#include "emulator/tools/verify/result.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace hapnet::emulator {
+
+// Tests of the states of a chain: one per datagram, without a gap.
+
+/// How often the chain went from one state to another, against the binomial law.
+[[nodiscard]] TestResult test_step(const StateStep& step, std::span<const LossState> states,
+                                   double alpha);
+
+/// How many datagrams were lost (1) in a state, likewise.
+[[nodiscard]] TestResult test_losses_in_state(const LossesInState& losses,
+                                              std::span<const LossState> states,
+                                              std::span<const std::uint8_t> lost, double alpha);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/core/stream_statistics.hpp"
+
+#include "tests/unit/emulator/core/passage.hpp"
+
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace hapnet::emulator::stream_statistics_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr base::TimePoint start{1h};
+
+/// Number n arrives at n ms.
+Passage passage(std::uint64_t number, base::Duration sent, bool is_copy = false)
+{
+    return {number, start + number * 1ms, start + sent, is_copy};
+}
+
+StreamReport report_of(const std::vector<Passage>& passages)
+{
+    StreamStatistics measured;
+    for (const Passage& one : passages) note(measured, one);
+    return measured.report();
+}
+
+TEST(StreamStatistics, HasNothingToSayOfNothing)
+{
+    const StreamReport report = StreamStatistics{}.report();
+    EXPECT_FALSE(report.requested_delay);
+    EXPECT_FALSE(report.delay);
+    EXPECT_FALSE(report.delay_quantiles);
+    EXPECT_FALSE(report.delay_variation);
+    EXPECT_FALSE(report.gap);
+    EXPECT_FALSE(report.clumped_share);
+    EXPECT_FALSE(report.missing_run_mean);
+    EXPECT_FALSE(report.reorder_extent_mean);
+    EXPECT_FALSE(report.age_mean);
+    EXPECT_FALSE(report.peak_age_mean);
+    EXPECT_FALSE(report.peak_age_max);
+}
+
+TEST(StreamStatistics, OfOneDepartureHasADelayAndNoVariation)
+{
+    const StreamReport report = report_of({passage(0, 10ms)});
+    EXPECT_EQ(report.delay->mean, 10ms);
+    EXPECT_EQ(report.delay->sd, std::nullopt);
+    EXPECT_FALSE(report.delay_variation);
+    EXPECT_FALSE(report.gap);
+    EXPECT_FALSE(report.age_mean);
+}
+
+TEST(StreamStatistics, ComparesTheLawThatWasDrawnWithTheOneThatCameOut)
+{
+    StreamStatistics measured;
+    measured.on_packet({Deliver{.after = 10ms}, {}});
+    measured.on_packet({Drop{DropCause::random_loss}, {}});
+    measured.on_packet({Deliver{.after = 12ms}, {}});
+    note(measured, passage(0, 10ms));
+    note(measured, passage(2, 16ms));
+    const StreamReport report = measured.report();
+    EXPECT_EQ(report.requested_delay->mean, 11ms);
+    EXPECT_EQ(report.requested_delay->sd, 1'414'214ns);
+    EXPECT_EQ(report.delay->mean, 12ms);
+    EXPECT_EQ(report.delay->sd, 2'828'427ns);
+    EXPECT_EQ(report.delay_variation->max, 4ms);
+    EXPECT_EQ(report.gap->max, 6ms);
+}
+
+TEST(StreamStatistics, CallsDeparturesAClumpThatFollowEachOtherWithin50Microseconds)
+{
+    const StreamReport report =
+        report_of({passage(0, 10ms), passage(1, 11ms), passage(2, 11ms + 50us),
+                   passage(3, 11ms + 99us), passage(4, 20ms)});
+    EXPECT_EQ(report.clumped_share, 0.25);
+}
+
+TEST(StreamStatistics, CountsRunsOfMissingUpdatesBetweenInOrderDepartures)
+{
+    // 0 is missing at first; then 2, 3, 4, of which 3 comes too late to matter.
+    const StreamReport report =
+        report_of({passage(1, 10ms), passage(5, 15ms), passage(3, 16ms), passage(6, 17ms)});
+    EXPECT_EQ(report.missing_runs, 2U);
+    EXPECT_EQ(report.missing_run_mean, 2.0);
+    EXPECT_EQ(report.missing_run_max, 3U);
+}
+
+TEST(StreamStatistics, MeasuresHowFarAReorderedDepartureCameAfterTheFirstOneThatOvertookIt)
+{
+    // 2 comes three departures after 4, and 3 comes four after it.
+    const StreamReport report =
+        report_of({passage(1, 10ms), passage(4, 15ms), passage(5, 15ms), passage(6, 15ms),
+                   passage(2, 15ms), passage(3, 15ms), passage(7, 16ms)});
+    EXPECT_EQ(report.reordered, 2U);
+    EXPECT_EQ(report.reorder_extent_mean, 3.5);
+    EXPECT_EQ(report.reorder_extent_max, 4U);
+    EXPECT_EQ(report.beyond_look_back, 0U);
+}
+
+TEST(StreamStatistics, LooksBackOnlySoFar)
+{
+    StreamStatistics measured;
+    for (std::uint64_t n = 1; n <= 2000; ++n) note(measured, passage(n, 2s));
+    note(measured, passage(0, 2s));
+    EXPECT_EQ(measured.report().reorder_extent_max, reorder_look_back);
+    EXPECT_EQ(measured.report().beyond_look_back, 1U);
+}
+
+TEST(StreamStatistics, TakesTheAgeOfInformationFromTheNewestUpdateThatHasDeparted)
+{
+    // Arrivals at 0, 1, 2, 5 ms. Age 4 ms at 4 ms; 1 ms later it peaks at 5 and falls to 3 (number
+    // 2); number 1 is old news; at 9 ms it peaks at 7 and falls to 4 (number 5).
+    const StreamReport report =
+        report_of({passage(0, 4ms), passage(2, 5ms), passage(1, 6ms), passage(5, 9ms)});
+    EXPECT_EQ(report.peak_age_max, 7ms);
+    EXPECT_EQ(report.peak_age_mean, 6ms);
+    // (1 ms at 4.5 on average + 4 ms at 5 on average) / 5 ms
+    EXPECT_EQ(report.age_mean, 4'900'000ns);
+}
+
+TEST(StreamStatistics, TakesNoNoticeOfCopies)
+{
+    const StreamReport report = report_of(
+        {passage(0, 10ms), passage(0, 10ms, true), passage(1, 11ms), passage(0, 12ms, true)});
+    EXPECT_EQ(report.clumped_share, 0.0);
+    EXPECT_EQ(report.reordered, 0U);
+    EXPECT_EQ(report.gap->max, 1ms);
+}
+
+} // namespace
+} // namespace hapnet::emulator::stream_statistics_test
