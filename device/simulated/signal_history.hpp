@@ -12,8 +12,8 @@
 namespace hapnet::device {
 
 /// The past values of a vector: a nerve delivers the one of some time ago. A value holds until the
-/// next; before the first it was zero. 1024 samples are kept, a second of ticks; for an earlier time
-/// the oldest of them is given.
+/// next; before the first it was zero. 1024 samples are kept, a second of ticks; for an earlier
+/// time the oldest of them is given.
 class SignalHistory {
 public:
     static constexpr base::Duration delay_max{std::chrono::seconds{1}};

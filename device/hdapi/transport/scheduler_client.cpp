@@ -72,7 +72,7 @@ void SchedulerClient::pace(const std::function<bool()>& beat)
             const std::lock_guard lock{mutex_};
             beat_ = Beat::none;
         }
-        changed_.notify_all(); // without the lock: the thread that wakes needs it, and is more urgent
+        changed_.notify_all(); // without the lock: the thread that wakes needs it first
     }
 }
 
