@@ -5,7 +5,7 @@
 #include "lab/cli/host.hpp"
 #include "lab/cli/json_file.hpp"
 #include "lab/report/demo_page.hpp"
-#include "lab/report/demo_report.hpp"
+#include "lab/results/demo.hpp"
 #include "proto/record/reader.hpp"
 
 #include <cerrno>

@@ -4,7 +4,7 @@
 
 #include "lab/cli/host.hpp"
 #include "lab/cli/json_file.hpp"
-#include "lab/report/real_time.hpp"
+#include "lab/results/real_time.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"

@@ -3,7 +3,7 @@
 #include "lab/cli/report_command.hpp"
 
 #include "lab/report/report.hpp"
-#include "lab/report/results.hpp"
+#include "lab/results/results.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 

@@ -7,7 +7,7 @@
 #include "lab/experiment/text.hpp"
 #include "lab/results/cells.hpp"
 #include "lab/results/manifest.hpp"
-#include "lab/results/results.hpp"
+#include "lab/results/result_files.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/runner.hpp"
 #include "proto/base/version.hpp"

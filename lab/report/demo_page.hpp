@@ -3,8 +3,8 @@
 #pragma once
 
 #include "lab/records/session.hpp"
-#include "lab/report/demo_report.hpp"
 #include "lab/report/plot/plot.hpp"
+#include "lab/results/demo.hpp"
 
 #include <string>
 #include <vector>

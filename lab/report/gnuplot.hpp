@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/file.hpp"
-#include "lab/report/results.hpp"
+#include "lab/results/file.hpp"
+#include "lab/results/results.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/results.hpp"
+#include "lab/results/results.hpp"
 
 #include <optional>
 #include <string>

@@ -2,24 +2,50 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/experiment/parts.hpp"
+#include "lab/metrics/criteria.hpp"
+#include "lab/results/rows.hpp"
 
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::report {
 
-/// A file of a folder of results: docs/use/experiments.md says what its columns are.
-struct ResultText {
-    std::string name; // relative to the folder
-    std::string text;
+/// How some of the results came about: a manifest.json.
+struct Run {
+    std::string folder; // where it stands, as the path of the file says
+    nlohmann::ordered_json manifest;
+    std::optional<Criteria> criteria; // by which it judged; nullopt: it does not say
+
+    [[nodiscard]] bool is_valid() const;
 };
 
-/// What an experiment found, as files: equal findings, equal bytes. `findings` are those of
-/// parts_of(experiment), in that order. The error: sessions that nothing can be calibrated on.
-[[nodiscard]] base::Result<std::vector<ResultText>> results_of(const Experiment& experiment,
-                                                               const Criteria& criteria,
-                                                               std::span<const Finding> findings);
+/// All that a result folder holds, its subfolders' results joined.
+struct Results {
+    std::vector<Run> runs;
+    std::vector<Table1Row> table1;
+    std::vector<TaskRow> tasks;
+    std::vector<LimitRow> limits;
+    std::vector<ConventionRow> conventions;
+    std::vector<CurveRow> curves;
+    std::vector<TrajectoryRow> trajectories;
+    std::vector<QosRow> qos;
+    std::vector<RealTimeRow> real_time;
+    std::vector<Replay> replays;
 
-} // namespace hapnet::lab
+    /// By which all runs judged; nullopt when they do not say, or differ.
+    [[nodiscard]] std::optional<Criteria> criteria() const;
+};
+
+/// Whether a file of this name is one that read_results() reads; all others it leaves alone.
+/// Replays are those of a folder replay/.
+[[nodiscard]] bool is_result_file(std::string_view path);
+
+/// Reads the files of a result folder and of its subfolders; their order does not matter. Errors
+/// begin with "FILE:LINE: ". Of two results that exclude each other, such as two rows of Table 1
+/// for one algorithm, it is an error that both are there.
+[[nodiscard]] base::Result<Results> read_results(std::span<const File> files);
+
+} // namespace hapnet::lab::report

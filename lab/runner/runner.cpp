@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/runner/runner.hpp"
 
-#include "lab/results/rows.hpp"
+#include "lab/results/replay_rows.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/wait.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // What a run keeps, reuses and finds, on however many threads.
 #include "lab/experiment/text.hpp"
-#include "lab/results/results.hpp"
+#include "lab/results/result_files.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/runner.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/rows.hpp"
+#include "lab/results/rows.hpp"
 
 #include <optional>
 #include <string_view>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/explain.hpp"
+#include "lab/scenes/explain.hpp"
 
 #include "proto/base/quantity.hpp"
 #include "proto/base/text.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/real_time.hpp"
+#include "lab/results/real_time.hpp"
 
 #include "emulator/core/profile/text.hpp"
 #include "lab/virtual_time/play.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/file.hpp"
+#include "lab/results/file.hpp"
 #include "proto/base/result.hpp"
 
 #include <cstddef>

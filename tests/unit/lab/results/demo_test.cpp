@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/demo_report.hpp"
+#include "lab/results/demo.hpp"
 
 #include <gtest/gtest.h>
 

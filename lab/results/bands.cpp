@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/bands.hpp"
+#include "lab/results/bands.hpp"
 
 #include <array>
 
