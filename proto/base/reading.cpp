@@ -43,6 +43,19 @@ void read_count(const Node& node, Target& target, Reading& reading)
 
 } // namespace
 
+tl::expected<Node, DocumentError> parse_option(std::string_view text, bool is_bare)
+{
+    if (!is_bare && !text.starts_with('{') && !text.starts_with('[')) {
+        return Node{{}, std::string{text}};
+    }
+    auto document = parse_document(fmt::format("value = {}", text));
+    if (!document) return document;
+    auto& table = std::get<Node::Table>(document->value);
+    // "{} \n more = 1" would be several.
+    if (table.size() != 1) return tl::unexpected{DocumentError{{}, "more than one value"}};
+    return std::move(table.front().value);
+}
+
 void Reading::complain(Place place, std::string_view what)
 {
     if (complaint_) return;
@@ -52,7 +65,7 @@ void Reading::complain(Place place, std::string_view what)
 
 Result<std::string> Reading::open(const std::string& name) const
 {
-    if (!open_) return fail("no file can be opened here");
+    if (!open_) return fail("cannot open a file here");
     return open_(name);
 }
 
@@ -70,7 +83,7 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
         all += fmt::format("{}{}", all.empty() ? "" : ", ", candidate);
     }
     if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
-    return fmt::format("possible here: {}", all);
+    return fmt::format("use one of {}", all);
 }
 
 const Node* TableReader::find(std::string_view key)
@@ -84,7 +97,7 @@ const Node* TableReader::find(std::string_view key)
 const Node* TableReader::require(std::string_view key)
 {
     const Node* node = find(key);
-    if (node == nullptr) reading_.complain(place_, fmt::format("'{}' is missing here", key));
+    if (node == nullptr) reading_.complain(place_, fmt::format("missing key '{}'", key));
     return node;
 }
 
@@ -92,7 +105,7 @@ void TableReader::finish() const
 {
     for (const Entry& entry : table_) {
         if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-        reading_.complain(entry.place, fmt::format("{} is not known here: {}", quoted(entry.key),
+        reading_.complain(entry.place, fmt::format("unknown key {}: {}", quoted(entry.key),
                                                    suggestion(entry.key, known_)));
     }
 }
@@ -110,8 +123,8 @@ std::string what_it_is(const Node& node)
 
 void complain_of(const Node& node, std::string_view expected, Reading& reading)
 {
-    reading.complain(node.place,
-                     fmt::format("{} stands where {} belongs", what_it_is(node), expected));
+    if (expected.ends_with(',')) expected.remove_suffix(1);
+    reading.complain(node.place, fmt::format("expected {}, not {}", expected, what_it_is(node)));
 }
 
 std::optional<std::string_view> quantity(const Node& node)

@@ -22,6 +22,11 @@ namespace hapnet::base {
 /// Gives the text of a file that a text names, or says why not.
 using OpenFile = std::function<Result<std::string>(const std::string& name)>;
 
+/// The value of an option on a command line, as it stands in TOML but for the quotes of a text:
+/// `5ms`, `{ law = "normal", sd = "3ms" }`, `["5%", "40/100"]`. With `is_bare` a number or a truth
+/// value: `40`, `true`.
+[[nodiscard]] tl::expected<Node, DocumentError> parse_option(std::string_view text, bool is_bare);
+
 /// The reading of one text: keeps the first complaint about it.
 class Reading {
 public:
@@ -44,7 +49,7 @@ private:
     std::optional<std::string> complaint_;
 };
 
-/// "did you mean 'jitter'?" or "one of delay, jitter, ... is possible here".
+/// "did you mean 'jitter'?" or "use one of delay, jitter, ...".
 [[nodiscard]] std::string suggestion(std::string_view word,
                                      std::span<const std::string_view> possible);
 
@@ -72,7 +77,7 @@ private:
     std::vector<std::string_view> known_;
 };
 
-/// Complains that what stands here is not what is expected: "a text in quotes".
+/// Complains that the value is not what is expected: "a text in quotes".
 void complain_of(const Node& node, std::string_view expected, Reading& reading);
 
 /// The text of a quantity with a unit; a bare 0 needs none.

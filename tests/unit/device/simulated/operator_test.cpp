@@ -58,7 +58,7 @@ TEST(Operator, IsReadFromWhatDiffersFromAPreset)
 TEST(Operator, IsRefusedWithFileAndLine)
 {
     EXPECT_EQ(complaint("mass = \"200g\"\nstifness = \"2N/m\"\n"),
-              "hand.toml:2:1: \"stifness\" is not known here: did you mean 'stiffness'?");
+              "hand.toml:2:1: unknown key \"stifness\": did you mean 'stiffness'?");
     EXPECT_EQ(complaint("mass = \"0g\""),
               "hand.toml:1:8: \"0g\" is out of range: 20g to 10kg is possible here");
     EXPECT_EQ(complaint("will.delay = \"2s\""),

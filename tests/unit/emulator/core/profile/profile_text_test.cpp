@@ -100,15 +100,15 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
               "test.toml:2:9: '160' is not a duration: write a number and its unit, such as 160ms, "
               "15us or 1.5s");
     EXPECT_EQ(refusal("[both]\ndealy = \"160ms\"\n"),
-              "test.toml:2:1: \"dealy\" is not known here: did you mean 'delay'?");
+              "test.toml:2:1: unknown key \"dealy\": did you mean 'delay'?");
     EXPECT_EQ(refusal("[both]\ndelay = true\n"),
-              "test.toml:2:9: true stands where a number and its unit, such as 160ms, 15us or 1.5s "
-              "belongs");
+              "test.toml:2:9: expected a number and its unit, such as 160ms, 15us or 1.5s, not "
+              "true");
     EXPECT_EQ(refusal("[up]\nloss = \"150%\"\n"), "test.toml:2:8: '150%' is more than 100%");
     EXPECT_EQ(refusal("[up]\nloss = \"101/100\"\n"),
               "test.toml:2:8: loses 101 of 100: at least 1 is lost, and at most all, as in 40/100");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"uniform\" }\n"),
-              "test.toml:2:10: 'half_width' is missing here");
+              "test.toml:2:10: missing key 'half_width'");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"unifrom\" }\n"),
               "test.toml:2:18: \"unifrom\" is not a law: did you mean 'uniform'?");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"normal\", sd = \"-1ms\" }\n"),
@@ -116,7 +116,7 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
     EXPECT_EQ(refusal("[up]\norder = \"keep\"\njitter = { law = \"normal\", sd = \"1ms\", order = "
                       "\"free\" }\n"),
               "test.toml:2:9: jitter says another order than the key order");
-    EXPECT_EQ(refusal("[[at]]\nup.delay = \"1ms\"\n"), "test.toml:1:1: 'time' is missing here");
+    EXPECT_EQ(refusal("[[at]]\nup.delay = \"1ms\"\n"), "test.toml:1:1: missing key 'time'");
     EXPECT_EQ(refusal("[both]\ndelay = \n"),
               "test.toml:2:9: Error while parsing key-value pair: expected value, saw '\\n'");
     EXPECT_EQ(refusal("[both]\ndelay = 1979-05-27\n").substr(0, 16), "test.toml:2:9: a");

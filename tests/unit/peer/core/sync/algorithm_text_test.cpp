@@ -117,28 +117,28 @@ TEST(AlgorithmText, PointsAtWhatIsWrongAndSaysWhatWouldBeRight)
 {
     EXPECT_EQ(complaint("algorithm = \"sepp\""),
               "a.toml:1:13: \"sepp\" is not an algorithm: did you mean 'sep'?");
-    EXPECT_EQ(complaint("follow = \"absolute\""), "a.toml:1:1: 'algorithm' is missing here");
+    EXPECT_EQ(complaint("follow = \"absolute\""), "a.toml:1:1: missing key 'algorithm'");
     EXPECT_EQ(complaint("algorithm = \"base\"\nvelocity = \"sender\""),
-              "a.toml:2:1: \"velocity\" is not known here: possible here: algorithm, displacement, "
+              "a.toml:2:1: unknown key \"velocity\": use one of algorithm, displacement, "
               "displacement_from, follow_while, follow, bleed, remote_force_on, both_push, "
               "hysteresis, stale, let_go_after, axes, settle_after, settle_within");
     EXPECT_EQ(complaint("algorithm = \"dead-reckoning\"\nvelocty = \"sender\""),
-              "a.toml:2:1: \"velocty\" is not known here: did you mean 'velocity'?");
+              "a.toml:2:1: unknown key \"velocty\": did you mean 'velocity'?");
     EXPECT_EQ(complaint("algorithm = \"base\"\nstale = \"keep\""),
-              "a.toml:2:9: \"keep\" is not possible here: possible here: drop, take");
+              "a.toml:2:9: \"keep\" is not possible here: use one of drop, take");
     EXPECT_EQ(complaint("algorithm = \"base\"\naxes = 1"),
-              "a.toml:2:8: 1 stands where one of \"all\", \"x\" belongs");
+              "a.toml:2:8: expected one of \"all\", \"x\", not 1");
     EXPECT_EQ(complaint("algorithm = \"dead-reckoning\"\nhorizon = \"one-wya\""),
-              "a.toml:2:11: \"one-wya\" stands where a time such as \"160ms\" or \"none\" or "
-              "\"one-way\" or \"packet-age\" belongs");
+              "a.toml:2:11: expected a time such as \"160ms\" or \"none\" or \"one-way\" or "
+              "\"packet-age\", not \"one-wya\"");
     EXPECT_EQ(complaint("algorithm = \"base\"\nsettle_after = true"),
-              "a.toml:2:16: true stands where a time such as \"160ms\" or \"never\" belongs");
+              "a.toml:2:16: expected a time such as \"160ms\" or \"never\", not true");
     EXPECT_EQ(complaint("algorithm = \"base\"\nsettle_within = \"11s\""),
               "a.toml:2:17: \"11s\" is out of range: 0 to 10s is possible here");
     EXPECT_EQ(complaint("algorithm = \"dead-reckoning\"\nhorizon = \"11s\""),
               "a.toml:2:11: \"11s\" is out of range: 0 to 10s is possible here");
     EXPECT_EQ(complaint("algorithm = \"dead-reckoning\"\nhorizon_memory = 0"),
-              "a.toml:2:18: 0 stands where a whole number from 1 to 1000000 belongs");
+              "a.toml:2:18: expected a whole number from 1 to 1000000, not 0");
     EXPECT_EQ(complaint("algorithm = \"dead-reckoning\"\nspeed_max = \"-1m/s\""),
               "a.toml:2:13: \"-1m/s\" is out of range: 0m/s to 1000m/s is possible here");
     EXPECT_NE(complaint("algorithm = \"sep\"\nforce_slew = 500").find("500N/s or 0.5N/ms"),
@@ -174,8 +174,8 @@ TEST(AlgorithmText, StandsInOtherTextsAsANameOrATable)
     EXPECT_EQ(read("x = \"best\""),
               "e.toml:1:5: 'best' is not an algorithm; known: base, dead-reckoning, sep");
     EXPECT_EQ(read("x = \"no/such.toml\""), "e.toml:1:5: cannot read no/such.toml");
-    EXPECT_EQ(read("x = 3"), "e.toml:1:5: 3 stands where the name of an algorithm or a table of "
-                             "its parameters belongs");
+    EXPECT_EQ(read("x = 3"), "e.toml:1:5: expected the name of an algorithm or a table of its "
+                             "parameters, not 3");
 }
 
 } // namespace

@@ -1,0 +1,395 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/formats.hpp"
+#include "proto/base/names.hpp"
+#include "proto/base/reading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace hapnet::base {
+
+// One description of a struct's fields, beside the struct. Reading and printing TOML, ranges and
+// their errors, JSON (fields_json.hpp), CSV (csv.hpp), ramps, help texts and the key tables of the
+// docs follow from it, so that none of them can forget a field:
+//
+//     struct Burst {
+//         std::uint32_t lost = 1;
+//         std::uint32_t of = 1;
+//         std::optional<std::uint32_t> phase{};
+//     };
+//     constexpr auto fields_of(base::Tag<Burst>)
+//     {
+//         return base::fields("burst",
+//             base::field("lost", &Burst::lost, base::Count{1}, "datagrams lost in a
+//             row").required(), base::field("of", &Burst::of, base::Count{1}, "of every so
+//             many").required(), base::field("phase", &Burst::phase, base::Count{}, "where in the
+//             cycle the run begins"));
+//     }
+
+/// A member of a struct: its key, the format of its values, and a few words about it. An optional
+/// without a value is left out, or written as `absent`.
+template <typename Struct, typename Value, typename Format>
+struct Field {
+    using Member = Value;
+
+    std::string_view key;
+    Value Struct::*member;
+    Format format;
+    std::string_view about{};
+    bool is_required = false;
+    std::string_view absent{};
+
+    /// The same field, which has to be written.
+    [[nodiscard]] constexpr Field required() const
+    {
+        Field copy = *this;
+        copy.is_required = true;
+        return copy;
+    }
+    /// The same field, whose missing value is written as a word: "never".
+    [[nodiscard]] constexpr Field absent_as(std::string_view word) const
+    {
+        Field copy = *this;
+        copy.absent = word;
+        return copy;
+    }
+};
+
+/// A member that is a struct with fields of its own, which stand among those of the whole.
+template <typename Struct, typename Value>
+struct Part {
+    Value Struct::*member;
+};
+
+template <typename... Members>
+struct Fields {
+    std::string_view name; // of the struct where a text names it: the law of a loss
+    std::tuple<Members...> members;
+};
+
+/// A struct with a description.
+template <typename T>
+concept Described = requires
+{
+    fields_of(Tag<T>{});
+};
+
+namespace detail {
+
+template <typename T>
+struct WithoutOptional {
+    using type = T;
+};
+template <typename T>
+struct WithoutOptional<std::optional<T>> {
+    using type = T;
+};
+
+template <typename T>
+inline constexpr bool is_optional = !std::is_same_v<T, typename WithoutOptional<T>::type>;
+
+template <typename T>
+inline constexpr bool is_part = false;
+template <typename Struct, typename Value>
+inline constexpr bool is_part<Part<Struct, Value>> = true;
+
+} // namespace detail
+
+template <typename Struct, typename Value, typename Format>
+requires FormatOf<Format, typename detail::WithoutOptional<Value>::type>
+[[nodiscard]] constexpr auto field(std::string_view key, Value Struct::*member, Format format,
+                                   std::string_view about = {})
+{
+    return Field<Struct, Value, Format>{key, member, format, about, false, {}};
+}
+
+/// With the usual format of the member's type.
+template <typename Struct, typename Value>
+[[nodiscard]] constexpr auto field(std::string_view key, Value Struct::*member,
+                                   std::string_view about = {})
+{
+    return Field<Struct, Value, UsualFormat<Value>>{key, member, {}, about, false, {}};
+}
+
+template <typename Struct, typename Value>
+[[nodiscard]] constexpr auto part(Value Struct::*member)
+{
+    return Part<Struct, Value>{member};
+}
+
+template <typename... Members>
+[[nodiscard]] constexpr auto fields(std::string_view name, Members... members)
+{
+    return Fields<Members...>{name, std::tuple<Members...>{members...}};
+}
+
+template <Described T>
+inline constexpr auto description = fields_of(Tag<T>{});
+
+/// The name in the description of T.
+template <Described T>
+inline constexpr std::string_view described_name = description<T>.name;
+
+/// Calls visit(field, member...) for every field of a T, with that member of each value.
+template <typename Visit, typename First, typename... More>
+constexpr void for_each_field(const Visit& visit, First&& first, More&&... more)
+{
+    using T = std::remove_cvref_t<First>;
+    const auto one = [&](const auto& member) {
+        if constexpr (detail::is_part<std::remove_cvref_t<decltype(member)>>) {
+            for_each_field(visit, first.*member.member, more.*member.member...);
+        } else {
+            visit(member, first.*member.member, more.*member.member...);
+        }
+    };
+    std::apply([&](const auto&... member) { (one(member), ...); }, description<T>.members);
+}
+
+// Reading.
+
+/// One member from its value in a text.
+template <typename Struct, typename Value, typename Format>
+void read_field(const Field<Struct, Value, Format>& field, const Node& node, Value& target,
+                Reading& reading)
+{
+    if constexpr (detail::is_optional<Value>) {
+        const auto* word = std::get_if<std::string>(&node.value);
+        if (!field.absent.empty() && word != nullptr && *word == field.absent) {
+            target.reset();
+            return;
+        }
+        auto value = target.value_or(typename Value::value_type{});
+        field.format.read(node, value, reading);
+        if (reading.is_good()) target = std::move(value);
+    } else {
+        field.format.read(node, target, reading);
+    }
+}
+
+/// The fields that stand in a table; the others keep their values. Complains of missing required
+/// ones. The table may have other keys: finish() is left to the caller.
+template <Described T>
+void read_fields(TableReader& table, T& target)
+{
+    for_each_field(
+        [&](const auto& field, auto& member) {
+            const Node* node = field.is_required ? table.require(field.key) : table.find(field.key);
+            if (node != nullptr) read_field(field, *node, member, table.reading());
+        },
+        target);
+}
+
+/// The fields of a table that has no other keys.
+template <Described T>
+void read_table(const Node& node, T& target, Reading& reading)
+{
+    const auto* entries = std::get_if<Node::Table>(&node.value);
+    if (entries == nullptr) return complain_of(node, "a table", reading);
+    TableReader table{*entries, node.place, reading};
+    read_fields(table, target);
+    table.finish();
+}
+
+// Printing.
+
+/// Which fields are printed: all, or those that are required or differ from the default.
+enum class Print { all, needed };
+
+/// The value of one field as TOML; nullopt: an optional without a value.
+template <typename Struct, typename Value, typename Format>
+[[nodiscard]] std::optional<std::string> field_text(const Field<Struct, Value, Format>& field,
+                                                    const Value& value)
+{
+    if constexpr (detail::is_optional<Value>) {
+        if (value) return field.format.print(*value);
+        if (field.absent.empty()) return std::nullopt;
+        return base::quoted(field.absent);
+    } else {
+        return field.format.print(value);
+    }
+}
+
+/// `half_width = "15ms"`, one text for each field that is printed.
+template <Described T>
+[[nodiscard]] std::vector<std::string> field_texts(const T& value, Print print = Print::all)
+{
+    const T defaults{};
+    std::vector<std::string> texts;
+    for_each_field(
+        [&](const auto& field, const auto& member, const auto& usual) {
+            if (print == Print::needed && !field.is_required && member == usual) return;
+            if (const auto text = field_text(field, member)) {
+                texts.push_back(std::string{field.key} + " = " + *text);
+            }
+        },
+        value, defaults);
+    return texts;
+}
+
+/// The same, a line each; those of a struct in the struct have dotted keys: `reflex.gain = 0.5`.
+template <Described T>
+[[nodiscard]] std::string field_lines(const T& value, const std::string& prefix = {});
+
+/// A member that is a described struct: a table in the table.
+struct Table {
+    template <Described T>
+    void read(const Node& node, T& target, Reading& reading) const
+    {
+        T value = target;
+        read_table(node, value, reading);
+        if (reading.is_good()) target = std::move(value);
+    }
+    template <Described T>
+    [[nodiscard]] std::string print(const T& value) const
+    {
+        return table_text(field_texts(value));
+    }
+    [[nodiscard]] std::string describe() const { return "a table"; }
+};
+
+template <Described T>
+struct UsualFormat<T> : Table {};
+
+template <Described T>
+std::string field_lines(const T& value, const std::string& prefix)
+{
+    std::string lines;
+    for_each_field(
+        [&](const auto& field, const auto& member) {
+            using Member = std::remove_cvref_t<decltype(member)>;
+            const std::string key = prefix + std::string{field.key};
+            if constexpr (Described<Member>) {
+                lines += field_lines(member, key + '.');
+            } else if (const auto text = field_text(field, member)) {
+                lines += key + " = " + *text + '\n';
+            }
+        },
+        value);
+    return lines;
+}
+
+// What people read of a description.
+
+/// A row of a table of keys.
+struct KeyRow {
+    std::string key;
+    std::string values;     // what may be written: "a time from 0ms to 10s"
+    std::string by_default; // as it is written; empty: has to be said, or there is none
+    std::string about;
+};
+
+/// What may be written into a field, for people.
+template <typename Struct, typename Value, typename Format>
+[[nodiscard]] std::string allowed(const Field<Struct, Value, Format>& field)
+{
+    using Plain = typename detail::WithoutOptional<Value>::type;
+    std::string text;
+    if constexpr (Named<Plain>) {
+        text = fmt::format("{}", fmt::join(names_of_enum<Plain>, ", "));
+    } else {
+        text = field.format.describe();
+    }
+    if (!field.absent.empty()) text += fmt::format(", or {}", field.absent);
+    return text;
+}
+
+template <Described T>
+[[nodiscard]] std::vector<KeyRow> key_rows(const std::string& prefix = {})
+{
+    const T defaults{};
+    std::vector<KeyRow> rows;
+    for_each_field(
+        [&](const auto& field, const auto& usual) {
+            using Member = std::remove_cvref_t<decltype(usual)>;
+            const std::string key = prefix + std::string{field.key};
+            if constexpr (Described<Member>) {
+                auto inner = key_rows<Member>(key + '.');
+                rows.insert(rows.end(), inner.begin(), inner.end());
+            } else {
+                auto text = field.is_required ? std::nullopt : field_text(field, usual);
+                rows.push_back({key, allowed(field), text.value_or(""), std::string{field.about}});
+            }
+        },
+        defaults);
+    return rows;
+}
+
+/// Rows as a table of Markdown, as it stands in the docs.
+[[nodiscard]] std::string markdown(const std::vector<KeyRow>& rows);
+
+// Ramps: the value between two, at `progress` from 0 (a) to 1 (b); nullopt when there is none.
+
+[[nodiscard]] inline std::optional<double> between(double a, double b, double progress)
+{
+    return a + (b - a) * progress;
+}
+
+[[nodiscard]] inline std::optional<Duration> between(Duration a, Duration b, double progress)
+{
+    return a + Duration{std::llround(static_cast<double>((b - a).count()) * progress)};
+}
+
+[[nodiscard]] inline std::optional<Probability> between(Probability a, Probability b,
+                                                        double progress)
+{
+    const double fraction = a.fraction() + (b.fraction() - a.fraction()) * progress;
+    return Probability::from_fraction(std::clamp(fraction, 0.0, 1.0));
+}
+
+/// A number of things, not a small code or a truth value.
+template <typename T>
+concept Whole = std::unsigned_integral<T> && sizeof(T) > 1;
+
+template <Whole T>
+[[nodiscard]] std::optional<T> between(T a, T b, double progress)
+{
+    const auto from = static_cast<double>(a);
+    return static_cast<T>(std::llround(from + (static_cast<double>(b) - from) * progress));
+}
+
+/// What has nothing in between goes only from itself to itself.
+template <typename T>
+requires(!Described<T> && !Whole<T>)
+    [[nodiscard]] std::optional<T> between(const T& a, const T& b, double /*progress*/)
+{
+    return a == b ? std::optional<T>{b} : std::nullopt;
+}
+
+template <typename T>
+[[nodiscard]] std::optional<std::optional<T>> between(const std::optional<T>& a,
+                                                      const std::optional<T>& b, double progress)
+{
+    using Between = std::optional<std::optional<T>>;
+    if (!a || !b) return a == b ? Between{std::in_place, b} : Between{};
+    const auto value = between(*a, *b, progress);
+    return value ? Between{std::in_place, *value} : Between{};
+}
+
+/// Field by field.
+template <Described T>
+[[nodiscard]] std::optional<T> between(const T& a, const T& b, double progress)
+{
+    T result = b;
+    bool is_possible = true;
+    for_each_field(
+        [&](const auto& /*field*/, auto& target, const auto& from, const auto& to) {
+            const auto value = between(from, to, progress);
+            is_possible = is_possible && value.has_value();
+            if (value) target = *value;
+        },
+        result, a, b);
+    return is_possible ? std::optional<T>{result} : std::nullopt;
+}
+
+} // namespace hapnet::base

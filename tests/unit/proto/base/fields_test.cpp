@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/base/fields.hpp"
+
+#include "proto/base/csv.hpp"
+#include "proto/base/fields_json.hpp"
+
+#include <chrono>
+#include <gtest/gtest.h>
+
+namespace hapnet::base {
+namespace fields_test {
+
+using namespace std::chrono_literals;
+using namespace literals;
+
+enum class Gait : std::uint8_t { walk, trot, gallop };
+constexpr auto names_of(Tag<Gait>) { return names("walk", "trot", "gallop"); }
+
+struct Rider {
+    double mass_kg = 70.0;
+    std::optional<Duration> reaction{};
+
+    friend bool operator==(const Rider&, const Rider&) = default;
+};
+constexpr auto fields_of(Tag<Rider>)
+{
+    return fields("rider", field("mass", &Rider::mass_kg, Quantity{mass_kind, 1.0, 200.0}, "of it"),
+                  field("reaction", &Rider::reaction, Time{1ms, 10s}).absent_as("never"));
+}
+
+struct Saddle {
+    std::uint32_t straps = 2;
+
+    friend bool operator==(const Saddle&, const Saddle&) = default;
+};
+constexpr auto fields_of(Tag<Saddle>)
+{
+    return fields("saddle", field("straps", &Saddle::straps, Count{1, 4}, "that hold it"));
+}
+
+struct Horse {
+    std::string name;
+    Gait gait = Gait::walk;
+    Probability risk{};
+    std::vector<double> laps{};
+    bool shod = true;
+    std::optional<double> best_s{};
+    Rider rider{};
+    Saddle saddle{};
+
+    friend bool operator==(const Horse&, const Horse&) = default;
+};
+constexpr auto fields_of(Tag<Horse>)
+{
+    return fields("horse", field("name", &Horse::name).required(), field("gait", &Horse::gait),
+                  field("risk", &Horse::risk), field("laps", &Horse::laps),
+                  field("shod", &Horse::shod), field("best_s", &Horse::best_s),
+                  field("rider", &Horse::rider), part(&Horse::saddle));
+}
+
+struct Finish {
+    std::string horse;
+    double time_s = 0.0;
+    std::optional<double> best_s{};
+    Gait gait{};
+    bool valid = false;
+    std::uint32_t laps = 0;
+
+    friend bool operator==(const Finish&, const Finish&) = default;
+};
+constexpr auto fields_of(Tag<Finish>)
+{
+    return fields("finish", field("horse", &Finish::horse),
+                  field("time_s", &Finish::time_s, Decimals{2}), field("best_s", &Finish::best_s),
+                  field("gait", &Finish::gait), field("valid", &Finish::valid),
+                  field("laps", &Finish::laps));
+}
+
+namespace {
+
+/// The struct that a text describes, or the complaint about it.
+template <typename T>
+Result<T> read(const std::string& text)
+{
+    Reading reading{"f.toml"};
+    const auto document = parse_document(text);
+    T value;
+    read_table(document.value(), value, reading);
+    if (!reading.is_good()) return fail(*reading.complaint());
+    return value;
+}
+
+template <typename T>
+std::string complaint(const std::string& text)
+{
+    const auto value = read<T>(text);
+    return value ? "none" : value.error().message;
+}
+
+TEST(Fields, AreReadByTheirKeysAndKeepTheirDefaults)
+{
+    const auto horse = read<Horse>("name = \"Bess\"\ngait = \"trot\"\nrisk = \"5%\"\nstraps = 3\n"
+                                   "laps = [1.5, 2]\nrider = { mass = \"60kg\" }\n");
+    ASSERT_TRUE(horse) << horse.error().message;
+    EXPECT_EQ(horse->gait, Gait::trot);
+    EXPECT_EQ(horse->risk, 5_percent);
+    EXPECT_EQ(horse->laps, (std::vector{1.5, 2.0}));
+    EXPECT_EQ(horse->rider.mass_kg, 60.0);
+    EXPECT_EQ(horse->saddle.straps, 3U); // a part's fields stand among those of the whole
+    EXPECT_TRUE(horse->shod);
+    EXPECT_FALSE(horse->rider.reaction);
+}
+
+TEST(Fields, PrintWhatReadsBackAsTheSameValue)
+{
+    Horse horse{.name = "a \"b\"", .gait = Gait::gallop, .laps = {0.1, 3.0}, .best_s = 0.25};
+    horse.rider.reaction = 250ms;
+    EXPECT_EQ(read<Horse>(field_lines(horse)).value(), horse);
+    EXPECT_NE(field_lines(horse).find("rider.reaction = \"250ms\"\n"), std::string::npos);
+    horse.rider.reaction.reset();
+    EXPECT_EQ(read<Horse>(field_lines(horse)).value(), horse);
+    EXPECT_NE(field_lines(horse).find("rider.reaction = \"never\"\n"), std::string::npos);
+}
+
+TEST(Fields, PrintOnlyWhatIsNeededIfAsked)
+{
+    EXPECT_EQ(field_texts(Horse{.name = "Bess", .shod = false}, Print::needed),
+              (std::vector<std::string>{"name = \"Bess\"", "shod = false"}));
+}
+
+TEST(Fields, ComplainWithThePlaceAndTheCure)
+{
+    EXPECT_EQ(complaint<Horse>("gait = \"trot\""), "f.toml:1:1: missing key 'name'");
+    EXPECT_EQ(complaint<Horse>("name = \"B\"\ngait = \"trott\""),
+              "f.toml:2:8: unknown name \"trott\": did you mean 'trot'?");
+    EXPECT_EQ(complaint<Horse>("name = \"B\"\ngait = \"fly\""),
+              "f.toml:2:8: unknown name \"fly\": use one of walk, trot, gallop");
+    EXPECT_EQ(complaint<Horse>("name = \"B\"\nshode = true"),
+              "f.toml:2:1: unknown key \"shode\": did you mean 'shod'?");
+    EXPECT_EQ(complaint<Horse>("name = 5"), "f.toml:1:8: expected a text in quotes, not 5");
+    EXPECT_EQ(complaint<Horse>("name = \"B\"\nrider = { mass = \"500kg\" }"),
+              "f.toml:2:18: \"500kg\" is out of range: use 1kg to 200kg");
+    EXPECT_EQ(complaint<Horse>("name = \"B\"\nstraps = 9"),
+              "f.toml:2:10: expected a whole number from 1 to 4, not 9");
+    EXPECT_EQ(complaint<Rider>("reaction = \"11s\""),
+              "f.toml:1:12: \"11s\" is out of range: use 1ms to 10s");
+}
+
+TEST(Fields, TellPeopleTheirKeys)
+{
+    EXPECT_EQ(markdown(key_rows<Rider>()), "| key | value | default | |\n"
+                                           "|---|---|---|---|\n"
+                                           "| `mass` | a mass from 1kg to 200kg | `\"70kg\"` | of "
+                                           "it |\n"
+                                           "| `reaction` | a time from 1ms to 10s, or never | "
+                                           "`\"never\"` |  |\n");
+}
+
+TEST(Fields, AreTheObjectOfJson)
+{
+    const Finish finish{"Bess", 2.0, std::nullopt, Gait::trot, true, 3};
+    const auto json = json_of(finish);
+    EXPECT_EQ(json.dump(), R"({"horse":"Bess","time_s":2.0,"best_s":null,"gait":"trot",)"
+                           R"("valid":true,"laps":3})");
+    EXPECT_EQ(from_json<Finish>(nlohmann::json::parse(json.dump()), "x").value(), finish);
+    EXPECT_EQ(from_json<Finish>(nlohmann::json::parse("{\"horse\":1}"), "x").error().message,
+              "x: missing or wrong key 'horse'");
+    EXPECT_EQ(json_of(std::numeric_limits<double>::quiet_NaN()).dump(), "null");
+}
+
+TEST(Fields, AreTheColumnsOfATable)
+{
+    const std::vector<Finish> results{{"a,b", 2.005, 0.5, Gait::walk, true, 1},
+                                      {"c", 1.0, std::nullopt, Gait::gallop, false, 0}};
+    const auto text = csv_text(results);
+    EXPECT_EQ(text, "horse,time_s,best_s,gait,valid,laps\n\"a,b\",2.00,0.5,walk,true,1\n"
+                    "c,1.00,,gallop,false,0\n");
+    const auto back = read_csv<Finish>(text, "r.csv");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->at(0).horse, "a,b");
+    EXPECT_EQ(back->at(1), results[1]);
+}
+
+TEST(Fields, ATableWithoutAColumnOrWithAWrongCellIsRefusedByLine)
+{
+    EXPECT_EQ(read_csv<Finish>("horse\nx\n", "r.csv").error().message,
+              "r.csv:1: expected a column 'time_s'");
+    EXPECT_EQ(read_csv<Finish>("horse,time_s,best_s,gait,valid,laps\nx,1,,hop,true,1\n", "r.csv")
+                  .error()
+                  .message,
+              "r.csv:2: gait: expected one of walk, trot, gallop, found 'hop'");
+}
+
+TEST(Fields, HaveSomethingBetweenTwoValuesWhereAllHave)
+{
+    EXPECT_EQ(between(Rider{60.0, 100ms}, Rider{80.0, 200ms}, 0.25), (Rider{65.0, 125ms}));
+    EXPECT_EQ(between(Rider{60.0, 100ms}, Rider{80.0, std::nullopt}, 0.25), std::nullopt);
+    EXPECT_EQ(between(Saddle{1}, Saddle{4}, 0.5)->straps, 3U); // 2.5 rounds away from zero
+    EXPECT_EQ(between(Gait::walk, Gait::trot, 0.5), std::nullopt);
+}
+
+TEST(Formats, ReadOptionsOfACommandLineWithoutQuotes)
+{
+    EXPECT_EQ(parse_value<Duration>(Time{}, "15ms", "--x"), Duration{15ms});
+    EXPECT_EQ(parse_value<std::uint32_t>(Count{1, 9}, "4", "--x"), 4U);
+    EXPECT_EQ(parse_value<std::uint32_t>(Count{1, 9}, "40", "--x").error().message,
+              "--x: expected a whole number from 1 to 9, not 40");
+    EXPECT_EQ(parse_value<bool>(Flag{}, "true", "--x"), true);
+    EXPECT_EQ(parse_value<Gait>(Choice{}, "trot", "--x"), Gait::trot);
+    EXPECT_EQ(parse_value<Duration>(Time{}, "15", "--x").error().message,
+              "--x: '15' is not a duration: write a number and its unit, such as 160ms, 15us or "
+              "1.5s");
+}
+
+} // namespace
+} // namespace fields_test
+} // namespace hapnet::base
