@@ -66,11 +66,15 @@ CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
 CLI::App* add_report(CLI::App& app, ReportCommand& report)
 {
     auto* command = app.add_subcommand(
-        "report", "Write report.html, one page that needs nothing else: what the experiments of a\n"
-                  "folder found, beside the paper; also figures/*.svg and gnuplot/*");
+        "report", "Write report.html, one page that needs nothing else; also figures/*.svg and\n"
+                  "gnuplot/*. Of a folder: what its experiments found, beside the paper, or what\n"
+                  "its demo or its recorded session shows. Of two records: their session; the\n"
+                  "page is written beside the first");
     command
-        ->add_option("DIR", report.folder,
-                     "a folder with the files of an experiment, or with such folders")
+        ->add_option("PATH", report.paths,
+                     "a folder of results, or such a folder's folder; or the records of both peers")
+        ->option_text("DIR | RECORD_A RECORD_B")
+        ->expected(1, 2)
         ->required();
     return command;
 }
@@ -128,6 +132,21 @@ CLI::App* add_explain(CLI::App& app, ExplainCommand& explain, std::string& tick)
     return command;
 }
 
+/// Thrown by --list: what else is on the command line does not matter then.
+struct ListOfExperiments {};
+
+/// The built-in experiments, a line each: name and title.
+std::string list_of_experiments()
+{
+    std::string list;
+    for (const BuiltInExperiment& built_in : built_in_experiments()) {
+        const auto experiment =
+            parse_experiment(built_in.text, std::string{built_in.name}, Adjustments{});
+        list += fmt::format("{:<14}{}\n", built_in.name, experiment ? experiment->title : "");
+    }
+    return list;
+}
+
 CLI::App* add_run(CLI::App& app, RunCommand& run)
 {
     constexpr std::uint32_t jobs_max = 1024;
@@ -159,6 +178,10 @@ CLI::App* add_run(CLI::App& app, RunCommand& run)
             "what a session must keep to be usable: a file (docs/design/metrics.md), or what\n"
             "was calibrated on the paper")
         ->option_text("FILE [paper]");
+    command
+        ->add_flag_callback(
+            "--list", [] { throw ListOfExperiments{}; }, "print the built-in experiments and exit")
+        ->trigger_on_parse();
     command->add_flag("--quick", run.quick, "what the experiment says under [quick]: rougher");
     command->add_option("--out", run.out, "the folder for the results")
         ->option_text("DIR")
@@ -221,6 +244,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     } catch (const CLI::CallForHelp&) {
         const auto chosen = app.get_subcommands();
         return net::Answer{chosen.empty() ? app.help() : chosen.front()->help()};
+    } catch (const ListOfExperiments&) {
+        return net::Answer{list_of_experiments()};
     } catch (const CLI::CallForVersion&) {
         return net::Answer{base::version_line("hapnet-lab") + "\n"};
     } catch (const CLI::RequiredError& error) {

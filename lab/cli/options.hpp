@@ -62,9 +62,9 @@ struct ReplayCommand {
     bool csv = false;
 };
 
-/// `hapnet-lab report DIR`
+/// `hapnet-lab report DIR`, `hapnet-lab report RECORD_A RECORD_B`
 struct ReportCommand {
-    std::string folder;
+    std::vector<std::string> paths; // a folder, or the two records of a session
 };
 
 /// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`

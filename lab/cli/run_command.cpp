@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/run_command.hpp"
 
+#include "lab/cli/files.hpp"
 #include "lab/cli/host.hpp"
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/text.hpp"
@@ -47,9 +48,8 @@ base::Result<Experiment> load(const RunCommand& command)
 
 void write_text(const std::filesystem::path& path, const std::string& text)
 {
-    std::filesystem::create_directories(path.parent_path());
-    net::ResultFile file{path.string()};
-    file.commit(text);
+    create_folder(path.parent_path().string());
+    net::ResultFile{path.string()}.commit(text);
 }
 
 /// A manifest without sessions beside it was written by something else.
@@ -79,7 +79,7 @@ public:
         net::StopSignal stop;
         auto foreign = refuse_foreign(out_);
         if (!foreign) return tl::unexpected{std::move(foreign).error()};
-        std::filesystem::create_directories(out_);
+        create_folder(out_.string());
         const FolderIdentity identity{std::string{name_of(experiment_.kind)}, experiment_.title};
         const auto store =
             SessionStore::open((out_ / "sessions.jsonl").string(), identity, program_identity());
@@ -139,16 +139,13 @@ private:
 
     void write_manifest(const SessionStore::Counts& counts, std::vector<std::string> invalid) const
     {
-        const Circumstances circumstances{command_.command,
-                                          print_criteria(criteria_),
-                                          base::version_line(program_name),
-                                          host(),
-                                          start_s_,
-                                          base::to_seconds(net::monotonic_now() - start_),
-                                          counts.played,
-                                          counts.reused,
-                                          std::move(invalid)};
-        write_text(out_ / "manifest.json", manifest_of(experiment_, circumstances).dump(2) + '\n');
+        const Circumstances circumstances{command_.command, utc_text(start_s_),
+                                          base::to_seconds(net::monotonic_now() - start_), host(),
+                                          base::version_line(program_name)};
+        const RunOutcome outcome{print_criteria(criteria_), counts.played, counts.reused,
+                                 std::move(invalid)};
+        write_text(out_ / "manifest.json",
+                   manifest_of(experiment_, circumstances, outcome).dump(2) + '\n');
     }
 
     const RunCommand& command_;

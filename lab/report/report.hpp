@@ -14,4 +14,7 @@ namespace hapnet::lab::report {
 /// bytes. `folder` is its name, for the commands that the page shows.
 [[nodiscard]] std::vector<File> report_of(const Results& results, std::string_view folder);
 
+/// What a report.html is about: "experiments", "demo" or "session"; empty when it does not say.
+[[nodiscard]] std::string_view page_subject(std::string_view page);
+
 } // namespace hapnet::lab::report

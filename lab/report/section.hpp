@@ -30,7 +30,11 @@ struct Section {
 
 // The sections, each from what the folder holds of it; nullopt when that is nothing.
 
+/// The demo's own numbers.
+[[nodiscard]] std::optional<Section> demo_section(const Results& results);
 [[nodiscard]] std::optional<Section> replay_section(const Results& results);
+/// Recorded sessions over time, and their analysis.
+[[nodiscard]] std::optional<Section> session_section(const Results& results);
 [[nodiscard]] std::optional<Section> table1_section(const Results& results);
 [[nodiscard]] std::optional<Section> tasks_section(const Results& results);
 /// Delay and jitter.

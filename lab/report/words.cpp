@@ -140,6 +140,25 @@ std::string html_of(const HtmlTable& table)
     return out + "</tbody></table></div>\n";
 }
 
+std::string html_of(const TextTable& table)
+{
+    HtmlTable html{table.caption, {escaped(table.unit)}};
+    for (const std::string& head : table.heads) html.heads.push_back(escaped(head));
+    const auto has_note = [](const TextTable::Row& row) { return !row.note.empty(); };
+    const bool has_notes = std::any_of(table.rows.begin(), table.rows.end(), has_note);
+    if (has_notes) html.heads.emplace_back();
+    for (const TextTable::Row& row : table.rows) {
+        std::vector<HtmlCell> cells{{escaped(row.name)}};
+        for (const std::string& cell : row.cells) cells.push_back({escaped(cell)});
+        cells.resize(table.heads.size() + 1);
+        if (has_notes) cells.push_back({escaped(row.note), "words"});
+        html.rows.push_back(std::move(cells));
+    }
+    std::string out = html_of(html);
+    for (const std::string& remark : table.remarks) out += "<p>" + escaped(remark) + "</p>\n";
+    return out;
+}
+
 std::string figure(std::string_view svg, std::string_view caption)
 {
     return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", svg, caption);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/records/text_table.hpp"
 #include "lab/results/results.hpp"
 
 #include <algorithm>
@@ -66,6 +67,9 @@ struct HtmlTable {
 
 /// A table that a narrow screen scrolls sideways.
 [[nodiscard]] std::string html_of(const HtmlTable& table);
+
+/// The same of what a terminal shows as text, with its remarks below.
+[[nodiscard]] std::string html_of(const TextTable& table);
 
 /// A figure with its caption, which is HTML.
 [[nodiscard]] std::string figure(std::string_view svg, std::string_view caption);

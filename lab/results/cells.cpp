@@ -34,15 +34,20 @@ std::string number_cell(std::optional<double> value)
     return value && std::isfinite(*value) ? fmt::format("{:.4f}", *value) : "";
 }
 
-std::string text_cell(std::string_view text)
+std::string quoted_cell(std::string_view text)
 {
-    if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string{text};
     std::string cell = "\"";
     for (const char c : text) {
         if (c == '"') cell += '"';
         cell += c;
     }
     return cell + '"';
+}
+
+std::string text_cell(std::string_view text)
+{
+    const bool is_plain = text.find_first_of(",\"\r\n") == std::string_view::npos;
+    return is_plain ? std::string{text} : quoted_cell(text);
 }
 
 std::string aligned(std::string_view csv)

@@ -14,7 +14,9 @@ namespace hapnet::lab {
 [[nodiscard]] std::string milli_cell(std::optional<double> value);
 /// Four decimals, empty when there is none.
 [[nodiscard]] std::string number_cell(std::optional<double> value);
-/// In quotes where it needs them (RFC 4180).
+/// In quotes (RFC 4180).
+[[nodiscard]] std::string quoted_cell(std::string_view text);
+/// In quotes where it needs them.
 [[nodiscard]] std::string text_cell(std::string_view text);
 
 /// A CSV without quoted cells as a table for people: columns of equal width.

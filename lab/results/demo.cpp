@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/demo.hpp"
 
-#include "proto/base/version.hpp"
-
 #include <array>
 #include <cmath>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
+#include <utility>
 
 namespace hapnet::lab {
 
@@ -28,6 +27,8 @@ constexpr double delay_tolerance_ms = 1.0;
 constexpr double messages_per_s = 1000.0;
 constexpr double messages_tolerance_per_s = 5.0;
 
+constexpr std::size_t cell_width = 9; // in a terminal
+
 constexpr std::array<std::string_view, 2> ways{"up", "down"};
 
 /// The number at a JSON pointer, if there is one.
@@ -36,11 +37,6 @@ std::optional<double> number(const Json& json, const std::string& where)
     const Json::json_pointer pointer{where};
     if (!json.contains(pointer) || !json[pointer].is_number()) return std::nullopt;
     return json[pointer].get<double>();
-}
-
-std::string text(std::optional<double> value, int decimals)
-{
-    return value ? fmt::format("{:.{}f}", *value, decimals) : std::string{"-"};
 }
 
 bool is_near(std::optional<double> value, double wanted, double tolerance)
@@ -68,102 +64,97 @@ bool accounts_for_all(const Json& direction)
     return *received + *duplicated == *delivered + dropped + *in_flight;
 }
 
-bool accounts_for_all(const DemoTask& task)
+bool accounts_for_all(const SessionFiles& task)
 {
     return accounts_for_all(task.emulator.value("up", Json::object())) &&
            accounts_for_all(task.emulator.value("down", Json::object()));
 }
 
-std::string against_paper(const DemoRun& run)
+TextTable against_paper(const DemoRun& run)
 {
-    const auto measured = [&](const std::string& key, int decimals = 2) {
-        return text(number(run.p1.analysis, "/discrepancy_x_mm/" + key), decimals);
+    const auto measured = [&](const std::string& key) {
+        return number_text(number(run.p1.analysis, "/discrepancy_x_mm/" + key), 2);
     };
-    std::string out = "Table 1 of the paper, \"No Time Delay Compensation\", and task P1 here\n";
-    constexpr auto row = "{:<28}{:>9}{:>9}{:>9}{:>9}\n";
-    out += fmt::format(row, "|x_A - x_B|, mm", "mean", "min", "max", "std");
-    out += fmt::format(row, "paper", text(paper_mean, 2), text(paper_min, 2), text(paper_max, 2),
-                       text(paper_std, 2));
-    out += fmt::format(row, "this run", measured("mean"), measured("min"), measured("max"),
-                       measured("std"));
-    out += fmt::format("mean within {:.0f} % of the paper's: {}\n", 100 * mean_tolerance,
-                       mean_is_met(run) ? "met" : "MISSED");
-    out += "The hands are simulated, and P1's path is calibrated: fitted to this very column.\n";
-    return out;
+    const auto paper = [](double value) { return number_text(value, 2); };
+    return {"Table 1 of the paper, \"No Time Delay Compensation\", and task P1 here",
+            "|x_A - x_B|, mm",
+            {"mean", "min", "max", "std"},
+            {{"paper", {paper(paper_mean), paper(paper_min), paper(paper_max), paper(paper_std)}},
+             {"this run", {measured("mean"), measured("min"), measured("max"), measured("std")}}},
+            {fmt::format("mean within {:.0f} % of the paper's: {}", 100 * mean_tolerance,
+                         mean_is_met(run) ? "met" : "MISSED"),
+             "The hands are simulated, and P1's path is calibrated: fitted to this very column."},
+            cell_width};
 }
 
-/// One row of the table of both tasks: a number of each and what it should be.
-struct Row {
-    std::string_view title;
+/// A number of each task, where both stand in the files, and what it should be.
+struct Quantity {
+    std::string name;
     std::string pointer;
     int decimals;
     std::optional<double> wanted{};
     double tolerance = 0.0;
 };
 
-std::string line(const Row& row, const Json& p1, const Json& t3)
+TextTable::Row row_of(const Quantity& quantity, const Json& p1, const Json& t3)
 {
-    const auto a = number(p1, row.pointer), b = number(t3, row.pointer);
-    std::string wanted;
-    if (row.wanted) {
-        const bool met =
-            is_near(a, *row.wanted, row.tolerance) && is_near(b, *row.wanted, row.tolerance);
-        wanted = fmt::format("   {:.0f} +- {:.0f}: {}", *row.wanted, row.tolerance,
-                             met ? "met" : "MISSED");
-    }
-    return fmt::format("{:<28}{:>9}{:>9}{}\n", row.title, text(a, row.decimals),
-                       text(b, row.decimals), wanted);
+    const auto a = number(p1, quantity.pointer), b = number(t3, quantity.pointer);
+    TextTable::Row row{quantity.name,
+                       {number_text(a, quantity.decimals), number_text(b, quantity.decimals)}};
+    if (!quantity.wanted) return row;
+    const bool is_met = is_near(a, *quantity.wanted, quantity.tolerance) &&
+                        is_near(b, *quantity.wanted, quantity.tolerance);
+    row.note = fmt::format("{:.0f} +- {:.0f}: {}", *quantity.wanted, quantity.tolerance,
+                           is_met ? "met" : "MISSED");
+    return row;
 }
 
-std::string both_tasks(const DemoRun& run)
+TextTable both_tasks(const DemoRun& run)
 {
-    std::string out = fmt::format("{:<28}{:>9}{:>9}\n", "both tasks", "P1", "T3");
-    for (const Row& row : {
-             Row{"cubes apart, mean, mm", "/discrepancy_x_mm/mean", 2},
-             Row{"cubes apart, max, mm", "/discrepancy_x_mm/max", 2},
-             Row{"forces apart, mean, N", "/force_discrepancy_n/mean", 3},
-             Row{"forces apart, max, N", "/force_discrepancy_n/max", 3},
-             Row{"delay A to B, p50, ms", "/a_to_b/delay_ms/p50", 3, delay_ms, delay_tolerance_ms},
-             Row{"delay B to A, p50, ms", "/b_to_a/delay_ms/p50", 3, delay_ms, delay_tolerance_ms},
-             Row{"messages A to B, 1/s", "/a_to_b/packets_per_s", 1, messages_per_s,
-                 messages_tolerance_per_s},
-             Row{"messages B to A, 1/s", "/b_to_a/packets_per_s", 1, messages_per_s,
-                 messages_tolerance_per_s},
+    TextTable table{"Both tasks", "both tasks", {"P1", "T3"}, {}, {}, cell_width};
+    for (const Quantity& quantity : {
+             Quantity{"cubes apart, mean, mm", "/discrepancy_x_mm/mean", 2},
+             Quantity{"cubes apart, max, mm", "/discrepancy_x_mm/max", 2},
+             Quantity{"forces apart, mean, N", "/force_discrepancy_n/mean", 3},
+             Quantity{"forces apart, max, N", "/force_discrepancy_n/max", 3},
+             Quantity{"delay A to B, p50, ms", "/a_to_b/delay_ms/p50", 3, delay_ms,
+                      delay_tolerance_ms},
+             Quantity{"delay B to A, p50, ms", "/b_to_a/delay_ms/p50", 3, delay_ms,
+                      delay_tolerance_ms},
+             Quantity{"messages A to B, 1/s", "/a_to_b/packets_per_s", 1, messages_per_s,
+                      messages_tolerance_per_s},
+             Quantity{"messages B to A, 1/s", "/b_to_a/packets_per_s", 1, messages_per_s,
+                      messages_tolerance_per_s},
          }) {
-        out += line(row, run.p1.analysis, run.t3.analysis);
+        table.rows.push_back(row_of(quantity, run.p1.analysis, run.t3.analysis));
     }
     for (const std::string_view way : ways) {
-        const auto title = fmt::format("emulator {} late, p99, us", way);
-        out += line({title, fmt::format("/{}/lateness_us/p99", way), 1}, run.p1.emulator,
-                    run.t3.emulator);
+        table.rows.push_back(row_of({fmt::format("emulator {} late, p99, us", way),
+                                     fmt::format("/{}/lateness_us/p99", way), 1},
+                                    run.p1.emulator, run.t3.emulator));
     }
-    const auto accounted = [](const DemoTask& task) {
+    const auto accounted = [](const SessionFiles& task) {
         return accounts_for_all(task) ? "all" : "NOT ALL";
     };
-    out +=
-        fmt::format("{:<28}{:>9}{:>9}   received + duplicated = delivered + dropped + in flight\n",
-                    "datagrams accounted for", accounted(run.p1), accounted(run.t3));
-    return out;
+    table.rows.push_back({"datagrams accounted for",
+                          {accounted(run.p1), accounted(run.t3)},
+                          "received + duplicated = delivered + dropped + in flight"});
+    return table;
 }
 
-/// Why the run's own timing makes it worth nothing; empty: it does not.
-Json invalid_because(const DemoRun& run)
+/// Why the run does not count; empty: it does.
+std::vector<std::string> invalid_because(const DemoRun& run)
 {
-    Json reasons = Json::array();
-    const auto add = [&](std::string_view name, const DemoTask& task) {
-        for (const auto& reason : task.analysis.value("invalid_because", Json::array())) {
-            reasons.push_back(fmt::format("{}: {}", name, reason.get<std::string>()));
+    std::vector<std::string> reasons;
+    for (const auto& [name, task] : {std::pair{"P1", &run.p1}, {"T3", &run.t3}}) {
+        for (const std::string& reason : task->invalid_because()) {
+            reasons.push_back(fmt::format("{}: {}", name, reason));
         }
-        if (!task.emulator.value("valid", false)) {
-            reasons.push_back(fmt::format("{}: the emulator was later than its budget", name));
-        }
-    };
-    add("P1", run.p1);
-    add("T3", run.t3);
+    }
     return reasons;
 }
 
-Json configuration_of(const DemoTask& task)
+Json configuration_of(const SessionFiles& task)
 {
     Json configuration;
     for (const char* key : {"task", "duration_s", "algorithm", "scene", "device"}) {
@@ -175,13 +166,19 @@ Json configuration_of(const DemoTask& task)
 
 } // namespace
 
+std::vector<TextTable> demo_tables(const DemoRun& run)
+{
+    return {against_paper(run), both_tasks(run)};
+}
+
 std::string demo_table(const DemoRun& run)
 {
-    auto out = against_paper(run) + '\n' + both_tasks(run) + '\n';
-    const Json reasons = invalid_because(run);
-    if (reasons.empty()) return out + "The run is valid: its own timing kept its budget.\n";
+    const TextTable paper = against_paper(run);
+    auto out = fmt::format("{}\n{}\n{}\n", paper.caption, to_text(paper), to_text(both_tasks(run)));
+    const auto reasons = invalid_because(run);
+    if (reasons.empty()) return out + "The run is valid: it kept its own timing budget.\n";
     out += "The run is NOT VALID; its numbers say more about this machine than about Hapnet:\n";
-    for (const auto& reason : reasons) out += "  " + reason.get<std::string>() + '\n';
+    for (const std::string& reason : reasons) out += "  " + reason + '\n';
     return out;
 }
 
@@ -190,23 +187,21 @@ bool demo_is_met(const DemoRun& run)
     return mean_is_met(run) && accounts_for_all(run.p1) && accounts_for_all(run.t3);
 }
 
-Json demo_manifest(const DemoRun& run, const DemoCircumstances& circumstances)
+Json demo_manifest(const DemoRun& run, const Circumstances& circumstances)
 {
-    const Json reasons = invalid_because(run);
-    return {{"command", circumstances.command},
-            {"configuration", {{"p1", configuration_of(run.p1)}, {"t3", configuration_of(run.t3)}}},
-            {"seeds",
-             {{"peers", run.p1.peer.value("seed", Json{})},
-              {"emulator", run.p1.emulator.value("seed", Json{})}}},
-            {"version", base::version()},
-            {"commit", base::commit()},
-            {"compiler", base::compiler()},
-            {"host", circumstances.host},
-            {"start", circumstances.start},
-            {"wall_time_s", circumstances.wall_time_s},
-            {"met", demo_is_met(run)},
-            {"valid", reasons.empty()},
-            {"invalid_because", reasons}};
+    const auto reasons = invalid_because(run);
+    Json manifest = manifest_head(circumstances);
+    manifest.update(
+        {{"kind", "demo"},
+         {"title", "Two peers, one cube, 160 ms"},
+         {"configuration", {{"p1", configuration_of(run.p1)}, {"t3", configuration_of(run.t3)}}},
+         {"seeds",
+          {{"peers", run.p1.peer.value("seed", Json{})},
+           {"emulator", run.p1.emulator.value("seed", Json{})}}},
+         {"met", demo_is_met(run)},
+         {"valid", reasons.empty()},
+         {"invalid_because", reasons}});
+    return manifest;
 }
 
 } // namespace hapnet::lab

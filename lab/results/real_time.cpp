@@ -4,9 +4,9 @@
 
 #include "emulator/core/profile/text.hpp"
 #include "lab/metrics/metrics.hpp"
+#include "lab/results/cells.hpp"
 #include "peer/core/peer.hpp"
 #include "peer/core/sync/text.hpp"
-#include "proto/base/version.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
@@ -79,24 +79,20 @@ std::optional<Spread> in_mm(const std::optional<Spread>& metres)
     return Spread{1e3 * metres->mean, 1e3 * metres->min, 1e3 * metres->max, 1e3 * metres->std};
 }
 
-std::vector<std::string> objections_to(const RealTimeSession& session)
+std::vector<std::string> objections_to(const SessionFiles& session)
 {
-    std::vector<std::string> objections;
-    for (const auto& reason : session.analysis.value("invalid_because", Json::array())) {
-        objections.push_back(reason.get<std::string>());
-    }
-    if (!session.emulator.value("valid", false)) {
-        objections.emplace_back("the emulator was later than its budget");
-    }
+    auto objections = session.invalid_because();
     if (!session.analysis.value("discrepancy_x_mm", Json{}).is_object()) {
         objections.emplace_back("the two were never in session together");
     }
     return objections;
 }
 
-std::string number_text(std::optional<double> value, int decimals)
+/// In percent, with two decimals; empty when there is nothing to compare.
+std::string difference_text(const RealTimeResult& result)
 {
-    return value ? fmt::format("{:.{}f}", *value, decimals) : "";
+    const auto percent = result.difference_percent();
+    return percent ? fmt::format("{:.2f}", *percent) : "";
 }
 
 /// Mean, std and max, each after a comma.
@@ -106,14 +102,10 @@ std::string cells_of(const std::optional<Spread>& spread)
     return fmt::format(",{:.4f},{:.4f},{:.4f}", spread->mean, spread->std, spread->max);
 }
 
-/// As a cell of CSV.
-std::string cell_of(const std::vector<std::string>& reasons)
+/// Always in quotes: reasons have commas.
+std::string because_cell(const std::vector<std::string>& reasons)
 {
-    if (reasons.empty()) return "";
-    const std::string text = fmt::format("{}", fmt::join(reasons, "; "));
-    std::string cell = "\"";
-    for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
-    return cell + '"';
+    return reasons.empty() ? "" : quoted_cell(fmt::format("{}", fmt::join(reasons, "; ")));
 }
 
 std::string_view verdict_on(const RealTimeResult& result)
@@ -128,8 +120,8 @@ std::string_view verdict_on(const RealTimeResult& result)
 
 base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFile& open)
 {
-    Written peer{session.peer, "hapnet-peer"};
-    Written emulator{session.emulator, "hapnet-emulator"};
+    Written peer{session.files.peer, "hapnet-peer"};
+    Written emulator{session.files.emulator, "hapnet-emulator"};
     const auto task = peer.at<std::string>("/task");
     const auto scene = peer.at<std::string>("/scene");
     const auto algorithm = peer.at<std::string>("/algorithm_toml");
@@ -174,11 +166,11 @@ std::optional<double> RealTimeResult::difference_percent() const
 
 RealTimeResult result_of(const RealTimeSession& session, const Trace& twin)
 {
-    return {.algorithm = session.peer.value("algorithm", "?"),
+    return {.algorithm = session.files.peer.value("algorithm", "?"),
             .where = session.where,
-            .real_mm = spread_in(session.analysis.value("discrepancy_x_mm", Json{})),
+            .real_mm = spread_in(session.files.analysis.value("discrepancy_x_mm", Json{})),
             .virtual_mm = in_mm(metrics_of(twin).discrepancy_m),
-            .invalid_because = objections_to(session)};
+            .invalid_because = objections_to(session.files)};
 }
 
 std::string real_time_csv(std::span<const RealTimeResult> results)
@@ -188,8 +180,8 @@ std::string real_time_csv(std::span<const RealTimeResult> results)
     for (const RealTimeResult& result : results) {
         csv += fmt::format("{},{}{}{},{},{},{}\n", result.algorithm, result.where,
                            cells_of(result.real_mm), cells_of(result.virtual_mm),
-                           number_text(result.difference_percent(), 2), result.valid(),
-                           cell_of(result.invalid_because));
+                           difference_text(result), result.valid(),
+                           because_cell(result.invalid_because));
     }
     return csv;
 }
@@ -209,7 +201,7 @@ std::string real_time_table(std::span<const RealTimeResult> results)
     };
     for (const RealTimeResult& result : results) {
         line(result, "virtual", result.virtual_mm, "");
-        const auto percent = number_text(result.difference_percent(), 2);
+        const auto percent = difference_text(result);
         line(result, result.where, result.real_mm,
              percent.empty() ? std::string{verdict_on(result)}
                              : fmt::format("{} % off at most: {}", percent, verdict_on(result)));
@@ -218,8 +210,7 @@ std::string real_time_table(std::span<const RealTimeResult> results)
     return table;
 }
 
-Json real_time_manifest(std::span<const RealTimeResult> results,
-                        const RealTimeCircumstances& circumstances)
+Json real_time_manifest(std::span<const RealTimeResult> results, const Circumstances& circumstances)
 {
     Json sessions = Json::array();
     for (const RealTimeResult& result : results) {
@@ -229,15 +220,10 @@ Json real_time_manifest(std::span<const RealTimeResult> results,
                             {"invalid_because", result.invalid_because}});
     }
     const auto is_valid = [](const RealTimeResult& result) { return result.valid(); };
-    return {{"command", circumstances.command},
-            {"version", base::version()},
-            {"commit", base::commit()},
-            {"compiler", base::compiler()},
-            {"host", circumstances.host},
-            {"start", circumstances.start},
-            {"wall_time_s", circumstances.wall_time_s},
-            {"valid", std::ranges::all_of(results, is_valid)},
-            {"sessions", sessions}};
+    Json manifest = manifest_head(circumstances);
+    manifest["valid"] = std::ranges::all_of(results, is_valid);
+    manifest["sessions"] = sessions;
+    return manifest;
 }
 
 } // namespace hapnet::lab

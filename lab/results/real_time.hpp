@@ -3,6 +3,8 @@
 #pragma once
 
 #include "lab/metrics/spread.hpp"
+#include "lab/results/manifest.hpp"
+#include "lab/results/session_files.hpp"
 #include "lab/virtual_time/setting.hpp"
 #include "lab/virtual_time/trace.hpp"
 #include "proto/base/reading.hpp"
@@ -18,12 +20,10 @@ namespace hapnet::lab {
 
 // Sessions that the programs played in real time, beside the same sessions in virtual time.
 
-/// The result files of one session, as the programs wrote them.
+/// A session in real time.
 struct RealTimeSession {
-    std::string where;                 // "loopback" or "namespaces"
-    nlohmann::ordered_json analysis{}; // hapnet-lab analyse --json
-    nlohmann::ordered_json emulator{}; // hapnet-emulator --stats
-    nlohmann::ordered_json peer{};     // hapnet-peer --stats, of L
+    std::string where; // "loopback" or "namespaces"
+    SessionFiles files{};
 };
 
 /// The session in virtual time that has the same task, hands, algorithm, scene, seeds, length and
@@ -55,16 +55,8 @@ struct RealTimeResult {
 /// The same as lines of text for a person, who also learns which results agree within 5 %.
 [[nodiscard]] std::string real_time_table(std::span<const RealTimeResult> results);
 
-/// When and how the sessions were played.
-struct RealTimeCircumstances {
-    std::string command; // what was typed
-    std::string start;   // ISO 8601, UTC
-    double wall_time_s = 0.0;
-    nlohmann::ordered_json host;
-};
-
 /// What manifest.json says of them under "real_time".
 [[nodiscard]] nlohmann::ordered_json real_time_manifest(std::span<const RealTimeResult> results,
-                                                        const RealTimeCircumstances& circumstances);
+                                                        const Circumstances& circumstances);
 
 } // namespace hapnet::lab

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/results.hpp"
 
+#include "lab/records/recorded_trace.hpp"
+#include "lab/results/replay_rows.hpp"
+#include "scene/text/text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -147,6 +151,15 @@ void put_in_order(std::vector<Value>& rows)
     });
 }
 
+constexpr std::uint32_t replay_rows_per_s = 100;
+
+/// What a record's configuration says under a key; empty when it says nothing.
+std::string text_in(const nlohmann::json& config, const char* key)
+{
+    const auto found = config.find(key);
+    return found != config.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 } // namespace
 
 bool Run::is_valid() const
@@ -162,6 +175,37 @@ std::optional<Criteria> Results::criteria() const
     const bool is_one = std::all_of(runs.begin(), runs.end(),
                                     [&](const Run& run) { return run.criteria == first; });
     return is_one ? first : std::nullopt;
+}
+
+base::Result<void> add_session(Results& results, const std::string& name, const record::Record& a,
+                               const record::Record& b)
+{
+    const auto analysis = analyse(a, b);
+    if (!analysis) return tl::unexpected{analysis.error()};
+    const auto session = common_session(a, b);
+    if (!session) return tl::unexpected{session.error()};
+    const auto task_or = [&](std::string_view otherwise) {
+        return session->task.empty() ? std::string{otherwise} : session->task;
+    };
+    RecordedSession recorded{.name = name.empty() ? task_or("session") : name,
+                             .task = session->task,
+                             .algorithm = text_in(a.config, "algorithm"),
+                             .peer_a = session->a.peer_id,
+                             .peer_b = session->b.peer_id,
+                             .analysis = *analysis,
+                             .curves = curves_of(*session)};
+    const File rows{"replay.csv", fmt::format("{}\n{}", replay_header,
+                                              replay_rows(trace_of(*session), replay_rows_per_s))};
+    // There is none of two that were hardly in session together.
+    if (auto replay = read_replay(rows)) {
+        replay->algorithm = recorded.algorithm.empty() ? "recorded" : recorded.algorithm;
+        replay->task = recorded.task.empty() ? recorded.name : recorded.task;
+        const auto scene = scene::parse_scene(text_in(a.config, "scene_toml"), "scene_toml");
+        if (scene) replay->scene = *scene;
+        results.replays.push_back(*std::move(replay));
+    }
+    results.sessions.push_back(std::move(recorded));
+    return {};
 }
 
 bool is_result_file(std::string_view path) { return kind_of(path) != nullptr; }

@@ -3,8 +3,12 @@
 #pragma once
 
 #include "lab/metrics/criteria.hpp"
+#include "lab/records/analysis.hpp"
+#include "lab/records/curves.hpp"
+#include "lab/results/demo.hpp"
 #include "lab/results/rows.hpp"
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -22,6 +26,17 @@ struct Run {
     [[nodiscard]] bool is_valid() const;
 };
 
+/// A session that two peers have recorded.
+struct RecordedSession {
+    std::string name; // of the folder of the two records; of the task when there is one session
+    std::string task; // empty: the record does not say
+    std::string algorithm; // empty: the record does not say
+    std::int64_t peer_a = 0;
+    std::int64_t peer_b = 0;
+    Analysis analysis;
+    SessionCurves curves;
+};
+
 /// All that a result folder holds, its subfolders' results joined.
 struct Results {
     std::vector<Run> runs;
@@ -34,10 +49,17 @@ struct Results {
     std::vector<QosRow> qos;
     std::vector<RealTimeRow> real_time;
     std::vector<Replay> replays;
+    std::vector<RecordedSession> sessions;
+    std::optional<DemoRun> demo;
 
     /// By which all runs judged; nullopt when they do not say, or differ.
     [[nodiscard]] std::optional<Criteria> criteria() const;
 };
+
+/// Adds the session that two records share, and its replay: both sides as the player shows them.
+/// The error: the records cannot be compared.
+[[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
+                                             const record::Record& a, const record::Record& b);
 
 /// Whether a file of this name is one that read_results() reads; all others it leaves alone.
 /// Replays are those of a folder replay/.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/results/table.hpp"
+#include "scene/description.hpp"
 
 #include <array>
 #include <cstdint>
@@ -135,6 +136,7 @@ struct Replay {
     double start_s = 0.0;
     double step_s = 0.01;
     std::array<std::vector<double>, replay_columns.size()> columns{}; // equally long
+    scene::Description scene = scene::paper_scene();                  // in which it was played
 };
 
 [[nodiscard]] base::Result<std::vector<Table1Row>> read_table1(const File& file);

@@ -126,7 +126,7 @@ TEST(Report, EscapesWhatComesFromFiles)
 TEST(Report, SaysWhetherItIsValidAndWhyNot)
 {
     EXPECT_TRUE(holds(page_of({sample_manifest()}), "<b>Valid.</b>"));
-    EXPECT_TRUE(holds(page_of({sample_table1()}), "No manifest.json"));
+    EXPECT_TRUE(holds(page_of({sample_table1()}), "There is no manifest.json"));
     const std::string page =
         page_of({{"r/fig7/manifest.json", R"({"valid": false, "invalid_because": ["stopped"]})"}});
     EXPECT_TRUE(holds(page, "<b>Not valid.</b>"));

@@ -18,7 +18,7 @@ Json direction()
 
 Json way() { return {{"delay_ms", {{"p50", 160.02}}}, {"packets_per_s", 999.8}}; }
 
-DemoTask task(double mean_mm)
+SessionFiles task(double mean_mm)
 {
     return {{{"discrepancy_x_mm", {{"mean", mean_mm}, {"min", 0.0}, {"max", 44.0}, {"std", 10.5}}},
              {"force_discrepancy_n", nullptr},
@@ -83,6 +83,7 @@ TEST(DemoReport, AnInvalidTaskMakesTheWholeInvalidAndSaysWhy)
     EXPECT_NE(table.find("NOT VALID"), std::string::npos);
     EXPECT_NE(table.find("T3: b missed 2 % of its ticks"), std::string::npos);
     const Json manifest = demo_manifest(invalid, {});
+    EXPECT_EQ(manifest["kind"], "demo");
     EXPECT_EQ(manifest["valid"], false);
     EXPECT_EQ(manifest["invalid_because"].size(), 2U);
 }

@@ -21,7 +21,9 @@ RealTimeSession as_written()
 {
     const auto algorithm = peer::load_algorithm("dead-reckoning", {}).value();
     const auto person = device::operator_named("firm").value();
-    return {.where = "loopback",
+    return {
+        .where = "loopback",
+        .files = {
             .analysis = {{"discrepancy_x_mm",
                           {{"mean", 9.5}, {"min", 0.0}, {"max", 40.0}, {"std", 8.0}}},
                          {"valid", true},
@@ -34,7 +36,7 @@ RealTimeSession as_written()
                      {"operator_toml", device::print_operator(person)},
                      {"grip_damping_ns_per_m", 4.0},
                      {"duration_s", 8.0},
-                     {"session", {{"seed", 7}}}}};
+                     {"session", {{"seed", 7}}}}}};
 }
 
 RealTimeResult measured()
@@ -63,13 +65,13 @@ TEST(TwinOf, IsTheSessionThatTheProgramsDescribe)
 TEST(TwinOf, NamesWhatAProgramDidNotSay)
 {
     RealTimeSession session = as_written();
-    session.peer.erase("algorithm_toml");
+    session.files.peer.erase("algorithm_toml");
     EXPECT_EQ(twin_of(session, {}).error().message, "hapnet-peer does not say /algorithm_toml");
     session = as_written();
-    session.emulator["profile"] = nullptr; // a device that replays has no hand, for instance
+    session.files.emulator["profile"] = nullptr; // a device that replays has no hand, for instance
     EXPECT_EQ(twin_of(session, {}).error().message, "hapnet-emulator does not say /profile");
     session = as_written();
-    session.peer["grip_damping_ns_per_m"] = 2.0;
+    session.files.peer["grip_damping_ns_per_m"] = 2.0;
     EXPECT_EQ(twin_of(session, {}).error().message,
               "virtual time knows no other grip damping than the default");
 }
@@ -106,8 +108,8 @@ TEST(RealTime, DiffersByTheFartherOfMeanAndStd)
 TEST(RealTime, ThatIsNotValidSaysWhyAndIsExcluded)
 {
     RealTimeSession session = as_written();
-    session.analysis["invalid_because"] = {"a: 0.70 % of the ticks missed, more than 0.5 %"};
-    session.emulator["valid"] = false;
+    session.files.analysis["invalid_because"] = {"a: 0.70 % of the ticks missed, more than 0.5 %"};
+    session.files.emulator["valid"] = false;
     const RealTimeResult result = result_of(session, Trace{});
     EXPECT_FALSE(result.valid());
     EXPECT_FALSE(result.difference_percent());
@@ -127,7 +129,7 @@ TEST(RealTime, ThatIsNotValidSaysWhyAndIsExcluded)
 TEST(RealTime, WithoutASessionTogetherIsNotValid)
 {
     RealTimeSession session = as_written();
-    session.analysis["discrepancy_x_mm"] = nullptr;
+    session.files.analysis["discrepancy_x_mm"] = nullptr;
     const RealTimeResult result = result_of(session, Trace{});
     EXPECT_EQ(result.invalid_because,
               std::vector<std::string>{"the two were never in session together"});
