@@ -21,7 +21,6 @@ namespace hapnet::lab {
 namespace {
 
 namespace fs = std::filesystem;
-using report::File;
 
 /// The result files in one folder and in its replay/.
 void collect(const fs::path& folder, std::vector<std::string>& paths)
@@ -30,7 +29,7 @@ void collect(const fs::path& folder, std::vector<std::string>& paths)
         if (!fs::is_directory(place)) continue;
         for (const auto& entry : fs::directory_iterator{place}) {
             const auto path = entry.path().generic_string();
-            if (entry.is_regular_file() && report::is_result_file(path)) paths.push_back(path);
+            if (entry.is_regular_file() && is_result_file(path)) paths.push_back(path);
         }
     }
 }
@@ -74,21 +73,21 @@ std::vector<std::string> records_in(const fs::path& folder)
 }
 
 /// `name` tells the session from others; empty: that of its task.
-base::Result<void> add_records(report::Results& results, const std::string& name,
-                               const std::string& path_a, const std::string& path_b)
+base::Result<void> add_records(Results& results, const std::string& name, const std::string& path_a,
+                               const std::string& path_b)
 {
     auto a = read_record(path_a);
     if (!a) return tl::unexpected{a.error()};
     auto b = read_record(path_b);
     if (!b) return tl::unexpected{b.error()};
-    const auto added = report::add_session(results, name, *a, *b);
+    const auto added = add_session(results, name, *a, *b);
     if (added) return {};
     return base::fail("cannot compare " + path_a + " (A) with " + path_b +
                       " (B): " + added.error().message);
 }
 
 /// The demo is known by the files of its two tasks.
-base::Result<void> add_demo(report::Results& results, const fs::path& root)
+base::Result<void> add_demo(Results& results, const fs::path& root)
 {
     const auto p1 = (root / "p1").string(), t3 = (root / "t3").string();
     if (!fs::exists(p1 + "/analysis.json") || !fs::exists(t3 + "/analysis.json")) return {};
@@ -100,12 +99,12 @@ base::Result<void> add_demo(report::Results& results, const fs::path& root)
     return {};
 }
 
-base::Result<report::Results> results_in(const fs::path& root)
+base::Result<Results> results_in(const fs::path& root)
 {
     const auto places = places_in(root);
     const auto files = read_files(places);
     if (!files) return tl::unexpected{files.error()};
-    auto results = report::read_results(*files);
+    auto results = read_results(*files);
     if (!results) return results;
     for (const fs::path& place : places) {
         const auto records = records_in(place);
@@ -126,7 +125,7 @@ base::Result<report::Results> results_in(const fs::path& root)
 
 /// What the arguments name, and the folder for the page.
 struct Source {
-    report::Results results;
+    Results results;
     fs::path folder;
 };
 
@@ -138,7 +137,7 @@ base::Result<Source> read_source(const std::vector<std::string>& paths)
             return base::fail("a session has two records: name those of both peers");
         }
         if (!fs::is_directory(first)) return base::fail(first.string() + " is not a folder");
-        return results_in(first).map([&](report::Results results) {
+        return results_in(first).map([&](Results results) {
             return Source{std::move(results), first};
         });
     }

@@ -6,7 +6,7 @@
 #include "lab/cli/host.hpp"
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/text.hpp"
-#include "lab/results/cells.hpp"
+#include "lab/records/text_table.hpp"
 #include "lab/results/manifest.hpp"
 #include "lab/results/result_files.hpp"
 #include "lab/runner/progress.hpp"
@@ -122,11 +122,11 @@ private:
     {
         const auto files = results_of(experiment_, criteria_, findings);
         if (!files) throw std::runtime_error{files.error().message};
-        for (const ResultText& file : *files) {
-            write_text(out_ / file.name, file.text);
-            if (file.name == "table1.csv" || file.name == "limits.csv") {
+        for (const File& file : *files) {
+            write_text(out_ / file.path, file.text);
+            if (file.path == "table1.csv" || file.path == "limits.csv") {
                 fmt::print("{}\n", aligned(file.text));
-            } else if (file.name == "criteria.toml") {
+            } else if (file.path == "criteria.toml") {
                 fmt::print("{}\n", file.text);
             }
         }

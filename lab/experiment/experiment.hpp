@@ -38,13 +38,6 @@ struct Hands {
 /// "nominal", or "relaxed/firm" when they differ.
 [[nodiscard]] std::string name_of(const Hands& hands);
 
-/// The orders as numbers, in the order of FilterOrder.
-inline constexpr std::array<std::uint32_t, 3> filter_order_counts{1, 2, 4};
-[[nodiscard]] constexpr std::uint32_t count_of(FilterOrder order)
-{
-    return filter_order_counts[static_cast<std::size_t>(order)];
-}
-
 /// How far an impairment is searched: upward from `from` in steps to `to` or the first failure,
 /// then by bisection to `resolution`.
 struct SearchRange {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hapnet::lab {
@@ -30,5 +31,8 @@ struct TextTable {
 
 /// A number as a cell, with so many decimals; "-" when there is none or when it is not finite.
 [[nodiscard]] std::string number_text(std::optional<double> value, int decimals);
+
+/// A CSV without quoted cells as a table for people: columns of equal width.
+[[nodiscard]] std::string aligned(std::string_view csv);
 
 } // namespace hapnet::lab

@@ -89,9 +89,9 @@ void add_limits(const Results& results, std::string_view name,
     for (const std::string_view impairment : impairments) {
         std::string block, unit;
         for (const LimitRow& row : results.limits) {
-            if (row.impairment != impairment || row.task != "worst") continue;
+            if (row.impairment != impairment || row.task != worst_task) continue;
             block += fmt::format("{} {} {} {}\n", harmless(row.algorithm), cell(row.paper_limit),
-                                 cell(row.limit), row.is_open ? 1 : 0);
+                                 cell(row.limit), row.is_open() ? 1 : 0);
             unit = unit_text(row.unit);
         }
         if (block.empty()) continue;

@@ -69,17 +69,18 @@ Json bodies_of(const scene::Description& scene)
 Json packed(const Replay& replay)
 {
     Json columns;
-    for (std::size_t i = 0; i < replay_columns.size(); ++i) {
-        columns[std::string{replay_columns[i]}] = packed(replay.columns[i]);
-    }
-    return {{"algorithm", replay.algorithm},
-            {"task", replay.task},
-            {"bodies", bodies_of(replay.scene)},
-            {"hip_radius", 1e3 * replay.scene.hips.radius_m},
-            {"start_s", replay.start_s},
-            {"step_s", replay.step_s},
-            {"count", replay.columns.front().size()},
-            {"columns", columns}};
+    base::for_each_field(
+        [&](const auto& field, const auto&) {
+            if (field.key == "time_s") return; // it runs in equal steps
+            std::vector<double> column;
+            for (const ReplayRow& row : replay.rows) column.push_back(row.*field.member);
+            columns[std::string{field.key}] = packed(column);
+        },
+        replay.rows.front());
+    return {{"algorithm", replay.algorithm},     {"task", replay.task},
+            {"bodies", bodies_of(replay.scene)}, {"hip_radius", 1e3 * replay.scene.hips.radius_m},
+            {"start_s", replay.start_s},         {"step_s", replay.step_s},
+            {"count", replay.rows.size()},       {"columns", columns}};
 }
 
 /// JSON that can stand inside a script element: nothing in it closes that.

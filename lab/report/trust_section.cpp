@@ -16,7 +16,7 @@ namespace {
 
 /// A way of measuring: the order of the filter and whose hands.
 struct Way {
-    double filter_order = 0.0;
+    std::uint32_t filter_order = 0;
     std::string hand;
 
     friend bool operator==(const Way&, const Way&) = default;
@@ -57,10 +57,10 @@ std::string ways_table(const std::vector<ConventionRow>& rows)
         for (const Way& way : ways) {
             const ConventionRow* row = row_of(rows, like, way);
             cells.push_back(
-                {row == nullptr ? "–" : escaped((row->is_open ? "> " : "") + plain(row->limit))});
+                {row == nullptr ? "–" : escaped((row->is_open() ? "> " : "") + plain(row->limit))});
             if (row == nullptr) continue;
             range.include(row->limit);
-            is_open |= row->is_open && row->limit >= range.high;
+            is_open |= row->is_open() && row->limit >= range.high;
         }
         const auto span =
             fmt::format("{} … {}{}", plain(range.low), is_open ? "> " : "", plain(range.high));
@@ -88,7 +88,7 @@ std::string ways_plot(const std::vector<ConventionRow>& rows)
 {
     Least least;
     for (const ConventionRow& row : rows) {
-        const auto key = std::tuple{row.algorithm, row.hand, row.filter_order};
+        const auto key = std::tuple{row.algorithm, row.hand, static_cast<double>(row.filter_order)};
         const auto [found, is_new] = least.emplace(key, row.limit);
         if (!is_new) found->second = std::min(found->second, row.limit);
     }

@@ -29,10 +29,9 @@ namespace hapnet::lab::report {
 
 [[nodiscard]] std::string_view claim_text(Claim claim); // "calibrated"
 [[nodiscard]] std::string claim_badge(Claim claim);     // as HTML; empty for none
-[[nodiscard]] std::string_view rating_text(Rating rating);
-[[nodiscard]] std::string_view rating_symbol(Rating rating);
-[[nodiscard]] std::string rating_badge(Rating rating); // as HTML
-[[nodiscard]] std::string_view rating_colour(Rating rating);
+[[nodiscard]] std::string_view tier_symbol(Tier tier);
+[[nodiscard]] std::string tier_badge(Tier tier); // as HTML
+[[nodiscard]] std::string_view tier_colour(Tier tier);
 
 /// The colour of an algorithm, the same all over the page; of what a person need not tell apart
 /// the same.

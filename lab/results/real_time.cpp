@@ -4,7 +4,7 @@
 
 #include "emulator/core/profile/text.hpp"
 #include "lab/metrics/metrics.hpp"
-#include "lab/results/cells.hpp"
+#include "lab/results/rows.hpp"
 #include "peer/core/peer.hpp"
 #include "peer/core/sync/text.hpp"
 #include "scene/text/text.hpp"
@@ -88,26 +88,6 @@ std::vector<std::string> objections_to(const SessionFiles& session)
     return objections;
 }
 
-/// In percent, with two decimals; empty when there is nothing to compare.
-std::string difference_text(const RealTimeResult& result)
-{
-    const auto percent = result.difference_percent();
-    return percent ? fmt::format("{:.2f}", *percent) : "";
-}
-
-/// Mean, std and max, each after a comma.
-std::string cells_of(const std::optional<Spread>& spread)
-{
-    if (!spread) return ",,,";
-    return fmt::format(",{:.4f},{:.4f},{:.4f}", spread->mean, spread->std, spread->max);
-}
-
-/// Always in quotes: reasons have commas.
-std::string because_cell(const std::vector<std::string>& reasons)
-{
-    return reasons.empty() ? "" : quoted_cell(fmt::format("{}", fmt::join(reasons, "; ")));
-}
-
 std::string_view verdict_on(const RealTimeResult& result)
 {
     if (!result.valid()) return "NOT VALID, excluded";
@@ -175,15 +155,27 @@ RealTimeResult result_of(const RealTimeSession& session, const Trace& twin)
 
 std::string real_time_csv(std::span<const RealTimeResult> results)
 {
-    std::string csv = "algorithm,where,mean_mm,std_mm,max_mm,virtual_mean_mm,virtual_std_mm,"
-                      "virtual_max_mm,difference_percent,valid,invalid_because\n";
+    std::vector<RealTimeRow> rows;
     for (const RealTimeResult& result : results) {
-        csv += fmt::format("{},{}{}{},{},{},{}\n", result.algorithm, result.where,
-                           cells_of(result.real_mm), cells_of(result.virtual_mm),
-                           difference_text(result), result.valid(),
-                           because_cell(result.invalid_because));
+        RealTimeRow row{.algorithm = result.algorithm,
+                        .where = result.where,
+                        .difference_percent = result.difference_percent(),
+                        .is_valid = result.valid(),
+                        .invalid_because =
+                            fmt::format("{}", fmt::join(result.invalid_because, "; "))};
+        if (const auto& mm = result.real_mm) {
+            row.mean_mm = mm->mean;
+            row.std_mm = mm->std;
+            row.max_mm = mm->max;
+        }
+        if (const auto& mm = result.virtual_mm) {
+            row.virtual_mean_mm = mm->mean;
+            row.virtual_std_mm = mm->std;
+            row.virtual_max_mm = mm->max;
+        }
+        rows.push_back(std::move(row));
     }
-    return csv;
+    return base::csv_text(rows);
 }
 
 std::string real_time_table(std::span<const RealTimeResult> results)
@@ -201,10 +193,10 @@ std::string real_time_table(std::span<const RealTimeResult> results)
     };
     for (const RealTimeResult& result : results) {
         line(result, "virtual", result.virtual_mm, "");
-        const auto percent = difference_text(result);
+        const auto percent = result.difference_percent();
         line(result, result.where, result.real_mm,
-             percent.empty() ? std::string{verdict_on(result)}
-                             : fmt::format("{} % off at most: {}", percent, verdict_on(result)));
+             !percent ? std::string{verdict_on(result)}
+                      : fmt::format("{:.2f} % off at most: {}", *percent, verdict_on(result)));
         for (const auto& reason : result.invalid_because) table += "  " + reason + '\n';
     }
     return table;

@@ -4,10 +4,8 @@
 
 #include "lab/experiment/plane.hpp"
 #include "lab/metrics/calibration.hpp"
-#include "lab/results/cells.hpp"
-#include "lab/results/limits_csv.hpp"
+#include "lab/results/limit_rows.hpp"
 #include "lab/results/paper.hpp"
-#include "lab/results/replay_rows.hpp"
 #include "lab/results/summary.hpp"
 
 #include <algorithm>
@@ -57,37 +55,59 @@ std::optional<Spread> base_in_mm(const std::vector<Group>& groups, const Criteri
     return std::nullopt;
 }
 
-std::string table1_row(const Group& group, const Summary& summary,
-                       const std::optional<Spread>& base_mm)
+std::optional<double> in_thousandths(std::optional<double> value)
 {
-    const auto paper = paper_table1(group.algorithm);
-    const auto mm = [](std::optional<double> value) {
-        return value ? fmt::format("{:.3f}", *value) : std::string{};
-    };
-    const auto typical = summary.typical_m.value_or(Spread{});
-    const auto verdict =
-        summary.typical_m ? table1_verdict(group.algorithm, in_mm(typical), base_mm) : "missed";
-    return fmt::format("{},{},{},{},{},{},{},{},{}\n", group.algorithm, milli_cell(typical.mean),
-                       milli_cell(typical.min), milli_cell(typical.max), milli_cell(typical.std),
-                       mm(paper ? std::optional{paper->mean_mm} : std::nullopt),
-                       mm(paper ? std::optional{paper->max_mm} : std::nullopt),
-                       mm(paper ? std::optional{paper->std_mm} : std::nullopt), verdict);
+    return value ? std::optional{1e3 * *value} : std::nullopt;
 }
 
-std::string task_row(const Group& group, const Summary& summary, const Criteria& criteria)
+Table1Row table1_row(const Group& group, const Summary& summary,
+                     const std::optional<Spread>& base_mm)
 {
-    const auto typical = summary.typical_m;
-    return fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", group.algorithm, name_of(group.task),
-        group.scores.size(), milli_cell(typical ? std::optional{typical->mean} : std::nullopt),
-        milli_cell(typical ? std::optional{typical->std} : std::nullopt),
-        milli_cell(summary.discrepancy_max_m), milli_cell(vibration_m(summary, criteria)),
-        number_cell(summary.worst.stiffness_ratio[judged_press]),
-        number_cell(force_vibration_n(summary, criteria)),
-        number_cell(summary.worst.force_discrepancy), number_cell(summary.worst.contact_lost),
-        number_cell(summary.force_step_n), number_cell(summary.worst.drag_n),
-        milli_cell(summary.worst.energy_taken_j), to_text(summary.tier),
-        text_cell(summary.limited_by));
+    const auto paper = paper_table1(group.algorithm);
+    const Spread mm = in_mm(summary.typical_m.value_or(Spread{}));
+    Table1Row row{.algorithm = std::string{group.algorithm},
+                  .mean_mm = mm.mean,
+                  .min_mm = mm.min,
+                  .max_mm = mm.max,
+                  .std_mm = mm.std,
+                  .verdict = summary.typical_m ? table1_verdict(group.algorithm, mm, base_mm)
+                                               : Claim::missed};
+    if (paper) {
+        row.paper_mean_mm = paper->mean_mm;
+        row.paper_max_mm = paper->max_mm;
+        row.paper_std_mm = paper->std_mm;
+    }
+    return row;
+}
+
+TaskRow task_row(const Group& group, const Summary& summary, const Criteria& criteria)
+{
+    const Judged judged = make_judged(summary, criteria);
+    TaskRow row{.algorithm = std::string{group.algorithm},
+                .task = std::string{name_of(group.task)},
+                .seeds = static_cast<std::uint32_t>(group.scores.size()),
+                .mean_mm = judged.mean_mm,
+                .max_mm = in_thousandths(summary.discrepancy_max_m),
+                .vibration_mm = judged.vibration_mm,
+                .stiffness_ratio = judged.stiffness_ratio,
+                .force_vibration_n = judged.force_vibration_n,
+                .force_discrepancy = summary.worst.force_discrepancy,
+                .contact_lost = summary.worst.contact_lost,
+                .force_step_n = summary.force_step_n,
+                .drag_n = summary.worst.drag_n,
+                .energy_mj = in_thousandths(summary.worst.energy_taken_j),
+                .tier = judged.tier,
+                .limited_by = summary.limited_by};
+    if (summary.typical_m) row.std_mm = 1e3 * summary.typical_m->std;
+    return row;
+}
+
+/// The rows that a session kept: CSV without a header.
+std::vector<ReplayRow> parse_rows(std::string_view rows)
+{
+    auto parsed = base::read_csv<ReplayRow>(
+        fmt::format("{}\n{}", base::csv_header<ReplayRow>(), rows), "rows of a session");
+    return parsed ? *std::move(parsed) : std::vector<ReplayRow>{};
 }
 
 /// Which command wrote the criteria.
@@ -105,75 +125,73 @@ struct ResultsOf {
     const Criteria& criteria;
     std::span<const Finding> findings;
 
-    base::Result<std::vector<ResultText>> operator()(const Table1&) const
+    base::Result<std::vector<File>> operator()(const Table1&) const
     {
         const auto groups = groups_of(experiment, findings);
         const auto base_mm = base_in_mm(groups, criteria);
-        std::string table = "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,"
-                            "paper_std_mm,verdict\n";
-        std::string tasks = "algorithm,task,seeds,mean_mm,std_mm,max_mm,vibration_mm,"
-                            "stiffness_ratio,force_vibration_n,force_discrepancy,contact_lost,"
-                            "force_step_n,drag_n,energy_mj,tier,limited_by\n";
-        std::vector<ResultText> files;
+        std::vector<Table1Row> table;
+        std::vector<TaskRow> tasks;
+        std::vector<File> files;
         for (const Group& group : groups) {
             const Summary summary = summary_of(group.scores, criteria);
             if (group.task == device::Task::p1) {
-                table += table1_row(group, summary, base_mm);
+                table.push_back(table1_row(group, summary, base_mm));
             } else {
-                tasks += task_row(group, summary, criteria);
+                tasks.push_back(task_row(group, summary, criteria));
             }
             files.push_back({fmt::format("replay/{}-{}.csv", group.algorithm, name_of(group.task)),
-                             fmt::format("{}\n{}", replay_header, group.rows)});
+                             fmt::format("{}\n{}", base::csv_header<ReplayRow>(), group.rows)});
         }
-        files.push_back({"table1.csv", std::move(table)});
-        files.push_back({"tasks.csv", std::move(tasks)});
+        files.push_back({"table1.csv", base::csv_text(table)});
+        files.push_back({"tasks.csv", base::csv_text(tasks)});
         return files;
     }
 
-    base::Result<std::vector<ResultText>> operator()(const Limits& limits) const
+    base::Result<std::vector<File>> operator()(const Limits& limits) const
     {
-        std::vector<ResultText> files;
-        files.push_back({"limits.csv", limits_csv(experiment, findings)});
-        files.push_back({"curves.csv", curves_csv(experiment, criteria, findings)});
+        std::vector<File> files;
+        files.push_back({"limits.csv", base::csv_text(make_limit_rows(experiment, findings))});
+        files.push_back(
+            {"curves.csv", base::csv_text(make_curve_rows(experiment, criteria, findings))});
         if (limits.convention) {
-            files.push_back({"limits_by_convention.csv",
-                             convention_csv(experiment, *limits.convention, findings)});
+            files.push_back(
+                {"limits_by_convention.csv",
+                 base::csv_text(make_convention_rows(experiment, *limits.convention, findings))});
         }
         return files;
     }
 
-    base::Result<std::vector<ResultText>> operator()(const Trajectories&) const
+    base::Result<std::vector<File>> operator()(const Trajectories&) const
     {
-        std::string out = std::string{trajectory_header} + '\n';
+        std::vector<TrajectoryRow> rows;
         for (const Group& group : groups_of(experiment, findings)) {
-            out += trajectory_rows(group.rows, group.algorithm);
+            for (const ReplayRow& row : parse_rows(group.rows)) {
+                rows.push_back(to_trajectory(std::string{group.algorithm}, row));
+            }
         }
-        return std::vector<ResultText>{{"trajectories.csv", std::move(out)}};
+        return std::vector<File>{{"trajectories.csv", base::csv_text(rows)}};
     }
 
-    base::Result<std::vector<ResultText>> operator()(const Plane& plane) const
+    base::Result<std::vector<File>> operator()(const Plane& plane) const
     {
         const auto groups = groups_of(experiment, findings);
         const auto cells = cells_of(plane);
         const std::size_t groups_per_cell = groups.size() / cells.size();
-        std::string out = "algorithm,task,delay_ms,jitter_ms,loss_percent,mean_mm,vibration_mm,"
-                          "stiffness_ratio,force_vibration_n,tier\n";
+        std::vector<QosRow> rows;
         for (std::size_t i = 0; i < groups.size(); ++i) {
             const PlaneCell& cell = cells[i / groups_per_cell];
-            const Summary summary = summary_of(groups[i].scores, criteria);
-            const auto typical = summary.typical_m;
-            out += fmt::format(
-                "{},{},{},{},{},{},{},{},{},{}\n", groups[i].algorithm, name_of(groups[i].task),
-                to_text(cell.delay), to_text(cell.jitter), to_text(cell.loss),
-                milli_cell(typical ? std::optional{typical->mean} : std::nullopt),
-                milli_cell(vibration_m(summary, criteria)),
-                number_cell(summary.worst.stiffness_ratio[judged_press]),
-                number_cell(force_vibration_n(summary, criteria)), to_text(summary.tier));
+            rows.push_back(
+                {.algorithm = std::string{groups[i].algorithm},
+                 .task = std::string{name_of(groups[i].task)},
+                 .delay_ms = in_units(cell.delay),
+                 .jitter_ms = in_units(cell.jitter),
+                 .loss_percent = in_units(cell.loss),
+                 .judged = make_judged(summary_of(groups[i].scores, criteria), criteria)});
         }
-        return std::vector<ResultText>{{"qos.csv", std::move(out)}};
+        return std::vector<File>{{"qos.csv", base::csv_text(rows)}};
     }
 
-    base::Result<std::vector<ResultText>> operator()(const Calibration&) const
+    base::Result<std::vector<File>> operator()(const Calibration&) const
     {
         std::vector<Scores> scores;
         for (const Finding& finding : findings) {
@@ -183,7 +201,7 @@ struct ResultsOf {
         const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
         const auto rest = std::span{scores}.subspan(half.size());
         return calibrated({half, rest}, criteria).map([this](const Criteria& found) {
-            return std::vector<ResultText>{
+            return std::vector<File>{
                 {"criteria.toml", origin_of(experiment) + print_criteria(found)}};
         });
     }
@@ -191,9 +209,8 @@ struct ResultsOf {
 
 } // namespace
 
-base::Result<std::vector<ResultText>> results_of(const Experiment& experiment,
-                                                 const Criteria& criteria,
-                                                 std::span<const Finding> findings)
+base::Result<std::vector<File>> results_of(const Experiment& experiment, const Criteria& criteria,
+                                           std::span<const Finding> findings)
 {
     return std::visit(ResultsOf{experiment, criteria, findings}, experiment.kind);
 }

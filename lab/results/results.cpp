@@ -3,23 +3,23 @@
 #include "lab/results/results.hpp"
 
 #include "lab/records/recorded_trace.hpp"
-#include "lab/results/replay_rows.hpp"
 #include "scene/text/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <spdlog/fmt/fmt.h>
+#include <type_traits>
 #include <utility>
 
-namespace hapnet::lab::report {
+namespace hapnet::lab {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Outcome = base::Result<void>;
 
-std::string_view name_of(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+std::string_view file_name_of(std::string_view path) { return path.substr(path.rfind('/') + 1); }
 
 std::string folder_of(std::string_view path)
 {
@@ -63,33 +63,41 @@ Outcome add_replay(const File& file, Results& results)
     return {};
 }
 
-struct Kind {
+struct FileKind {
     std::string_view name;
     Outcome (*add)(const File&, Results&);
 };
 
-constexpr std::array kinds{
-    Kind{"manifest.json", add_run},
-    Kind{"table1.csv", [](const File& f, Results& r) { return append(r.table1, read_table1(f)); }},
-    Kind{"tasks.csv", [](const File& f, Results& r) { return append(r.tasks, read_tasks(f)); }},
-    Kind{"limits.csv", [](const File& f, Results& r) { return append(r.limits, read_limits(f)); }},
-    Kind{"limits_by_convention.csv",
-         [](const File& f, Results& r) { return append(r.conventions, read_conventions(f)); }},
-    Kind{"curves.csv", [](const File& f, Results& r) { return append(r.curves, read_curves(f)); }},
-    Kind{"trajectories.csv",
-         [](const File& f, Results& r) { return append(r.trajectories, read_trajectories(f)); }},
-    Kind{"qos.csv", [](const File& f, Results& r) { return append(r.qos, read_qos(f)); }},
-    Kind{"real_time.csv",
-         [](const File& f, Results& r) { return append(r.real_time, read_real_time(f)); }}};
+/// A file whose rows are kept as they are read.
+template <auto rows>
+Outcome add_rows(const File& file, Results& results)
+{
+    using Row = typename std::remove_reference_t<decltype(results.*rows)>::value_type;
+    return append(results.*rows, base::read_csv<Row>(file.text, file.path));
+}
 
-constexpr Kind replay_kind{"*.csv", add_replay};
+constexpr std::array kinds{FileKind{"manifest.json", add_run},
+                           FileKind{"table1.csv", add_rows<&Results::table1>},
+                           FileKind{"tasks.csv", add_rows<&Results::tasks>},
+                           FileKind{"limits.csv", add_rows<&Results::limits>},
+                           FileKind{"limits_by_convention.csv", add_rows<&Results::conventions>},
+                           FileKind{"curves.csv", add_rows<&Results::curves>},
+                           FileKind{"trajectories.csv",
+                                    [](const File& f, Results& r) {
+                                        return append(r.trajectories, read_trajectories(f));
+                                    }},
+                           FileKind{"qos.csv", add_rows<&Results::qos>},
+                           FileKind{"real_time.csv", add_rows<&Results::real_time>}};
 
-const Kind* kind_of(std::string_view path)
+constexpr FileKind replay_kind{"*.csv", add_replay};
+
+const FileKind* kind_of(std::string_view path)
 {
     const auto folder = folder_of(path);
-    if (name_of(folder) == "replay" && path.ends_with(".csv")) return &replay_kind;
-    const auto found = std::find_if(kinds.begin(), kinds.end(),
-                                    [&](const Kind& kind) { return kind.name == name_of(path); });
+    if (file_name_of(folder) == "replay" && path.ends_with(".csv")) return &replay_kind;
+    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const FileKind& kind) {
+        return kind.name == file_name_of(path);
+    });
     return found == kinds.end() ? nullptr : &*found;
 }
 
@@ -194,15 +202,16 @@ base::Result<void> add_session(Results& results, const std::string& name, const 
                              .peer_b = session->b.peer_id,
                              .analysis = *analysis,
                              .curves = curves_of(*session)};
-    const File rows{"replay.csv", fmt::format("{}\n{}", replay_header,
-                                              replay_rows(trace_of(*session), replay_rows_per_s))};
-    // There is none of two that were hardly in session together.
-    if (auto replay = read_replay(rows)) {
-        replay->algorithm = recorded.algorithm.empty() ? "recorded" : recorded.algorithm;
-        replay->task = recorded.task.empty() ? recorded.name : recorded.task;
+    auto rows = make_replay_rows(trace_of(*session), replay_rows_per_s);
+    if (rows.size() >= 2) { // there are none when the two were hardly in session together
+        Replay replay{.algorithm = recorded.algorithm.empty() ? "recorded" : recorded.algorithm,
+                      .task = recorded.name,
+                      .start_s = rows.front().time_s,
+                      .step_s = 1.0 / replay_rows_per_s,
+                      .rows = std::move(rows)};
         const auto scene = scene::parse_scene(text_in(a.config, "scene_toml"), "scene_toml");
-        if (scene) replay->scene = *scene;
-        results.replays.push_back(*std::move(replay));
+        if (scene) replay.scene = *scene;
+        results.replays.push_back(std::move(replay));
     }
     results.sessions.push_back(std::move(recorded));
     return {};
@@ -218,7 +227,7 @@ base::Result<Results> read_results(std::span<const File> files)
               [](const File* a, const File* b) { return a->path < b->path; });
     Results results;
     for (const File* file : ordered) {
-        const Kind* kind = kind_of(file->path);
+        const FileKind* kind = kind_of(file->path);
         if (kind == nullptr) continue;
         const auto added = kind->add(*file, results);
         if (!added) return tl::unexpected{added.error()};
@@ -237,4 +246,4 @@ base::Result<Results> read_results(std::span<const File> files)
     return results;
 }
 
-} // namespace hapnet::lab::report
+} // namespace hapnet::lab

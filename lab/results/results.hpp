@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab::report {
+namespace hapnet::lab {
 
 /// How some of the results came about: a manifest.json.
 struct Run {
@@ -70,4 +70,4 @@ struct Results {
 /// for one algorithm, it is an error that both are there.
 [[nodiscard]] base::Result<Results> read_results(std::span<const File> files);
 
-} // namespace hapnet::lab::report
+} // namespace hapnet::lab

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/runner/runner.hpp"
 
-#include "lab/results/replay_rows.hpp"
+#include "lab/results/rows.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/wait.hpp"
@@ -123,7 +123,7 @@ private:
 base::Result<Played> play_in_virtual_time(const SessionSpec& spec, const std::atomic<bool>& stop)
 {
     return play(spec.setting, &stop).map([&](const Trace& trace) {
-        return Played{metrics_of(trace), replay_rows(trace, spec.rows_per_s)};
+        return Played{metrics_of(trace), to_lines(make_replay_rows(trace, spec.rows_per_s))};
     });
 }
 

@@ -14,7 +14,7 @@ namespace hapnet::lab {
 inline Criteria known_criteria()
 {
     Criteria criteria;
-    criteria.vibration_max_m = {.first = 0.95e-3, .second = 0.95e-3, .fourth = 0.95e-3};
+    criteria.usable.vibration_max_m = {.first = 0.95e-3, .second = 0.95e-3, .fourth = 0.95e-3};
     return criteria;
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The files of an experiment whose sessions follow a known law.
 #include "lab/experiment/text.hpp"
-#include "lab/results/replay_rows.hpp"
 #include "lab/results/result_files.hpp"
+#include "lab/results/rows.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ std::map<std::string, std::string> results(const Experiment& experiment, const P
     }
     std::map<std::string, std::string> files;
     auto written = results_of(experiment, known_criteria(), findings);
-    for (auto& file : *written) files[file.name] = file.text;
+    for (auto& file : *written) files[file.path] = file.text;
     return files;
 }
 
@@ -138,7 +138,7 @@ both.delay = "80ms"
         << tasks;
     EXPECT_EQ(tasks.find(",P1,"), std::string::npos);
     EXPECT_EQ(files.at("replay/sep-P1.csv"),
-              std::string{replay_header} + "\n0.0000,1,2,3,4,5,6,7,8,9,10,11,12,13,14\n");
+              base::csv_header<ReplayRow>() + "\n0.0000,1,2,3,4,5,6,7,8,9,10,11,12,13,14\n");
 }
 
 TEST(Results, TheOtherKindsWriteTheirColumns)
@@ -147,7 +147,8 @@ TEST(Results, TheOtherKindsWriteTheirColumns)
         results(experiment_of("kind = \"trajectories\"\nalgorithms = \"base\"\ntasks = \"T1\"\n"),
                 play_known);
     EXPECT_EQ(trajectories.at("trajectories.csv"),
-              std::string{trajectory_header} + "\nbase,0.0000,1,8,4,11,7,14\n");
+              "algorithm,time_s,cube_l_mm,cube_r_mm,hand_l_mm,hand_r_mm,force_l_n,force_r_n\n"
+              "base,0.0000,1.000,8.000,4.000,11.000,7.0000,14.0000\n");
     const auto plane = results(experiment_of(R"(
 kind = "plane"
 algorithms = "base"
@@ -174,14 +175,14 @@ TEST(Rows, ThinATraceToTheRowsThatAreWanted)
     trace.begin = std::chrono::milliseconds{2};
     for (auto& side : trace.sides) side.resize(25);
     trace.sides[1][10].body = base::Position{{0.0123, 0.0, -0.5}};
-    const auto rows = replay_rows(trace, 100);
+    const auto rows = to_lines(make_replay_rows(trace, 100));
     EXPECT_EQ(rows, "0.0020,0.000,0.000,0.000,0.000,0.000,0.000,0.0000,0.000,0.000,0.000,0.000,"
                     "0.000,0.000,0.0000\n"
                     "0.0120,0.000,0.000,0.000,0.000,0.000,0.000,0.0000,12.300,0.000,-500.000,0.000,"
                     "0.000,0.000,0.0000\n"
                     "0.0220,0.000,0.000,0.000,0.000,0.000,0.000,0.0000,0.000,0.000,0.000,0.000,"
                     "0.000,0.000,0.0000\n");
-    EXPECT_EQ(replay_rows(trace, 0), "");
+    EXPECT_TRUE(make_replay_rows(trace, 0).empty());
 }
 
 TEST(SessionKeys, TellApartAllThatASessionFollowsFrom)
