@@ -141,7 +141,7 @@ std::string list_of_experiments()
     std::string list;
     for (const BuiltInExperiment& built_in : built_in_experiments()) {
         const auto experiment =
-            parse_experiment(built_in.text, std::string{built_in.name}, Adjustments{});
+            parse_experiment(built_in.text, std::string{built_in.name}, Overrides{});
         list += fmt::format("{:<14}{}\n", built_in.name, experiment ? experiment->title : "");
     }
     return list;

@@ -41,9 +41,9 @@ std::string program_identity()
 
 base::Result<Experiment> load(const RunCommand& command)
 {
-    Adjustments adjustments{command.quick, command.settings};
-    if (command.seeds) adjustments.settings.push_back(fmt::format("seeds={}", *command.seeds));
-    return load_experiment(command.experiment, net::text_of_file, adjustments);
+    Overrides overrides{command.quick, command.settings};
+    if (command.seeds) overrides.settings.push_back(fmt::format("seeds={}", *command.seeds));
+    return load_experiment(command.experiment, net::text_of_file, overrides);
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text)
@@ -89,21 +89,21 @@ public:
                      fmt::format("{} lines of {} are damaged and left out",
                                  (*store)->damaged_lines(), (out_ / "sessions.jsonl").string()));
         }
-        return carry_out_with(**store, stop);
+        return run_with(**store, stop);
     }
 
 private:
-    base::Result<int> carry_out_with(SessionStore& store, net::StopSignal& stop)
+    base::Result<int> run_with(SessionStore& store, net::StopSignal& stop)
     {
         ProgressLine line{start_};
-        const Runner runner{store, play_in_virtual_time, jobs(), [&](const RunProgress& progress) {
-                                line.show(progress, net::monotonic_now());
-                            }};
-        const auto findings = carry_out_all(experiment_, criteria_, runner, stop);
+        const Runner runner{
+            store, play_in_virtual_time, thread_count(),
+            [&](const RunProgress& progress) { line.show(progress, net::monotonic_now()); }};
+        const auto results = run_all(experiment_, criteria_, runner, stop);
         line.finish();
-        if (!findings) throw std::runtime_error{findings.error().message};
+        if (!results) throw std::runtime_error{results.error().message};
         const auto counts = store.counts();
-        if (!*findings) {
+        if (!*results) {
             write_manifest(counts, {"stopped before its end"});
             net::say(program_name,
                      fmt::format("stopped; {} sessions are kept in {}: the same command goes on "
@@ -111,16 +111,16 @@ private:
                                  counts.played + counts.reused, out_.string()));
             return net::exit_failed;
         }
-        write_results(**findings);
+        write_results(**results);
         write_manifest(counts, {});
         fmt::print("{}: {} sessions played, {} reused; results in {}\n", experiment_.title,
                    counts.played, counts.reused, out_.string());
         return 0;
     }
 
-    void write_results(std::span<const Finding> findings) const
+    void write_results(std::span<const JobResult> results) const
     {
-        const auto files = results_of(experiment_, criteria_, findings);
+        const auto files = make_result_files(experiment_, criteria_, results);
         if (!files) throw std::runtime_error{files.error().message};
         for (const File& file : *files) {
             write_text(out_ / file.path, file.text);
@@ -132,7 +132,7 @@ private:
         }
     }
 
-    [[nodiscard]] unsigned jobs() const
+    [[nodiscard]] unsigned thread_count() const
     {
         return command_.jobs.value_or(std::max(std::thread::hardware_concurrency(), 1U));
     }
@@ -145,7 +145,7 @@ private:
         const RunOutcome outcome{print_criteria(criteria_), counts.played, counts.reused,
                                  std::move(invalid)};
         write_text(out_ / "manifest.json",
-                   manifest_of(experiment_, circumstances, outcome).dump(2) + '\n');
+                   make_manifest(experiment_, circumstances, outcome).dump(2) + '\n');
     }
 
     const RunCommand& command_;

@@ -148,10 +148,10 @@ base::Result<Experiment> read_tree(const Node& document, Reading reading)
 }
 
 /// The first setting with which the text is no experiment any more is the one to complain of.
-base::Result<Experiment> complain_of_settings(Node document, const Adjustments& adjustments,
+base::Result<Experiment> complain_of_settings(Node document, const Overrides& overrides,
                                               base::Result<Experiment> experiment)
 {
-    for (const std::string& setting : adjustments.settings) {
+    for (const std::string& setting : overrides.settings) {
         overlay(document, *setting_table(setting));
         auto adjusted = read_tree(document, Reading{"--set " + setting, {}, false});
         if (!adjusted) return adjusted;
@@ -162,7 +162,7 @@ base::Result<Experiment> complain_of_settings(Node document, const Adjustments& 
 } // namespace
 
 base::Result<Experiment> parse_experiment(std::string_view text, const std::string& source,
-                                          const Adjustments& adjustments)
+                                          const Overrides& overrides)
 {
     auto parsed = base::parse_document(text);
     if (!parsed) {
@@ -180,9 +180,9 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
     Node quick_document = document;
     overlay(quick_document, quick);
     if (auto read = read_tree(quick_document, Reading{source}); !read) return read;
-    if (adjustments.quick) document = std::move(quick_document);
+    if (overrides.quick) document = std::move(quick_document);
     Node adjusted = document;
-    for (const std::string& setting : adjustments.settings) {
+    for (const std::string& setting : overrides.settings) {
         const auto table = setting_table(setting);
         if (!table) {
             return base::fail(fmt::format("--set {}: {}", setting, table.error().message));
@@ -190,20 +190,20 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
         overlay(adjusted, *table);
     }
     auto experiment = read_tree(adjusted, Reading{source});
-    if (experiment || adjustments.settings.empty()) return experiment;
+    if (experiment || overrides.settings.empty()) return experiment;
     auto plain = read_tree(document, Reading{source});
     if (!plain) return plain;
-    return complain_of_settings(std::move(document), adjustments, std::move(experiment));
+    return complain_of_settings(std::move(document), overrides, std::move(experiment));
 }
 
 base::Result<Experiment> load_experiment(const std::string& file_or_name,
-                                         const base::OpenFile& open, const Adjustments& adjustments)
+                                         const base::OpenFile& open, const Overrides& overrides)
 {
     std::vector<std::string_view> names;
     for (const BuiltInExperiment& built_in : built_in_experiments()) {
         if (built_in.name == file_or_name) {
             return parse_experiment(built_in.text, fmt::format("{}.toml", built_in.name),
-                                    adjustments);
+                                    overrides);
         }
         names.push_back(built_in.name);
     }
@@ -215,7 +215,7 @@ base::Result<Experiment> load_experiment(const std::string& file_or_name,
         return base::fail(fmt::format("there is neither a file nor an experiment '{}': {}",
                                       file_or_name, base::suggestion(file_or_name, names)));
     }
-    return parse_experiment(*text, file_or_name, adjustments);
+    return parse_experiment(*text, file_or_name, overrides);
 }
 
 } // namespace hapnet::lab

@@ -26,21 +26,21 @@ bool is_worse(const Limit& a, const Limit& b)
 }
 
 /// The tasks of an algorithm and impairment, and after them the worst.
-std::vector<TaskLimit> limits_of(const Experiment& experiment, std::span<const Finding> findings)
+std::vector<TaskLimit> limits_of(const Experiment& experiment, std::span<const JobResult> results)
 {
-    const auto parts = parts_of(experiment);
+    const auto jobs = make_jobs(experiment);
     std::vector<TaskLimit> limits;
     std::optional<TaskLimit> worst;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto* part = std::get_if<SearchPart>(&parts[i]);
-        if (part == nullptr) continue;
-        const std::string_view algorithm = experiment.algorithms[part->algorithm].name;
-        const Limit& limit = std::get<SearchFinding>(findings[i]).limit;
-        limits.push_back({algorithm, part->range.impairment, name_of(part->task), limit});
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const auto* job = std::get_if<SearchJob>(&jobs[i]);
+        if (job == nullptr) continue;
+        const std::string_view algorithm = experiment.algorithms[job->algorithm].name;
+        const Limit& limit = std::get<SearchResult>(results[i]).limit;
+        limits.push_back({algorithm, job->range.impairment, name_of(job->task), limit});
         if (!worst || is_worse(limit, worst->limit)) {
-            worst = TaskLimit{algorithm, part->range.impairment, worst_task, limit};
+            worst = TaskLimit{algorithm, job->range.impairment, worst_task, limit};
         }
-        if (part->task != experiment.tasks.back()) continue;
+        if (job->task != experiment.tasks.back()) continue;
         limits.push_back(*worst);
         worst.reset();
     }
@@ -65,10 +65,10 @@ std::optional<FoundLimit> base_of(const std::vector<TaskLimit>& limits, const Ta
 } // namespace
 
 std::vector<LimitRow> make_limit_rows(const Experiment& experiment,
-                                      std::span<const Finding> findings)
+                                      std::span<const JobResult> results)
 {
     std::vector<LimitRow> rows;
-    const auto limits = limits_of(experiment, findings);
+    const auto limits = limits_of(experiment, results);
     for (const TaskLimit& one : limits) {
         rows.push_back({.algorithm = std::string{one.algorithm},
                         .impairment = std::string{name_of(one.impairment)},
@@ -84,21 +84,20 @@ std::vector<LimitRow> make_limit_rows(const Experiment& experiment,
 }
 
 std::vector<CurveRow> make_curve_rows(const Experiment& experiment, const Criteria& criteria,
-                                      std::span<const Finding> findings)
+                                      std::span<const JobResult> results)
 {
     std::vector<CurveRow> rows;
-    const auto parts = parts_of(experiment);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto* part = std::get_if<SearchPart>(&parts[i]);
-        if (part == nullptr) continue;
-        const Impairment impairment = part->range.impairment;
-        for (const CurvePoint& point : std::get<SearchFinding>(findings[i]).curve) {
-            Judged judged =
-                make_judged(summary_of(std::span{&point.scores, 1}, criteria), criteria);
+    const auto jobs = make_jobs(experiment);
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const auto* job = std::get_if<SearchJob>(&jobs[i]);
+        if (job == nullptr) continue;
+        const Impairment impairment = job->range.impairment;
+        for (const CurvePoint& point : std::get<SearchResult>(results[i]).curve) {
+            Judged judged = make_judged(summarize(std::span{&point.scores, 1}, criteria), criteria);
             judged.tier = point.tier;
-            rows.push_back({.algorithm = experiment.algorithms[part->algorithm].name,
+            rows.push_back({.algorithm = experiment.algorithms[job->algorithm].name,
                             .impairment = std::string{name_of(impairment)},
-                            .task = std::string{name_of(part->task)},
+                            .task = std::string{name_of(job->task)},
                             .level = in_units(point.level),
                             .unit = std::string{unit_of(impairment)},
                             .seed = point.seed,
@@ -108,25 +107,25 @@ std::vector<CurveRow> make_curve_rows(const Experiment& experiment, const Criter
     return rows;
 }
 
-std::vector<ConventionRow> make_convention_rows(const Experiment& experiment,
-                                                const Convention& convention,
-                                                std::span<const Finding> findings)
+std::vector<SensitivityRow> make_sensitivity_rows(const Experiment& experiment,
+                                                  const Sensitivity& sensitivity,
+                                                  std::span<const JobResult> results)
 {
-    std::vector<ConventionRow> rows;
-    const auto parts = parts_of(experiment);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto* part = std::get_if<ConventionPart>(&parts[i]);
-        if (part == nullptr) continue;
-        const auto& limits = std::get<ConventionFinding>(findings[i]).limits;
+    std::vector<SensitivityRow> rows;
+    const auto jobs = make_jobs(experiment);
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const auto* job = std::get_if<SensitivityJob>(&jobs[i]);
+        if (job == nullptr) continue;
+        const auto& limits = std::get<SensitivityResult>(results[i]).limits;
         for (std::size_t order = 0; order < limits.size(); ++order) {
-            rows.push_back({.algorithm = experiment.algorithms[part->algorithm].name,
-                            .impairment = std::string{name_of(part->range.impairment)},
-                            .task = std::string{name_of(part->task)},
-                            .filter_order = count_of(convention.filter_orders[order]),
-                            .hand = name_of(part->hands),
+            rows.push_back({.algorithm = experiment.algorithms[job->algorithm].name,
+                            .impairment = std::string{name_of(job->range.impairment)},
+                            .task = std::string{name_of(job->task)},
+                            .filter_order = count_of(sensitivity.filter_orders[order]),
+                            .hand = name_of(job->hands),
                             .limit = in_units(limits[order].level),
                             .bound = bound_of(limits[order]),
-                            .unit = std::string{unit_of(part->range.impairment)}});
+                            .unit = std::string{unit_of(job->range.impairment)}});
         }
     }
     return rows;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/experiment/parts.hpp"
+#include "lab/experiment/jobs.hpp"
 #include "lab/results/rows.hpp"
 
 #include <span>
@@ -10,19 +10,19 @@
 
 namespace hapnet::lab {
 
-// The rows of an experiment of kind Limits. `findings` are those of all its parts.
+// The rows of an experiment of kind Limits. `results` are those of all its jobs.
 
 /// Of each task, and after them of the worst of them.
 [[nodiscard]] std::vector<LimitRow> make_limit_rows(const Experiment& experiment,
-                                                    std::span<const Finding> findings);
+                                                    std::span<const JobResult> results);
 
 /// Every session that a search played.
 [[nodiscard]] std::vector<CurveRow> make_curve_rows(const Experiment& experiment,
                                                     const Criteria& criteria,
-                                                    std::span<const Finding> findings);
+                                                    std::span<const JobResult> results);
 
-[[nodiscard]] std::vector<ConventionRow> make_convention_rows(const Experiment& experiment,
-                                                              const Convention& convention,
-                                                              std::span<const Finding> findings);
+[[nodiscard]] std::vector<SensitivityRow> make_sensitivity_rows(const Experiment& experiment,
+                                                                const Sensitivity& sensitivity,
+                                                                std::span<const JobResult> results);
 
 } // namespace hapnet::lab

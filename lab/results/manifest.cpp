@@ -50,8 +50,8 @@ Json manifest_head(const Circumstances& circumstances)
     return head;
 }
 
-Json manifest_of(const Experiment& experiment, const Circumstances& circumstances,
-                 const RunOutcome& outcome)
+Json make_manifest(const Experiment& experiment, const Circumstances& circumstances,
+                   const RunOutcome& outcome)
 {
     const double simulated_s =
         static_cast<double>(outcome.played) * base::to_seconds(experiment.duration);

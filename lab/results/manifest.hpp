@@ -35,8 +35,8 @@ struct RunOutcome {
 };
 
 /// manifest.json of an experiment's folder of results.
-[[nodiscard]] nlohmann::ordered_json manifest_of(const Experiment& experiment,
-                                                 const Circumstances& circumstances,
-                                                 const RunOutcome& outcome);
+[[nodiscard]] nlohmann::ordered_json make_manifest(const Experiment& experiment,
+                                                   const Circumstances& circumstances,
+                                                   const RunOutcome& outcome);
 
 } // namespace hapnet::lab

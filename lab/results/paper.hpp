@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/experiment/level.hpp"
+#include "lab/experiment/impairment.hpp"
 #include "lab/metrics/spread.hpp"
 #include "lab/results/rows.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/result_files.hpp"
 
-#include "lab/experiment/plane.hpp"
+#include "lab/experiment/grid.hpp"
 #include "lab/metrics/calibration.hpp"
 #include "lab/results/limit_rows.hpp"
 #include "lab/results/paper.hpp"
@@ -23,19 +23,19 @@ struct Group {
     std::string_view rows{}; // of the first seed
 };
 
-/// The findings of single sessions, by algorithm and task; each plane cell begins anew.
-std::vector<Group> groups_of(const Experiment& experiment, std::span<const Finding> findings)
+/// The results of single sessions, by algorithm and task; each point of a grid begins anew.
+std::vector<Group> groups_of(const Experiment& experiment, std::span<const JobResult> results)
 {
-    const auto parts = parts_of(experiment);
+    const auto jobs = make_jobs(experiment);
     std::vector<Group> groups;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto& part = std::get<SessionPart>(parts[i]);
-        const auto& finding = std::get<SessionFinding>(findings[i]);
-        if (part.spec.setting.seed.value() == experiment.first_seed) {
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const auto& job = std::get<SessionJob>(jobs[i]);
+        const auto& result = std::get<SessionResult>(results[i]);
+        if (job.spec.setting.seed.value() == experiment.first_seed) {
             groups.push_back(
-                {experiment.algorithms[part.algorithm].name, part.task, {}, finding.rows});
+                {experiment.algorithms[job.algorithm].name, job.task, {}, result.rows});
         }
-        groups.back().scores.push_back(scores_of(finding.metrics, finding.perfect));
+        groups.back().scores.push_back(scores_of(result.metrics, result.perfect));
     }
     return groups;
 }
@@ -49,7 +49,7 @@ std::optional<Spread> base_in_mm(const std::vector<Group>& groups, const Criteri
 {
     for (const Group& group : groups) {
         if (group.algorithm != "base" || group.task != device::Task::p1) continue;
-        const auto typical = summary_of(group.scores, criteria).typical_m;
+        const auto typical = summarize(group.scores, criteria).typical_m;
         if (typical) return in_mm(*typical);
     }
     return std::nullopt;
@@ -123,17 +123,17 @@ std::string origin_of(const Experiment& experiment)
 struct ResultsOf {
     const Experiment& experiment;
     const Criteria& criteria;
-    std::span<const Finding> findings;
+    std::span<const JobResult> results;
 
     base::Result<std::vector<File>> operator()(const Table1&) const
     {
-        const auto groups = groups_of(experiment, findings);
+        const auto groups = groups_of(experiment, results);
         const auto base_mm = base_in_mm(groups, criteria);
         std::vector<Table1Row> table;
         std::vector<TaskRow> tasks;
         std::vector<File> files;
         for (const Group& group : groups) {
-            const Summary summary = summary_of(group.scores, criteria);
+            const Summary summary = summarize(group.scores, criteria);
             if (group.task == device::Task::p1) {
                 table.push_back(table1_row(group, summary, base_mm));
             } else {
@@ -150,13 +150,13 @@ struct ResultsOf {
     base::Result<std::vector<File>> operator()(const Limits& limits) const
     {
         std::vector<File> files;
-        files.push_back({"limits.csv", base::csv_text(make_limit_rows(experiment, findings))});
+        files.push_back({"limits.csv", base::csv_text(make_limit_rows(experiment, results))});
         files.push_back(
-            {"curves.csv", base::csv_text(make_curve_rows(experiment, criteria, findings))});
-        if (limits.convention) {
+            {"curves.csv", base::csv_text(make_curve_rows(experiment, criteria, results))});
+        if (limits.sensitivity) {
             files.push_back(
                 {"limits_by_convention.csv",
-                 base::csv_text(make_convention_rows(experiment, *limits.convention, findings))});
+                 base::csv_text(make_sensitivity_rows(experiment, *limits.sensitivity, results))});
         }
         return files;
     }
@@ -164,7 +164,7 @@ struct ResultsOf {
     base::Result<std::vector<File>> operator()(const Trajectories&) const
     {
         std::vector<TrajectoryRow> rows;
-        for (const Group& group : groups_of(experiment, findings)) {
+        for (const Group& group : groups_of(experiment, results)) {
             for (const ReplayRow& row : parse_rows(group.rows)) {
                 rows.push_back(to_trajectory(std::string{group.algorithm}, row));
             }
@@ -172,21 +172,21 @@ struct ResultsOf {
         return std::vector<File>{{"trajectories.csv", base::csv_text(rows)}};
     }
 
-    base::Result<std::vector<File>> operator()(const Plane& plane) const
+    base::Result<std::vector<File>> operator()(const ImpairmentGrid& grid) const
     {
-        const auto groups = groups_of(experiment, findings);
-        const auto cells = cells_of(plane);
-        const std::size_t groups_per_cell = groups.size() / cells.size();
+        const auto groups = groups_of(experiment, results);
+        const auto points = grid_points(grid);
+        const std::size_t groups_per_point = groups.size() / points.size();
         std::vector<QosRow> rows;
         for (std::size_t i = 0; i < groups.size(); ++i) {
-            const PlaneCell& cell = cells[i / groups_per_cell];
+            const GridPoint& point = points[i / groups_per_point];
             rows.push_back(
                 {.algorithm = std::string{groups[i].algorithm},
                  .task = std::string{name_of(groups[i].task)},
-                 .delay_ms = in_units(cell.delay),
-                 .jitter_ms = in_units(cell.jitter),
-                 .loss_percent = in_units(cell.loss),
-                 .judged = make_judged(summary_of(groups[i].scores, criteria), criteria)});
+                 .delay_ms = in_units(point.delay),
+                 .jitter_ms = in_units(point.jitter),
+                 .loss_percent = in_units(point.loss),
+                 .judged = make_judged(summarize(groups[i].scores, criteria), criteria)});
         }
         return std::vector<File>{{"qos.csv", base::csv_text(rows)}};
     }
@@ -194,8 +194,8 @@ struct ResultsOf {
     base::Result<std::vector<File>> operator()(const Calibration&) const
     {
         std::vector<Scores> scores;
-        for (const Finding& finding : findings) {
-            const auto& session = std::get<SessionFinding>(finding);
+        for (const JobResult& result : results) {
+            const auto& session = std::get<SessionResult>(result);
             scores.push_back(scores_of(session.metrics, session.perfect));
         }
         const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
@@ -209,10 +209,11 @@ struct ResultsOf {
 
 } // namespace
 
-base::Result<std::vector<File>> results_of(const Experiment& experiment, const Criteria& criteria,
-                                           std::span<const Finding> findings)
+base::Result<std::vector<File>> make_result_files(const Experiment& experiment,
+                                                  const Criteria& criteria,
+                                                  std::span<const JobResult> results)
 {
-    return std::visit(ResultsOf{experiment, criteria, findings}, experiment.kind);
+    return std::visit(ResultsOf{experiment, criteria, results}, experiment.kind);
 }
 
 } // namespace hapnet::lab

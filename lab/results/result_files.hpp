@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/experiment/parts.hpp"
+#include "lab/experiment/jobs.hpp"
 #include "lab/results/file.hpp"
 
 #include <span>
@@ -10,10 +10,10 @@
 
 namespace hapnet::lab {
 
-/// What an experiment found, as files: equal findings, equal bytes. `findings` are those of
-/// parts_of(experiment), in that order. The error: sessions that nothing can be calibrated on.
-[[nodiscard]] base::Result<std::vector<File>> results_of(const Experiment& experiment,
-                                                         const Criteria& criteria,
-                                                         std::span<const Finding> findings);
+/// What an experiment found, as files: equal results, equal bytes. `results` are those of
+/// make_jobs(experiment), in that order. The error: sessions that nothing can be calibrated on.
+[[nodiscard]] base::Result<std::vector<File>> make_result_files(const Experiment& experiment,
+                                                                const Criteria& criteria,
+                                                                std::span<const JobResult> results);
 
 } // namespace hapnet::lab

@@ -80,7 +80,7 @@ constexpr std::array kinds{FileKind{"manifest.json", add_run},
                            FileKind{"table1.csv", add_rows<&Results::table1>},
                            FileKind{"tasks.csv", add_rows<&Results::tasks>},
                            FileKind{"limits.csv", add_rows<&Results::limits>},
-                           FileKind{"limits_by_convention.csv", add_rows<&Results::conventions>},
+                           FileKind{"limits_by_convention.csv", add_rows<&Results::sensitivity>},
                            FileKind{"curves.csv", add_rows<&Results::curves>},
                            FileKind{"trajectories.csv",
                                     [](const File& f, Results& r) {
@@ -237,7 +237,7 @@ base::Result<Results> read_results(std::span<const File> files)
     put_in_order(results.table1);
     put_in_order(results.tasks);
     put_in_order(results.limits);
-    put_in_order(results.conventions);
+    put_in_order(results.sensitivity);
     put_in_order(results.curves);
     put_in_order(results.trajectories);
     put_in_order(results.qos);

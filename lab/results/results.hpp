@@ -43,7 +43,7 @@ struct Results {
     std::vector<Table1Row> table1;
     std::vector<TaskRow> tasks;
     std::vector<LimitRow> limits;
-    std::vector<ConventionRow> conventions;
+    std::vector<SensitivityRow> sensitivity;
     std::vector<CurveRow> curves;
     std::vector<TrajectoryRow> trajectories;
     std::vector<QosRow> qos;

@@ -130,8 +130,8 @@ constexpr auto fields_of(base::Tag<LimitRow>)
                         base::field("status", &Row::status));
 }
 
-/// Of limits_by_convention.csv: a limit by another filter or with other hands.
-struct ConventionRow {
+/// Of limits_by_convention.csv: how sensitive a limit is to the filter and to the hands.
+struct SensitivityRow {
     std::string algorithm;
     std::string impairment;
     std::string task;
@@ -143,9 +143,9 @@ struct ConventionRow {
 
     [[nodiscard]] bool is_open() const { return bound == Bound::open; }
 };
-constexpr auto fields_of(base::Tag<ConventionRow>)
+constexpr auto fields_of(base::Tag<SensitivityRow>)
 {
-    using Row = ConventionRow;
+    using Row = SensitivityRow;
     return base::fields("limits by convention", base::field("algorithm", &Row::algorithm),
                         base::field("impairment", &Row::impairment),
                         base::field("task", &Row::task),

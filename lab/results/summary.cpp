@@ -68,7 +68,7 @@ std::optional<Spread> mean_spread(std::span<const Scores> all)
 
 } // namespace
 
-Summary summary_of(std::span<const Scores> scores, const Criteria& criteria)
+Summary summarize(std::span<const Scores> scores, const Criteria& criteria)
 {
     Summary summary{mean_spread(scores), {}, {}, worst_of(scores)};
     for (const Scores& one : scores) {

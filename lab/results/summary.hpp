@@ -22,7 +22,7 @@ struct Summary {
 };
 
 /// A task's scores by seed; at least one.
-[[nodiscard]] Summary summary_of(std::span<const Scores> scores, const Criteria& criteria);
+[[nodiscard]] Summary summarize(std::span<const Scores> scores, const Criteria& criteria);
 
 /// What is judged of the worst, by the filter that the criteria judge by; the mean is the typical.
 [[nodiscard]] Judged make_judged(const Summary& summary, const Criteria& criteria);

@@ -22,7 +22,9 @@ Limit found(std::int64_t level) { return {{1000 * level}, true}; }
 /// Passes up to `last`, in whole units.
 Passes up_to(std::int64_t last)
 {
-    return [last](Level level) -> base::Result<bool> { return level.thousandths <= 1000 * last; };
+    return [last](ImpairmentLevel level) -> base::Result<bool> {
+        return level.thousandths <= 1000 * last;
+    };
 }
 
 } // namespace
@@ -47,7 +49,7 @@ TEST(Search, LooksBelowTheRangeWhenItsFirstLevelFails)
     for (std::int64_t last = 0; last < 50; ++last) {
         EXPECT_EQ(*find_limit(range(50, 99, 10, 1), up_to(last)), found(last)) << last;
     }
-    const Passes never = [](Level) -> base::Result<bool> { return false; };
+    const Passes never = [](ImpairmentLevel) -> base::Result<bool> { return false; };
     EXPECT_EQ(*find_limit(range(50, 99, 10, 1), never), found(0));
     EXPECT_EQ(*find_limit(range(0, 99, 10, 1), never), found(0));
 }
@@ -55,30 +57,32 @@ TEST(Search, LooksBelowTheRangeWhenItsFirstLevelFails)
 TEST(Search, StopsAtTheFirstFailureWhateverPassesBeyond)
 {
     std::vector<std::int64_t> visited;
-    const auto limit = find_limit(range(0, 100, 10, 5), [&](Level level) -> base::Result<bool> {
-        visited.push_back(level.thousandths / 1000);
-        return level.thousandths != 30'000; // one bad level, as a buzz at one delay would be
-    });
+    const auto limit =
+        find_limit(range(0, 100, 10, 5), [&](ImpairmentLevel level) -> base::Result<bool> {
+            visited.push_back(level.thousandths / 1000);
+            return level.thousandths != 30'000; // one bad level, as a buzz at one delay would be
+        });
     EXPECT_EQ(*limit, found(25));
     EXPECT_EQ(visited, (std::vector<std::int64_t>{0, 10, 20, 30, 25}));
 }
 
 TEST(Search, PassesAnErrorOn)
 {
-    const auto limit = find_limit(range(0, 100, 10, 5), [](Level level) -> base::Result<bool> {
-        if (level.thousandths > 40'000) return base::fail("no more");
-        return true;
-    });
+    const auto limit =
+        find_limit(range(0, 100, 10, 5), [](ImpairmentLevel level) -> base::Result<bool> {
+            if (level.thousandths > 40'000) return base::fail("no more");
+            return true;
+        });
     ASSERT_FALSE(limit);
     EXPECT_EQ(limit.error().message, "no more");
 }
 
 TEST(Levels, ArePutAsPeopleReadThem)
 {
-    EXPECT_EQ(to_text(Level{160'000}), "160");
-    EXPECT_EQ(to_text(Level{4'500}), "4.5");
-    EXPECT_EQ(to_text(Level{92'125}), "92.125");
-    EXPECT_EQ(to_text(Level{0}), "0");
+    EXPECT_EQ(to_text(ImpairmentLevel{160'000}), "160");
+    EXPECT_EQ(to_text(ImpairmentLevel{4'500}), "4.5");
+    EXPECT_EQ(to_text(ImpairmentLevel{92'125}), "92.125");
+    EXPECT_EQ(to_text(ImpairmentLevel{0}), "0");
 }
 
 TEST(Levels, ImpairBothWaysOnTopOfWhatIsThere)

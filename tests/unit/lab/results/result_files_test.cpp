@@ -33,29 +33,29 @@ Experiment experiment_of(std::string_view text)
     return *std::move(experiment);
 }
 
-/// All parts one after another, by the known law.
+/// All jobs one after another, by the known law.
 std::map<std::string, std::string> results(const Experiment& experiment, const PlaySession& play)
 {
-    std::vector<Finding> findings;
-    for (const Part& part : parts_of(experiment)) {
-        findings.push_back(*carry_out(part, experiment, known_criteria(), play));
+    std::vector<JobResult> findings;
+    for (const Job& part : make_jobs(experiment)) {
+        findings.push_back(*run_job(part, experiment, known_criteria(), play));
     }
     std::map<std::string, std::string> files;
-    auto written = results_of(experiment, known_criteria(), findings);
+    auto written = make_result_files(experiment, known_criteria(), findings);
     for (auto& file : *written) files[file.path] = file.text;
     return files;
 }
 
-base::Result<Played> play_known(const SessionSpec& spec) { return known_session(spec); }
+base::Result<PlayedSession> play_known(const SessionSpec& spec) { return known_session(spec); }
 
 } // namespace
 
 TEST(Results, LimitsAreThoseOfTheLawByTaskAndOfTheWorst)
 {
     const auto files = results(experiment_of(delay_limits), [](const SessionSpec& spec) {
-        Played played = known_session(spec);
+        PlayedSession played = known_session(spec);
         if (spec.setting.task == device::Task::t3) played.metrics.body_vibration_m[0].reset();
-        return base::Result<Played>{played};
+        return base::Result<PlayedSession>{played};
     });
     // 0.95 mm / (1.02 * 9.99 um) is 93.2: the third seed decides.
     EXPECT_EQ(files.at("limits.csv"),
@@ -74,7 +74,7 @@ TEST(Results, ACellStopsAtItsFirstFailingSeedInSeedOrder)
     std::set<std::pair<double, std::uint64_t>> sessions;
     const auto files = results(experiment_of(delay_limits), [&](const SessionSpec& spec) {
         sessions.insert({delay_ms(spec), spec.setting.seed.value()});
-        return base::Result<Played>{known_session(spec)};
+        return base::Result<PlayedSession>{known_session(spec)};
     });
     EXPECT_TRUE(sessions.contains({50.0, 3}));
     EXPECT_TRUE(sessions.contains({100.0, 1}));
@@ -104,7 +104,7 @@ seeds = 1
     std::map<std::string, int> sessions;
     const auto files = results(experiment, [&](const SessionSpec& spec) {
         ++sessions[key_of(spec, "test")];
-        return base::Result<Played>{known_session(spec)};
+        return base::Result<PlayedSession>{known_session(spec)};
     });
     EXPECT_EQ(files.at("limits_by_convention.csv")
                   .substr(0, files.at("limits_by_convention.csv").find("dead")),
@@ -194,17 +194,18 @@ TEST(SessionKeys, TellApartAllThatASessionFollowsFrom)
     const auto add = [&](const SessionSpec& spec, std::string_view program = "this") {
         keys.insert(key_of(spec, program));
     };
-    const auto spec = spec_of(experiment, {base, experiment.hands, device::Task::t1, 1}, {});
+    const auto spec =
+        make_session_spec(experiment, {base, experiment.hands, device::Task::t1, 1}, {});
     add(spec);
     add(spec, "that");
-    add(spec_of(experiment, {base, experiment.hands, device::Task::t3, 1}, {}));
-    add(spec_of(experiment, {base, experiment.hands, device::Task::t1, 2}, {}));
-    add(spec_of(experiment, {other, experiment.hands, device::Task::t1, 1}, {}));
+    add(make_session_spec(experiment, {base, experiment.hands, device::Task::t3, 1}, {}));
+    add(make_session_spec(experiment, {base, experiment.hands, device::Task::t1, 2}, {}));
+    add(make_session_spec(experiment, {other, experiment.hands, device::Task::t1, 1}, {}));
     Hands firm = experiment.hands;
     firm.right = *device::operator_named("firm");
-    add(spec_of(experiment, {base, firm, device::Task::t1, 1}, {}));
-    add(spec_of(experiment, {base, experiment.hands, device::Task::t1, 1},
-                impaired({}, Impairment::delay, {1})));
+    add(make_session_spec(experiment, {base, firm, device::Task::t1, 1}, {}));
+    add(make_session_spec(experiment, {base, experiment.hands, device::Task::t1, 1},
+                          impaired({}, Impairment::delay, {1})));
     SessionSpec changed = spec;
     changed.setting.length += std::chrono::nanoseconds{1};
     add(changed);

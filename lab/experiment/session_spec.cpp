@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/experiment/spec.hpp"
+#include "lab/experiment/session_spec.hpp"
 
 #include "emulator/core/profile/text.hpp"
 #include "peer/core/sync/text.hpp"
@@ -37,20 +37,21 @@ std::string player_text(const PlayerSetting& player)
 
 } // namespace
 
-SessionSpec spec_of(const Experiment& experiment, const Cell& cell, const emulator::Path& path)
+SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,
+                              const emulator::Path& path)
 {
     SessionSpec spec;
     Setting& setting = spec.setting;
-    setting.task = cell.task;
-    setting.scene = scene_for(cell.task);
-    setting.seed = base::Seed{cell.seed};
+    setting.task = one.task;
+    setting.scene = scene_for(one.task);
+    setting.seed = base::Seed{one.seed};
     setting.length = experiment.duration;
     setting.tick = experiment.tick;
     setting.profile.path = path;
-    setting.players[0].algorithm = cell.algorithm.algorithm;
-    setting.players[0].person = cell.hands.left;
-    setting.players[1].algorithm = cell.algorithm.algorithm;
-    setting.players[1].person = cell.hands.right;
+    setting.players[0].algorithm = one.algorithm.algorithm;
+    setting.players[0].person = one.hands.left;
+    setting.players[1].algorithm = one.algorithm.algorithm;
+    setting.players[1].person = one.hands.right;
     return spec;
 }
 

@@ -27,26 +27,26 @@ inline constexpr std::array impairments{Impairment::delay, Impairment::jitter,
 
 /// How much of an impairment, in thousandths of its unit: whole, so that a search visits the same
 /// levels on every machine. Not negative.
-struct Level {
+struct ImpairmentLevel {
     std::int64_t thousandths = 0;
 
-    friend constexpr auto operator<=>(const Level&, const Level&) = default;
+    friend constexpr auto operator<=>(const ImpairmentLevel&, const ImpairmentLevel&) = default;
 };
 
 /// In the unit: "160", "4.5".
-[[nodiscard]] std::string to_text(Level level);
-[[nodiscard]] double in_units(Level level);
+[[nodiscard]] std::string to_text(ImpairmentLevel level);
+[[nodiscard]] double in_units(ImpairmentLevel level);
 
 /// Reads "160ms", "93%" or a number of messages from 0 to 100; complains of what is none.
-void read_level(const base::Node& node, Impairment impairment, Level& target,
+void read_level(const base::Node& node, Impairment impairment, ImpairmentLevel& target,
                 base::Reading& reading);
 /// TOML that reads back as the same level.
-[[nodiscard]] std::string level_text(Level level, Impairment impairment);
+[[nodiscard]] std::string level_text(ImpairmentLevel level, Impairment impairment);
 
-/// The path `ground` with so much of the impairment, the same both ways. Level 0 leaves `ground`
-/// as it is. Jitter of J is uniform from 0 to 2 J, of mean J, each datagram on its own: they
-/// overtake one another.
+/// The path `ground` with so much of the impairment, the same both ways. ImpairmentLevel 0 leaves
+/// `ground` as it is. Jitter of J is uniform from 0 to 2 J, of mean J, each datagram on its own:
+/// they overtake one another.
 [[nodiscard]] emulator::Path impaired(const emulator::Path& ground, Impairment impairment,
-                                      Level level);
+                                      ImpairmentLevel level);
 
 } // namespace hapnet::lab

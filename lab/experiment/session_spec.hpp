@@ -21,24 +21,24 @@ struct SessionSpec {
 };
 
 /// What came of a session: a pure function of its spec.
-struct Played {
+struct PlayedSession {
     Metrics metrics{};
     std::string rows{}; // CSV without a header: see rows.hpp; empty when none were to be kept
 };
 
 /// Plays a session, or gives what is known of it already.
-using PlaySession = std::function<base::Result<Played>(const SessionSpec&)>;
+using PlaySession = std::function<base::Result<PlayedSession>(const SessionSpec&)>;
 
 /// Which of an experiment's sessions.
-struct Cell {
+struct SessionCase {
     const NamedAlgorithm& algorithm;
     const Hands& hands;
     device::Task task{};
     std::uint32_t seed = 1;
 };
 
-[[nodiscard]] SessionSpec spec_of(const Experiment& experiment, const Cell& cell,
-                                  const emulator::Path& path);
+[[nodiscard]] SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,
+                                            const emulator::Path& path);
 
 /// The same session on a perfect network: what scores are relative to. Keeps no rows.
 [[nodiscard]] SessionSpec perfect_twin(const SessionSpec& spec);

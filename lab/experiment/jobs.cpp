@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/experiment/parts.hpp"
+#include "lab/experiment/jobs.hpp"
 
-#include "lab/experiment/plane.hpp"
+#include "lab/experiment/grid.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,9 +19,9 @@ std::uint32_t seeds_end(const Experiment& experiment, std::uint32_t seeds)
 }
 
 /// The sessions of all algorithms, tasks and seeds under the same conditions.
-struct PartsOfSessions {
+struct SessionJobs {
     const Experiment& experiment;
-    std::vector<Part>& parts;
+    std::vector<Job>& jobs;
 
     void add(const std::vector<device::Task>& tasks, const emulator::Path& path,
              std::uint32_t rows_per_s_of_first_seed) const
@@ -30,20 +30,20 @@ struct PartsOfSessions {
             for (const device::Task task : tasks) {
                 for (std::uint32_t seed = experiment.first_seed;
                      seed < seeds_end(experiment, experiment.seeds); ++seed) {
-                    auto spec = spec_of(
+                    auto spec = make_session_spec(
                         experiment, {experiment.algorithms[i], experiment.hands, task, seed}, path);
                     const bool is_first = seed == experiment.first_seed;
                     spec.rows_per_s = is_first ? rows_per_s_of_first_seed : 0;
-                    parts.emplace_back(SessionPart{i, task, std::move(spec)});
+                    jobs.emplace_back(SessionJob{i, task, std::move(spec)});
                 }
             }
         }
     }
 };
 
-struct PartsOf {
+struct MakeJobs {
     const Experiment& experiment;
-    std::vector<Part>& parts;
+    std::vector<Job>& jobs;
 
     void operator()(const Table1& table) const
     {
@@ -51,16 +51,16 @@ struct PartsOf {
         for (const device::Task task : experiment.tasks) {
             if (task != device::Task::p1) tasks.push_back(task);
         }
-        PartsOfSessions{experiment, parts}.add(tasks, experiment.path, table.rows_per_s);
+        SessionJobs{experiment, jobs}.add(tasks, experiment.path, table.rows_per_s);
     }
     void operator()(const Limits& limits) const
     {
         for_each_search(limits, experiment.tasks,
-                        [&](SearchPart part) { parts.emplace_back(std::move(part)); });
-        if (!limits.convention) return;
-        for_each_search(limits, limits.convention->tasks, [&](const SearchPart& part) {
-            for (const Hands& hands : limits.convention->hands) {
-                parts.emplace_back(ConventionPart{part.algorithm, part.task, part.range, hands});
+                        [&](SearchJob job) { jobs.emplace_back(std::move(job)); });
+        if (!limits.sensitivity) return;
+        for_each_search(limits, limits.sensitivity->tasks, [&](const SearchJob& job) {
+            for (const Hands& hands : limits.sensitivity->hands) {
+                jobs.emplace_back(SensitivityJob{job.algorithm, job.task, job.range, hands});
             }
         });
     }
@@ -68,26 +68,26 @@ struct PartsOf {
     {
         for (std::size_t i = 0; i < experiment.algorithms.size(); ++i) {
             const device::Task task = experiment.tasks.front();
-            auto spec =
-                spec_of(experiment,
-                        {experiment.algorithms[i], experiment.hands, task, experiment.first_seed},
-                        experiment.path);
+            auto spec = make_session_spec(
+                experiment,
+                {experiment.algorithms[i], experiment.hands, task, experiment.first_seed},
+                experiment.path);
             spec.rows_per_s = trajectories.rows_per_s;
-            parts.emplace_back(SessionPart{i, task, std::move(spec)});
+            jobs.emplace_back(SessionJob{i, task, std::move(spec)});
         }
     }
-    void operator()(const Plane& plane) const
+    void operator()(const ImpairmentGrid& plane) const
     {
-        for (const PlaneCell& cell : cells_of(plane)) {
-            PartsOfSessions{experiment, parts}.add(experiment.tasks, path_of(experiment.path, cell),
-                                                   0);
+        for (const GridPoint& point : grid_points(plane)) {
+            SessionJobs{experiment, jobs}.add(experiment.tasks, make_path(experiment.path, point),
+                                              0);
         }
     }
     void operator()(const Calibration& calibration) const
     {
-        const auto add = [&](Impairment impairment, Level level) {
-            PartsOfSessions{experiment, parts}.add(experiment.tasks,
-                                                   impaired(experiment.path, impairment, level), 0);
+        const auto add = [&](Impairment impairment, ImpairmentLevel level) {
+            SessionJobs{experiment, jobs}.add(experiment.tasks,
+                                              impaired(experiment.path, impairment, level), 0);
         };
         add(Impairment::delay, calibration.delay);
         add(Impairment::random_loss, calibration.random_loss);
@@ -95,7 +95,7 @@ struct PartsOf {
 
 private:
     void for_each_search(const Limits& limits, const std::vector<device::Task>& tasks,
-                         const std::function<void(SearchPart)>& use) const
+                         const std::function<void(SearchJob)>& use) const
     {
         for (std::size_t i = 0; i < experiment.algorithms.size(); ++i) {
             for (const SearchRange& range : limits.ranges) {
@@ -105,16 +105,16 @@ private:
     }
 };
 
-/// One search: judges cells, seed after seed, and keeps what it has judged.
-class CellJudge {
+/// One search: judges levels, seed after seed, and keeps what it has judged.
+class LevelJudge {
 public:
-    CellJudge(const Experiment& experiment, Cell cell, Impairment impairment,
-              const PlaySession& play)
-        : experiment_{experiment}, cell_{cell}, impairment_{impairment}, play_{play}
+    LevelJudge(const Experiment& experiment, SessionCase session, Impairment impairment,
+               const PlaySession& play)
+        : experiment_{experiment}, session_{session}, impairment_{impairment}, play_{play}
     {}
 
     /// Whether all seeds are usable; the first that is not ends it.
-    base::Result<bool> passes(Level level, std::uint32_t seeds, const Criteria& criteria)
+    base::Result<bool> passes(ImpairmentLevel level, std::uint32_t seeds, const Criteria& criteria)
     {
         for (std::uint32_t seed = experiment_.first_seed; seed < seeds_end(experiment_, seeds);
              ++seed) {
@@ -135,11 +135,11 @@ public:
     }
 
 private:
-    base::Result<Scores> scores_at(Level level, std::uint32_t seed)
+    base::Result<Scores> scores_at(ImpairmentLevel level, std::uint32_t seed)
     {
-        cell_.seed = seed;
+        session_.seed = seed;
         const auto path = impaired(experiment_.path, impairment_, level);
-        const auto spec = spec_of(experiment_, cell_, path);
+        const auto spec = make_session_spec(experiment_, session_, path);
         const auto played = play_(spec);
         if (!played) return tl::unexpected{played.error()};
         const auto perfect = play_(perfect_twin(spec));
@@ -148,74 +148,74 @@ private:
     }
 
     const Experiment& experiment_;
-    Cell cell_;
+    SessionCase session_;
     Impairment impairment_;
     const PlaySession& play_;
     std::vector<CurvePoint> curve_;
 };
 
-struct CarryOut {
+struct RunJob {
     const Experiment& experiment;
     const Criteria& criteria;
     const PlaySession& play;
 
-    base::Result<Finding> operator()(const SessionPart& part) const
+    base::Result<JobResult> operator()(const SessionJob& job) const
     {
-        auto played = play(part.spec);
+        auto played = play(job.spec);
         if (!played) return tl::unexpected{played.error()};
-        auto perfect = play(perfect_twin(part.spec));
+        auto perfect = play(perfect_twin(job.spec));
         if (!perfect) return tl::unexpected{perfect.error()};
-        return SessionFinding{std::move(played->metrics), std::move(perfect->metrics),
-                              std::move(played->rows)};
+        return SessionResult{std::move(played->metrics), std::move(perfect->metrics),
+                             std::move(played->rows)};
     }
 
-    base::Result<Finding> operator()(const SearchPart& part) const
+    base::Result<JobResult> operator()(const SearchJob& job) const
     {
-        CellJudge cells{experiment,
-                        {experiment.algorithms[part.algorithm], experiment.hands, part.task},
-                        part.range.impairment,
-                        play};
-        const auto limit = find_limit(part.range, [&](Level level) {
-            return cells.passes(level, experiment.seeds, criteria);
+        LevelJudge levels{experiment,
+                          {experiment.algorithms[job.algorithm], experiment.hands, job.task},
+                          job.range.impairment,
+                          play};
+        const auto limit = find_limit(job.range, [&](ImpairmentLevel level) {
+            return levels.passes(level, experiment.seeds, criteria);
         });
         if (!limit) return tl::unexpected{limit.error()};
-        return SearchFinding{*limit, std::move(cells).curve()};
+        return SearchResult{*limit, std::move(levels).curve()};
     }
 
-    base::Result<Finding> operator()(const ConventionPart& part) const
+    base::Result<JobResult> operator()(const SensitivityJob& job) const
     {
-        const Convention& convention = *std::get<Limits>(experiment.kind).convention;
-        CellJudge cells{experiment,
-                        {experiment.algorithms[part.algorithm], part.hands, part.task},
-                        part.range.impairment,
-                        play};
-        ConventionFinding finding;
-        for (const FilterOrder order : convention.filter_orders) {
+        const Sensitivity& sensitivity = *std::get<Limits>(experiment.kind).sensitivity;
+        LevelJudge levels{experiment,
+                          {experiment.algorithms[job.algorithm], job.hands, job.task},
+                          job.range.impairment,
+                          play};
+        SensitivityResult result;
+        for (const FilterOrder order : sensitivity.filter_orders) {
             Criteria by_order = criteria;
             by_order.filter_order = order;
-            const auto limit = find_limit(part.range, [&](Level level) {
-                return cells.passes(level, convention.seeds, by_order);
+            const auto limit = find_limit(job.range, [&](ImpairmentLevel level) {
+                return levels.passes(level, sensitivity.seeds, by_order);
             });
             if (!limit) return tl::unexpected{limit.error()};
-            finding.limits.push_back(*limit);
+            result.limits.push_back(*limit);
         }
-        return finding;
+        return result;
     }
 };
 
 } // namespace
 
-std::vector<Part> parts_of(const Experiment& experiment)
+std::vector<Job> make_jobs(const Experiment& experiment)
 {
-    std::vector<Part> parts;
-    std::visit(PartsOf{experiment, parts}, experiment.kind);
-    return parts;
+    std::vector<Job> jobs;
+    std::visit(MakeJobs{experiment, jobs}, experiment.kind);
+    return jobs;
 }
 
-base::Result<Finding> carry_out(const Part& part, const Experiment& experiment,
+base::Result<JobResult> run_job(const Job& job, const Experiment& experiment,
                                 const Criteria& criteria, const PlaySession& play)
 {
-    return std::visit(CarryOut{experiment, criteria, play}, part);
+    return std::visit(RunJob{experiment, criteria, play}, job);
 }
 
 } // namespace hapnet::lab

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/experiment/level.hpp"
+#include "lab/experiment/impairment.hpp"
 
 #include "proto/base/text.hpp"
 
@@ -27,16 +27,19 @@ const ImpairmentWords& words_of(Impairment impairment)
     return words[static_cast<std::size_t>(impairment)];
 }
 
-base::Duration duration_of(Level level) { return std::chrono::microseconds{level.thousandths}; }
+base::Duration duration_of(ImpairmentLevel level)
+{
+    return std::chrono::microseconds{level.thousandths};
+}
 
 /// Rounded to 0.001 %: what is typed with at most three decimals is kept as it is.
-base::Probability share_of(Level level)
+base::Probability share_of(ImpairmentLevel level)
 {
     const double fraction = static_cast<double>(level.thousandths) / (100.0 * thousand);
     return base::Probability::from_fraction(fraction).value();
 }
 
-void read_time_level(const base::Node& node, Level& target, base::Reading& reading)
+void read_time_level(const base::Node& node, ImpairmentLevel& target, base::Reading& reading)
 {
     base::Duration value{};
     base::read_value(node, value, reading);
@@ -47,12 +50,12 @@ void read_time_level(const base::Node& node, Level& target, base::Reading& readi
     target = {whole.count()};
 }
 
-void read_share_level(const base::Node& node, Level& target, base::Reading& reading)
+void read_share_level(const base::Node& node, ImpairmentLevel& target, base::Reading& reading)
 {
     base::Probability value;
     base::read_value(node, value, reading);
     const double thousandths = value.fraction() * 100.0 * thousand;
-    const Level level{std::llround(thousandths)};
+    const ImpairmentLevel level{std::llround(thousandths)};
     constexpr double rounding = 1e-12; // of the text to a number
     if (std::abs(share_of(level).fraction() - value.fraction()) > rounding) {
         return reading.complain(node.place, "a level has at most three decimals, such as 92.5%");
@@ -60,7 +63,7 @@ void read_share_level(const base::Node& node, Level& target, base::Reading& read
     target = level;
 }
 
-void read_burst_level(const base::Node& node, Level& target, base::Reading& reading)
+void read_burst_level(const base::Node& node, ImpairmentLevel& target, base::Reading& reading)
 {
     const auto count = base::count_of(node, burst_period);
     if (!count) {
@@ -70,7 +73,7 @@ void read_burst_level(const base::Node& node, Level& target, base::Reading& read
     target = {static_cast<std::int64_t>(*count) * thousand};
 }
 
-void impair(emulator::Conditions& conditions, Impairment impairment, Level level)
+void impair(emulator::Conditions& conditions, Impairment impairment, ImpairmentLevel level)
 {
     switch (impairment) {
     case Impairment::delay: conditions.delay = emulator::constant(duration_of(level)); return;
@@ -94,7 +97,7 @@ void impair(emulator::Conditions& conditions, Impairment impairment, Level level
 std::string_view name_of(Impairment impairment) { return words_of(impairment).name; }
 std::string_view unit_of(Impairment impairment) { return words_of(impairment).unit; }
 
-std::string to_text(Level level)
+std::string to_text(ImpairmentLevel level)
 {
     std::string text =
         fmt::format("{}.{:03}", level.thousandths / thousand, level.thousandths % thousand);
@@ -103,9 +106,9 @@ std::string to_text(Level level)
     return text;
 }
 
-double in_units(Level level) { return static_cast<double>(level.thousandths) / thousand; }
+double in_units(ImpairmentLevel level) { return static_cast<double>(level.thousandths) / thousand; }
 
-void read_level(const base::Node& node, Impairment impairment, Level& target,
+void read_level(const base::Node& node, Impairment impairment, ImpairmentLevel& target,
                 base::Reading& reading)
 {
     switch (impairment) {
@@ -116,17 +119,17 @@ void read_level(const base::Node& node, Impairment impairment, Level& target,
     }
 }
 
-std::string level_text(Level level, Impairment impairment)
+std::string level_text(ImpairmentLevel level, Impairment impairment)
 {
     if (impairment == Impairment::burst_loss) return to_text(level);
     if (impairment == Impairment::random_loss) return base::quoted(to_text(level) + "%");
     return base::value_text(duration_of(level));
 }
 
-emulator::Path impaired(const emulator::Path& ground, Impairment impairment, Level level)
+emulator::Path impaired(const emulator::Path& ground, Impairment impairment, ImpairmentLevel level)
 {
     emulator::Path path = ground;
-    if (level == Level{}) return path;
+    if (level == ImpairmentLevel{}) return path;
     impair(path.up, impairment, level);
     impair(path.down, impairment, level);
     return path;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lab/experiment/search.hpp"
-#include "lab/experiment/spec.hpp"
+#include "lab/experiment/session_spec.hpp"
 #include "lab/metrics/verdict.hpp"
 
 #include <cstddef>
@@ -13,37 +13,37 @@
 
 namespace hapnet::lab {
 
-// An experiment in parts that do not depend on one another: on whatever thread and in whatever
+// An experiment in jobs that do not depend on one another: on whatever thread and in whatever
 // order they are carried out, each finds the same.
 
 /// One session and its perfect twin.
-struct SessionPart {
+struct SessionJob {
     std::size_t algorithm = 0; // of the experiment's
     device::Task task{};
     SessionSpec spec{};
 };
 
 /// One limit.
-struct SearchPart {
+struct SearchJob {
     std::size_t algorithm = 0;
     device::Task task{};
     SearchRange range{};
 };
 
-/// The same limit by other conventions: for these hands, and each order of the filter.
-struct ConventionPart {
+/// The same limit for these hands, and by each order of the filter.
+struct SensitivityJob {
     std::size_t algorithm = 0;
     device::Task task{};
     SearchRange range{};
     Hands hands{};
 };
 
-using Part = std::variant<SessionPart, SearchPart, ConventionPart>;
+using Job = std::variant<SessionJob, SearchJob, SensitivityJob>;
 
-/// The parts of an experiment in the order of its results.
-[[nodiscard]] std::vector<Part> parts_of(const Experiment& experiment);
+/// The jobs of an experiment in the order of its results.
+[[nodiscard]] std::vector<Job> make_jobs(const Experiment& experiment);
 
-struct SessionFinding {
+struct SessionResult {
     Metrics metrics{};
     Metrics perfect{};
     std::string rows{};
@@ -51,26 +51,26 @@ struct SessionFinding {
 
 /// A session that a search played.
 struct CurvePoint {
-    Level level{};
+    ImpairmentLevel level{};
     std::uint32_t seed = 1;
     Scores scores{};
     Tier tier{};
 };
 
-struct SearchFinding {
+struct SearchResult {
     Limit limit{};
     std::vector<CurvePoint> curve{}; // ascending in level, then seed
 };
 
-/// The limits by the filter orders of the convention, in their order.
-struct ConventionFinding {
+/// The limits by the filter orders of the sensitivity check, in their order.
+struct SensitivityResult {
     std::vector<Limit> limits{};
 };
 
-using Finding = std::variant<SessionFinding, SearchFinding, ConventionFinding>;
+using JobResult = std::variant<SessionResult, SearchResult, SensitivityResult>;
 
-/// Carries out one part, playing by `play` what it needs. An error of `play` is passed on.
-[[nodiscard]] base::Result<Finding> carry_out(const Part& part, const Experiment& experiment,
+/// Carries out one job, playing by `play` what it needs. An error of `play` is passed on.
+[[nodiscard]] base::Result<JobResult> run_job(const Job& job, const Experiment& experiment,
                                               const Criteria& criteria, const PlaySession& play);
 
 } // namespace hapnet::lab
