@@ -84,23 +84,31 @@ function(hapnet_read_by_folder target)
     set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# hapnet_library(NAME [FOLDERS ...] [SOURCES ...] [DEPENDS ...]): a room of the map, built where it
-# is needed.
+# hapnet_cold(TARGET): what it does takes no time when it runs, so optimising it takes little, too:
+# a third less to compile (GCC 12: 25 s and not 36 s for the pages of a report).
+function(hapnet_cold target)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# hapnet_library(NAME [COLD] [FOLDERS ...] [SOURCES ...] [DEPENDS ...]): a room of the map, built
+# where it is needed.
 function(hapnet_library name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;SOURCES;DEPENDS")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "COLD" "" "FOLDERS;SOURCES;DEPENDS")
     hapnet_sources(sources ${arg_FOLDERS})
     add_library(${name} STATIC EXCLUDE_FROM_ALL ${sources} ${arg_SOURCES})
     target_link_libraries(${name} PUBLIC hapnet_options ${arg_DEPENDS})
     hapnet_precompile(${name})
     hapnet_read_by_folder(${name})
+    if(arg_COLD)
+        hapnet_cold(${name})
+    endif()
     set_property(GLOBAL APPEND PROPERTY HAPNET_LIBRARIES ${name})
 endfunction()
 
 option(HAPNET_PROGRAMS "Build the programs, which the tests end to end need" ON)
 
 # hapnet_program(NAME [COLD] [FOLDERS ...] [SOURCES ...] DEPENDS ...): one binary that is installed.
-# Where several files are read as one, all of it is: CLI11 alone is seven seconds of each. COLD:
-# what its own sources do takes no time when it runs, so optimising them takes little, too.
+# Where several files are read as one, all of it is.
 function(hapnet_program name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "COLD" "" "FOLDERS;SOURCES;DEPENDS")
     hapnet_sources(sources ${arg_FOLDERS})
@@ -109,7 +117,7 @@ function(hapnet_program name)
     hapnet_precompile(${name})
     set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
     if(arg_COLD)
-        target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+        hapnet_cold(${name})
     endif()
     set_property(GLOBAL APPEND PROPERTY HAPNET_PROGRAM_TARGETS ${name})
     if(HAPNET_PROGRAMS)

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::ctl {
 
 using TransferState = net::Transfer::State;
 
@@ -67,4 +67,4 @@ Connection::State Connection::wait(net::WaitSet::Interest interest,
     return base::is_due(deadline, net::monotonic_now()) ? State::late : State::good;
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::ctl

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace hapnet::emulator {
+namespace hapnet::ctl {
 
 /// The control socket of a program, from the outside: lines out, lines in.
 class Connection {
@@ -44,4 +44,4 @@ private:
     std::string line_;
 };
 
-} // namespace hapnet::emulator
+} // namespace hapnet::ctl

@@ -3,18 +3,13 @@
 #include "ctl/connection.hpp"
 #include "ctl/options.hpp"
 #include "ctl/print.hpp"
-#include "proto/base/text.hpp"
+#include "ctl/request.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/stop_signal.hpp"
 
-#include <cerrno>
 #include <chrono>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <iterator>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -23,7 +18,7 @@
 #include <system_error>
 #include <unistd.h>
 
-namespace hapnet::emulator {
+namespace hapnet::ctl {
 
 namespace {
 
@@ -35,70 +30,25 @@ constexpr std::string_view program = "hapnet-ctl";
 /// How long an answer may take; it takes milliseconds.
 constexpr base::Duration answer_max = 10s;
 
-std::string_view cure_of(int error)
-{
-    switch (error) {
-    case ENOENT:
-    case ECONNREFUSED: return "start the emulator or the peer with --control and this path";
-    case EACCES: return "only the user who started the program may control it";
-    default: return "is this the --control of an emulator or a peer?";
-    }
-}
-
-base::Result<std::string> text_of(const std::string& file)
-{
-    if (file == "-") return std::string{std::istreambuf_iterator<char>{std::cin}, {}};
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error)) {
-        return base::fail(fmt::format("{} is a folder: name a profile", file));
-    }
-    std::ifstream stream{file, std::ios::binary};
-    std::string text{std::istreambuf_iterator<char>{stream}, {}};
-    if (!stream.is_open() || stream.bad()) {
-        return base::fail(fmt::format("cannot read {}: is there such a file?", file));
-    }
-    return text;
-}
-
-base::Result<Json> request_of(const CtlOptions& options)
-{
-    Json request{{"command", options.command}};
-    const auto add = [&](const char* key, const std::optional<std::string>& text) {
-        if (text) request[key] = *text;
-    };
-    for (const auto& [key, value] : options.settings) request["settings"][key] = value;
-    if (!options.file.empty()) {
-        auto text = text_of(options.file);
-        if (!text) return tl::unexpected{text.error()};
-        request["profile"] = *std::move(text);
-        // What a profile names lies beside it, wherever the emulator was started.
-        request["file"] = options.file == "-" ? "(standard input)"
-                                              : std::filesystem::absolute(options.file).string();
-    }
-    if (!options.until.empty()) request["until"] = options.until;
-    add("for", options.lasting);
-    add("timeout", options.timeout);
-    add("every", options.every);
-    return request;
-}
-
 /// What an answer means for the exit code.
-int code_of(const Json& reply)
+int exit_code(const Json& reply)
 {
     if (reply.value("ok", false)) return reply.value("met", true) ? 0 : net::exit_failed;
     return reply.value("busy", false) ? net::exit_environment : net::exit_usage;
 }
 
 /// Prints one answer; returns the exit code that it stands for.
-int print(const std::string& line, const CtlOptions& options, WatchPrinter& watch)
+int print(const std::string& line, const Options& options, WatchPrinter& watch)
 {
     const auto reply = Json::parse(line, nullptr, /*allow_exceptions*/ false);
     if (!reply.is_object()) {
         net::say(program,
-                 fmt::format("{} does not speak hapnet's control protocol", options.socket));
+                 fmt::format("{} does not speak hapnet's control protocol: name the --control "
+                             "of an emulator or a peer",
+                             options.socket));
         return net::exit_environment;
     }
-    const int code = code_of(reply);
+    const int code = exit_code(reply);
     if (options.as_json) {
         fmt::print("{}\n", line);
     } else if (!reply.value("ok", false)) {
@@ -113,22 +63,23 @@ int print(const std::string& line, const CtlOptions& options, WatchPrinter& watc
 }
 
 /// Until when an answer must be there; nullopt for those that may take any time.
-std::optional<base::TimePoint> deadline_of(const CtlOptions& options)
+std::optional<base::TimePoint> answer_deadline(const Options& options)
 {
     if (options.command == "watch") return std::nullopt;
     const auto now = net::monotonic_now();
     if (options.command != "wait") return now + answer_max;
     if (!options.timeout) return std::nullopt;
-    return now + base::parse_duration(*options.timeout).value() + answer_max;
+    return now + *options.timeout + answer_max;
 }
 
-int trouble(Connection::State state, const CtlOptions& options)
+/// Says why there is no further answer; the exit code.
+int say_why(Connection::State state, const Options& options)
 {
     switch (state) {
     case Connection::State::good: return 0;
     case Connection::State::stopped: return options.command == "watch" ? 0 : net::exit_failed;
     case Connection::State::closed:
-        net::say(program, "the program has ended, or broken the connection off");
+        net::say(program, "the program has ended or closed the connection");
         return net::exit_failed;
     case Connection::State::late:
         net::say(program, "the program does not answer");
@@ -137,30 +88,30 @@ int trouble(Connection::State state, const CtlOptions& options)
     return net::exit_failed;
 }
 
-int converse(Connection& connection, const Json& request, const CtlOptions& options)
+int converse(Connection& connection, const Json& request, const Options& options)
 {
     const auto text = request.dump(-1, ' ', false, Json::error_handler_t::replace);
     auto state = connection.send(text, net::monotonic_now() + answer_max);
     WatchPrinter watch{isatty(STDOUT_FILENO) != 0};
     while (state == Connection::State::good) {
-        state = connection.receive(deadline_of(options));
+        state = connection.receive(answer_deadline(options));
         if (state != Connection::State::good) break;
         const int code = print(connection.line(), options, watch);
         if (options.command != "watch" || code != 0) return code;
     }
-    return trouble(state, options);
+    return say_why(state, options);
 }
 
-base::Result<int> control(const CtlOptions& options)
+base::Result<int> control(const Options& options)
 {
-    const auto request = request_of(options);
+    const auto request = make_request(options);
     if (!request) return tl::unexpected{request.error()};
     net::StopSignal stop;
     std::optional<Connection> connection;
     try {
         connection.emplace(options.socket, stop);
     } catch (const std::system_error& error) {
-        net::say(program, fmt::format("{}; {}", error.what(), cure_of(error.code().value())));
+        net::say(program, net::explained_connection(error));
         return net::exit_environment;
     }
     return converse(*connection, *request, options);
@@ -170,12 +121,12 @@ base::Result<int> control(const CtlOptions& options)
 
 int main_program(std::span<char*> words)
 {
-    return net::run_program(program, parse_ctl_options(words), control);
+    return net::run_program(program, parse_options(words, std::getenv("HAPNET_SOCKET")), control);
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::ctl
 
 int main(int argc, char** argv)
 {
-    return hapnet::emulator::main_program({argv, static_cast<std::size_t>(argc)});
+    return hapnet::ctl::main_program({argv, static_cast<std::size_t>(argc)});
 }

@@ -3,180 +3,139 @@
 #include "ctl/options.hpp"
 
 #include "proto/base/text.hpp"
-#include "proto/base/version.hpp"
+#include "proto/cli/command.hpp"
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <optional>
 #include <spdlog/fmt/fmt.h>
-#include <string>
-#include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::ctl {
 
 namespace {
 
 constexpr const char* description =
-    "Asks a running hapnet-emulator or hapnet-peer how it is; changes an emulator, and stops a\n"
-    "peer. SOCKET is what that program was given as --control. Every change takes effect between\n"
-    "two datagrams; the answer says from which datagram of each direction on it holds.";
+    "Shows the state of a running hapnet-emulator or hapnet-peer, changes an emulator, and stops "
+    "a peer.";
 
 constexpr const char* footer =
-    R"(Keys are those of a profile: up.delay holds from A to B, down.delay from B to A, both.delay
-both ways. Units are mandatory: ns us ms s min for times, % for shares. A setting holds until the
-profile's timeline says something about the same key; with --for it ends by itself, so that
-nothing bad stays behind when nobody comes back.
+    R"(SOCKET is the path that the program was given as --control. Without it $HAPNET_SOCKET counts.
 
-A peer knows show, stats, watch, wait and stop. Nothing of it is changed while it runs.
+Keys are those of a profile: up.delay holds from A to B, down.delay from B to A, both.delay both
+ways. Times need a unit (ns us ms s min), shares a %. A change takes effect between two datagrams;
+the answer names the first datagram of each direction that it holds for. A setting holds until the
+timeline of the profile changes the same key. With --for it ends by itself, even if hapnet-ctl is
+gone by then.
+
+A peer answers show, stats, watch, wait and stop. Its settings cannot be changed while it runs.
 
 Examples:
   hapnet-ctl /tmp/emulator.sock show
   hapnet-ctl /tmp/emulator.sock set both.delay 80ms both.loss 1%
-  hapnet-ctl /tmp/emulator.sock set up.loss 100% --for 30s
+  hapnet-ctl /tmp/emulator.sock set up.loss=100% --for 30s
   hapnet-ctl /tmp/emulator.sock show > now.toml
   hapnet-ctl /tmp/emulator.sock diff now.toml
   hapnet-ctl /tmp/emulator.sock apply now.toml
+  hapnet-emulator check lte | hapnet-ctl /tmp/emulator.sock apply -
   hapnet-ctl /tmp/emulator.sock wait --until 'up.received>1000' --timeout 10s
   hapnet-ctl /tmp/emulator.sock stats
   hapnet-ctl /tmp/peer.sock wait --until 'messages.states_received>0'
-  hapnet-ctl /tmp/peer.sock show
-  hapnet-ctl /tmp/peer.sock stop
+  export HAPNET_SOCKET=/tmp/peer.sock; hapnet-ctl watch
+  hapnet-ctl /tmp/peer.sock stop)";
 
-Exit codes: 0 done, 1 the condition was not met in time or the program went away, 2 bad usage or
-refused by the program, 3 no program answers on the socket.)";
+constexpr const char* exit_codes = R"(  0  done
+  1  the condition was not met in time, or the program ended
+  2  bad usage, or refused by the program
+  3  no program answers on the socket)";
 
-struct Texts {
-    std::string socket;
-    std::vector<std::string> settings;
-    std::optional<std::string> lasting;
-    std::string file;
-    std::string until;
-    std::optional<std::string> timeout;
-    std::optional<std::string> every;
-    bool as_json = false;
-};
+using Words = std::vector<std::string>;
 
-void add_commands(CLI::App& app, Texts& texts)
+/// Keys and values in turn: "both.delay 80ms", or "both.delay=80ms".
+base::Result<void> take_settings(const Words& words, Options& options)
 {
-    const auto add = [&](const char* name, const char* help) {
-        auto* command = app.add_subcommand(name, help)->fallthrough();
-        command->set_help_flag("-h,--help", "Print this and exit");
-        return command;
-    };
-    add("show", "Emulator: print the conditions that hold and the rest of the timeline, as a\n"
-                "profile. Peer: print what it was told, and where it is in its life");
-    auto* set = add("set", "Emulator: change settings: set KEY VALUE [KEY VALUE ...] [--for 30s]");
-    set->add_option("settings", texts.settings, "Keys and values in turn")->type_name("KEY VALUE");
-    set->add_option("--for", texts.lasting, "Only for so long; then holds what held without it")
-        ->type_name("TIME");
-    for (auto* command :
-         {add("apply",
-              "Emulator: replace the profile by that of a file; its timeline counts from now"),
-          add("diff", "Emulator: print what apply would change")}) {
-        command->add_option("file", texts.file, "A profile; - is stdin")
-            ->type_name("FILE")
-            ->required();
-    }
-    add("reset", "Emulator: go back to what it was started with");
-    add("stats", "Print the statistics, as --stats of the program writes them");
-    auto* watch = add("watch", "Print the main figures again and again, until Ctrl-C");
-    watch->add_option("--every", texts.every, "The interval, at least 50ms (default 500ms)")
-        ->type_name("TIME");
-    add("stop", "Peer: end the session with zero force, as SIGTERM does; statistics are written");
-    auto* wait = add("wait", "Wait until a condition holds: wait --until 'up.received>1000'");
-    wait->add_option("--until", texts.until, "A key of stats, one of < <= == != >= >, and a number")
-        ->type_name("CONDITION")
-        ->required();
-    wait->add_option("--timeout", texts.timeout, "Give up after so long, with exit code 1")
-        ->type_name("TIME");
-}
-
-net::CommandLine<CtlOptions> options_from(const CLI::App& app, const Texts& texts)
-{
-    CtlOptions options{.socket = texts.socket,
-                       .command = app.get_subcommands().front()->get_name(),
-                       .settings = {},
-                       .lasting = texts.lasting,
-                       .file = texts.file,
-                       .until = texts.until,
-                       .timeout = texts.timeout,
-                       .every = texts.every,
-                       .as_json = texts.as_json};
-    if (options.command == "set" && texts.settings.empty()) {
-        return base::fail("set: what? Write set KEY VALUE, such as set both.delay 80ms");
-    }
-    if (texts.settings.size() % 2 != 0) {
-        return base::fail(fmt::format("set: '{}' has no value: set KEY VALUE [KEY VALUE ...]",
-                                      texts.settings.back()));
-    }
-    for (std::size_t i = 0; i < texts.settings.size(); i += 2) {
-        options.settings.emplace_back(texts.settings[i], texts.settings[i + 1]);
-    }
-    for (const auto& [name, text] : {std::pair{"--for", options.lasting},
-                                     {"--timeout", options.timeout},
-                                     {"--every", options.every}}) {
-        if (!text) continue;
-        if (const auto time = base::parse_duration(*text); !time) {
-            return base::fail(fmt::format("{}: {}", name, time.error().message));
+    for (auto word = words.begin(); word != words.end(); ++word) {
+        if (const auto sign = word->find('='); sign != std::string::npos && sign > 0) {
+            options.settings.emplace_back(word->substr(0, sign), word->substr(sign + 1));
+            continue;
         }
+        const std::string& key = *word;
+        if (++word == words.end()) {
+            return base::fail(fmt::format("'{0}' has no value: write set {0} VALUE", key));
+        }
+        options.settings.emplace_back(key, *word);
     }
-    return options;
+    return {};
 }
 
-/// What is wrong with a line that CLI11 has refused: it does not tell a mistyped command.
-std::string explained(std::span<char*> words, const CLI::App& app, const CLI::ParseError& error)
+void add_commands(cli::Command& program, Options& options, Words& settings)
 {
-    std::vector<std::string> commands;
-    for (const auto* command : app.get_subcommands(nullptr)) {
-        commands.push_back(command->get_name());
+    program.command("show", "Prints the conditions that hold now and the rest of the timeline, "
+                            "as a profile; of a peer its settings and state");
+    cli::Command& set = program.command("set", "Changes settings of an emulator");
+    set.positional("KEY VALUE", "A setting and its new value, such as both.delay 80ms",
+                   cli::onto(settings))
+        .repeated()
+        .required("both.delay 80ms");
+    set.option("--for", "TIME", "Hold for this time, then return to what holds without it",
+               cli::into(options.lasting, base::parse_duration));
+    cli::Command& apply = program.command("apply", "Replaces the profile of an emulator; its "
+                                                   "timeline starts now");
+    cli::Command& diff = program.command("diff", "Prints what apply would change");
+    for (cli::Command* command : {&apply, &diff}) {
+        command->positional("FILE", "A profile; - reads it from stdin", cli::into(options.file))
+            .required("now.toml");
     }
-    const auto is_command = [&](const std::string& word) {
-        return std::find(commands.begin(), commands.end(), word) != commands.end();
-    };
-    std::vector<std::string> plain; // without the options, of which none before the command has
-    for (const char* word : words.subspan(1)) { // a value
-        if (*word != '-') plain.emplace_back(word);
-    }
-    if (plain.empty() || is_command(plain[0])) {
-        return fmt::format("first comes the socket: hapnet-ctl SOCKET {}",
-                           plain.empty() ? "show" : plain[0]);
-    }
-    if (plain.size() < 2 || !is_command(plain[1])) {
-        return fmt::format("{}; commands are {}",
-                           plain.size() < 2 ? "no command is given"
-                                            : "'" + plain[1] + "' is no command",
-                           fmt::join(commands, ", "));
-    }
-    return error.what();
+    program.command("reset", "Returns an emulator to the profile that it was started with");
+    program.command("stats", "Prints the statistics, as --stats of the program writes them");
+    cli::Command& watch = program.command("watch", "Prints the main figures until Ctrl-C: in place "
+                                                   "on a terminal, otherwise a line each time");
+    watch.option("--every", "TIME", "The interval, at least 50ms (default 500ms)",
+                 cli::into(options.every, base::parse_duration));
+    cli::Command& wait = program.command("wait", "Waits until a condition holds");
+    wait.option("--until", "CONDITION", "A key of stats, one of < <= == != >= > and a number",
+                cli::into(options.until))
+        .required("'up.received>1000'");
+    wait.option("--timeout", "TIME", "Give up after this time, with exit code 1",
+                cli::into(options.timeout, base::parse_duration));
+    program.command("stop", "Ends the session of a peer with zero force, as SIGTERM does; "
+                            "statistics are written");
 }
 
 } // namespace
 
-net::CommandLine<CtlOptions> parse_ctl_options(std::span<char*> words)
+net::CommandLine<Options> parse_options(std::span<char*> words, const char* default_socket)
 {
-    CLI::App app{description, "hapnet-ctl"};
-    app.footer(footer);
-    app.set_help_flag("-h,--help", "Print this and exit");
-    app.set_version_flag("--version", base::version_line("hapnet-ctl"),
-                         "Print version, commit and compiler, and exit");
-    app.require_subcommand(1);
-    Texts texts;
-    app.add_option("socket", texts.socket, "The program's --control")
-        ->type_name("SOCKET")
-        ->required();
-    app.add_flag("--json", texts.as_json, "Print the answer as it is, for programs");
-    add_commands(app, texts);
-    try {
-        app.parse(static_cast<int>(words.size()), words.data());
-    } catch (const CLI::CallForHelp&) {
-        return net::Answer{app.help()};
-    } catch (const CLI::CallForVersion&) {
-        return net::Answer{app.version() + "\n"};
-    } catch (const CLI::ParseError& error) {
-        return base::fail(
-            fmt::format("{} (--help lists the commands)", explained(words, app, error)));
+    Options options;
+    Words settings;
+    std::string named;
+    cli::Command program{"hapnet-ctl", description};
+    program.add_footer(footer);
+    program.add_exit_codes(exit_codes);
+    program.require_command();
+    program
+        .positional("SOCKET", "The path that the program was given as --control",
+                    cli::into(options.socket))
+        .required("/tmp/emulator.sock");
+    program.option("-s,--socket", "SOCKET", "The same (default: $HAPNET_SOCKET)", cli::into(named));
+    program.flag("--json", "Print the program's answer as it comes, for scripts", options.as_json);
+    add_commands(program, options, settings);
+
+    if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    for (const cli::Command& command : program.commands()) {
+        if (command.is_chosen()) options.command = command.name();
     }
-    return options_from(app, texts);
+    if (!named.empty() && !options.socket.empty()) {
+        return base::fail(fmt::format("two sockets, {} and --socket {}: give one of them",
+                                      options.socket, named));
+    }
+    if (options.socket.empty()) options.socket = named;
+    if (options.socket.empty() && default_socket != nullptr) options.socket = default_socket;
+    if (options.socket.empty()) {
+        return base::fail(fmt::format("which program? write hapnet-ctl SOCKET {}, or set "
+                                      "HAPNET_SOCKET to the path of its --control",
+                                      options.command));
+    }
+    if (const auto taken = take_settings(settings, options); !taken) {
+        return base::fail("set: " + taken.error().message);
+    }
+    return options;
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::ctl

@@ -11,22 +11,23 @@
 #include <utility>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::ctl {
 
-/// What the command line of hapnet-ctl asks for. The program behind the socket judges most of
-/// it.
-struct CtlOptions {
+/// What the command line asks for. The program behind the socket judges most of it.
+struct Options {
     std::string socket;
     std::string command; // "show", "set", ...
     std::vector<std::pair<std::string, std::string>> settings;
-    std::optional<std::string> lasting; // --for
-    std::string file;                   // of apply and diff; "-" is stdin
+    std::optional<base::Duration> lasting; // --for
+    std::string file;                      // of apply and diff; "-" is stdin
     std::string until;
-    std::optional<std::string> timeout;
-    std::optional<std::string> every;
+    std::optional<base::Duration> timeout;
+    std::optional<base::Duration> every;
     bool as_json = false;
 };
 
-[[nodiscard]] net::CommandLine<CtlOptions> parse_ctl_options(std::span<char*> words);
+/// `default_socket` is that of $HAPNET_SOCKET; nullptr where it is not set.
+[[nodiscard]] net::CommandLine<Options> parse_options(std::span<char*> words,
+                                                      const char* default_socket);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::ctl

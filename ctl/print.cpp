@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "ctl/print.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::ctl {
 
 namespace {
 
@@ -47,9 +48,9 @@ std::uint64_t total_of(const Json& dropped)
     return total;
 }
 
-bool is_of_a_peer(const Json& reply) { return at(reply, "/program") == "hapnet-peer"; }
+bool is_from_peer(const Json& reply) { return at(reply, "/program") == "hapnet-peer"; }
 
-std::string shown_peer(const Json& reply)
+std::string peer_text(const Json& reply)
 {
     std::string text = fmt::format("hapnet-peer {}: {} ({}), {} s since its start\n",
                                    text_at(reply, "/peer_id"), text_at(reply, "/says"),
@@ -66,9 +67,9 @@ std::string shown_peer(const Json& reply)
                               text_at(reply, "/governor"), text_at(reply, "/force_n"));
 }
 
-std::string shown(const Json& reply)
+std::string state_text(const Json& reply)
 {
-    if (is_of_a_peer(reply)) return shown_peer(reply);
+    if (is_from_peer(reply)) return peer_text(reply);
     std::string text = fmt::format("# generation {}, {} s since the start, timeline at {} s",
                                    text_at(reply, "/generation"), text_at(reply, "/elapsed_s"),
                                    text_at(reply, "/timeline/position_s"));
@@ -89,7 +90,7 @@ std::string shown(const Json& reply)
     return text + text_at(reply, "/profile");
 }
 
-std::string differing(const Json& reply)
+std::string diff_text(const Json& reply)
 {
     std::string text;
     for (const Json& one : at(reply, "/changes")) {
@@ -97,7 +98,7 @@ std::string differing(const Json& reply)
                             text_at(one, "/to"));
     }
     if (at(reply, "/is_other_timeline") == true) {
-        text += fmt::format("timeline: steps to come: {} -> {}, counted from then\n",
+        text += fmt::format("timeline: steps to come: {} -> {}, counted from apply\n",
                             text_at(reply, "/timeline/from"), text_at(reply, "/timeline/to"));
     }
     return text.empty() ? "nothing would change\n" : text;
@@ -107,14 +108,14 @@ std::string differing(const Json& reply)
 
 std::string in_words(const std::string& command, const Json& reply)
 {
-    if (command == "show") return shown(reply);
-    if (command == "diff") return differing(reply);
+    if (command == "show") return state_text(reply);
+    if (command == "diff") return diff_text(reply);
     if (command == "stats") {
         Json statistics = reply;
         statistics.erase("ok");
         return statistics.dump(2) + "\n";
     }
-    if (command == "stop") return "it ends with zero force\n";
+    if (command == "stop") return "the peer ends with zero force\n";
     if (command == "wait") {
         return fmt::format("{}: {} after {} s\n", text_at(reply, "/until"),
                            at(reply, "/met") == true ? "met" : "not met",
@@ -128,8 +129,7 @@ std::string in_words(const std::string& command, const Json& reply)
 
 std::string WatchPrinter::next(const Json& reply)
 {
-    const bool has_table = is_terminal_ && !is_of_a_peer(reply);
-    std::string text = has_table ? table(reply) : line(reply);
+    std::string text = is_terminal_ ? table(reply) : line(reply);
     last_ = reply;
     return text;
 }
@@ -145,27 +145,48 @@ std::string WatchPrinter::rate(const std::string& pointer, const Json& statistic
 
 std::string WatchPrinter::table(const Json& statistics) const
 {
-    // Back to the top of the table before, whose lines are overwritten to their ends.
-    constexpr int lines = 4;
-    std::string text = last_ ? fmt::format("\x1b[{}A", lines) : "";
-    text += fmt::format("{} s, generation {}\x1b[K\n", text_at(statistics, "/elapsed_s"),
-                        text_at(statistics, "/generation"));
-    text += fmt::format("{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\x1b[K\n", "", "per s",
-                        "received", "delivered", "dropped", "in flight", "p50 us", "p99 us");
-    for (const char* direction : {"up", "down"}) {
-        const std::string place = fmt::format("/{}", direction);
-        text += fmt::format(
-            "{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\x1b[K\n", direction,
-            rate(place + "/received", statistics), text_at(statistics, place + "/received"),
-            text_at(statistics, place + "/delivered"), total_of(at(statistics, place + "/dropped")),
-            text_at(statistics, place + "/in_flight"),
-            text_at(statistics, place + "/lateness_us/p50"),
-            text_at(statistics, place + "/lateness_us/p99"));
+    std::string rows;
+    if (is_from_peer(statistics)) {
+        rows = peer_table(statistics);
+    } else {
+        rows = fmt::format("{} s, generation {}\n", text_at(statistics, "/elapsed_s"),
+                           text_at(statistics, "/generation"));
+        rows += fmt::format("{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\n", "", "per s",
+                            "received", "delivered", "dropped", "in flight", "p50 us", "p99 us");
+        for (const char* direction : {"up", "down"}) {
+            const std::string place = fmt::format("/{}", direction);
+            rows += fmt::format("{:<5}{:>9}{:>12}{:>12}{:>12}{:>10}{:>10}{:>10}\n", direction,
+                                rate(place + "/received", statistics),
+                                text_at(statistics, place + "/received"),
+                                text_at(statistics, place + "/delivered"),
+                                total_of(at(statistics, place + "/dropped")),
+                                text_at(statistics, place + "/in_flight"),
+                                text_at(statistics, place + "/lateness_us/p50"),
+                                text_at(statistics, place + "/lateness_us/p99"));
+        }
     }
+    // Back to the top of the table before, whose lines are overwritten to their ends.
+    const auto lines = std::count(rows.begin(), rows.end(), '\n');
+    std::string text = last_ ? fmt::format("\x1b[{}A", lines) : "";
+    for (const char c : rows) text += c == '\n' ? "\x1b[K\n" : std::string{c};
     return text;
 }
 
-std::string WatchPrinter::line_of_peer(const Json& statistics) const
+std::string WatchPrinter::peer_table(const Json& statistics) const
+{
+    return fmt::format("{} s, governor {}, fault {}\n{:>12}{:>9}{:>12}{:>12}{:>12}{:>9}\n"
+                       "{:>12}{:>9}{:>12}{:>12}{:>12}{:>9}\n",
+                       text_at(statistics, "/elapsed_s"), text_at(statistics, "/governor/state"),
+                       text_at(statistics, "/governor/fault"), "ticks", "missed", "late p99 us",
+                       "sent", "received", "per s", text_at(statistics, "/tick/count"),
+                       text_at(statistics, "/tick/missed"),
+                       text_at(statistics, "/tick/late_us/p99"),
+                       text_at(statistics, "/messages/states_sent"),
+                       text_at(statistics, "/messages/states_received"),
+                       rate("/messages/states_received", statistics));
+}
+
+std::string WatchPrinter::peer_line(const Json& statistics) const
 {
     return fmt::format(
         "elapsed_s={} ticks={} missed={} late_p99_us={} sent={} received={} "
@@ -180,7 +201,7 @@ std::string WatchPrinter::line_of_peer(const Json& statistics) const
 
 std::string WatchPrinter::line(const Json& statistics) const
 {
-    if (is_of_a_peer(statistics)) return line_of_peer(statistics);
+    if (is_from_peer(statistics)) return peer_line(statistics);
     std::string text = fmt::format("elapsed_s={} generation={}", text_at(statistics, "/elapsed_s"),
                                    text_at(statistics, "/generation"));
     for (const char* direction : {"up", "down"}) {
@@ -196,4 +217,4 @@ std::string WatchPrinter::line(const Json& statistics) const
     return text + "\n";
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::ctl

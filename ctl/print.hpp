@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-namespace hapnet::emulator {
+namespace hapnet::ctl {
 
-// The answers of an emulator, or of a peer, for a person. A key that a program of another version
-// does not send is shown as "-".
+// The answers of an emulator or a peer, for a person. A key that a program of another version does
+// not send is shown as "-".
 
 /// The answer to `command`, except those to watch.
 [[nodiscard]] std::string in_words(const std::string& command, const nlohmann::ordered_json& reply);
@@ -19,19 +19,20 @@ class WatchPrinter {
 public:
     explicit WatchPrinter(bool is_terminal) : is_terminal_{is_terminal} {}
 
-    /// What to print for the next line: a table that takes the place of the last one in a
-    /// terminal, otherwise one line.
+    /// What to print for the next answer: on a terminal a table that takes the place of the last
+    /// one, otherwise a line of key=value.
     [[nodiscard]] std::string next(const nlohmann::ordered_json& reply);
 
 private:
     [[nodiscard]] std::string rate(const std::string& pointer,
                                    const nlohmann::ordered_json& statistics) const;
     [[nodiscard]] std::string table(const nlohmann::ordered_json& statistics) const;
+    [[nodiscard]] std::string peer_table(const nlohmann::ordered_json& statistics) const;
     [[nodiscard]] std::string line(const nlohmann::ordered_json& statistics) const;
-    [[nodiscard]] std::string line_of_peer(const nlohmann::ordered_json& statistics) const;
+    [[nodiscard]] std::string peer_line(const nlohmann::ordered_json& statistics) const;
 
     bool is_terminal_;
     std::optional<nlohmann::ordered_json> last_;
 };
 
-} // namespace hapnet::emulator
+} // namespace hapnet::ctl

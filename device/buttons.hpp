@@ -19,8 +19,8 @@ class Buttons {
 public:
     static constexpr base::Duration settling{std::chrono::milliseconds{5}};
 
-    /// What the switches say now, one bit each, 1 where it is down; `now` never runs backwards.
-    /// Once for each word from the device.
+    /// The switches now, one bit each, 1 for down; `now` never runs backwards.
+    /// Once for each report from the device.
     void update(std::uint8_t down, base::TimePoint now)
     {
         for (std::size_t i = 0; i < since_.size(); ++i) {
@@ -40,7 +40,7 @@ public:
 
     /// One bit each; bit 0 is the primary one.
     [[nodiscard]] std::uint8_t held() const { return held_; }
-    /// How often the primary one has been pressed; begins again after 65535.
+    /// Number of presses of the primary one; wraps around after 65535.
     [[nodiscard]] std::uint16_t presses() const { return presses_; }
 
     /// Says all that in a sample.

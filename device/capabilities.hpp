@@ -13,7 +13,7 @@
 
 namespace hapnet::device {
 
-/// The sentence that goes with every device that this software knows from descriptions only.
+/// The note on every device that this software knows from descriptions only.
 inline constexpr std::string_view never_run = "never run on the physical device";
 
 /// Which device it is.
@@ -21,35 +21,42 @@ struct Identity {
     std::string backend{}; // as in --device BACKEND:SERIAL
     std::string serial{};  // "": it has none
     std::string model{};   // such as "PHANToM Omni (FireWire)"
-    std::string note{};    // what a user has to know, such as never_run
+    std::string note{};    // for the user, such as never_run
 };
 
-/// Who sets the rhythm of the loop.
+/// The clock of the loop.
 enum class Pacing : std::uint8_t {
     host,   // it answers when asked
     device, // it, or its library, owns the loop: see Device::pace()
 };
 
-/// What the joints of an arm can bear.
-struct JointLimits {
+/// A kind of arm: its name in the texts of limits ("omni_torque_max"), and its geometry.
+struct Mechanism {
+    std::string_view name{};
     /// d position / d joint, m/rad, at a position in the device's frame.
     glm::dmat3 (*jacobian)(const base::Position& position) = nullptr;
+};
+
+/// The limits of an arm's joints.
+struct JointLimits {
+    Mechanism mechanism{};
     glm::dvec3 torque_max_nm{0.0};
 };
 
-/// What a device can do. Places are in the device's own frame.
+/// The abilities of a device. Places are in the device's own frame.
 struct Capabilities {
     base::Position workspace_min{{-0.08, -0.06, -0.035}};
     base::Position workspace_max{{0.08, 0.06, 0.035}};
     double force_max_n = 0.0;           // peak, in any direction
     double force_continuous_n = 0.0;    // that its motors bear for ever
-    double stiffness_max_n_per_m = 0.0; // of a contact, that stays stable; 0: nobody has said
-    double damping_max_ns_per_m = 0.0;  // likewise: told, nothing holds a scene to it
-    double resolution_m = 0.0;          // of positions
-    /// Faster than this no hand that holds it moves: 1 m/s is far above any task.
+    double stiffness_max_n_per_m = 0.0; // of a contact that stays stable; 0: not known
+    double damping_max_ns_per_m =
+        0.0;                   // likewise; for information only, scenes are not limited by it
+    double resolution_m = 0.0; // of positions
+    /// No hand moves the device faster than this: 1 m/s is far above any task.
     double speed_max_m_per_s = std::numeric_limits<double>::infinity();
     int axes_in = 3;
-    int axes_out = 3; // the first so many; 0: it has no motors
+    int axes_out = 3; // the first n axes; 0: it has no motors
     int buttons = 1;
     bool has_holder = false; // for its stylus, and it knows when that rests there
     bool has_orientation = false;

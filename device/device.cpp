@@ -14,7 +14,7 @@ constexpr std::string_view calibration_failed =
 
 } // namespace
 
-std::string_view words_for(CalibrationStep step)
+std::string_view describe(CalibrationStep step)
 {
     switch (step) {
     case CalibrationStep::done: return "";

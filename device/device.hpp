@@ -19,31 +19,32 @@ namespace hapnet::device {
 /// A device that was seen.
 struct Found {
     Identity identity;
-    std::optional<Trouble> unusable{}; // why, and the cure
+    std::optional<DeviceError> unusable{}; // why, and the cure
 };
 
-/// What a device says of its stylus, in the device's own frame: right-handed, x right, y up,
-/// z toward the user, metres.
+/// A device's report on its stylus, in the device's own frame: right-handed, x right, y up, z
+/// toward the user, metres.
 struct Sample {
     base::Position hip;
     base::Velocity velocity; // already smoothed as the device's resolution demands
     bool gripping = false;   // the primary button is held down
-    bool docked = false;     // the stylus rests in its holder: nobody holds it
+    bool docked = false;     // the stylus rests in its holder, in no hand
     bool calibrated = true;  // positions mean something
     Fault fault = Fault::none;
-    std::uint8_t buttons = 0;   // one bit each, debounced; bit 0 is the primary one
-    std::uint16_t presses = 0;  // of the primary button, counted: for who looks rarely
-    std::uint64_t sequence = 0; // grows with every word from the device: else this one is old
+    std::uint8_t buttons = 0;  // one bit each, debounced; bit 0 is the primary one
+    std::uint16_t presses = 0; // of the primary button, counted: for rare readers
+    std::uint64_t sequence =
+        0; // grows with every report from the device: otherwise this one is old
 };
 
-/// Whether there is a hand at the sample's place: an uncalibrated device, a stylus in its holder or
-/// a device at fault say nothing of one.
+/// Whether a hand holds the stylus at the sample's place. An uncalibrated device, a stylus in its
+/// holder and a device at fault do not tell.
 [[nodiscard]] constexpr bool is_in_hand(const Sample& sample)
 {
     return sample.calibrated && !sample.docked && sample.fault == Fault::none;
 }
 
-/// What a calibration needs next.
+/// The next step of a calibration.
 enum class CalibrationStep : std::uint8_t {
     done,
     busy,         // the device is at it: ask again
@@ -51,11 +52,11 @@ enum class CalibrationStep : std::uint8_t {
     sweep_joints, // the person is to move the grip through its whole reach, to every stop
     failed,       // the sample's fault says why
 };
-/// What the person is to do, or what goes on: for a status line. "" for done.
-[[nodiscard]] std::string_view words_for(CalibrationStep step);
+/// The step in words for a status line, with what the person is to do. "" for done.
+[[nodiscard]] std::string_view describe(CalibrationStep step);
 
-/// What the session tells whoever holds the device. A person reads it off the screen; a
-/// simulated hand acts its task by it.
+/// The start of a session, for the holder of the device. A person reads it off the screen; a
+/// simulated hand plays its task by it.
 struct Cue {
     base::TimePoint start;   // of the session
     base::Duration hands_on; // from the start; then the hands let go
@@ -100,7 +101,7 @@ public:
     /// simulated hand does it.
     virtual void on_fault(bool /*is_latched*/) {}
 
-    /// Only where capabilities().pacing is Pacing::device: calls `beat` once for each cycle of the
+    /// Only when capabilities().pacing is Pacing::device: calls `beat` once for each cycle of the
     /// device, on the calling thread; read() and apply() belong inside. Returns when `beat` says
     /// false, or when no cycle came for 100 ms; then the host may go on at its own pace. Lets
     /// through what `beat` throws.

@@ -11,28 +11,7 @@ constexpr std::string_view driver_failed =
 
 } // namespace
 
-std::string_view name_of(Fault fault)
-{
-    switch (fault) {
-    case Fault::none: return "none";
-    case Fault::not_found: return "not-found";
-    case Fault::permission: return "permission";
-    case Fault::in_use: return "in-use";
-    case Fault::firmware_missing: return "firmware-missing";
-    case Fault::library_missing: return "library-missing";
-    case Fault::communication: return "communication";
-    case Fault::timeout: return "timeout";
-    case Fault::overheat: return "overheat";
-    case Fault::over_force: return "over-force";
-    case Fault::over_velocity: return "over-velocity";
-    case Fault::not_calibrated: return "not-calibrated";
-    case Fault::disconnected: return "disconnected";
-    case Fault::internal: return "internal";
-    }
-    return "internal";
-}
-
-std::string_view words_for(Fault fault)
+std::string_view describe(Fault fault)
 {
     switch (fault) {
     case Fault::none: return "";
@@ -47,11 +26,11 @@ std::string_view words_for(Fault fault)
     case Fault::library_missing:
         return "the device needs its vendor's library: install it, or say where it is";
     case Fault::communication:
-        return "the device was not understood: check its cable, and use no hub";
-    case Fault::timeout: return "the device answers no more: check its cable and power";
+        return "the device sent data that makes no sense: check its cable, and use no hub";
+    case Fault::timeout: return "the device does not answer: check its cable and power";
     case Fault::overheat: return "a motor of the device is hot: let it cool down";
     case Fault::over_force:
-        return "the device was asked for more force than it has: a lower --force-limit helps";
+        return "the device was asked for more force than it has: use a lower --force-limit";
     case Fault::over_velocity: return "it was moved too fast, or was let go under force";
     case Fault::not_calibrated: return "the device has lost its calibration: calibrate it again";
     case Fault::disconnected: return "the device has gone: plug it in and start again";

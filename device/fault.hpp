@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,8 +12,8 @@
 
 namespace hapnet::device {
 
-/// What can be wrong with a device: a closed set, to which every backend maps what its library,
-/// the kernel or the device itself says.
+/// The faults of a device: a closed set. Every backend maps the errors of its library, of the
+/// kernel and of the device itself to it.
 enum class Fault : std::uint8_t {
     none,
     not_found,
@@ -19,8 +21,8 @@ enum class Fault : std::uint8_t {
     in_use,           // another program has it
     firmware_missing, // it runs only on firmware that a user has to supply
     library_missing,  // its vendor's library
-    communication,    // it says what makes no sense, or its library reports an error of the line
-    timeout,          // it answers no more
+    communication,    // its reports make no sense, or its library reports an error of the line
+    timeout,          // it does not answer any more
     overheat,
     over_force,
     over_velocity,
@@ -29,27 +31,33 @@ enum class Fault : std::uint8_t {
     internal, // of a library, or of this program
 };
 
-/// Such as "over-velocity": in statistics.
-[[nodiscard]] std::string_view name_of(Fault fault);
-/// What it means and what to do about it, for a person: one sentence or two. "" for none.
-[[nodiscard]] std::string_view words_for(Fault fault);
+/// In statistics.
+constexpr auto names_of(base::Tag<Fault> /*enum*/)
+{
+    return base::names("none", "not-found", "permission", "in-use", "firmware-missing",
+                       "library-missing", "communication", "timeout", "overheat", "over-force",
+                       "over-velocity", "not-calibrated", "disconnected", "internal");
+}
+using base::name_of;
+/// The fault in words, with what to do about it: one sentence or two. "" for none.
+[[nodiscard]] std::string_view describe(Fault fault);
 
-/// Why a device cannot be used.
-struct Trouble {
+/// The reason why a device cannot be used.
+struct DeviceError {
     Fault fault = Fault::internal;
     std::string message;   // what happened, and the cure
     std::int64_t code = 0; // the library's or the kernel's own number for it; 0: none
 };
 
-/// A value, or why there is none.
+/// A value, or the reason why a device gives none.
 template <typename T>
-using Opened = tl::expected<T, Trouble>;
+using Opened = tl::expected<T, DeviceError>;
 
 /// The failing side of an Opened.
-[[nodiscard]] inline tl::unexpected<Trouble> trouble(Fault fault, std::string message,
-                                                     std::int64_t code = 0)
+[[nodiscard]] inline tl::unexpected<DeviceError> device_error(Fault fault, std::string message,
+                                                              std::int64_t code = 0)
 {
-    return tl::unexpected<Trouble>{Trouble{fault, std::move(message), code}};
+    return tl::unexpected<DeviceError>{DeviceError{fault, std::move(message), code}};
 }
 
 } // namespace hapnet::device

@@ -23,23 +23,10 @@ bool is_release(const base::Force& from, const base::Force& to)
 
 } // namespace
 
-std::string_view name_of(GovernorState state)
-{
-    switch (state) {
-    case GovernorState::off: return "off";
-    case GovernorState::calibrating: return "calibrating";
-    case GovernorState::ready: return "ready";
-    case GovernorState::ramping: return "ramping";
-    case GovernorState::active: return "active";
-    case GovernorState::fault: return "fault";
-    }
-    return "off";
-}
-
 Governor::Governor(const GovernorLimits& limits)
     : limits_{limits}, heat_{limits.force_continuous_n, limits.heat_time}
 {
-    base::ensure(contradiction_in(limits).empty());
+    base::ensure(validate(limits).has_value());
 }
 
 GovernorState Governor::state() const
@@ -51,20 +38,21 @@ GovernorState Governor::state() const
     return strength_ < 1.0 ? GovernorState::ramping : GovernorState::active;
 }
 
-GovernedForce Governor::govern(const Wish& wish, const Sample& sample, base::TimePoint now)
+GovernedForce Governor::govern(const ForceRequest& request, const Sample& sample,
+                               base::TimePoint now)
 {
     const base::Duration gap = pass(now);
     const bool usable = may_push(sample, gap);
     if (!usable) to_zero();
     if (gap != step_.gap) step_ = step_of(gap);
-    fade(wish.permitted && usable && limits_.axes_out > 0);
-    last_ = shape(wish.force, sample);
+    fade(request.permitted && usable && limits_.axes_out > 0);
+    last_ = shape(request.force, sample);
     return strength_ > 0.0 ? GovernedForce{last_} : GovernedForce{};
 }
 
 void Governor::latch(const Latched& cause)
 {
-    // A loop that stood still while there was no force has harmed nobody.
+    // A loop that stood still without force has done no harm.
     if (cause.trip == Trip::loop && strength_ == 0.0) return;
     if (!latch_.close(cause)) return;
     to_zero();

@@ -17,9 +17,9 @@
 
 namespace hapnet::device {
 
-/// How often each rule had to act: in ticks, where nothing else is said.
+/// How often each rule acted; in ticks, unless stated otherwise.
 struct GovernorCounters {
-    std::uint64_t not_finite = 0;    // wishes that were no numbers
+    std::uint64_t not_finite = 0;    // requests that were no numbers
     std::uint64_t clamped = 0;       // to the peak
     std::uint64_t heat_limited = 0;  // to what warm motors bear
     std::uint64_t joint_limited = 0; // to what the joints' motors have
@@ -42,15 +42,15 @@ struct GovernorCounters {
     std::uint64_t resets = 0; // faults that an operator ended
 };
 
-/// What the scene wants of a hand.
-struct Wish {
+/// The force that the scene requests for a hand.
+struct ForceRequest {
     base::Force force;      // in the device's frame
     bool permitted = false; // there is a session, and its other side is heard
 };
 
-/// Where a governor stands.
+/// The state of a governor.
 enum class GovernorState : std::uint8_t {
-    off,         // the device has not said a word yet
+    off,         // no report from the device yet
     calibrating, // positions mean nothing yet
     ready,       // zero force: docked, or nothing is permitted
     ramping,     // at part of its strength: on its way in or out
@@ -58,8 +58,11 @@ enum class GovernorState : std::uint8_t {
     fault, // latched: zero force until an operator has acted
 };
 
-/// Such as "ramping": in statistics.
-[[nodiscard]] std::string_view name_of(GovernorState state);
+/// In statistics.
+constexpr auto names_of(base::Tag<GovernorState> /*enum*/)
+{
+    return base::names("off", "calibrating", "ready", "ramping", "active", "fault");
+}
 
 /// Stands between what the scene wants and what a motor gets; the only way to a motor. Its rules,
 /// their numbers and the reasons for them: docs/design/governor.md. In short: zero at once for what
@@ -69,16 +72,18 @@ enum class GovernorState : std::uint8_t {
 /// joints' motors have; the change per tick is limited. What is wrong with the device is latched.
 class Governor {
 public:
-    /// The limits are without contradiction.
+    /// The limits must be valid: see validate().
     explicit Governor(const GovernorLimits& limits);
 
     /// The force to apply now. Call once per tick, with what the device just said; `now` never runs
     /// backwards.
-    [[nodiscard]] GovernedForce govern(const Wish& wish, const Sample& sample, base::TimePoint now);
+    [[nodiscard]] GovernedForce govern(const ForceRequest& request, const Sample& sample,
+                                       base::TimePoint now);
 
-    /// Somebody else found a reason to stop, such as a watchdog: zero from the next tick on.
+    /// For another party that found a reason to stop, such as a watchdog: zero from the next tick
+    /// on.
     void latch(const Latched& cause);
-    /// An operator's word that the fault is over; it comes back if it is not.
+    /// An operator ends the fault; it comes back if its cause remains.
     void reset();
 
     [[nodiscard]] GovernorState state() const;
@@ -86,11 +91,11 @@ public:
     [[nodiscard]] const Latched& fault() const { return latch_.cause(); }
     [[nodiscard]] const GovernorCounters& counters() const { return counters_; }
     [[nodiscard]] const GovernorLimits& limits() const { return limits_; }
-    /// Of the motors, by the forces so far: above 1 the limit goes down.
+    /// Of the motors, by the forces until now: above 1 the limit goes down.
     [[nodiscard]] double heat() const { return heat_.heat(); }
 
 private:
-    /// What a gap between two ticks comes to.
+    /// The effects of a gap between two ticks.
     struct Step {
         base::Duration gap{};
         double ramp = 0.0;   // of strength

@@ -6,7 +6,7 @@
 
 namespace hapnet::device {
 
-/// Where a device stands in the scene: scene = offset + scale * device. One scale for all axes, or
+/// The place of a device in the scene: scene = offset + scale * device. One scale for all axes, or
 /// pushing along one would do work along another. Forces go back through the same scale, so that
 /// the power at the hand is the power in the scene.
 struct Mount {

@@ -10,15 +10,15 @@
 
 namespace hapnet::device {
 
-/// How a device kept up.
+/// Counters of a device's reports.
 struct RigCounters {
     std::uint64_t reads = 0;
-    std::uint64_t repeated = 0;      // of them without a new word from the device
+    std::uint64_t repeated = 0;      // of them without a new report from the device
     std::uint64_t repeated_most = 0; // in a row
 };
 
-/// A device mounted in the scene, with the governor in front of its motors: all that a loop sees of
-/// it. What goes in and comes out is in the scene's frame.
+/// A device mounted in the scene, with the governor in front of its motors. Loops use devices only
+/// through it. Inputs and outputs are in the scene's frame.
 class Rig {
 public:
     /// The limits of the device itself hold, too: see limits_for().
@@ -26,12 +26,16 @@ public:
 
     /// Calibrates as far as that is needed, and reads.
     [[nodiscard]] const Sample& read(base::TimePoint now);
-    /// Governs the wish and applies what is left of it; gives that, at the hand. Once per read().
+    /// Governs the wanted force, applies the result and returns it, at the hand. Once per read().
     base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now);
-    /// The same, but the device is told zero: somebody has let go of it since read(), and what
-    /// follows from that place may be long untrue. The governor itself finds out in the next tick.
+    /// The same, but the device is told zero: it was halted after read(), and a force for that
+    /// place may be long outdated. The governor itself notices in the next tick.
     base::Force withhold(const base::Force& wanted, bool permitted, base::TimePoint now);
 
+    /// The start of a session, for the holder of the device.
+    void on_cue(const Cue& cue) { device_->on_cue(cue); }
+
+    [[nodiscard]] GovernorState governor_state() const { return governor_.state(); }
     [[nodiscard]] const Governor& governor() const { return governor_; }
     [[nodiscard]] Governor& governor() { return governor_; }
     [[nodiscard]] const RigCounters& counters() const { return counters_; }

@@ -9,7 +9,7 @@
 
 namespace hapnet::device {
 
-/// What the kernel shows a USB device as, to the backend that drives it.
+/// The identity that the kernel shows of a USB device, for the backend that drives it.
 enum class UsbNode : std::uint8_t { usb, hidraw, tty };
 
 enum class UsbKind : std::uint8_t { falcon, force_board, spacemouse, touch };

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/commands.hpp"
 #include "emulator/core/profile/text.hpp"
-#include "emulator/dry_run.hpp"
-#include "emulator/profile_file.hpp"
+#include "emulator/scenario.hpp"
 #include "emulator/tools/predict.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <string>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -24,17 +26,21 @@ std::string in_words(std::string_view title, const Conditions& conditions, const
     return text;
 }
 
+} // namespace
+
 /// The profile, and what it means as comments: the whole reads as a profile again.
-base::Result<int> check_profile(const DryRun& dry_run)
+base::Result<int> run(const CheckOptions& options)
 {
-    const auto profile = load_profile(dry_run.profile);
-    if (!profile) return base::fail(profile.error().message);
+    std::vector<std::string> netem_warnings;
+    const auto profile = profile_for(options.conditions, netem_warnings);
+    if (!profile) return tl::unexpected{profile.error()};
     // What holds at the beginning; changes are not in it.
     const Profile beginning{profile->name, profile->seed, profile->path, {}};
-    const Stream& stream = dry_run.stream;
-    const auto prediction = predicted(beginning, stream, seed_of(dry_run, *profile));
+    const Stream& stream = options.stream;
+    const auto prediction = predicted(beginning, stream, seed_of(options.conditions, *profile));
     const auto& [up, down] = profile->path;
     fmt::print("{}\n", to_text(*profile));
+    for (const std::string& warning : netem_warnings) fmt::print("# warning: {}\n", warning);
     if (up == down) {
         fmt::print("{}", in_words("both ways", up, stream, prediction.up));
     } else {
@@ -46,13 +52,6 @@ base::Result<int> check_profile(const DryRun& dry_run)
                    base::to_seconds(profile->timeline.back().time));
     }
     return 0;
-}
-
-} // namespace
-
-int check_command(std::span<char*> words)
-{
-    return net::run_program("hapnet-emulator check", parse_check(words), check_profile);
 }
 
 } // namespace hapnet::emulator

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/emulate.hpp"
-
+#include "emulator/commands.hpp"
 #include "emulator/control/reply.hpp"
 #include "emulator/core/director.hpp"
 #include "emulator/options.hpp"
@@ -157,8 +156,8 @@ private:
         }
         std::ignore = director_.apply(Apply{scenario->profile}, now); // is never refused
         relay_.change(director_.path(), now);
-        tell(fmt::format("SIGHUP: {} is read again, generation {}", *run_.options.profile,
-                         director_.generation()));
+        tell(fmt::format("SIGHUP: {} is read again, generation {}",
+                         *run_.options.conditions.profile, director_.generation()));
     }
 
     /// Once, and while there is time to make room or to begin again.
@@ -189,6 +188,8 @@ private:
     Status status_;
 };
 
+} // namespace
+
 base::Result<int> run(const Options& options)
 {
     const auto scenario = scenario_of(options);
@@ -196,15 +197,11 @@ base::Result<int> run(const Options& options)
     const auto places = look_up(options);
     if (!places) return tl::unexpected{places.error()};
     // Without a profile there is nothing to read again, and a closed terminal ends the run.
-    net::StopSignal stop{options.profile ? net::Hangup::reload : net::Hangup::stop};
+    net::StopSignal stop{options.conditions.profile ? net::Hangup::reload : net::Hangup::stop};
     Session session{options, *scenario, *places};
     session.announce();
     session.relay_until_stopped(stop);
     return session.finish();
 }
-
-} // namespace
-
-int emulate(std::span<char*> words) { return net::run_program(program, parse_options(words), run); }
 
 } // namespace hapnet::emulator

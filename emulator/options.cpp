@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/options.hpp"
 
+#include "emulator/presets.hpp"
 #include "proto/base/text.hpp"
-#include "proto/base/version.hpp"
+#include "proto/cli/command.hpp"
+#include "proto/cli/parsers.hpp"
+#include "proto/cli/synonyms.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
-#include <limits>
 #include <spdlog/fmt/fmt.h>
+#include <tuple>
 #include <utility>
 
 namespace hapnet::emulator {
@@ -16,255 +18,332 @@ namespace hapnet::emulator {
 namespace {
 
 constexpr const char* description =
-    "A UDP relay that stands between two hosts, A and B, and impairs what passes: delay, jitter,\n"
-    "loss, copies, bit errors, reordering, a rate, outages; by a seed, and never early.\n"
-    "What arrives at listen-a from A leaves from listen-b for B, and the other way round.\n"
-    "Needs no root. Without --a and --b it takes the first sender on each side, on loopback only;\n"
-    "when that one has been silent for 1 s, a new one may take its place.";
+    "A UDP relay between two hosts, A and B. It delays, drops, duplicates, corrupts, reorders and "
+    "rate-limits datagrams; the same seed repeats a run exactly. What arrives at listen-a from A "
+    "leaves from listen-b for B, and the other way round. No root is needed.\n"
+    "\n"
+    "Without --a and --b the emulator takes the first sender on each side, on loopback only. When "
+    "that sender has been silent for 1 s, another one may take its place.";
 
 constexpr const char* footer =
     R"(Units are mandatory: ns us ms s min for times, % for shares, B KiB for sizes, kbit/s Mbit/s
-for rates; a bare 0 is zero. Each condition holds both ways; --up.delay 20ms or --down.loss 5% holds
-one way only (up: A to B, down: B to A) and wins over the plain one, and each takes whatever a
-profile takes: --loss '{ law = "gilbert", share = "2%", mean_burst = 5.0 }'.
-Conditions given here win over those of --profile or --netem.
-Datagrams pass mtu, rate, loss, corrupt, duplicate, delay, jitter, order, reorder, in this order.
-The same seed loses the same n-th datagrams of a direction in every run, whatever the rest is.
+for rates; a bare 0 is zero. Each condition holds both ways. --up.delay 20ms or --down.loss 5% holds
+one way only (up: A to B, down: B to A) and wins over the plain one. Each takes whatever a profile
+takes, such as --loss '{ law = "gilbert", share = "2%", mean_burst = 5.0 }'. Conditions given here
+win over those of --profile or --netem.
+
+Datagrams pass mtu, rate, loss, corrupt, duplicate, delay, jitter, order and reorder, in this order.
+With the same seed the same datagrams are lost in every run, whatever the other settings. No
+datagram leaves before it has arrived.
 
 Examples:
-  hapnet-emulator --listen-a 127.0.0.1:7001 --listen-b 127.0.0.1:7002 --delay 160ms
+  hapnet-emulator --listen-a :7001 --listen-b :7002 --delay 160ms
   hapnet-emulator --listen-a 0.0.0.0:7001 --listen-b 0.0.0.0:7002 \
-      --a 10.0.0.1:7000 --b 10.0.0.2:7000 --delay 80ms --jitter 5ms --down.loss 10% \
-      --seed 42 --duration 30s --stats run.json
-  hapnet-emulator --listen-a 127.0.0.1:7001 --listen-b 127.0.0.1:7002 --profile wifi-busy \
+      --a 10.0.0.1:7000 --b 10.0.0.2:7000 --delay 80ms --jitter 5ms \
+      --down.loss 10% --seed 42 --duration 30s --stats run.json
+  hapnet-emulator --listen-a :7001 --listen-b :7002 --profile wifi-busy \
       --control emulator.sock --fates fates.csv --pcap run.pcapng
+  hapnet-emulator predict lte --rate 1000
+  hapnet-emulator check --delay 80ms --jitter 15ms
 
-Without a network (each has a --help of its own):
-  hapnet-emulator check PROFILE                   what a profile says, stage by stage
-  hapnet-emulator predict PROFILE --rate 1000     what it will do to so many datagrams a second
-  hapnet-emulator verify RUN                      whether a run's fates follow their laws
+The emulator prints one line "ready a=... b=..." on stdout when it listens; port 0 takes any free
+port. SIGINT or SIGTERM ends the run and writes the files. SIGHUP reads --profile again; without a
+profile it ends the run.)";
 
-Prints one line "ready a=... b=..." on stdout when it listens; port 0 takes any free port.
-SIGINT or SIGTERM ends it and writes the files; SIGHUP reads --profile again (and ends
-a run without one).
-Exit codes: 0 done, 1 the run failed, 2 bad usage or input, 3 the system refused (port in use).)";
+constexpr const char* exit_codes = R"(  0  done
+  1  the run failed
+  2  bad usage or input
+  3  the system refused (port in use, no permission))";
 
-/// What follows an option, if it was given.
-using Text = std::optional<std::string>;
+constexpr const char* check_description =
+    "Prints a profile in canonical form, describes each stage, and warns of effects that are "
+    "easily overlooked. The output is a profile again: the rest is comments.";
 
-/// A condition, and what --help says of it.
+constexpr const char* check_footer =
+    R"(Examples:
+  hapnet-emulator check --list
+  hapnet-emulator check lte > mine.toml
+  hapnet-emulator check --netem "delay 80ms 5ms loss 1%")";
+
+constexpr const char* check_exit_codes = R"(  0  the profile can be used
+  2  bad usage, or a profile with an error)";
+
+constexpr const char* predict_description =
+    "Sends a stream of datagrams through a profile in virtual time, by the same code that relays "
+    "real ones, and prints the outcome beside what theory says.";
+
+constexpr const char* predict_footer =
+    R"(Examples:
+  hapnet-emulator predict lte --rate 1000
+  hapnet-emulator predict --jitter 15ms
+  hapnet-emulator predict wifi-busy --packets 1000000 --json)";
+
+constexpr const char* predict_exit_codes = R"(  0  done
+  2  bad usage, or a profile with an error)";
+
+constexpr const char* verify_description =
+    "Tests whether the fates of a run follow its profile: shares, runs and bursts of losses, the "
+    "steps of their chains, delays, the two directions against each other and, with the seed, "
+    "every single fate.";
+
+constexpr const char* verify_footer =
+    R"(RUN is the file that --stats wrote in a run with --fates; or the file that --fates wrote, with
+--profile; or a folder with fates.csv and profile.toml. A test fails when a run that follows its
+profile would look like this one time in a million. A test is called unable where the datagrams are
+too few, or where fates cannot tell.
+
+Examples:
+  hapnet-emulator verify run.json
+  hapnet-emulator verify fates.csv --profile wifi-busy --seed 42 --rate 1000
+  hapnet-emulator verify results/run-7 --json)";
+
+constexpr const char* verify_exit_codes = R"(  0  no test failed
+  1  a test failed
+  2  bad usage, or a file that cannot be used)";
+
+/// A condition, and its line in --help.
 struct Condition {
     const char* name;
     const char* type;
     const char* help;
 };
-constexpr std::array condition_options{
-    Condition{"delay", "TIME", "Delay of every datagram (default 0)"},
+constexpr std::array listed_conditions{
+    Condition{"delay", "TIME", "Delay every datagram (default 0)"},
     Condition{"jitter", "TIME",
-              "Half width of a uniform offset, drawn for each datagram: 5ms is -5ms to +5ms\n"
-              "(default 0). Nothing leaves before it has arrived."},
-    Condition{"order", "keep|free|sorted",
-              "Whether jitter may reorder. keep (default): never; wide jitter then lengthens the\n"
-              "mean delay. free: each datagram leaves at its own time. sorted: at the times of\n"
-              "free, but in order."},
-    Condition{"loss", "SHARE", "Loss of each datagram on its own (default 0)"},
-    Condition{"burst-loss", "LOST/OF", "40/100: lose 40 in a row of every 100 (default 0)"},
-    Condition{"duplicate", "SHARE", "Send a second copy of so many (default 0)"},
-    Condition{"corrupt", "SHARE", "Invert a bit of so many (default 0)"},
+              "Draw an offset for each datagram, uniform within this half width: 5ms is -5ms to "
+              "+5ms (default 0)"},
+    Condition{"order", "ORDER",
+              "Whether jitter may reorder. keep (default): never; wide jitter then lengthens the "
+              "mean delay. free: each datagram leaves at its own time. sorted: at the times of "
+              "free, but in order"},
+    Condition{"loss", "SHARE", "Drop this share, each datagram on its own (default 0)"},
+    Condition{"burst-loss", "LOST/OF", "40/100: drop 40 in a row out of every 100 (default 0)"},
+    Condition{"duplicate", "SHARE", "Duplicate this share (default 0)"},
+    Condition{"corrupt", "SHARE", "Flip one bit in this share (default 0)"},
     Condition{"reorder", "TABLE",
-              "Send some behind their turn: '{ share = \"1%\", displacement = 3 }'"},
-    Condition{"rate", "RATE", "Bits per second, with a drop-tail queue of 64KiB (default: any)"},
-    Condition{"mtu", "SIZE", "Drop what is larger with its IP and UDP headers (default: none)"},
+              "Hold back this share so that later datagrams overtake: '{ share = \"1%\", "
+              "displacement = 3 }'"},
+    Condition{"rate", "RATE",
+              "Limit the bit rate, with a drop-tail queue of 64KiB (default: no limit)"},
+    Condition{"mtu", "SIZE",
+              "Drop datagrams larger than this, IP and UDP headers included (default: none)"},
 };
 
-constexpr std::array<const char*, 3> prefixes{"", "up.", "down."};
+constexpr const char* conditions_group = "Conditions, both ways (--up.NAME, --down.NAME: one way)";
 
-struct Texts {
-    Text listen_a;
-    Text listen_b;
-    Text a;
-    Text b;
-    Text profile;
-    Text netem;
-    std::array<std::array<Text, condition_options.size()>, prefixes.size()> by_way;
-    Text seed;
-    Text replay;
-    Text timing;
-    Text budget;
-    Text duration;
-    Text stats;
-    Text fates;
-    Text capture;
-    Text control;
-};
-
-void add_conditions(CLI::App& app, Texts& texts)
+/// A condition, taken as it is typed.
+cli::Take as_setting(std::string key, ConditionOptions& into)
 {
-    for (std::size_t way = 0; way < prefixes.size(); ++way) {
-        for (std::size_t i = 0; i < condition_options.size(); ++i) {
-            const auto& [name, type, help] = condition_options[i];
-            app.add_option(fmt::format("--{}{}", prefixes[way], name), texts.by_way[way][i], help)
-                ->type_name(type)
-                ->group(way == 0 ? "Conditions, both ways (--up.NAME, --down.NAME: one way)" : "");
+    return [key = std::move(key), &into](const std::string& text) -> base::Result<void> {
+        into.settings.push_back({key, text});
+        return {};
+    };
+}
+
+/// `own_rate`: the command has a --rate of its own, which takes the condition, too.
+void add_conditions(cli::Command& command, ConditionOptions& into, bool own_rate)
+{
+    command.option(
+        "--netem", "SENTENCE",
+        "Conditions as tc-netem takes them: \"delay 80ms 5ms loss 1%\"; names what netem "
+        "would have done differently",
+        cli::into(into.netem));
+    command.option("--seed", "NUMBER", "Seed for every random draw (default: the profile's, or 1)",
+                   cli::into(into.seed, cli::seed));
+    for (const char* prefix : {"", "up.", "down."}) {
+        for (const auto& [name, type, help] : listed_conditions) {
+            const std::string key = fmt::format("{}{}", prefix, name);
+            if (own_rate && key == "rate") continue;
+            auto& option = command.option("--" + key, type, help, as_setting(key, into))
+                               .under(conditions_group);
+            if (*prefix != '\0') option.hidden();
         }
     }
 }
-
-void add_run_options(CLI::App& app, Texts& texts)
-{
-    app.add_option("--seed", texts.seed, "Of all chance in the run (default: the profile's, or 1)")
-        ->type_name("NUMBER");
-    app.add_option("--timing", texts.timing,
-                   "eco: sleep until a datagram is due. precise (default): wake shortly before,\n"
-                   "by as much as this machine needs, and watch the clock. spin: wake 200 us\n"
-                   "before.")
-        ->type_name("eco|precise|spin");
-    app.add_option("--budget", texts.budget,
-                   "The run is called valid when 99 % of the datagrams leave at most this late\n"
-                   "(default 1ms)")
-        ->type_name("TIME");
-    app.add_option("--duration", texts.duration, "End after this time (default: run until stopped)")
-        ->type_name("TIME");
-    app.add_option("--stats", texts.stats, "Write statistics to FILE at the end; - is stdout")
-        ->type_name("FILE");
-    app.add_option("--fates", texts.fates, "Write what became of each datagram to FILE (CSV)")
-        ->type_name("FILE");
-    app.add_option("--replay", texts.replay,
-                   "Give the n-th datagram the n-th fate of FILE, which --fates wrote, instead of\n"
-                   "drawing it")
-        ->type_name("FILE");
-    app.add_option("--pcap", texts.capture,
-                   "Capture both sides to FILE, a comment on each packet (pcapng, for Wireshark)")
-        ->type_name("FILE");
-    app.add_option("--control", texts.control,
-                   "Listen on this Unix socket for hapnet-ctl, which shows and changes the\n"
-                   "conditions while it runs")
-        ->type_name("SOCKET");
-}
-
-void add_options(CLI::App& app, Texts& texts)
-{
-    app.add_option("--listen-a", texts.listen_a, "Where A sends to (required)")
-        ->type_name("HOST:PORT");
-    app.add_option("--listen-b", texts.listen_b, "Where B sends to (required)")
-        ->type_name("HOST:PORT");
-    app.add_option("--a", texts.a, "A itself (default: the first sender)")->type_name("HOST:PORT");
-    app.add_option("--b", texts.b, "B itself (default: the first sender)")->type_name("HOST:PORT");
-    app.add_option("--profile", texts.profile,
-                   "Conditions and their timeline from a TOML file, or the name of a preset\n"
-                   "(hapnet-emulator check --list)")
-        ->type_name("FILE|NAME");
-    app.add_option(
-           "--netem", texts.netem,
-           "Conditions as tc-netem takes them: \"delay 80ms 5ms loss 1%\"; says where netem\n"
-           "would not have done what this says")
-        ->type_name("SENTENCE");
-    add_conditions(app, texts);
-    add_run_options(app, texts);
-}
-
-/// Puts parsed texts in their places; the first error wins and names its option.
-class Reader {
-public:
-    template <typename Target, typename Parse>
-    void read(const std::string& option, const Text& text, Target& target, Parse parse)
-    {
-        if (!text || error_) return;
-        auto value = parse(*text);
-        if (value) {
-            target = *std::move(value);
-        } else {
-            error_ = fmt::format("{}: {}", option, value.error().message);
-        }
-    }
-
-    /// Not left to CLI11, which would speak of it before it speaks of a mistyped option.
-    void require(const std::string& option, const Text& text, const char* example)
-    {
-        if (!text && !error_) error_ = fmt::format("{0} is required: {0} {1}", option, example);
-    }
-
-    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
-
-private:
-    std::optional<std::string> error_;
-};
 
 base::Result<Timing> parse_timing(const std::string& text)
 {
-    for (const Timing timing : {Timing::eco, Timing::precise, Timing::spin}) {
-        if (text == to_text(timing)) return timing;
-    }
-    return base::fail(fmt::format("'{}' is not a timing: write eco, precise or spin", text));
+    const auto meant =
+        cli::meant_value("--timing", text).and_then(cli::one_of({"eco", "precise", "spin"}));
+    if (!meant) return tl::unexpected{meant.error()};
+    return *meant == "eco" ? Timing::eco : *meant == "spin" ? Timing::spin : Timing::precise;
 }
 
-base::Result<base::Seed> parse_seed(const std::string& text)
+base::Result<net::HostPort> parse_host(const std::string& text)
 {
-    return base::parse_count(text, std::numeric_limits<std::uint64_t>::max())
-        .map([](std::uint64_t value) { return base::Seed{value}; });
+    auto host = net::parse_host_port(text);
+    if (host && host->port == 0) {
+        return base::fail(fmt::format("'{}': nothing can be sent to port 0", text));
+    }
+    return host;
 }
 
-base::Result<net::HostPort> parse_peer(const std::string& text)
+void add_run_options(cli::Command& program, Options& options)
 {
-    auto peer = net::parse_host_port(text);
-    if (peer && peer->port == 0) {
-        return base::fail(fmt::format("'{}': nobody can be reached at port 0", text));
-    }
-    return peer;
+    program
+        .option("--listen-a", "ADDRESS", "Where A sends to: HOST:PORT; :PORT listens on loopback",
+                cli::into(options.listen_a, net::parse_listen_address))
+        .required("127.0.0.1:7001");
+    program
+        .option("--listen-b", "ADDRESS", "Where B sends to",
+                cli::into(options.listen_b, net::parse_listen_address))
+        .required("127.0.0.1:7002");
+    program.option("--a", "HOST:PORT", "Address of A (default: the first sender)",
+                   cli::into(options.a, parse_host));
+    program.option("--b", "HOST:PORT", "Address of B (default: the first sender)",
+                   cli::into(options.b, parse_host));
+    program.option("--profile", "FILE|NAME",
+                   "Conditions and their timeline from a TOML file, or the name of a preset "
+                   "(hapnet-emulator check --list)",
+                   cli::into(options.conditions.profile));
+    add_conditions(program, options.conditions, /*own_rate*/ false);
+    program.option("--timing", "eco|precise|spin",
+                   "eco: sleep until a datagram is due. precise (default): wake shortly before, by "
+                   "as much as this machine needs, and watch the clock. spin: wake 200 us before",
+                   cli::into(options.timing, parse_timing));
+    program.option("--budget", "TIME",
+                   "The run is valid when 99 % of the datagrams leave at most this late (default "
+                   "1ms)",
+                   cli::into(options.budget, base::parse_duration));
+    program.option("--duration", "TIME", "End after this time (default: run until stopped)",
+                   cli::into(options.duration, base::parse_duration));
+    program.option("--stats", "FILE", "Write statistics to FILE at the end; - is stdout",
+                   cli::into(options.stats));
+    program.option("--fates", "FILE", "Write the fate of each datagram to FILE (CSV)",
+                   cli::into(options.fates));
+    program.option("--replay", "FILE",
+                   "Apply the fates that --fates wrote to FILE instead of drawing them: the n-th "
+                   "datagram gets the n-th fate",
+                   cli::into(options.replay));
+    program.option("--pcap", "FILE",
+                   "Capture both sides to FILE, with a comment on each packet (pcapng, for "
+                   "Wireshark)",
+                   cli::into(options.capture));
+    program.option("--control", "SOCKET",
+                   "Listen on this Unix socket for hapnet-ctl, which shows and changes the "
+                   "conditions while the emulator runs",
+                   cli::into(options.control));
+}
+
+/// The spacing of datagrams that come "1000" or "1000/s".
+base::Result<base::Duration> parse_spacing(const std::string& text)
+{
+    auto digits = text;
+    if (digits.ends_with("/s")) digits.resize(digits.size() - 2);
+    constexpr double slowest = 1e-3;
+    constexpr double fastest = 1e7;
+    const auto rate = cli::number(slowest, fastest)(digits);
+    if (rate) return base::from_seconds(1.0 / *rate);
+    return base::fail(fmt::format("'{}' is not a rate: write datagrams a second, such as 1000 or "
+                                  "1000/s; at most 10^7",
+                                  text));
+}
+
+/// Datagrams a second, or the bit rate that the condition of this name is.
+cli::Take stream_rate(Stream& stream, ConditionOptions& into)
+{
+    return [&stream, &into](const std::string& text) -> base::Result<void> {
+        if (text.find("bit") != std::string::npos || text.find("bps") != std::string::npos) {
+            into.settings.push_back({"rate", text});
+            return {};
+        }
+        return cli::into(stream.spacing, parse_spacing)(text);
+    };
+}
+
+/// The options of check and of predict.
+void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, Stream& stream)
+{
+    constexpr std::uint64_t bytes_max = 65'507; // of UDP over IPv4
+    command.positional("PROFILE", "A profile: a file, or the name of a preset",
+                       cli::into(conditions_from.profile));
+    command.option("--profile", "FILE|NAME", "", cli::into(conditions_from.profile)).hidden();
+    command
+        .option("--rate", "RATE",
+                "Datagrams a second, each way (default 1000); with a unit, as in 10Mbit/s, the "
+                "condition: a limit of the bit rate",
+                stream_rate(stream, conditions_from))
+        .repeated();
+    command.option("--bytes", "NUMBER", "Payload of each datagram (default 144)",
+                   cli::into(stream.bytes, cli::whole_number(0, bytes_max)));
+    add_conditions(command, conditions_from, /*own_rate*/ true);
+}
+
+base::Result<base::Duration> parse_even_spacing(const std::string& text)
+{
+    constexpr std::uint64_t most = 1'000'000'000;
+    return cli::whole_number(1, most)(text).map([](std::uint64_t rate) {
+        return base::Duration{static_cast<base::Duration::rep>(most / rate)};
+    });
+}
+
+void add_verify(cli::Command& command, VerifyOptions& options)
+{
+    command.positional("RUN", "What a run has written", cli::into(options.run))
+        .required("run.json");
+    command.option("--profile", "FILE|NAME",
+                   "The profile that the run was to follow (default: the one in RUN)",
+                   cli::into(options.profile));
+    command.option("--seed", "NUMBER", "The seed of the run (default: the one in the profile)",
+                   cli::into(options.seed, cli::seed));
+    command.option("--rate", "NUMBER",
+                   "Datagrams a second in each direction, where they came evenly: needed by laws "
+                   "in time",
+                   cli::into(options.spacing, parse_even_spacing));
+    command.flag("--json", "Print one JSON object instead of a table", options.as_json);
+}
+
+/// The names of the presets, each followed by `separator`.
+std::string preset_list(char separator)
+{
+    std::string list;
+    for (const Preset& preset : presets()) list += std::string{preset.name} + separator;
+    return list;
+}
+
+base::Result<void> require_conditions(const ConditionOptions& options, const cli::Command& command)
+{
+    if (options.profile || options.netem || !options.settings.empty()) return {};
+    return base::fail(fmt::format("conditions are required: {0} PROFILE, {0} --netem \"delay "
+                                  "80ms\" or {0} --delay 80ms; PROFILE is a file, or one of {1}",
+                                  command.path(), preset_list(' ')));
 }
 
 /// Two results in one file: the second would take the place of the first, after the run. Devices
 /// such as /dev/null take many.
-std::optional<std::string> shared_file(const Texts& texts)
+base::Result<void> require_own_files(const Options& options)
 {
-    using Named = std::pair<const char*, const Text&>;
-    const std::array<Named, 4> files{Named{"--stats", texts.stats}, Named{"--fates", texts.fates},
-                                     Named{"--pcap", texts.capture},
-                                     Named{"--control", texts.control}};
+    using Named = std::pair<const char*, const std::optional<std::string>&>;
+    const std::array<Named, 4> files{
+        Named{"--stats", options.stats}, Named{"--fates", options.fates},
+        Named{"--pcap", options.capture}, Named{"--control", options.control}};
     for (std::size_t i = 0; i < files.size(); ++i) {
         const auto& [option, file] = files[i];
         if (!file || *file == "-" || file->starts_with("/dev/")) continue;
         for (std::size_t j = i + 1; j < files.size(); ++j) {
             if (files[j].second != file) continue;
-            return fmt::format("{} and {} name the same file, {}: give each its own", option,
-                               files[j].first, *file);
+            return base::fail(fmt::format("{} and {} name the same file, {}: give each its own",
+                                          option, files[j].first, *file));
         }
     }
-    return std::nullopt;
+    return {};
 }
 
-net::CommandLine<Options> options_from(const Texts& texts)
+base::Result<void> require_own_addresses(const Options& options)
 {
-    Options options;
-    Reader reader;
-    reader.require("--listen-a", texts.listen_a, "127.0.0.1:7001");
-    reader.require("--listen-b", texts.listen_b, "127.0.0.1:7002");
-    reader.read("--listen-a", texts.listen_a, options.listen_a, net::parse_host_port);
-    reader.read("--listen-b", texts.listen_b, options.listen_b, net::parse_host_port);
-    reader.read("--a", texts.a, options.a, parse_peer);
-    reader.read("--b", texts.b, options.b, parse_peer);
-    for (std::size_t way = 0; way < prefixes.size(); ++way) {
-        for (std::size_t i = 0; i < condition_options.size(); ++i) {
-            if (const Text& value = texts.by_way[way][i]) {
-                options.settings.push_back(
-                    {prefixes[way] + std::string{condition_options[i].name}, *value});
-            }
-        }
-    }
-    reader.read("--seed", texts.seed, options.seed, parse_seed);
-    reader.read("--timing", texts.timing, options.timing, parse_timing);
-    reader.read("--budget", texts.budget, options.budget, base::parse_duration);
-    reader.read("--duration", texts.duration, options.duration, base::parse_duration);
-    options.profile = texts.profile;
-    options.netem = texts.netem;
-    options.replay = texts.replay;
-    options.stats = texts.stats;
-    options.fates = texts.fates;
-    options.capture = texts.capture;
-    options.control = texts.control;
-    if (reader.error()) return base::fail(*reader.error());
-    if (const auto trouble = shared_file(texts)) return base::fail(*trouble);
-    return options;
+    const auto& [a, b] = std::tie(options.listen_a, options.listen_b);
+    if (a.port == 0 || a.port != b.port || a.host != b.host) return {};
+    return base::fail(fmt::format("--listen-a and --listen-b are the same address, {}:{}: give "
+                                  "each side its own port",
+                                  a.host, a.port));
+}
+
+net::CommandLine<AnyOptions> checked(Options options)
+{
+    auto fine = require_own_addresses(options);
+    if (fine) fine = require_own_files(options);
+    if (!fine) return tl::unexpected{fine.error()};
+    return AnyOptions{std::move(options)};
 }
 
 } // namespace
@@ -279,25 +358,53 @@ std::string_view to_text(Timing timing)
     return {};
 }
 
-net::CommandLine<Options> parse_options(std::span<char*> words)
+net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
 {
-    CLI::App app{description, "hapnet-emulator"};
-    app.footer(footer);
-    app.set_help_flag("-h,--help", "Print this and exit");
-    app.set_version_flag("--version", base::version_line("hapnet-emulator"),
-                         "Print version, commit and compiler, and exit");
-    Texts texts;
-    add_options(app, texts);
-    try {
-        app.parse(static_cast<int>(words.size()), words.data());
-    } catch (const CLI::CallForHelp&) {
-        return net::Answer{app.help()};
-    } catch (const CLI::CallForVersion&) {
-        return net::Answer{app.version() + "\n"};
-    } catch (const CLI::ParseError& error) {
-        return base::fail(fmt::format("{} (--help lists the options)", error.what()));
-    }
-    return options_from(texts);
+    cli::Command program{"hapnet-emulator"};
+    program.describe(description);
+    program.add_footer(footer);
+    program.add_exit_codes(exit_codes);
+    Options options;
+    add_run_options(program, options);
+
+    cli::Command& check = program.command("check", "Describes a profile, stage by stage");
+    check.describe(check_description);
+    check.add_footer(check_footer);
+    check.add_exit_codes(check_exit_codes);
+    CheckOptions checking;
+    bool is_list = false;
+    add_dry_run(check, checking.conditions, checking.stream);
+    check.flag("--list", "Print the names of the presets and exit", is_list);
+
+    cli::Command& predict =
+        program.command("predict", "Predicts the effect of a profile on a stream of datagrams");
+    predict.describe(predict_description);
+    predict.add_footer(predict_footer);
+    predict.add_exit_codes(predict_exit_codes);
+    PredictOptions predicting;
+    constexpr std::uint64_t packets_max = 1'000'000'000;
+    add_dry_run(predict, predicting.conditions, predicting.stream);
+    predict.option("--packets", "NUMBER", "Number of datagrams, each way (default 400000)",
+                   cli::into(predicting.stream.packets, cli::whole_number(1, packets_max)));
+    predict.flag("--json", "Print one JSON object instead of text", predicting.as_json);
+    predict.flag("--list", "Print the names of the presets and exit", is_list);
+
+    cli::Command& verify =
+        program.command("verify", "Tests whether the fates of a run follow its profile");
+    verify.describe(verify_description);
+    verify.add_footer(verify_footer);
+    verify.add_exit_codes(verify_exit_codes);
+    VerifyOptions verifying;
+    add_verify(verify, verifying);
+
+    if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    if (is_list) return net::Answer{preset_list('\n')};
+    if (verify.is_chosen()) return AnyOptions{std::move(verifying)};
+    if (!check.is_chosen() && !predict.is_chosen()) return checked(std::move(options));
+    const auto fine = check.is_chosen() ? require_conditions(checking.conditions, check)
+                                        : require_conditions(predicting.conditions, predict);
+    if (!fine) return tl::unexpected{fine.error()};
+    return check.is_chosen() ? AnyOptions{std::move(checking)} : AnyOptions{std::move(predicting)};
 }
 
 } // namespace hapnet::emulator

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/tools/predict.hpp"
 #include "proto/base/random.hpp"
-#include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/program.hpp"
@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -28,17 +29,22 @@ struct TypedSetting {
     std::string value;
 };
 
-/// What the command line asks for. Names are not looked up and files not opened yet.
+/// Where conditions come from. Names are not looked up and files not opened yet.
+struct ConditionOptions {
+    std::optional<std::string> profile; // a file, or the name of a preset
+    std::optional<std::string> netem;   // a sentence as tc-netem takes it
+    std::vector<TypedSetting> settings; // they win over the profile
+    std::optional<base::Seed> seed;     // wins over the profile's
+};
+
+/// A run: `hapnet-emulator --listen-a ... --listen-b ...`
 struct Options {
     net::HostPort listen_a;
     net::HostPort listen_b;
     std::optional<net::HostPort> a; // nullopt: adopt the first sender
     std::optional<net::HostPort> b;
-    std::optional<std::string> profile; // a file, or the name of a preset
-    std::optional<std::string> netem;   // a sentence as tc-netem takes it
-    std::vector<TypedSetting> settings; // they win over the profile
-    std::optional<base::Seed> seed;     // wins over the profile's
-    std::optional<std::string> replay;  // fates to apply instead of drawing
+    ConditionOptions conditions;
+    std::optional<std::string> replay; // fates to apply instead of drawing
     Timing timing = Timing::precise;
     base::Duration budget = std::chrono::milliseconds{1};
     std::optional<base::Duration> duration; // nullopt: until SIGINT or SIGTERM
@@ -48,8 +54,32 @@ struct Options {
     std::optional<std::string> control; // the path of a Unix socket
 };
 
+/// `hapnet-emulator check PROFILE`
+struct CheckOptions {
+    ConditionOptions conditions;
+    Stream stream{.packets = 100'000};
+};
+
+/// `hapnet-emulator predict PROFILE --rate 1000`
+struct PredictOptions {
+    ConditionOptions conditions;
+    Stream stream{};
+    bool as_json = false;
+};
+
+/// `hapnet-emulator verify RUN`
+struct VerifyOptions {
+    std::string run;                    // what --stats or --fates wrote, or a folder
+    std::optional<std::string> profile; // instead of the one in RUN
+    std::optional<base::Seed> seed;     // instead of the one in the profile
+    std::optional<base::Duration> spacing;
+    bool as_json = false;
+};
+
+using AnyOptions = std::variant<Options, CheckOptions, PredictOptions, VerifyOptions>;
+
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.
-[[nodiscard]] net::CommandLine<Options> parse_options(std::span<char*> words);
+[[nodiscard]] net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words);
 
 } // namespace hapnet::emulator

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/dry_run.hpp"
+#include "emulator/commands.hpp"
 #include "emulator/lens_json.hpp"
-#include "emulator/profile_file.hpp"
+#include "emulator/scenario.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/version.hpp"
 
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
+#include <string>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -115,18 +117,22 @@ std::string in_words(std::string_view title, const DirectionPrediction& of,
     return text;
 }
 
-base::Result<int> show_prediction(const DryRun& dry_run)
+} // namespace
+
+base::Result<int> run(const PredictOptions& options)
 {
-    const auto profile = load_profile(dry_run.profile);
-    if (!profile) return base::fail(profile.error().message);
-    const Stream& stream = dry_run.stream;
-    const auto seed = seed_of(dry_run, *profile);
+    std::vector<std::string> netem_warnings;
+    const auto profile = profile_for(options.conditions, netem_warnings);
+    if (!profile) return tl::unexpected{profile.error()};
+    for (const std::string& warning : netem_warnings) net::say("hapnet-emulator", warning);
+    const Stream& stream = options.stream;
+    const auto seed = seed_of(options.conditions, *profile);
     const auto [up, down] = predicted(*profile, stream, seed);
     const auto& path = profile->path;
-    if (dry_run.as_json) {
+    if (options.as_json) {
         const Json json{{"program", "hapnet-emulator predict"},
                         {"version", base::version()},
-                        {"profile", dry_run.profile},
+                        {"profile", options.conditions.profile.value_or(profile->name)},
                         {"seed", seed.value()},
                         {"rate_hz", 1.0 / base::to_seconds(stream.spacing)},
                         {"packets", stream.packets},
@@ -141,13 +147,6 @@ base::Result<int> show_prediction(const DryRun& dry_run)
                in_words("up: from A to B", up, path.up, stream),
                in_words("down: from B to A", down, path.down, stream));
     return 0;
-}
-
-} // namespace
-
-int predict_command(std::span<char*> words)
-{
-    return net::run_program("hapnet-emulator predict", parse_predict(words), show_prediction);
 }
 
 } // namespace hapnet::emulator

@@ -6,6 +6,7 @@
 #include "emulator/presets.hpp"
 #include "proto/net/text_file.hpp"
 
+#include <cctype>
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
@@ -15,8 +16,11 @@ namespace hapnet::emulator {
 
 namespace {
 
-base::Result<Profile> load_preset(const std::string& name)
+/// By its name, in small or capital letters.
+base::Result<Profile> load_preset(const std::string& typed)
 {
+    std::string name = typed;
+    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     std::vector<std::string_view> names;
     for (const Preset& preset : presets()) {
         if (preset.name == name) {
@@ -24,7 +28,7 @@ base::Result<Profile> load_preset(const std::string& name)
         }
         names.push_back(preset.name);
     }
-    return base::fail(fmt::format("there is neither a file nor a preset '{}': {}", name,
+    return base::fail(fmt::format("there is neither a file nor a preset '{}': {}", typed,
                                   suggestion(name, names)));
 }
 

@@ -6,6 +6,7 @@
 #include "emulator/core/profile/timeline.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
+#include "emulator/setting_hints.hpp"
 #include "emulator/tools/netem.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/text.hpp"
@@ -20,10 +21,11 @@ namespace hapnet::emulator {
 namespace {
 
 /// What --profile or --netem says, before the settings of the command line.
-base::Result<Profile> base_of(const Options& options, std::vector<std::string>& warnings)
+base::Result<Profile> profile_named(const ConditionOptions& options,
+                                    std::vector<std::string>& warnings)
 {
     if (options.profile && options.netem) {
-        return base::fail("--profile and --netem exclude each other: give one of them");
+        return base::fail("a profile and --netem exclude each other: give one of them");
     }
     if (options.profile) return load_profile(*options.profile);
     if (!options.netem) return Profile{};
@@ -41,12 +43,10 @@ base::Result<Path> with_typed(const Path& path, const std::vector<TypedSetting>&
 {
     std::vector<Setting> settings;
     for (const auto& [key, value] : typed) {
-        auto setting = parse_setting(key, value, net::text_of_file);
+        auto setting = parse_setting(key, understood(key, value), net::text_of_file);
         if (!setting) {
             const std::string why = setting.error().message.substr(key.size() + 2);
-            const bool quotes = why.find(value) != std::string::npos;
-            return base::fail(quotes ? fmt::format("--{}: {}", key, why)
-                                     : fmt::format("--{}: '{}': {}", key, value, why));
+            return base::fail(fmt::format("--{}: {}", key, explained(key, value, why)));
         }
         settings.push_back(*std::move(setting));
     }
@@ -110,32 +110,43 @@ void make_absolute(Profile& profile, const std::string& beside)
 
 } // namespace
 
+base::Result<Profile> profile_for(const ConditionOptions& options,
+                                  std::vector<std::string>& warnings)
+{
+    auto profile = profile_named(options, warnings);
+    if (!profile) return profile;
+    make_absolute(*profile, options.profile.value_or(""));
+    auto path = with_typed(profile->path, options.settings);
+    if (!path) return tl::unexpected{path.error()};
+    profile->path = *std::move(path);
+    if (const auto fault = Timeline::fault_of(*profile)) {
+        return base::fail(fmt::format(
+            "the settings of the command line contradict change {} of "
+            "the profile's timeline, at {}: {}",
+            fault->change + 1, base::to_text(profile->timeline[fault->change].time), fault->what));
+    }
+    return profile;
+}
+
+base::Seed seed_of(const ConditionOptions& options, const Profile& profile)
+{
+    return options.seed ? *options.seed : profile.seed.value_or(base::Seed{1});
+}
+
 base::Result<Scenario> scenario_of(const Options& options)
 {
     Scenario scenario;
-    auto profile = base_of(options, scenario.warnings);
+    auto profile = profile_for(options.conditions, scenario.warnings);
     if (!profile) return tl::unexpected{profile.error()};
     scenario.profile = *std::move(profile);
-    make_absolute(scenario.profile, options.profile.value_or(""));
-    auto path = with_typed(scenario.profile.path, options.settings);
-    if (!path) return tl::unexpected{path.error()};
-    scenario.profile.path = *std::move(path);
-    if (const auto fault = Timeline::fault_of(scenario.profile)) {
-        return base::fail(fmt::format("what is said on the command line does not go with change {} "
-                                      "of the profile's timeline, at {}: {}",
-                                      fault->change + 1,
-                                      base::to_text(scenario.profile.timeline[fault->change].time),
-                                      fault->what));
-    }
-    scenario.seed = options.seed.value_or(scenario.profile.seed.value_or(base::Seed{1}));
+    scenario.seed = seed_of(options.conditions, scenario.profile);
     scenario.profile.seed = scenario.seed;
     if (options.replay) {
         auto fates = read_fates(*options.replay);
         if (!fates) return tl::unexpected{fates.error()};
         scenario.replay = std::make_shared<const Fates>(*std::move(fates));
-        scenario.warnings.emplace_back("--replay gives the fates: mtu, loss, corruption, copies, "
-                                       "delay and jitter of the conditions are not drawn; rate "
-                                       "and order hold");
+        scenario.warnings.emplace_back("--replay gives the fates: mtu, loss, corrupt, duplicate, "
+                                       "delay and jitter are not drawn; rate and order hold");
     } else {
         warn_of_conditions(scenario);
     }

@@ -22,6 +22,14 @@ struct Scenario {
     std::vector<std::string> warnings;   // for a person, a sentence each
 };
 
+/// The profile that --profile, --netem and single settings make. Paths in it are absolute. A
+/// warning for each thing that netem would have done differently.
+[[nodiscard]] base::Result<Profile> profile_for(const ConditionOptions& options,
+                                                std::vector<std::string>& warnings);
+
+/// The seed that draws: that of the command line, of the profile, or 1.
+[[nodiscard]] base::Seed seed_of(const ConditionOptions& options, const Profile& profile);
+
 /// Opens the files that the options name. The error is one of bad input: it names the option or
 /// the file and line.
 [[nodiscard]] base::Result<Scenario> scenario_of(const Options& options);

@@ -1,20 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/verify_command.hpp"
-
+#include "emulator/commands.hpp"
 #include "emulator/core/fates/fates.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
 #include "emulator/tools/verify/verify.hpp"
-#include "proto/base/text.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/text_file.hpp"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -24,96 +20,6 @@
 namespace hapnet::emulator {
 
 namespace {
-
-constexpr const char* verify_description =
-    "Tests whether the fates of a run are those that its profile "
-    "promises: shares, runs and bursts\n"
-    "of losses, the steps of their chains, delays, the directions "
-    "against each other, and with the\n"
-    "seed every fate.";
-
-constexpr const char* verify_footer =
-    R"(RUN is the file that --stats has written of a run with --fates; or the file that --fates has
-written, with --profile; or a folder with fates.csv and profile.toml.
-A test fails when a run that follows its profile would look like this one time in a million.
-What cannot be told from so few datagrams, or from fates, is called unable.
-
-Examples:
-  hapnet-emulator verify run.json
-  hapnet-emulator verify fates.csv --profile wifi-busy --seed 42 --rate 1000
-  hapnet-emulator verify results/run-7 --json
-
-Exit codes: 0 no test failed, 1 a test failed, 2 bad usage, or a file that cannot be used.)";
-
-/// What the command line asks for.
-struct Request {
-    std::string run{};
-    std::optional<std::string> profile{};
-    std::optional<base::Seed> seed{};
-    std::optional<base::Duration> spacing{};
-    bool json = false;
-};
-
-using Text = std::optional<std::string>;
-
-struct VerifyTexts {
-    Text run;
-    Text profile;
-    Text seed;
-    Text rate;
-    bool json = false;
-};
-
-void add_options(CLI::App& app, VerifyTexts& texts)
-{
-    app.add_option("run", texts.run, "What a run has written (required)")->type_name("RUN");
-    app.add_option("--profile", texts.profile, "What the run was to do (default: what RUN says)")
-        ->type_name("FILE|NAME");
-    app.add_option("--seed", texts.seed, "Of the run (default: the one in the profile)")
-        ->type_name("NUMBER");
-    app.add_option(
-           "--rate", texts.rate,
-           "Datagrams a second in each direction, if they came evenly: laws in time need it")
-        ->type_name("NUMBER");
-    app.add_flag("--json", texts.json, "Print one JSON object instead of a table");
-}
-
-base::Result<Request> request_from(const VerifyTexts& texts)
-{
-    if (!texts.run) return base::fail("RUN is required: hapnet-emulator verify run.json");
-    Request request{.run = *texts.run, .profile = texts.profile, .json = texts.json};
-    if (texts.seed) {
-        const auto seed = base::parse_count(*texts.seed, std::numeric_limits<std::uint64_t>::max());
-        if (!seed) return base::fail(fmt::format("--seed: {}", seed.error().message));
-        request.seed = base::Seed{*seed};
-    }
-    if (texts.rate) {
-        constexpr std::uint64_t most = 1'000'000'000;
-        const auto rate = base::parse_count(*texts.rate, most);
-        if (!rate) return base::fail(fmt::format("--rate: {}", rate.error().message));
-        if (*rate == 0) return base::fail("--rate: '0' is no rate: write datagrams a second");
-        request.spacing = base::Duration{static_cast<base::Duration::rep>(most / *rate)};
-    }
-    return request;
-}
-
-net::CommandLine<Request> parse(std::span<char*> words)
-{
-    CLI::App app{verify_description, "hapnet-emulator verify"};
-    app.footer(verify_footer);
-    VerifyTexts texts;
-    add_options(app, texts);
-    try {
-        app.parse(static_cast<int>(words.size()), words.data());
-    } catch (const CLI::CallForHelp&) {
-        return net::Answer{app.help()};
-    } catch (const CLI::ParseError& error) {
-        return base::fail(fmt::format("{} (see verify --help)", error.what()));
-    }
-    const auto request = request_from(texts);
-    if (!request) return base::fail(request.error().message);
-    return *request;
-}
 
 nlohmann::json json_of(const std::vector<TestResult>& results)
 {
@@ -168,7 +74,7 @@ base::Result<Evidence> all_there(Evidence evidence, const nlohmann::json& statis
 }
 
 /// What --stats has written: it holds the profile and names the fates.
-base::Result<Evidence> evidence_of_statistics(const Request& request, const std::string& text)
+base::Result<Evidence> evidence_of_statistics(const VerifyOptions& request, const std::string& text)
 {
     const std::string& path = request.run;
     const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions*/ false);
@@ -206,7 +112,7 @@ base::Result<Evidence> evidence_of_statistics(const Request& request, const std:
     return all_there(*std::move(evidence), json);
 }
 
-base::Result<Evidence> evidence_of(const Request& request)
+base::Result<Evidence> evidence_of(const VerifyOptions& request)
 {
     if (std::filesystem::is_directory(request.run)) {
         const auto inside = [&](const char* name) {
@@ -228,7 +134,9 @@ base::Result<Evidence> evidence_of(const Request& request)
                                   request.run));
 }
 
-base::Result<int> verify_run(const Request& request)
+} // namespace
+
+base::Result<int> run(const VerifyOptions& request)
 {
     const auto evidence = evidence_of(request);
     if (!evidence) return tl::unexpected{evidence.error()};
@@ -241,15 +149,8 @@ base::Result<int> verify_run(const Request& request)
                       .seed = request.seed ? request.seed : profile.seed,
                       .spacing = request.spacing};
     const auto verification = verify(claim, evidence->fates.up, evidence->fates.down);
-    fmt::print("{}", request.json ? json_of(verification) : to_text(verification));
+    fmt::print("{}", request.as_json ? json_of(verification) : to_text(verification));
     return verification.failed() ? net::exit_failed : 0;
-}
-
-} // namespace
-
-int verify_program(std::span<char*> words)
-{
-    return net::run_program("hapnet-emulator", parse(words), verify_run);
 }
 
 } // namespace hapnet::emulator

@@ -8,9 +8,9 @@
 #include "peer/core/sync/text.hpp"
 #include "peer/loop/servo.hpp"
 #include "peer/loop/supervise.hpp"
-#include "peer/monitor/reception.hpp"
+#include "peer/monitor/control_session.hpp"
+#include "peer/monitor/monitor.hpp"
 #include "peer/monitor/report.hpp"
-#include "peer/monitor/watcher.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/crash_signal.hpp"
 #include "proto/net/program.hpp"
@@ -29,7 +29,7 @@ constexpr std::string_view program = "hapnet-peer";
 
 void say(std::string_view text) { net::say(program, text); }
 
-struct Places {
+struct Endpoints {
     net::Endpoint listen;
     net::Endpoint remote;
 };
@@ -44,22 +44,22 @@ net::Endpoint resolve_remote(const net::HostPort& remote, const net::Endpoint& l
     }
 }
 
-base::Result<Places> look_up(const Options& options)
+base::Result<Endpoints> look_up(const Options& options)
 {
     const net::Endpoint listen = net::resolve(options.listen);
-    const Places places{listen, resolve_remote(options.remote, listen)};
-    if (places.listen.family() != places.remote.family()) {
+    const Endpoints endpoints{listen, resolve_remote(options.remote, listen)};
+    if (endpoints.listen.family() != endpoints.remote.family()) {
         return base::fail(fmt::format(
             "--listen {} and --remote {} are of different families: give both as IPv4 or as IPv6",
-            places.listen.to_text(), places.remote.to_text()));
+            endpoints.listen.to_text(), endpoints.remote.to_text()));
     }
-    if (!options.insecure && !(places.remote.is_loopback() && places.listen.is_loopback())) {
+    if (!options.insecure && !(endpoints.remote.is_loopback() && endpoints.listen.is_loopback())) {
         return base::fail(
             "forces from a network need a key, and keys are not available yet: on a network you "
             "trust say --insecure, otherwise keep --listen and --remote on loopback");
     }
-    net::require_route(places.remote);
-    return places;
+    net::require_route(endpoints.remote);
+    return endpoints;
 }
 
 Settings settings_of(const Options& options, const device::Rig& rig)
@@ -100,12 +100,12 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
     return record::Writer{*options.record, configuration};
 }
 
-/// Tells whoever holds a real device what it is, and what of the scene it cannot do.
+/// Introduces a real device to its holder, and says which forces of the scene it cannot render.
 void introduce(const Options& options, const device::Rig& rig)
 {
     say(introduction(rig.device(), rig.mount(), options.task));
-    const std::string softer = words_on_stiffness(rig.device().capabilities(), rig.mount(),
-                                                  options.scene.hips.stiffness_n_per_m);
+    const std::string softer = note_on_stiffness(rig.device().capabilities(), rig.mount(),
+                                                 options.scene.hands.stiffness_n_per_m);
     if (!softer.empty()) say(softer);
 }
 
@@ -128,35 +128,35 @@ void write_statistics(const Run& run, std::optional<net::ResultFile>& file)
 }
 
 /// Tells how the run went; its exit code.
-int conclude(const Run& run, const device::Governor& governor, const Watcher& watcher)
+int conclude(const Run& run, const device::Governor& governor, const Monitor& monitor)
 {
     net::tell(summary(run));
-    if (const auto reason = run.standing.refusal) {
+    if (const auto reason = run.status.refusal) {
         say(fmt::format("refused: the other peer cannot play with this one: {}",
-                        words_for(*reason)));
+                        describe(*reason)));
         return net::exit_failed;
     }
     if (const std::string fault = fault_at_the_end(governor); !fault.empty()) {
         say(fault);
         return net::exit_failed;
     }
-    if (const auto failure = watcher.record_failure()) std::rethrow_exception(failure);
+    if (const auto failure = monitor.record_failure()) std::rethrow_exception(failure);
     return 0;
 }
 
 base::Result<int> run(const Options& options)
 {
-    const auto places = look_up(options);
-    if (!places) return tl::unexpected{places.error()};
+    const auto endpoints = look_up(options);
+    if (!endpoints) return tl::unexpected{endpoints.error()};
     net::StopSignal stop; // before any thread
     const net::CrashSignal crash;
     const net::CrashStack stack;
-    net::UdpSocket socket{places->listen};
+    net::UdpSocket socket{endpoints->listen};
     std::optional<control::Server> server; // before the device is touched
-    if (options.control) server.emplace(*options.control, Reception::limits);
+    if (options.control) server.emplace(*options.control, ControlSession::limits);
     auto opened = open_chosen(options.device, options.task);
     if (!opened) {
-        say(why_not_opened(options.device, opened.error()));
+        say(describe_open_error(options.device, opened.error()));
         return net::exit_environment;
     }
     const device::Mount mount = mount_of(options.device, (*opened)->capabilities());
@@ -164,28 +164,32 @@ base::Result<int> run(const Options& options)
                     mount};
     const std::string device = device::description(rig.device());
     if (options.device.is_real()) introduce(options, rig);
+    const double allowed_n = rig.governor().limits().force_max_n;
+    const bool is_asked_for = options.force_max_n != Options{}.force_max_n;
+    const std::string lower = note_on_force_limit(options.force_max_n, allowed_n);
+    if (is_asked_for && !lower.empty()) say(lower);
     const Settings settings = settings_of(options, rig);
     Journal journal;
-    Watcher watcher{journal, writer_for(options, device, rig, settings), options.id};
+    Monitor monitor{journal, writer_for(options, device, rig, settings), options.id};
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
-    Peer peer{settings};
+    Side side{settings};
     Watchdog watchdog{rig.device(), &crash};
-    Servo servo{{peer, rig, socket, places->remote, journal, watchdog, options.id}};
+    Servo servo{{side, rig, socket, endpoints->remote, journal, watchdog}};
 
-    std::optional<Reception> reception;
+    std::optional<ControlSession> control_session;
     if (server) {
-        reception.emplace(Reception::Parts{*server, servo, options, journal, watcher, device,
-                                           ways_back_of(rig.device())});
+        control_session.emplace(ControlSession::Parts{*server, servo, options, journal, monitor,
+                                                      device, recovery_of(rig.device())});
     }
 
-    supervise({servo, watcher, stop, reception ? &*reception : nullptr},
-              ready_line(options, socket, places->remote));
+    supervise({servo, monitor, stop, control_session ? &*control_session : nullptr},
+              ready_line(options, socket, endpoints->remote));
 
-    const Standing standing = servo.standing();
-    const Run run{options, standing, journal, device, !watcher.record_failure()};
+    const ServoStatus status = servo.status();
+    const Run run{options, status, journal, device, !monitor.record_failure()};
     write_statistics(run, file);
-    return conclude(run, rig.governor(), watcher);
+    return conclude(run, rig.governor(), monitor);
 }
 
 base::Result<int> execute(const Command& command)

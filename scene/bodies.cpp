@@ -28,27 +28,27 @@ double inertia_about(int axis, const glm::dvec3& inertia, const glm::dquat& orie
     return about;
 }
 
-BodyForm form_of(const BodyDescription& body, BodyId id)
+BodyProperties properties_of(const BodyDescription& body, BodyId id)
 {
-    BodyForm form{.id = id, .half = body.half};
-    form.material = body.material;
-    form.drag = body.drag_ns_per_m;
-    if (!body.movable) return form;
-    form.mass = body.mass_kg;
-    form.turning = body.turning;
+    BodyProperties properties{.id = id, .half = body.half};
+    properties.material = body.material;
+    properties.drag = body.drag_ns_per_m;
+    if (!body.movable) return properties;
+    properties.mass = body.mass_kg;
+    properties.turning = body.turning;
     const double light = 1.0 / body.mass_kg;
-    form.inverse_mass = {body.locked_x ? 0.0 : light, body.locked_y ? 0.0 : light,
-                         body.locked_z ? 0.0 : light};
-    form.inertia = box_inertia(body.mass_kg, body.half);
-    form.is_isotropic = body.half.x == body.half.y && body.half.y == body.half.z;
+    properties.inverse_mass = {body.locked_x ? 0.0 : light, body.locked_y ? 0.0 : light,
+                               body.locked_z ? 0.0 : light};
+    properties.inertia = box_inertia(body.mass_kg, body.half);
+    properties.is_isotropic = body.half.x == body.half.y && body.half.y == body.half.z;
     if (body.turning == Turning::free) {
-        form.inverse_inertia = 1.0 / form.inertia;
+        properties.inverse_inertia = 1.0 / properties.inertia;
     } else if (body.turning != Turning::locked) {
         const int axis = free_axis(body.turning);
-        form.inverse_inertia[axis] =
-            1.0 / inertia_about(axis, form.inertia, base::normalized(body.orientation));
+        properties.inverse_inertia[axis] =
+            1.0 / inertia_about(axis, properties.inertia, base::normalized(body.orientation));
     }
-    return form;
+    return properties;
 }
 
 template <typename Lanes>
@@ -79,15 +79,15 @@ Bodies::Bodies(const Description& description)
         lane->resize(count);
     }
     slot_of.resize(count);
-    form.reserve(count);
-    ease.reserve(count);
+    properties.reserve(count);
+    inverse_inertia_max.reserve(count);
     for (const bool movables : {true, false}) {
         for (BodyId id = 0; id < count; ++id) {
             if (bodies[id].movable != movables) continue;
             slot_of[id] = size();
-            form.push_back(form_of(bodies[id], id));
-            const glm::dvec3& easy = form.back().inverse_inertia;
-            ease.push_back(std::max({easy.x, easy.y, easy.z}));
+            properties.push_back(properties_of(bodies[id], id));
+            const glm::dvec3& easy = properties.back().inverse_inertia;
+            inverse_inertia_max.push_back(std::max({easy.x, easy.y, easy.z}));
         }
         if (movables) awake = movable = size();
     }
@@ -109,10 +109,10 @@ void Bodies::swap(Slot a, Slot b)
     swap_lanes(orientation, a, b);
     std::swap(orientation.w[a], orientation.w[b]);
     swap_lanes(angular_momentum, a, b);
-    std::swap(ease[a], ease[b]);
-    std::swap(form[a], form[b]);
-    slot_of[form[a].id] = a;
-    slot_of[form[b].id] = b;
+    std::swap(inverse_inertia_max[a], inverse_inertia_max[b]);
+    std::swap(properties[a], properties[b]);
+    slot_of[properties[a].id] = a;
+    slot_of[properties[b].id] = b;
 }
 
 Slot Bodies::put_to_sleep(Slot slot)
@@ -130,9 +130,9 @@ Slot Bodies::wake(Slot slot)
     return awake++;
 }
 
-glm::dvec3 Bodies::turned_by(Slot slot, const glm::dvec3& momentum) const
+glm::dvec3 Bodies::apply_inverse_inertia(Slot slot, const glm::dvec3& momentum) const
 {
-    const BodyForm& body = form[slot];
+    const BodyProperties& body = properties[slot];
     // Alike about every axis, or about the world's own axes: no frame to turn into.
     if (body.is_isotropic || body.turning != Turning::free) return body.inverse_inertia * momentum;
     const glm::dmat3 axes = glm::mat3_cast(orientation.at(slot));
@@ -141,12 +141,12 @@ glm::dvec3 Bodies::turned_by(Slot slot, const glm::dvec3& momentum) const
 
 glm::dvec3 Bodies::angular_velocity(Slot slot) const
 {
-    return turned_by(slot, angular_momentum.at(slot));
+    return apply_inverse_inertia(slot, angular_momentum.at(slot));
 }
 
-void Bodies::spin(Slot slot, const glm::dvec3& angular_velocity)
+void Bodies::set_angular_velocity(Slot slot, const glm::dvec3& angular_velocity)
 {
-    const BodyForm& body = form[slot];
+    const BodyProperties& body = properties[slot];
     glm::dvec3 momentum{0.0};
     if (body.turning == Turning::free) {
         const glm::dmat3 axes = glm::mat3_cast(orientation.at(slot));
@@ -166,7 +166,7 @@ BodyState Bodies::state(Slot slot) const
 
 void Bodies::put(Slot slot, const BodyState& state)
 {
-    const glm::dvec3& light = form[slot].inverse_mass;
+    const glm::dvec3& light = properties[slot].inverse_mass;
     glm::dvec3 speed = state.velocity.value;
     for (const int axis : {0, 1, 2}) {
         if (light[axis] == 0.0) speed[axis] = 0.0;
@@ -174,7 +174,7 @@ void Bodies::put(Slot slot, const BodyState& state)
     position.put(slot, state.position.value);
     orientation.put(slot, state.orientation);
     velocity.put(slot, speed);
-    spin(slot, state.angular_velocity);
+    set_angular_velocity(slot, state.angular_velocity);
 }
 
 } // namespace hapnet::scene

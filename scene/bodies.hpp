@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/input.hpp"
+#include "scene/description.hpp"
 
 #include <cstdint>
 #include <span>
@@ -10,11 +10,22 @@
 
 namespace hapnet::scene {
 
+/// A body's index in its description.
+using BodyId = std::uint32_t;
+
+/// A rigid body's place and motion.
+struct BodyState {
+    base::Position position{};
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    base::Velocity velocity{};
+    glm::dvec3 angular_velocity{0.0}; // rad/s, in the world's frame
+};
+
 /// Where a body is kept at the moment. Changes when it falls asleep or wakes; its id does not.
 using Slot = std::uint32_t;
 
 /// What of a body does not change: the cold half.
-struct BodyForm {
+struct BodyProperties {
     BodyId id = 0;
     glm::dvec3 half{0.02};
     glm::dvec3 inverse_mass{0.0};    // 1/kg per axis of the world; 0 where locked or fixed
@@ -55,12 +66,12 @@ struct Bodies {
         }
     };
 
-    Lanes3 position;          // of the centre, m
-    Lanes3 velocity;          // m/s
-    Lanes4 orientation;       // unit
-    Lanes3 angular_momentum;  // kg m^2/s
-    std::vector<double> ease; // the largest inverse moment of inertia, 1/(kg m^2)
-    std::vector<BodyForm> form;
+    Lanes3 position;                         // of the centre, m
+    Lanes3 velocity;                         // m/s
+    Lanes4 orientation;                      // unit
+    Lanes3 angular_momentum;                 // kg m^2/s
+    std::vector<double> inverse_inertia_max; // the largest inverse moment of inertia, 1/(kg m^2)
+    std::vector<BodyProperties> properties;
     std::vector<Slot> slot_of; // by id
 
     Slot awake = 0;
@@ -69,7 +80,7 @@ struct Bodies {
     /// All movable bodies awake, in the order of their ids; then the fixed ones.
     explicit Bodies(const Description& description);
 
-    [[nodiscard]] Slot size() const { return static_cast<Slot>(form.size()); }
+    [[nodiscard]] Slot size() const { return static_cast<Slot>(properties.size()); }
 
     /// Exchanges two bodies' slots.
     void swap(Slot a, Slot b);
@@ -78,10 +89,11 @@ struct Bodies {
     Slot wake(Slot slot);
 
     /// The inverse inertia times a vector, in the world's frame.
-    [[nodiscard]] glm::dvec3 turned_by(Slot slot, const glm::dvec3& angular_momentum) const;
+    [[nodiscard]] glm::dvec3 apply_inverse_inertia(Slot slot,
+                                                   const glm::dvec3& angular_momentum) const;
     [[nodiscard]] glm::dvec3 angular_velocity(Slot slot) const;
     /// Sets the angular momentum that belongs to an angular velocity.
-    void spin(Slot slot, const glm::dvec3& angular_velocity);
+    void set_angular_velocity(Slot slot, const glm::dvec3& angular_velocity);
 
     [[nodiscard]] BodyState state(Slot slot) const;
     void put(Slot slot, const BodyState& state);

@@ -97,18 +97,18 @@ base::Result<void> check_whole(const Description& description)
     return check.result();
 }
 
-base::Result<void> check_hips(const HipDescription& hips)
+base::Result<void> check_hands(const HandDescription& hands)
 {
     Check check{"hips"};
-    check.holds(hips.count <= hips_max, fmt::format("count is more than {}", hips_max));
-    check.within("radius in m", hips.radius_m, size_min_m, size_max_m);
-    check.within("stiffness in N/m", hips.stiffness_n_per_m, 0.0, stiffness_max_n_per_m);
-    check.within("damping in N s/m", hips.damping_ns_per_m, 0.0, damping_max_ns_per_m);
-    check.within("grip reach in m", hips.grip_reach_m, 0.0, size_max_m);
-    check.within("friction", hips.friction, 0.0, friction_max);
-    check.holds(std::isinf(hips.force_max_n) || hips.force_max_n <= force_max_n,
+    check.holds(hands.count <= hands_max, fmt::format("count is more than {}", hands_max));
+    check.within("radius in m", hands.radius_m, size_min_m, size_max_m);
+    check.within("stiffness in N/m", hands.stiffness_n_per_m, 0.0, stiffness_max_n_per_m);
+    check.within("damping in N s/m", hands.damping_ns_per_m, 0.0, damping_max_ns_per_m);
+    check.within("grip reach in m", hands.grip_reach_m, 0.0, size_max_m);
+    check.within("friction", hands.friction, 0.0, friction_max);
+    check.holds(std::isinf(hands.force_max_n) || hands.force_max_n <= force_max_n,
                 fmt::format("force_max is more than {} N; infinity: no limit", force_max_n));
-    check.holds(hips.force_max_n >= 0.0, "force_max is below 0");
+    check.holds(hands.force_max_n >= 0.0, "force_max is below 0");
     return check.result();
 }
 
@@ -163,7 +163,7 @@ void add(Hash& hash, const BodyDescription& body)
 base::Result<void> check(const Description& description)
 {
     if (auto whole = check_whole(description); !whole) return whole;
-    if (auto hips = check_hips(description.hips); !hips) return hips;
+    if (auto hands = check_hands(description.hands); !hands) return hands;
     for (std::size_t i = 0; i < description.planes.size(); ++i) {
         if (auto plane = check_plane(description.planes[i], i + 1); !plane) return plane;
     }
@@ -184,16 +184,29 @@ std::uint64_t hash(const Description& description)
         hash.add(plane.offset_m);
         hash.add(plane.material);
     }
-    const HipDescription& hips = description.hips;
-    for (const double value : {hips.radius_m, hips.stiffness_n_per_m, hips.damping_ns_per_m,
-                               hips.force_max_n, hips.grip_reach_m}) {
+    const HandDescription& hands = description.hands;
+    for (const double value : {hands.radius_m, hands.stiffness_n_per_m, hands.damping_ns_per_m,
+                               hands.force_max_n, hands.grip_reach_m}) {
         hash.add(value);
     }
-    hash.add(std::uint64_t{hips.count});
+    hash.add(std::uint64_t{hands.count});
     hash.add(description.gravity);
     // Scenes without it keep the hash that they had before there was any.
-    if (hips.friction != 0.0) hash.add(hips.friction);
+    if (hands.friction != 0.0) hash.add(hands.friction);
     return hash.value();
+}
+
+Description paper_scene()
+{
+    BodyDescription cube{.name = "cube"};
+    cube.turning = Turning::locked;
+    cube.drag_ns_per_m = 10.0;
+    BodyDescription obstacle{.name = "static cube", .movable = false};
+    obstacle.position = {{0.1147, 0.0, 0.030}};
+    Description scene{.name = "paper"};
+    scene.bodies = {cube, obstacle};
+    scene.planes = {{.name = "platform", .offset_m = -0.020}};
+    return scene;
 }
 
 } // namespace hapnet::scene

@@ -57,7 +57,7 @@ struct PlaneDescription {
 /// The hands' spheres (haptic interface points), all alike: a spring and a damper between the
 /// sphere and what it touches. The world's hands have no friction; what plays a session adds it
 /// from outside (peer::FingerFriction).
-struct HipDescription {
+struct HandDescription {
     double radius_m = 0.005;
     double stiffness_n_per_m = 500.0;
     double damping_ns_per_m = 2.0;
@@ -66,7 +66,7 @@ struct HipDescription {
     double friction = 0.0;       // Coulomb's coefficient, 0..friction_max
     std::uint32_t count = 2;     // 0..hips_max
 
-    friend bool operator==(const HipDescription&, const HipDescription&) = default;
+    friend bool operator==(const HandDescription&, const HandDescription&) = default;
 };
 
 /// What a scene is, before it is frozen: a value that anything may build, print or compare.
@@ -74,13 +74,13 @@ struct Description {
     std::string name;
     std::vector<BodyDescription> bodies{}; // a body's id is its index
     std::vector<PlaneDescription> planes{};
-    HipDescription hips{};
+    HandDescription hands{};
     glm::dvec3 gravity{0.0, -9.81, 0.0}; // m/s^2
 
     friend bool operator==(const Description&, const Description&) = default;
 };
 
-inline constexpr std::uint32_t hips_max = 8;
+inline constexpr std::uint32_t hands_max = 8;
 inline constexpr std::uint32_t bodies_max = 100'000;
 inline constexpr std::uint32_t planes_max = 64;
 

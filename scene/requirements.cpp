@@ -56,36 +56,39 @@ Census census_of(const Description& description)
     return census;
 }
 
-Need need(Feature feature, bool needed, std::string because)
+Requirement require(Feature feature, bool needed, std::string because)
 {
     return {feature, needed, std::move(because)};
 }
 
-Need need_friction(const Census& census)
+Requirement require_friction(const Census& census)
 {
-    if (census.rough == 0) return need(Feature::friction, false, "no movable body is rough");
+    if (census.rough == 0) return require(Feature::friction, false, "no movable body is rough");
     if (census.rough_other == 0 && census.rough < 2) {
-        return need(Feature::friction, false, "a rough body meets nothing that is rough");
+        return require(Feature::friction, false, "a rough body meets nothing that is rough");
     }
-    return need(Feature::friction, true,
-                fmt::format("{} of {} movable bodies are rough", census.rough, census.movable));
+    return require(Feature::friction, true,
+                   fmt::format("{} of {} movable bodies are rough", census.rough, census.movable));
 }
 
-Need need_contact(const Description& description, const Census& census)
+Requirement require_contact(const Description& description, const Census& census)
 {
-    if (census.movable == 0) return need(Feature::contact, false, "nothing is movable");
+    if (census.movable == 0) return require(Feature::contact, false, "nothing is movable");
     const std::size_t others =
-        census.movable - 1 + census.fixed + description.planes.size() + description.hips.count;
+        census.movable - 1 + census.fixed + description.planes.size() + description.hands.count;
     if (others == 0) {
-        return need(Feature::contact, false, "one movable body with nothing around it");
+        return require(Feature::contact, false, "one movable body with nothing around it");
     }
-    return need(Feature::contact, true,
-                fmt::format("movable bodies: {}; fixed bodies: {}; planes: {}; hands: {}",
-                            census.movable, census.fixed, description.planes.size(),
-                            description.hips.count));
+    return require(Feature::contact, true,
+                   fmt::format("movable bodies: {}; fixed bodies: {}; planes: {}; hands: {}",
+                               census.movable, census.fixed, description.planes.size(),
+                               description.hands.count));
 }
 
-Need without_contact(Feature feature) { return need(feature, false, "nothing touches anything"); }
+Requirement without_contact(Feature feature)
+{
+    return require(feature, false, "nothing touches anything");
+}
 
 } // namespace
 
@@ -97,55 +100,57 @@ std::string_view name_of(Feature feature)
     return names.at(static_cast<std::size_t>(feature));
 }
 
-std::string_view name_of(Profile profile)
+std::string_view name_of(StepperKind kind)
 {
-    constexpr std::array<std::string_view, profiles> names{"flight", "sliding", "sliding-coulomb",
-                                                           "lone",   "few",     "many"};
-    return names.at(static_cast<std::size_t>(profile));
+    constexpr std::array<std::string_view, stepper_kinds> names{
+        "flight", "sliding", "sliding-coulomb", "lone", "few", "many"};
+    return names.at(static_cast<std::size_t>(kind));
 }
 
-FeatureSet abilities(Profile profile)
+FeatureSet abilities_of(StepperKind kind)
 {
     using enum Feature;
     FeatureSet set;
     const auto add = [&set](auto... those) { (set.add(those), ...); };
-    switch (profile) {
-    case Profile::flight: add(rotation, skew); break;
-    case Profile::many: add(grid); [[fallthrough]];
-    case Profile::few: add(bodies, sleep); [[fallthrough]];
-    case Profile::lone: add(rotation, skew); [[fallthrough]];
-    case Profile::sliding_coulomb: add(friction); [[fallthrough]];
-    case Profile::sliding: add(contact, hips, restitution, drag); break;
+    switch (kind) {
+    case StepperKind::flight: add(rotation, skew); break;
+    case StepperKind::many: add(grid); [[fallthrough]];
+    case StepperKind::few: add(bodies, sleep); [[fallthrough]];
+    case StepperKind::lone: add(rotation, skew); [[fallthrough]];
+    case StepperKind::sliding_coulomb: add(friction); [[fallthrough]];
+    case StepperKind::sliding: add(contact, hands, restitution, drag); break;
     }
     return set;
 }
 
-Needs needs_of(const Description& description, bool sleeping)
+Requirements requirements_of(const Description& description, bool sleeping)
 {
     using enum Feature;
     const Census census = census_of(description);
     const std::size_t total = census.movable + census.fixed;
-    Needs needs{
-        need_contact(description, census),
-        need(hips, description.hips.count > 0, fmt::format("hands: {}", description.hips.count)),
-        need(skew, census.skew > 0,
-             fmt::format("boxes and planes not parallel to the axes: {}", census.skew)),
-        need(rotation, census.turning > 0,
-             fmt::format("movable bodies that can turn: {} of {}", census.turning, census.movable)),
-        need_friction(census),
-        need(restitution, census.bouncing > 0,
-             fmt::format("bodies and planes that make things bounce: {}", census.bouncing)),
-        need(drag, census.dragged > 0 && !description.planes.empty(),
-             fmt::format("movable bodies with drag: {}; planes: {}", census.dragged,
-                         description.planes.size())),
-        need(bodies, census.movable > 1, fmt::format("movable bodies: {}", census.movable)),
-        need(sleep, sleeping && census.movable > 1,
-             sleeping ? fmt::format("movable bodies: {}", census.movable)
-                      : std::string{"switched off"}),
-        need(grid, total > scan_max && census.movable > 0,
-             fmt::format("bodies: {}; up to {} a scan is faster", total, scan_max))};
-    if (!needs[0].needed) {
-        for (Need& each : needs) {
+    Requirements needs{
+        require_contact(description, census),
+        require(hands, description.hands.count > 0,
+                fmt::format("hands: {}", description.hands.count)),
+        require(skew, census.skew > 0,
+                fmt::format("boxes and planes not parallel to the axes: {}", census.skew)),
+        require(
+            rotation, census.turning > 0,
+            fmt::format("movable bodies that can turn: {} of {}", census.turning, census.movable)),
+        require_friction(census),
+        require(restitution, census.bouncing > 0,
+                fmt::format("bodies and planes that make things bounce: {}", census.bouncing)),
+        require(drag, census.dragged > 0 && !description.planes.empty(),
+                fmt::format("movable bodies with drag: {}; planes: {}", census.dragged,
+                            description.planes.size())),
+        require(bodies, census.movable > 1, fmt::format("movable bodies: {}", census.movable)),
+        require(sleep, sleeping && census.movable > 1,
+                sleeping ? fmt::format("movable bodies: {}", census.movable)
+                         : std::string{"switched off"}),
+        require(grid, total > scan_max && census.movable > 0,
+                fmt::format("bodies: {}; up to {} a scan is faster", total, scan_max))};
+    if (!needs[0].is_required) {
+        for (Requirement& each : needs) {
             const bool is_own = each.feature == contact || each.feature == rotation;
             if (!is_own) each = without_contact(each.feature);
         }
@@ -153,23 +158,23 @@ Needs needs_of(const Description& description, bool sleeping)
     return needs;
 }
 
-FeatureSet features_of(const Needs& needs)
+FeatureSet required_features(const Requirements& needs)
 {
     FeatureSet set;
-    for (const Need& each : needs) {
-        if (each.needed) set.add(each.feature);
+    for (const Requirement& each : needs) {
+        if (each.is_required) set.add(each.feature);
     }
     return set;
 }
 
-Profile profile_for(FeatureSet needed)
+StepperKind cheapest_stepper(FeatureSet needed)
 {
-    for (std::size_t i = 0; i < profiles; ++i) {
-        const auto profile = static_cast<Profile>(i);
-        if (abilities(profile).covers(needed)) return profile;
+    for (std::size_t i = 0; i < stepper_kinds; ++i) {
+        const auto kind = static_cast<StepperKind>(i);
+        if (abilities_of(kind).covers(needed)) return kind;
     }
     base::ensure(false); // the last one can do everything
-    return Profile::many;
+    return StepperKind::many;
 }
 
 } // namespace hapnet::scene

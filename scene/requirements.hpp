@@ -14,7 +14,7 @@ namespace hapnet::scene {
 /// What a scene may need of a tick.
 enum class Feature : std::uint8_t {
     contact,     // anything can touch anything at all
-    hips,        // hands
+    hands,       // hands
     skew,        // a box or a plane that is not parallel to the axes
     rotation,    // a movable body that can turn
     friction,    // Coulomb friction
@@ -54,7 +54,7 @@ private:
 
 /// The ticks that exist, the cheapest first. Each is compiled for its features alone, without a
 /// branch for the others.
-enum class Profile : std::uint8_t {
+enum class StepperKind : std::uint8_t {
     flight,          // nothing touches anything: exact parabolas and rotations
     sliding,         // one box that cannot turn among others parallel to it: exact, event by event
     sliding_coulomb, // ... with dry friction
@@ -62,25 +62,25 @@ enum class Profile : std::uint8_t {
     few,             // movable bodies that touch each other; each is compared with each
     many,            // ... found through a grid
 };
-inline constexpr std::size_t profiles = 6;
+inline constexpr std::size_t stepper_kinds = 6;
 
-[[nodiscard]] std::string_view name_of(Profile profile);
+[[nodiscard]] std::string_view name_of(StepperKind kind);
 /// What a profile can do.
-[[nodiscard]] FeatureSet abilities(Profile profile);
+[[nodiscard]] FeatureSet abilities_of(StepperKind kind);
 
 /// Whether a scene needs a feature, and why or why not.
-struct Need {
+struct Requirement {
     Feature feature = Feature::contact;
-    bool needed = false;
+    bool is_required = false;
     std::string because;
 };
 
 /// What a scene needs, feature by feature.
-using Needs = std::array<Need, features>;
-[[nodiscard]] Needs needs_of(const Description& description, bool sleeping);
-[[nodiscard]] FeatureSet features_of(const Needs& needs);
+using Requirements = std::array<Requirement, features>;
+[[nodiscard]] Requirements requirements_of(const Description& description, bool sleeping);
+[[nodiscard]] FeatureSet required_features(const Requirements& needs);
 
 /// The cheapest profile that can do what is needed.
-[[nodiscard]] Profile profile_for(FeatureSet needed);
+[[nodiscard]] StepperKind cheapest_stepper(FeatureSet needed);
 
 } // namespace hapnet::scene

@@ -6,14 +6,35 @@
 #include "scene/bounded.hpp"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace hapnet::scene {
 
+/// Where a hand is at the start of a tick. During the tick it moves on at its velocity (first-order
+/// hold), so that a steady push has no lag of one tick.
+struct HandInput {
+    base::Position position{};
+    base::Velocity velocity{};
+    bool present = true; // false: it touches nothing
+    bool gripping = false;
+};
+
+/// What a hand did and felt in the last tick.
+struct HandTouch {
+    bool touching = false; // pushed or held a movable body
+    bool holding = false;
+    BodyId body = 0;                // the movable one that it touched
+    base::Force on_body{};          // on the movable body: the mean over the tick
+    base::Force on_hand{};          // by everything it touched: the mean over the tick
+    double depth_m = 0.0;           // at the start of the tick, of the deepest contact
+    base::Force on_hand_at_start{}; // the spring and damper at the start of the tick
+};
+
 /// What holds for a frozen scene from its first tick to its last.
-struct Frozen {
+struct WorldConfig {
     std::vector<PlaneDescription> planes{};
-    HipDescription hips{};
+    HandDescription hands{};
     glm::dvec3 gravity{0.0};
     double tick = 1e-3;   // seconds
     bool sleeping = true; // whether bodies at rest may fall asleep
@@ -22,14 +43,25 @@ struct Frozen {
 /// What every tick profile works on: the bodies, what the hands do, and what they feel of it.
 /// Everything that changes and that the next tick depends on lies here or in the profile's own
 /// memory: a copy of both is a snapshot.
-struct Stage {
+struct WorldState {
     Bodies bodies;
-    std::array<HipInput, hips_max> hips{};
-    std::array<HipTouch, hips_max> touches{};
+    std::array<HandInput, hands_max> hands{};
+    std::array<HandTouch, hands_max> touches{};
     std::vector<glm::dvec3> pushes{};      // newtons by id, held for the next tick, then cleared
     Bounded<BodyId> pushed{};              // those of whom there is a push, each once
     std::vector<std::uint8_t> is_pushed{}; // by id
     std::uint64_t ticks = 0;
 };
+
+/// What is small in this scene: everything is measured against it.
+struct Scales {
+    double tick = 1e-3;  // s
+    double size = 0.02;  // m: the smallest half edge of a movable body
+    double least = 0.02; // m: the smallest half edge of all
+    double fall = 0.0;   // m/s: what gravity adds in a tick
+    double speed = 1e-2; // m/s: the above, or what crosses a millionth of the size in a tick
+    double rate = 1e3;   // 1/s: ticks per second
+};
+[[nodiscard]] Scales scales_of(const WorldConfig& config, const Bodies& bodies);
 
 } // namespace hapnet::scene

@@ -61,23 +61,37 @@ private:
     std::uint64_t hash_ = 0x9e3779b97f4a7c15U;
 };
 
-Frozen frozen_from(const Description& description, const FreezeOptions& options)
+WorldConfig config_from(const Description& description, const FreezeOptions& options)
 {
     return {.planes = description.planes,
-            .hips = description.hips,
+            .hands = description.hands,
             .gravity = description.gravity,
             .tick = base::to_seconds(options.tick),
             .sleeping = options.sleeping};
 }
 
-Stage stage_from(const Description& description)
+WorldState initial_state(const Description& description)
 {
-    Stage stage{.bodies = Bodies{description}};
-    for (HipInput& hip : stage.hips) hip.present = false;
-    stage.pushes.resize(description.bodies.size());
-    stage.pushed = Bounded<BodyId>{description.bodies.size()};
-    stage.is_pushed.resize(description.bodies.size());
-    return stage;
+    WorldState state{.bodies = Bodies{description}};
+    for (HandInput& hand : state.hands) hand.present = false;
+    state.pushes.resize(description.bodies.size());
+    state.pushed = Bounded<BodyId>{description.bodies.size()};
+    state.is_pushed.resize(description.bodies.size());
+    return state;
+}
+
+Stepper make_stepper(StepperKind kind, const Description& description, const WorldConfig& config,
+                     const WorldState& state)
+{
+    switch (kind) {
+    case StepperKind::flight: return FreeFlightStepper{description, config, state};
+    case StepperKind::sliding: return OneBoxStepper<false>{description, config, state};
+    case StepperKind::sliding_coulomb: return OneBoxStepper<true>{description, config, state};
+    case StepperKind::lone: return RigidStepper<BroadPhase::none>{description, config, state};
+    case StepperKind::few: return RigidStepper<BroadPhase::all_pairs>{description, config, state};
+    case StepperKind::many: break;
+    }
+    return RigidStepper<BroadPhase::grid>{description, config, state};
 }
 
 } // namespace
@@ -88,21 +102,21 @@ base::Result<World> World::freeze(const Description& description, const FreezeOp
     if (options.tick < tick_min || options.tick > tick_max) {
         return base::fail("a tick lasts 10 us to 100 ms");
     }
-    const FeatureSet needed = features_of(needs_of(description, options.sleeping));
-    const Profile profile = options.profile.value_or(profile_for(needed));
-    if (!abilities(profile).covers(needed)) {
+    const FeatureSet needed = required_features(requirements_of(description, options.sleeping));
+    const StepperKind kind = options.stepper.value_or(cheapest_stepper(needed));
+    if (!abilities_of(kind).covers(needed)) {
         return base::fail(fmt::format("the tick profile '{}' cannot do what the scene needs; '{}' "
                                       "can",
-                                      name_of(profile), name_of(profile_for(needed))));
+                                      name_of(kind), name_of(cheapest_stepper(needed))));
     }
-    return World{description, options, profile};
+    return World{description, options, kind};
 }
 
-World::World(const Description& description, const FreezeOptions& options, Profile profile)
-    : frozen_{frozen_from(description, options)},
-      profile_{profile},
-      stage_{stage_from(description)},
-      ticks_{make_ticks(profile, description, frozen_, stage_)}
+World::World(const Description& description, const FreezeOptions& options, StepperKind kind)
+    : config_{config_from(description, options)},
+      kind_{kind},
+      state_{initial_state(description)},
+      stepper_{make_stepper(kind, description, config_, state_)}
 {}
 
 std::optional<Refusal> World::refuse(Refusal refusal)
@@ -111,12 +125,12 @@ std::optional<Refusal> World::refuse(Refusal refusal)
     return refusal;
 }
 
-std::optional<Refusal> World::hip(std::uint32_t index, const HipInput& input)
+std::optional<Refusal> World::set_hand(std::uint32_t index, const HandInput& input)
 {
-    if (index >= frozen_.hips.count) return refuse(Refusal::no_such_hip);
+    if (index >= config_.hands.count) return refuse(Refusal::no_such_hand);
     if (const auto why = objection(input.position.value, reach_max_m)) return refuse(*why);
     if (const auto why = objection(input.velocity.value, speed_max_m_per_s)) return refuse(*why);
-    stage_.hips[index] = input;
+    state_.hands[index] = input;
     return std::nullopt;
 }
 
@@ -124,11 +138,11 @@ std::optional<Refusal> World::push(BodyId body, base::Force force)
 {
     if (!is_movable(body)) return refuse(Refusal::no_such_body);
     if (const auto why = objection(force.value, force_max_n)) return refuse(*why);
-    const glm::dvec3 sum = stage_.pushes[body] + force.value;
+    const glm::dvec3 sum = state_.pushes[body] + force.value;
     if (const auto why = objection(sum, force_max_n)) return refuse(*why);
-    if (stage_.is_pushed[body] == 0) stage_.pushed.add(body);
-    stage_.is_pushed[body] = 1;
-    stage_.pushes[body] = sum;
+    if (state_.is_pushed[body] == 0) state_.pushed.add(body);
+    state_.is_pushed[body] = 1;
+    state_.pushes[body] = sum;
     return std::nullopt;
 }
 
@@ -141,21 +155,21 @@ std::optional<Refusal> World::place(BodyId body, const BodyState& state)
     if (const auto why = objection(state.angular_velocity, turn_max_rad_per_s)) {
         return refuse(*why);
     }
-    const Slot slot = stage_.bodies.slot_of[body];
+    const Slot slot = state_.bodies.slot_of[body];
     BodyState usable = state;
     usable.orientation = base::normalized(state.orientation);
-    const Turning turning = stage_.bodies.form[slot].turning;
-    if (!can_turn(turning, stage_.bodies.orientation.at(slot), usable.orientation)) {
+    const Turning turning = state_.bodies.properties[slot].turning;
+    if (!can_turn(turning, state_.bodies.orientation.at(slot), usable.orientation)) {
         return refuse(Refusal::out_of_range);
     }
-    if (turning == Turning::locked) usable.orientation = stage_.bodies.orientation.at(slot);
-    const glm::dvec3 current = stage_.bodies.position.at(slot);
-    const glm::dvec3& light = stage_.bodies.form[slot].inverse_mass;
+    if (turning == Turning::locked) usable.orientation = state_.bodies.orientation.at(slot);
+    const glm::dvec3 current = state_.bodies.position.at(slot);
+    const glm::dvec3& light = state_.bodies.properties[slot].inverse_mass;
     for (const int axis : {0, 1, 2}) {
         if (light[axis] == 0.0) usable.position.value[axis] = current[axis];
     }
-    stage_.bodies.put(slot, usable);
-    std::visit([&](auto& tick) { tick.disturbed(stage_, body); }, ticks_);
+    state_.bodies.put(slot, usable);
+    std::visit([&](auto& stepper) { stepper.on_body_placed(state_, body); }, stepper_);
     return std::nullopt;
 }
 
@@ -164,53 +178,53 @@ std::optional<Refusal> World::place(BodyId body, base::Position position, base::
     if (!is_movable(body)) return refuse(Refusal::no_such_body);
     if (const auto why = objection(position.value, reach_max_m)) return refuse(*why);
     if (const auto why = objection(velocity.value, speed_max_m_per_s)) return refuse(*why);
-    const Slot slot = stage_.bodies.slot_of[body];
-    const glm::dvec3 current = stage_.bodies.position.at(slot);
-    const glm::dvec3& light = stage_.bodies.form[slot].inverse_mass;
+    const Slot slot = state_.bodies.slot_of[body];
+    const glm::dvec3 current = state_.bodies.position.at(slot);
+    const glm::dvec3& light = state_.bodies.properties[slot].inverse_mass;
     for (const int axis : {0, 1, 2}) {
         if (light[axis] != 0.0) continue;
         position.value[axis] = current[axis];
         velocity.value[axis] = 0.0;
     }
-    stage_.bodies.position.put(slot, position.value);
-    stage_.bodies.velocity.put(slot, velocity.value);
-    std::visit([&](auto& tick) { tick.disturbed(stage_, body); }, ticks_);
+    state_.bodies.position.put(slot, position.value);
+    state_.bodies.velocity.put(slot, velocity.value);
+    std::visit([&](auto& stepper) { stepper.on_body_placed(state_, body); }, stepper_);
     return std::nullopt;
 }
 
 void World::tick()
 {
-    std::visit([&](auto& tick) { tick.tick(frozen_, stage_); }, ticks_);
-    for (const BodyId body : stage_.pushed) {
-        stage_.pushes[body] = glm::dvec3{0.0};
-        stage_.is_pushed[body] = 0;
+    std::visit([&](auto& stepper) { stepper.step(config_, state_); }, stepper_);
+    for (const BodyId body : state_.pushed) {
+        state_.pushes[body] = glm::dvec3{0.0};
+        state_.is_pushed[body] = 0;
     }
-    stage_.pushed.clear();
-    ++stage_.ticks;
+    state_.pushed.clear();
+    ++state_.ticks;
 }
 
 bool World::is_movable(BodyId id) const
 {
-    return id < stage_.bodies.size() && stage_.bodies.slot_of[id] < stage_.bodies.movable;
+    return id < state_.bodies.size() && state_.bodies.slot_of[id] < state_.bodies.movable;
 }
 
-BodyState World::body(BodyId id) const { return stage_.bodies.state(slot_of(id)); }
+BodyState World::body(BodyId id) const { return state_.bodies.state(slot_of(id)); }
 
-bool World::is_awake(BodyId id) const { return slot_of(id) < stage_.bodies.awake; }
+bool World::is_awake(BodyId id) const { return slot_of(id) < state_.bodies.awake; }
 
 void World::restore(const Snapshot& snapshot)
 {
-    base::ensure(snapshot.ticks.index() == ticks_.index() &&
-                 snapshot.stage.bodies.size() == stage_.bodies.size());
-    stage_ = snapshot.stage;
-    ticks_ = snapshot.ticks;
+    base::ensure(snapshot.stepper.index() == stepper_.index() &&
+                 snapshot.state.bodies.size() == state_.bodies.size());
+    state_ = snapshot.state;
+    stepper_ = snapshot.stepper;
 }
 
 std::uint64_t World::hash() const
 {
-    const Bodies& bodies = stage_.bodies;
+    const Bodies& bodies = state_.bodies;
     BitHash hash;
-    hash.add(stage_.ticks);
+    hash.add(state_.ticks);
     for (const Slot slot : bodies.slot_of) {
         for (const auto* lanes : {&bodies.position, &bodies.velocity, &bodies.angular_momentum}) {
             hash.add(lanes->x[slot]);

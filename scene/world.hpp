@@ -4,11 +4,16 @@
 
 #include "proto/base/ensure.hpp"
 #include "proto/base/time.hpp"
+#include "scene/one_box/step.hpp"
 #include "scene/requirements.hpp"
+#include "scene/rigid/free_flight.hpp"
+#include "scene/rigid/step.hpp"
 #include "scene/state.hpp"
-#include "scene/steppers.hpp"
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <variant>
 
 namespace hapnet::scene {
 
@@ -19,11 +24,26 @@ inline constexpr base::Duration tick_max{std::chrono::milliseconds{100}};
 struct FreezeOptions {
     base::Duration tick{std::chrono::milliseconds{1}}; // tick_min..tick_max
     bool sleeping = true;                              // bodies at rest fall asleep
-    std::optional<Profile> profile{}; // instead of the cheapest; it has to do what the scene needs
+    std::optional<StepperKind>
+        stepper{}; // instead of the cheapest; it has to do what the scene needs
 };
 
+/// Why an input was not taken; the world is as it was.
+enum class Refusal : std::uint8_t { not_finite, out_of_range, no_such_body, no_such_hand };
+inline constexpr std::size_t refusals = 4;
+
+/// How many inputs were refused, by cause.
+using RefusalCounts = std::array<std::uint64_t, refusals>;
+
+/// The tick of a world: one of the profiles, chosen when the scene is frozen. Each is a value with
+/// two verbs: tick(frozen, stage) and disturbed(stage, body), which says that a body was put
+/// somewhere from outside. The order is that of StepperKind.
+using Stepper = std::variant<FreeFlightStepper, OneBoxStepper<false>, OneBoxStepper<true>,
+                             RigidStepper<BroadPhase::none>, RigidStepper<BroadPhase::all_pairs>,
+                             RigidStepper<BroadPhase::grid>>;
+
 /// A scene that runs. It does no I/O, reads no clock, and after freeze() takes no memory: feed it
-/// with hip() and push(), advance it with tick(), read what came of it. An input that is not
+/// with set_hand() and push(), advance it with tick(), read what came of it. An input that is not
 /// finite or out of range is refused and counted, and changes nothing.
 ///
 /// A World is a value: copies run on their own. Equal inputs give equal bits with every compiler.
@@ -34,7 +54,7 @@ public:
                                                     const FreezeOptions& options = {});
 
     /// Where a hand is, from the next tick on.
-    std::optional<Refusal> hip(std::uint32_t index, const HipInput& input);
+    std::optional<Refusal> set_hand(std::uint32_t index, const HandInput& input);
     /// A force on a movable body's centre, held for the next tick; pushes of one tick add up.
     std::optional<Refusal> push(BodyId body, base::Force force);
     /// Puts a movable body somewhere, regardless of what it was doing, and wakes it. Coordinates
@@ -49,26 +69,26 @@ public:
     /// body(id)'s, without the rest.
     [[nodiscard]] base::Position position(BodyId id) const
     {
-        return {stage_.bodies.position.at(slot_of(id))};
+        return {state_.bodies.position.at(slot_of(id))};
     }
     [[nodiscard]] base::Velocity velocity(BodyId id) const
     {
-        return {stage_.bodies.velocity.at(slot_of(id))};
+        return {state_.bodies.velocity.at(slot_of(id))};
     }
     [[nodiscard]] bool is_awake(BodyId id) const;
-    [[nodiscard]] const HipTouch& touch(std::uint32_t hip) const { return stage_.touches[hip]; }
-    [[nodiscard]] const Stage& stage() const { return stage_; }
-    [[nodiscard]] const Frozen& frozen() const { return frozen_; }
-    [[nodiscard]] Profile profile() const { return profile_; }
-    [[nodiscard]] std::uint64_t ticks() const { return stage_.ticks; }
+    [[nodiscard]] const HandTouch& touch(std::uint32_t hand) const { return state_.touches[hand]; }
+    [[nodiscard]] const WorldState& state() const { return state_; }
+    [[nodiscard]] const WorldConfig& frozen() const { return config_; }
+    [[nodiscard]] StepperKind stepper_kind() const { return kind_; }
+    [[nodiscard]] std::uint64_t ticks() const { return state_.ticks; }
     [[nodiscard]] const RefusalCounts& refused() const { return refused_; }
 
     /// Everything that the next tick depends on.
     struct Snapshot {
-        Stage stage;
-        Ticks ticks;
+        WorldState state;
+        Stepper stepper;
     };
-    [[nodiscard]] Snapshot snapshot() const { return {stage_, ticks_}; }
+    [[nodiscard]] Snapshot snapshot() const { return {state_, stepper_}; }
     /// The snapshot must be of a world frozen from the same description and options. Takes no
     /// memory.
     void restore(const Snapshot& snapshot);
@@ -77,19 +97,19 @@ public:
     [[nodiscard]] std::uint64_t hash() const;
 
 private:
-    World(const Description& description, const FreezeOptions& options, Profile profile);
+    World(const Description& description, const FreezeOptions& options, StepperKind kind);
     std::optional<Refusal> refuse(Refusal refusal);
     [[nodiscard]] Slot slot_of(BodyId id) const
     {
-        base::ensure(id < stage_.bodies.size());
-        return stage_.bodies.slot_of[id];
+        base::ensure(id < state_.bodies.size());
+        return state_.bodies.slot_of[id];
     }
     [[nodiscard]] bool is_movable(BodyId id) const;
 
-    Frozen frozen_;
-    Profile profile_;
-    Stage stage_;
-    Ticks ticks_;
+    WorldConfig config_;
+    StepperKind kind_;
+    WorldState state_;
+    Stepper stepper_;
     RefusalCounts refused_{};
 };
 

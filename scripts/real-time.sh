@@ -65,7 +65,7 @@ play_all() {
     done
 }
 
-[[ -n $programs ]] || build_programs
+[[ -n $programs ]] || build_programs hapnet-emulator hapnet-peer hapnet-lab
 start=$(date -u +%FT%TZ)
 started=$SECONDS
 rm -rf "$out/real-time"

@@ -2,24 +2,37 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds, and runs every test: optimised with GCC; all but those of
-# programs, their commands and emulated devices with Clang under AddressSanitizer and
-# UndefinedBehaviorSanitizer (for those: the workflow asan-e2e); and through clang-tidy.
+# Installs what is missing, builds, and runs the tests: docs/design/tests.md says what there is.
 set -euo pipefail
 
-usage="usage: scripts/test.sh [--quick]
-Runs every test; --quick runs those of the release preset alone. Exits 0 when all passed,
-1 when something failed."
+usage="usage: scripts/test.sh [--all | KIND]
+Installs what is missing, builds the release preset with GCC and runs every test of it: unit,
+property, simulation, conformance, bits, cost, benches' self tests, the house's own rules, programs
+end to end; and checks the format of the sources and the scripts.
+--all also runs the tests and replays the fuzz corpora with Clang under AddressSanitizer and
+UndefinedBehaviorSanitizer (but for the programs themselves and emulated devices: those are the
+workflow asan-e2e), and reads the sources with clang-tidy.
+KIND runs instead what needs more than a compiler: web (a browser), programs (other people's),
+ship (packages in a bare root), fleet (many machines).
+What each step said is in build/test-logs. Exits 0 when all passed, 1 when something failed, 2 for
+an unknown argument, 3 when something that it needs cannot be installed."
+
+refuse() {
+    echo "test: $1"$'\n'"$usage" >&2
+    exit 2
+}
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-sanitizers=yes
-for argument in "$@"; do
-    case $argument in
-    --quick) sanitizers= ;;
-    -h | --help) echo "$usage" && exit 0 ;;
-    *) echo "test: unknown argument '$argument'"$'\n'"$usage" >&2 && exit 2 ;;
-    esac
-done
+all=
+(($# <= 1)) || refuse "one argument at most, not $#"
+case ${1-} in
+'') ;;
+--all) all=yes ;;
+-h | --help) echo "$usage" && exit 0 ;;
+web | programs | ship | fleet) echo "test: there are no tests of the kind $1 yet" && exit 0 ;;
+-*) refuse "unknown argument '$1'" ;;
+*) refuse "unknown kind '$1': use web, programs, ship or fleet" ;;
+esac
 
 scripts/setup.sh --test
 logs=build/test-logs
@@ -58,6 +71,10 @@ check_tidy() {
     cmake --preset tidy && cmake --build --preset tidy --parallel "$(nproc)"
 }
 
+build_release() {
+    cmake --build --preset release --parallel "$(nproc)"
+}
+
 build_asan() {
     cmake --preset asan && cmake --build --preset asan --parallel "$(nproc)"
 }
@@ -83,17 +100,22 @@ show_begun() {
     [[ $begun_exit == 0 ]]
 }
 
-# The emulated devices keep real time, and wait for most of it. One that a busy machine kept waiting
-# may try once more.
+# The tests end to end wait for most of their time, so all but the programs that they start is built
+# beside them. ctest reads their folder alone: in the others there may be half a program then.
 test_release() {
     step "release configure" cmake --preset release &&
-        step "release build" cmake --build --preset release --parallel "$(nproc)" || return
+        step "release programs" cmake --build --preset release --parallel "$(nproc)" \
+            --target end_to_end || return
+    begin release-build build_release
+    step "release e2e" ctest --test-dir build/release/tests/e2e --output-on-failure || true
+    finish release-build || return
+    [[ -z $all ]] || begin asan-build build_asan
     step "release tests" ctest --preset release --parallel "$(nproc)" \
         --label-exclude '^(e2e|conformance)$' || true
+    # The emulated devices keep real time, and wait for most of it. One that a busy machine kept
+    # waiting may try once more.
     step "release conformance" ctest --preset release --parallel $((2 * $(nproc))) \
         --label-regex '^conformance$' --repeat until-pass:2 || true
-    [[ -z $sanitizers ]] || begin asan-build build_asan
-    step "release e2e" ctest --preset release --label-regex '^e2e$' || true
 }
 
 # Clang's build: so the tests also see whether another compiler gives other bits.
@@ -109,10 +131,10 @@ step "format" check_format || true
 step "scripts" check_scripts || true
 step "pages" check_pages || true
 test_release || true
-[[ -z $sanitizers ]] || test_asan || true
+[[ -z $all ]] || test_asan || true
 
 printf '\n== what the tests say\n'
-for run in release-tests release-conformance release-e2e ${sanitizers:+asan-tests}; do
+for run in release-e2e release-tests release-conformance ${all:+asan-tests}; do
     closing=$(sed -n '/% tests passed/,$p' "$logs/$run.log" 2>/dev/null || true)
     printf '%s: %s\n' "${run/-/ }" "${closing:-not run to the end}"
 done

@@ -58,6 +58,19 @@ const Backend* backend_named(std::string_view name)
     return found == backends().end() ? nullptr : &*found;
 }
 
+/// For names that people know a device by; "" for others.
+std::string_view hint_for(std::string_view name)
+{
+    if (name == "touch") {
+        return "a Touch is opened through its vendor's library: use --device hdapi[:NAME]";
+    }
+    if (name == "omni" || name == "phantom") {
+        return "use --device omni1394 for a PHANToM Omni with FireWire, and --device hdapi[:NAME] "
+               "for any other through its vendor's library";
+    }
+    return "";
+}
+
 } // namespace
 
 base::Result<DeviceName> parse_device_name(std::string_view text)
@@ -67,15 +80,15 @@ base::Result<DeviceName> parse_device_name(std::string_view text)
     if (colon != std::string_view::npos) name.serial = text.substr(colon + 1);
     const bool is_cut_off = colon != std::string_view::npos && name.serial.empty();
     if (backend_named(name.backend) != nullptr && !is_cut_off) return name;
+    const std::string_view hint = hint_for(name.backend);
+    if (!hint.empty()) return base::fail(fmt::format("unknown device '{}': {}", text, hint));
     std::string known;
     for (const Backend& backend : backends()) {
-        known += fmt::format("{}{}[:SERIAL] ({})", known.empty() ? "" : ", ", backend.name,
-                             backend.what);
+        known += fmt::format(", {}[:SERIAL] ({})", backend.name, backend.what);
     }
-    return base::fail(fmt::format(
-        "'{}' is no device of this version: it has sim, sim:joints, replay:FILE and, {}, "
-        "{}; hapnet-peer list-devices shows what is there",
-        text, never_run, known));
+    return base::fail(fmt::format("unknown device '{}': use one of sim, sim:joints, replay:FILE{}; "
+                                  "hapnet-peer list-devices shows which are connected",
+                                  text, known));
 }
 
 std::vector<Found> find_devices(const DeviceOptions& options)
@@ -92,7 +105,7 @@ std::vector<Found> find_devices(const DeviceOptions& options)
 Opened<std::unique_ptr<Device>> open_device(const std::string& name, const DeviceOptions& options)
 {
     const auto parsed = parse_device_name(name);
-    if (!parsed) return trouble(Fault::not_found, parsed.error().message);
+    if (!parsed) return device_error(Fault::not_found, parsed.error().message);
     return backend_named(parsed->backend)->open(parsed->serial, options);
 }
 

@@ -13,7 +13,7 @@
 
 namespace hapnet::device {
 
-/// What a person may have to say of a device besides its name. Files are paths.
+/// Options of a device besides its name. Files are paths.
 struct DeviceOptions {
     std::string hd_library{};            // hdapi: the vendor's library; "": by its usual names
     std::string falcon_firmware{};       // falcon: "": it has to be running already
@@ -27,7 +27,7 @@ struct DeviceOptions {
 struct Backend {
     std::string_view name; // as in --device NAME:SERIAL
     std::string_view what; // it is for
-    /// All that can be seen of it without taking hold of one.
+    /// All its devices that can be seen without opening one.
     std::vector<Found> (*find)(const DeviceOptions& options);
     /// The one with this serial; "": the first that is usable.
     Opened<std::unique_ptr<Device>> (*open)(const std::string& serial,
@@ -46,7 +46,7 @@ struct DeviceName {
 /// Reads BACKEND or BACKEND:SERIAL, of the backends that there are.
 [[nodiscard]] base::Result<DeviceName> parse_device_name(std::string_view text);
 
-/// Every device of every backend that can be seen without taking hold of it.
+/// Every device of every backend that can be seen without opening it.
 [[nodiscard]] std::vector<Found> find_devices(const DeviceOptions& options);
 
 /// Opens BACKEND or BACKEND:SERIAL. Without a serial the first that is usable.

@@ -33,7 +33,7 @@ Capabilities capabilities_of_falcon()
             .buttons = 4,
             .force_is_calibrated = false,
             .joints =
-                JointLimits{.jacobian = jacobian,
+                JointLimits{.mechanism = mechanism,
                             .torque_max_nm = glm::dvec3{motor_max / counts_per_newton_metre}}};
 }
 

@@ -49,7 +49,7 @@ public:
     /// host that was away cannot tell.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
     static constexpr int silent_reads_min = 5;
-    /// A packet without an answer for so long is taken as lost.
+    /// A packet without an answer after this time counts as lost.
     static constexpr base::Duration lost_after{std::chrono::milliseconds{10}};
 
 private:
@@ -69,7 +69,7 @@ private:
     std::optional<base::TimePoint> last_word_; // that made sense; at first: when it was first asked
     int silent_reads_ = 0;                     // since then
     std::uint64_t nonsense_ = 0;               // reports that no arm can give
-    std::uint64_t nonsense_before_ = 0;        // at the last word
+    std::uint64_t nonsense_before_ = 0;        // at the last report
     bool was_calibrated_ = false;
     bool homes_ = false;
     std::optional<base::TimePoint> unanswered_since_;

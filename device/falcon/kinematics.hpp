@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/capabilities.hpp"
 #include "device/falcon/packet.hpp"
 #include "proto/base/space.hpp"
 
@@ -15,7 +16,7 @@ namespace hapnet::device::falcon {
 // (PhD thesis, University of Maryland, 1997), with the lengths that libnifalcon gives for the
 // Falcon (include/falcon/core/FalconGeometry.h). No other source for them is known.
 
-/// Of the three upper arms, rad.
+/// Angles of the three upper arms, rad.
 using Angles = glm::dvec3;
 
 /// The frame: x right, y up, z toward the user, as libnifalcon has it; the origin is the middle of
@@ -43,5 +44,7 @@ inline constexpr double reach_m = 0.040;
 /// d grip / d angles, m/rad, one column for each leg; zero where the grip cannot be, and where it
 /// is stretched out so far that it has none.
 [[nodiscard]] glm::dmat3 jacobian(const base::Position& grip);
+
+inline constexpr Mechanism mechanism{"falcon", jacobian};
 
 } // namespace hapnet::device::falcon

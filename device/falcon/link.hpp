@@ -10,7 +10,7 @@
 
 namespace hapnet::device::falcon {
 
-/// What carries packets to a Falcon whose firmware runs, and bytes back. It takes no decisions. One
+/// Carries packets to a Falcon whose firmware runs, and bytes back. It takes no decisions. One
 /// thread calls all but interrupt(). None throws.
 class Link {
 public:
@@ -23,7 +23,7 @@ public:
     [[nodiscard]] virtual bool send(const Packet& packet) noexcept = 0;
 
     enum class Wait : std::uint8_t { no, briefly }; // briefly: at most 2 ms, usually 1 ms
-    /// What has come since the last call, good until the next one. Empty: nothing.
+    /// The bytes since the last call, valid until the next one. Empty: none.
     [[nodiscard]] virtual std::span<const std::byte> receive(Wait wait) noexcept = 0;
 
     /// Whether the device has been unplugged; it does not come back.

@@ -24,7 +24,7 @@ bool is_framed(std::span<const std::byte, packet_bytes> bytes)
     return bytes.front() == opening && bytes.back() == closing;
 }
 
-/// What stands at this place; nullopt when it is more than `most`.
+/// The number at this place; nullopt when it is more than `most`.
 std::optional<unsigned> number_at(std::span<const std::byte, packet_bytes> bytes, std::size_t at,
                                   unsigned most)
 {

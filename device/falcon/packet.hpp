@@ -39,7 +39,7 @@ struct Report {
     Counts encoders{};
     std::uint8_t buttons = 0;    // bit 0 plus, 1 forward, 2 centre, 3 minus
     std::uint8_t legs_homed = 0; // bits 0 to 2
-    std::uint8_t rest = 'A';     // the last byte before '>': nobody knows what it says
+    std::uint8_t rest = 'A';     // the last byte before '>': meaning unknown
 
     friend bool operator==(const Report&, const Report&) = default;
 };
@@ -47,7 +47,7 @@ inline constexpr std::uint8_t all_legs = 0x7;
 
 [[nodiscard]] Packet encode(const Command& command);
 [[nodiscard]] Packet encode(const Report& report); // for doubles of the device
-/// nullopt: it is none; what is accepted encodes to the same bytes again.
+/// nullopt: not a packet. Accepted bytes encode to the same bytes again.
 [[nodiscard]] std::optional<Report> decode_report(std::span<const std::byte, packet_bytes> bytes);
 [[nodiscard]] std::optional<Command> decode_command(std::span<const std::byte, packet_bytes> bytes);
 
@@ -58,7 +58,7 @@ public:
     /// Takes one byte; gives the packet that it ends.
     [[nodiscard]] std::optional<Packet> feed(std::byte byte);
 
-    /// Bytes so far that belong to no packet.
+    /// Bytes that belonged to no packet.
     [[nodiscard]] std::uint64_t skipped() const { return skipped_; }
 
 private:

@@ -35,7 +35,7 @@ struct Listen {
 struct Ready {};
 /// It will not be ready, and why.
 struct Refused {
-    Trouble trouble;
+    DeviceError error;
 };
 using Step = std::variant<Ask, Say, Listen, Ready, Refused>;
 
@@ -53,7 +53,7 @@ public:
 
     /// An Ask or a Say was carried out.
     void on_done();
-    /// What Listen brought; empty: the chip had nothing of the Falcon's.
+    /// The bytes from Listen; empty: the chip had none from the Falcon.
     void on_heard(std::span<const std::byte> bytes);
     /// Listen brought nothing at all in its time, or a step could not be carried out in its.
     void on_silence();

@@ -16,7 +16,7 @@ namespace hapnet::device {
                                                    const base::Position& position,
                                                    const base::Force& force)
 {
-    const glm::dmat3 jacobian = joints.jacobian(position);
+    const glm::dmat3 jacobian = joints.mechanism.jacobian(position);
     double share = 1.0;
     for (const int joint : {0, 1, 2}) {
         const glm::dvec3& moves = jacobian[joint]; // the stylus, per radian of this joint

@@ -25,28 +25,34 @@ bool has_workspace(const GovernorLimits& limits)
 
 } // namespace
 
-std::string_view contradiction_in(const GovernorLimits& limits)
+base::Result<void> validate(const GovernorLimits& limits)
 {
     const bool has_lengths = is_positive(limits.fade_out) && is_positive(limits.ramp_in) &&
                              is_positive(limits.tick) && is_positive(limits.heat_time);
-    if (!has_lengths) return "fade_out, ramp_in, tick and heat_time have to be longer than nothing";
+    if (!has_lengths) {
+        return base::fail("fade_out, ramp_in, tick and heat_time must be longer than 0");
+    }
     const bool has_sizes = is_positive(limits.slew_max_n_per_s) &&
                            is_positive(limits.slew_ramping_n_per_s) &&
                            is_positive(limits.speed_max_m_per_s);
-    if (!has_sizes) return "slew_max, slew_ramping and speed_max have to be more than zero";
+    if (!has_sizes) return base::fail("slew_max, slew_ramping and speed_max must be above 0");
     if (!(limits.force_max_n >= 0.0) || !(limits.force_continuous_n >= 0.0)) {
-        return "force_max and force_continuous cannot be negative";
+        return base::fail("force_max and force_continuous must not be negative");
     }
     if (limits.force_continuous_n == 0.0 && limits.force_max_n > 0.0) {
-        return "force_continuous is zero, but force_max is not: motors that bear no force for ever "
-               "bear none at all";
+        return base::fail("force_continuous is 0, but force_max is not: motors that can hold no "
+                          "force continuously can give none");
     }
     if (limits.stall_max <= limits.tick) {
-        return "stall_max has to be longer than tick, or every tick is a stall";
+        return base::fail("stall_max must be longer than tick, or every tick is a stall");
     }
-    if (limits.fault_after < limits.stall_max) return "fault_after cannot be before stall_max";
-    if (!has_workspace(limits)) return "workspace_min has to be below workspace_max on every axis";
-    return "";
+    if (limits.fault_after < limits.stall_max) {
+        return base::fail("fault_after must not be shorter than stall_max");
+    }
+    if (!has_workspace(limits)) {
+        return base::fail("workspace_min must be below workspace_max on every axis");
+    }
+    return {};
 }
 
 GovernorLimits limits_for(const Capabilities& capabilities, const GovernorLimits& limits)

@@ -3,18 +3,20 @@
 #pragma once
 
 #include "device/capabilities.hpp"
+#include "proto/base/fields.hpp"
+#include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
+#include <chrono>
 #include <limits>
 #include <optional>
-#include <string_view>
 
 namespace hapnet::device {
 
-/// What a hand may be given. The first part is a person's and the program's to say; the second is
-/// the device's, and without one there is no limit: limits_for() puts the two together. Where the
-/// numbers come from stands in docs/design/governor.md.
+/// The limits of the force on a hand. A person and the program choose the first part. The device
+/// gives the second; without a device there is no such limit. limits_for() puts the two together.
+/// docs/design/governor.md gives the sources of the numbers.
 struct GovernorLimits {
     double force_max_n = 3.3;         // peak; the Omni's
     double slew_max_n_per_s = 1000.0; // a contact may rise in a few ticks, but not kick
@@ -37,13 +39,41 @@ struct GovernorLimits {
     std::optional<JointLimits> joints{};
 };
 
-/// Why no governor can keep to these, for a person: a rule would never act, or always, or divide by
-/// nothing. "" when one can. A peak below the continuous force is no contradiction, but a person
-/// who wants it softer than the motors could.
-[[nodiscard]] std::string_view contradiction_in(const GovernorLimits& limits);
+/// Of the first part. Outside of these ranges a rule would never act, act always, or do harm: a
+/// slow slew, for one, holds a force that should go. Zero force is possible.
+constexpr auto fields_of(base::Tag<GovernorLimits> /*struct*/)
+{
+    using namespace std::chrono_literals;
+    return base::fields(
+        "governor",
+        base::field("force_max", &GovernorLimits::force_max_n,
+                    base::Quantity{base::force_kind, 0.0, 40.0}, "peak force"),
+        base::field("slew_max", &GovernorLimits::slew_max_n_per_s,
+                    base::Quantity{base::force_rate_kind, 100.0, 40'000.0}, // 40 N in a tick
+                    "change of the force"),
+        base::field("slew_ramping", &GovernorLimits::slew_ramping_n_per_s,
+                    base::Quantity{base::force_rate_kind, 1.0, 40'000.0},
+                    "growth of the force while it ramps in"),
+        base::field("fade_out", &GovernorLimits::fade_out, base::Time{1ms, 1s},
+                    "from full strength to zero"),
+        base::field("ramp_in", &GovernorLimits::ramp_in, base::Time{100ms, 1min},
+                    "from zero to full strength"),
+        base::field("tick", &GovernorLimits::tick, base::Time{100us, 10ms}, "of the loop"),
+        base::field("stall_max", &GovernorLimits::stall_max, base::Time{2ms, 100ms},
+                    "a longer gap starts from zero"),
+        base::field("fault_after", &GovernorLimits::fault_after, base::Time{2ms, 1s},
+                    "a longer silence is a fault"),
+        base::field("heat_time", &GovernorLimits::heat_time, base::Time{1s, 10min},
+                    "in which the motors warm up"));
+}
 
-/// The limits that hold for this device: of each the stricter. A device that does not say what its
-/// motors bear for ever is taken to bear a quarter of its peak, as the Omni does (0.88 of 3.3 N).
+/// An error when no governor can keep to these limits: a rule would never act, or always, or divide
+/// by zero. A peak below the continuous force is valid: a person may want it softer than the motors
+/// could be.
+[[nodiscard]] base::Result<void> validate(const GovernorLimits& limits);
+
+/// The limits for this device: the stricter of each pair. A device that does not state its
+/// continuous force is assumed to bear a quarter of its peak, as the Omni does (0.88 of 3.3 N).
 [[nodiscard]] GovernorLimits limits_for(const Capabilities& capabilities,
                                         const GovernorLimits& limits);
 

@@ -5,19 +5,22 @@
 #include "device/governor/limits.hpp"
 #include "proto/base/result.hpp"
 
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace hapnet::device {
 
-/// Limits as TOML, for records: what has none is left out.
+/// Limits as TOML, for records; an infinite limit is left out. The mechanism of limited joints must
+/// have a name.
 [[nodiscard]] std::string print_limits(const GovernorLimits& limits);
 
 /// Reads what print_limits() wrote, to the same bits. `source` names the text in errors, which
-/// begin with "SOURCE:LINE:COLUMN: ", or with "SOURCE: " where two keys contradict each other. What
-/// would make a rule meaningless is refused, such as a ramp of no length. Limits of joints are
-/// those of the PHANToM Omni's arm or of the Falcon's: of no other there is a Jacobian.
+/// begin with "SOURCE:LINE:COLUMN: ", or with "SOURCE: " when two keys contradict each other.
+/// Values that would make a rule meaningless are refused, such as a ramp of no length. Joints are
+/// limited for one of these mechanisms.
 [[nodiscard]] base::Result<GovernorLimits> parse_limits(std::string_view text,
-                                                        const std::string& source);
+                                                        const std::string& source,
+                                                        std::span<const Mechanism> mechanisms);
 
 } // namespace hapnet::device

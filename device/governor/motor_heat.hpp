@@ -9,8 +9,8 @@
 
 namespace hapnet::device {
 
-/// How warm the motors are, by the square of the force over time (I2t), as no device measures it
-/// well: heat' = (|f|^2 / continuous^2 - heat) / time. At 1 they are as warm as the force makes
+/// Estimates the heat of the motors by the square of the force over time (I2t): no device measures
+/// it well: heat' = (|f|^2 / continuous^2 - heat) / time. At 1 they are as warm as the force makes
 /// them that they bear for ever. Above, the limit goes down from the peak to that force, evenly
 /// with the heat: no trip, and in the end at most 5 % more than they bear.
 class MotorHeat {
@@ -22,7 +22,7 @@ public:
           per_s_{1.0 / base::to_seconds(time)}
     {}
 
-    /// This force was held for so long.
+    /// This force was held for this time.
     void pass(const base::Force& force, base::Duration duration)
     {
         const glm::dvec3& f = force.value;

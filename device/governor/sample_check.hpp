@@ -11,9 +11,9 @@ namespace hapnet::device {
 /// Whether a force may follow from what a device says.
 enum class Finding : std::uint8_t {
     usable,
-    unheard,      // no word from it yet
+    unheard,      // no report from it yet
     silent,       // nothing new for stall_max: what it said last may be long untrue
-    docked,       // nobody holds the stylus
+    docked,       // the stylus is in its holder
     uncalibrated, // positions mean nothing
     too_fast,     // while it gives no force: wait until it is slower
     tripped,      // a fault, to be latched

@@ -4,20 +4,6 @@
 
 namespace hapnet::device {
 
-std::string_view name_of(Trip trip)
-{
-    switch (trip) {
-    case Trip::none: return "none";
-    case Trip::device: return "device";
-    case Trip::silence: return "silence";
-    case Trip::loop: return "loop";
-    case Trip::speed: return "speed";
-    case Trip::jump: return "jump";
-    case Trip::nonsense: return "nonsense";
-    }
-    return "device";
-}
-
 std::string_view what_happened(const Latched& latched)
 {
     switch (latched.trip) {
@@ -31,9 +17,9 @@ std::string_view what_happened(const Latched& latched)
     case Trip::none:
     case Trip::device:
     case Trip::silence:
-    case Trip::speed: return words_for(latched.fault);
+    case Trip::speed: return describe(latched.fault);
     }
-    return words_for(latched.fault);
+    return describe(latched.fault);
 }
 
 } // namespace hapnet::device

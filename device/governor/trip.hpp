@@ -20,8 +20,11 @@ enum class Trip : std::uint8_t {
     nonsense, // a place or a velocity that is no number
 };
 
-/// Such as "speed": in statistics.
-[[nodiscard]] std::string_view name_of(Trip trip);
+/// In statistics.
+constexpr auto names_of(base::Tag<Trip> /*enum*/)
+{
+    return base::names("none", "device", "silence", "loop", "speed", "jump", "nonsense");
+}
 
 /// A fault that stays until an operator has acted.
 struct Latched {
@@ -31,7 +34,7 @@ struct Latched {
     friend bool operator==(const Latched&, const Latched&) = default;
 };
 
-/// What happened and how to go on, for a person. "" for no fault.
+/// The fault in words, with what to do about it. "" for no fault.
 [[nodiscard]] std::string_view what_happened(const Latched& latched);
 
 } // namespace hapnet::device

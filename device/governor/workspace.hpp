@@ -20,7 +20,7 @@ inline constexpr double workspace_margin_m = 0.005;
            p.z <= high.z;
 }
 
-/// How far beyond the border a place is, on the side to which this part of the force points.
+/// Distance of a place beyond the border, on the side to which this part of the force points.
 [[nodiscard]] inline double beyond(const GovernorLimits& limits, const base::Position& hip,
                                    int axis, double along)
 {
@@ -28,7 +28,7 @@ inline constexpr double workspace_margin_m = 0.005;
                        : limits.workspace_min.value[axis] - hip.value[axis];
 }
 
-/// What is left of a force at a place outside of the workspace, axis by axis.
+/// The force that remains at a place outside of the workspace, axis by axis.
 [[nodiscard]] inline base::Force
 with_outward_part_faded(const GovernorLimits& limits, const base::Position& hip, base::Force force)
 {

@@ -10,13 +10,13 @@
 
 namespace hapnet::device::hdapi {
 
-/// What the device is to do, in newtons.
+/// A command to the device, in newtons.
 struct Command {
     std::array<double, 3> force_n{};
     bool motors_on = false;
 };
 
-/// What the device said in a cycle of the library, in the library's units.
+/// The device's report in a cycle of the library, in the library's units.
 struct Report {
     std::uint64_t cycle = 0; // counted from 1; 0: nothing yet
     std::array<double, 3> position_mm{};
@@ -29,7 +29,7 @@ struct Report {
     std::uint64_t failures_in_a_row = 0; // cycles up to this one, all with an error of the line
 };
 
-/// What is done to one device in each cycle of the library's scheduler, in its callback. Keeps the
+/// The work for one device in each cycle of the library's scheduler, in its callback. Keeps the
 /// library's rules: state and force only within a frame, one frame at a time.
 class DeviceCycle {
 public:

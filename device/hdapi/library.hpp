@@ -22,7 +22,7 @@ using Callback = unsigned int (*)(void*);
 inline constexpr unsigned int callback_continue = 1;
 inline constexpr unsigned short priority_max = 65535;
 
-/// Of errors.
+/// Error codes.
 namespace error {
 inline constexpr unsigned int none = 0;
 inline constexpr unsigned int warm_motors = 0x200;
@@ -38,7 +38,7 @@ inline constexpr unsigned int timer = 0x304;
 inline constexpr unsigned int licence = 0x600;
 } // namespace error
 
-/// Of what can be read or set.
+/// Parameters that can be read or set.
 namespace parameter {
 inline constexpr unsigned int buttons = 0x2000;           // int: one bit each
 inline constexpr unsigned int inkwell_switch = 0x2002;    // boolean
@@ -57,7 +57,7 @@ inline constexpr unsigned int damping_max = 0x2609;       // double, N s/mm
 inline constexpr unsigned int force = 0x2700;             // 3 doubles, N; only within a frame
 } // namespace parameter
 
-/// Of what can be switched on.
+/// Features that can be switched on.
 namespace capability {
 inline constexpr unsigned int force_output = 0x4000;
 inline constexpr unsigned int force_clamping = 0x4001;

@@ -108,7 +108,7 @@ std::string text_of(const char* text)
     return shown;
 }
 
-std::string words_for_refusal(const std::string& name, unsigned int code, const std::string& said)
+std::string describe_error(const std::string& name, unsigned int code, const std::string& said)
 {
     const std::string which =
         name.empty() ? "no default device" : fmt::format("no device '{}'", name);

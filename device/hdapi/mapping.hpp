@@ -12,19 +12,19 @@
 
 namespace hapnet::device::hdapi {
 
-/// What one of the library's error codes means.
+/// The fault for one of the library's error codes.
 [[nodiscard]] Fault fault_of(unsigned int code);
 
-/// What the library's word on its calibration asks for, with this style. A Touch has been seen to
-/// need an update from its start on, wherever its stylus was: only the inkwell ends that. Encoders
-/// are not reset from here: that failed.
+/// The calibration step that the library's report asks for, with this style. A Touch has been seen
+/// to need an update from its start on, wherever its stylus was: only the inkwell ends that.
+/// Encoders are not reset from here: that failed.
 [[nodiscard]] CalibrationStep calibration_step(unsigned int status, int style);
 
 /// With which of the styles that a device has it is calibrated: inkwell before automatic before
 /// encoder reset, as the first needs no care of the person's. Where it has none: the last.
 [[nodiscard]] int preferred_style(int styles);
 
-/// What the library says a device can do, in its own units.
+/// The abilities of a device as the library states them, in its own units.
 struct Properties {
     std::array<double, 6> workspace_mm{};
     double force_max_n = 0.0;
@@ -45,9 +45,9 @@ inline constexpr std::size_t text_bytes_max = 200;
 /// characters, and in place of every one that is not printable ASCII a question mark.
 [[nodiscard]] std::string text_of(const char* text);
 
-/// What a person is to do about a device that does not open. `name` is as in the vendor's
+/// An error text for a device that does not open, with what to do. `name` is as in the vendor's
 /// configuration, "" for the default one; `said` is the library's own text for `code`.
-[[nodiscard]] std::string words_for_refusal(const std::string& name, unsigned int code,
-                                            const std::string& said);
+[[nodiscard]] std::string describe_error(const std::string& name, unsigned int code,
+                                         const std::string& said);
 
 } // namespace hapnet::device::hdapi

@@ -11,17 +11,17 @@
 
 namespace hapnet::device::hdapi {
 
-/// What the library's reports say of the stylus, and what their absence does.
+/// The stylus according to the library's reports, and the faults that their absence means.
 class Stylus {
 public:
-    /// Of a device that is calibrated in this style.
+    /// For a device that is calibrated in this style.
     explicit Stylus(int style) : style_{style} { sample_.calibrated = false; }
 
     /// The stylus at `now` by the newest report there is, which may be an old one.
     [[nodiscard]] const Sample& read(const Report& report, base::TimePoint now);
 
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
-    /// An error of the line that lasts so many cycles: the device has gone.
+    /// An error of the line for this many cycles means that the device has gone.
     static constexpr std::uint64_t gone_after_cycles = 100;
 
 private:

@@ -24,7 +24,7 @@ constexpr std::uint32_t value_bits_max = 32;
 constexpr std::uint32_t is_constant = 0x01; // the bits of a main item
 constexpr std::uint32_t is_variable = 0x02;
 
-/// What items say until they say something else.
+/// Global items: they hold until they change.
 struct Globals {
     std::uint16_t usage_page = 0;
     ItemValue logical_min{};
@@ -44,7 +44,7 @@ struct LocalUsage {
     bool has_page = false;
 };
 
-/// What items say of the next main item only.
+/// Local items: they hold for the next main item only.
 struct Locals {
     std::vector<std::pair<LocalUsage, LocalUsage>> usages{};
     std::optional<LocalUsage> range_from{};

@@ -12,7 +12,7 @@
 
 namespace hapnet::device::hid {
 
-/// What something is for: page << 16 | id, of the HID usage tables.
+/// The usage of an item: page << 16 | id, of the HID usage tables.
 using Usage = std::uint32_t;
 
 /// Which of a device's three sets of reports.
@@ -53,7 +53,7 @@ struct Field {
 /// The value by which an array field says `usage`; nullopt where it cannot.
 [[nodiscard]] std::optional<std::int64_t> value_of(const Field& array, Usage usage);
 
-/// How long a report is.
+/// The length of a report.
 struct ReportSize {
     ReportKind kind = ReportKind::input;
     std::uint8_t report_id = 0;
@@ -62,7 +62,7 @@ struct ReportSize {
     friend bool operator==(const ReportSize&, const ReportSize&) = default;
 };
 
-/// What a device says of the reports that it sends and takes.
+/// A device's description of the reports that it sends and takes.
 struct Descriptor {
     std::vector<Field> fields{}; // in their order; without padding
     std::vector<ReportSize> reports{};

@@ -2,14 +2,51 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/hid/order.hpp"
-
+#include <array>
 #include <atomic>
 #include <cstdint>
 
 namespace hapnet::device::hid {
 
-/// What came of the orders so far: each counts on and begins again at 0.
+/// An order to the motors and the sender. It fits into 64 bits, so that one thread can leave it
+/// for another without a lock; the newest one counts.
+struct Order {
+    static constexpr double level_full = 32767.0;
+
+    std::array<std::int16_t, 2> levels{}; // of full scale in 1/32767; right, away
+    bool motors_on = false;
+    bool is_last = false;    // free the effects in the device, too
+    std::uint8_t stops = 0;  // counts the requests to stop; each is sent anew
+    std::uint8_t probes = 0; // counts the requests to check that a resting device lives
+    std::uint8_t number = 0; // counts the orders with the motors on
+
+    friend bool operator==(const Order&, const Order&) = default;
+};
+
+[[nodiscard]] constexpr std::uint64_t packed(const Order& order)
+{
+    const auto at = [](std::uint64_t value, unsigned shift) { return value << shift; };
+    return at(static_cast<std::uint16_t>(order.levels[0]), 0) |
+           at(static_cast<std::uint16_t>(order.levels[1]), 16) | at(order.motors_on ? 1U : 0U, 32) |
+           at(order.is_last ? 1U : 0U, 33) | at(order.stops, 40) | at(order.probes, 48) |
+           at(order.number, 56);
+}
+
+[[nodiscard]] constexpr Order unpacked_order(std::uint64_t word)
+{
+    const auto byte = [&](unsigned shift) { return static_cast<std::uint8_t>(word >> shift); };
+    const auto level = [&](unsigned shift) {
+        return static_cast<std::int16_t>(static_cast<std::uint16_t>(word >> shift));
+    };
+    return {.levels = {level(0), level(16)},
+            .motors_on = (byte(32) & 1U) != 0,
+            .is_last = (byte(32) & 2U) != 0,
+            .stops = byte(40),
+            .probes = byte(48),
+            .number = byte(56)};
+}
+
+/// The results of the orders so far. The counters wrap around.
 struct Progress {
     std::uint32_t sent = 0;    // reports that the device took
     std::uint32_t refused = 0; // ... and that it did not
@@ -17,13 +54,13 @@ struct Progress {
     bool is_gone = false;      // the device
 };
 
-/// Where whoever drives a device leaves the newest order, and the one who sends it takes it. Any
-/// thread may do either; nobody ever waits.
+/// The driver of a device leaves the newest order here, and the sender takes it. Any thread may do
+/// either, and none ever waits.
 class Mailbox {
 public:
     [[nodiscard]] Order order() const { return unpacked_order(order_.load()); }
 
-    /// Makes the order what `change` makes of it.
+    /// Applies `change` to the order, atomically.
     template <typename Change>
     void update(Change change)
     {
@@ -56,14 +93,14 @@ private:
     std::atomic<bool> is_gone_{false};
 };
 
-/// Sends what is left in its mailbox, in its own time. Its end is orderly: it sends the last order
-/// first, as far as the device takes it.
-class Outbox {
+/// Sends the orders in its mailbox, in its own time. Its destructor sends the last order first, as
+/// far as the device takes it.
+class ReportSender {
 public:
-    Outbox() = default;
-    virtual ~Outbox() = default;
-    Outbox(const Outbox&) = delete;
-    Outbox& operator=(const Outbox&) = delete;
+    ReportSender() = default;
+    virtual ~ReportSender() = default;
+    ReportSender(const ReportSender&) = delete;
+    ReportSender& operator=(const ReportSender&) = delete;
 
     [[nodiscard]] virtual Mailbox& mailbox() = 0;
     /// There is a new order. Never waits; from any thread.

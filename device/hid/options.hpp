@@ -6,7 +6,7 @@
 
 namespace hapnet::device::hid {
 
-/// What a descriptor does not say, and a person has to.
+/// Options for values that no descriptor contains.
 struct Options {
     /// Newtons at the grip when the device pushes with all it has, measured; negative where it
     /// pushes the other way. Without it there is no force.

@@ -94,7 +94,7 @@ void PidDevice::drain()
 {
     std::array<std::byte, report_bytes_max> report{};
     for (int i = 0; i < reports_per_read_max; ++i) {
-        const Heard heard = parts_.wire->read(report);
+        const ReadResult heard = parts_.wire->read(report);
         if (heard.moved == Moved::nothing) return;
         if (heard.moved != Moved::yes) {
             is_gone_ = true; // a read does not fail but for that

@@ -20,8 +20,8 @@ struct PidParts {
     Identity identity{};
     InputLayout input{};
     Options options{};
-    std::unique_ptr<Wire> wire{};     // to read from
-    std::unique_ptr<Outbox> outbox{}; // none: no force
+    std::unique_ptr<Wire> wire{};           // to read from
+    std::unique_ptr<ReportSender> outbox{}; // none: no force
 };
 
 /// A joystick or wheel base with force feedback by USB HID PID, as a device of one or two degrees
@@ -70,7 +70,7 @@ private:
     Sample sample_;
     std::optional<base::TimePoint> read_at_;
     Progress progress_{};
-    base::Duration silent_{};  // since its last word
+    base::Duration silent_{};  // since its last report
     base::Duration unmoved_{}; // since it last took something, while there is something to take
     base::Duration since_probed_{};
     std::uint8_t buttons_down_ = 0;

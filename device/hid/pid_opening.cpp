@@ -17,13 +17,14 @@ constexpr int load_questions_max = 60;
 constexpr int silences_max = 3;
 constexpr int stops_said = 3;
 
-tl::unexpected<Trouble> refused(Moved moved, const std::string& what)
+tl::unexpected<DeviceError> refused(Moved moved, const std::string& what)
 {
     if (moved == Moved::gone) {
-        return trouble(Fault::disconnected, "the device went away: plug it in and start again");
+        return device_error(Fault::disconnected,
+                            "the device went away: plug it in and start again");
     }
-    return trouble(Fault::communication,
-                   "the device refuses " + what + ": unplug it, plug it in and start again");
+    return device_error(Fault::communication,
+                        "the device refuses " + what + ": unplug it, plug it in and start again");
 }
 
 Opened<std::uint32_t> load_effect(Wire& wire, const ForceLayout& layout)
@@ -44,9 +45,9 @@ Opened<std::uint32_t> load_effect(Wire& wire, const ForceLayout& layout)
         const Loaded loaded = read_block_load(layout, answer);
         if (loaded.load == Load::success) return loaded.block;
         if (loaded.load == Load::full) {
-            return trouble(Fault::in_use, "the device has no room for another effect: end the "
-                                          "programs that play effects on it, or unplug it and "
-                                          "plug it in again");
+            return device_error(Fault::in_use, "the device has no room for another effect: end the "
+                                               "programs that play effects on it, or unplug it and "
+                                               "plug it in again");
         }
     }
     return refused(Moved::failed, "to make room for an effect");

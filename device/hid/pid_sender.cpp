@@ -92,4 +92,23 @@ std::optional<Report> PidSender::report_for(Step step, const Order& order) const
     return std::nullopt;
 }
 
+bool send_next(Mailbox& mailbox, PidSender& sender, Wire& wire)
+{
+    const Order order = mailbox.order();
+    const auto report = sender.next(order);
+    if (!report) {
+        mailbox.say_done(order);
+        return false;
+    }
+    const Moved moved = wire.write(report->all());
+    if (moved == Moved::gone) {
+        mailbox.say_gone();
+    } else if (moved != Moved::yes) {
+        mailbox.count_refused();
+    } else {
+        mailbox.count_sent();
+    }
+    return true;
+}
+
 } // namespace hapnet::device::hid

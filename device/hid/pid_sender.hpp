@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/hid/order.hpp"
+#include "device/hid/mailbox.hpp"
 #include "device/hid/pid_layout.hpp"
 #include "device/hid/report.hpp"
+#include "device/hid/wire.hpp"
 
 #include <array>
 #include <cstddef>
@@ -35,7 +36,7 @@ public:
     /// `blocks`: the places of the effects, an axis each.
     PidSender(const ForceLayout& layout, std::span<const std::uint32_t> blocks);
 
-    /// What to say next, for this order; nullopt: all is said.
+    /// The next report for this order; nullopt when all are sent.
     [[nodiscard]] std::optional<Report> next(const Order& order);
 
     static constexpr int ticks_per_start = 10;
@@ -70,5 +71,8 @@ private:
     Order planned_for_{};
     int ticks_since_start_ = 0;
 };
+
+/// Sends the next report that the newest order asks for; false when nothing is left to send.
+bool send_next(Mailbox& mailbox, PidSender& sender, Wire& wire);
 
 } // namespace hapnet::device::hid

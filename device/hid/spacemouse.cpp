@@ -65,7 +65,7 @@ void SpaceMouse::drain(base::TimePoint now)
 {
     std::array<std::byte, report_bytes_max> report{};
     for (int i = 0; i < reports_per_read_max; ++i) {
-        const Heard heard = wire_->read(report);
+        const ReadResult heard = wire_->read(report);
         if (heard.moved == Moved::nothing) return;
         if (heard.moved != Moved::yes) {
             is_gone_ = true; // a read does not fail but for that

@@ -22,11 +22,11 @@ int number_at(std::span<const std::byte> data, std::size_t offset)
 
 } // namespace
 
-std::optional<SpaceMouseWord> read_spacemouse(std::span<const std::byte> report)
+std::optional<SpaceMouseReport> read_spacemouse(std::span<const std::byte> report)
 {
     if (report.empty()) return std::nullopt;
     const auto data = report.subspan(1);
-    SpaceMouseWord word;
+    SpaceMouseReport word;
     switch (std::to_integer<unsigned>(report[0])) {
     case 1: {
         // Wireless ones append what is none of our business.

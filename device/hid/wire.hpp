@@ -8,7 +8,7 @@
 
 namespace hapnet::device::hid {
 
-/// How moving a report went.
+/// The result of moving a report.
 enum class Moved : std::uint8_t {
     yes,
     nothing, // no report was waiting
@@ -16,8 +16,8 @@ enum class Moved : std::uint8_t {
     gone,    // there is no device any more
 };
 
-/// What came of a read.
-struct Heard {
+/// The result of a read.
+struct ReadResult {
     Moved moved = Moved::nothing;
     std::size_t size = 0; // bytes, with the ID where reports are numbered
 };
@@ -32,9 +32,9 @@ public:
 
     /// The oldest input report that waits; never waits for one. It begins with its ID only where
     /// the device numbers its reports.
-    [[nodiscard]] virtual Heard read(std::span<std::byte> into) = 0;
+    [[nodiscard]] virtual ReadResult read(std::span<std::byte> into) = 0;
 
-    // These begin with an ID in any case, 0 where there is none, and wait as long as the system
+    // These always begin with an ID, 0 when reports have none, and wait as long as the system
     // does: the kernel gives up after 5 s.
     [[nodiscard]] virtual Moved write(std::span<const std::byte> report) = 0;
     [[nodiscard]] virtual Moved set_feature(std::span<const std::byte> report) = 0;

@@ -9,7 +9,7 @@
 
 namespace hapnet::device::omni {
 
-/// What the encoders of the three joints say. They count from where they were when the power came
+/// The counts of the three joints' encoders. They count from where they were when the power came
 /// on: only the inkwell tells where that was.
 using Counts = glm::ivec3;
 

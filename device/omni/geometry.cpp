@@ -16,7 +16,7 @@ struct Directions {
     glm::dvec3 sine;
     glm::dvec3 cosine;
 
-    /// How far the stylus is from the waist's axis.
+    /// Distance of the stylus from the waist's axis.
     [[nodiscard]] double reach() const { return link_m * (cosine.y + sine.z); }
 };
 
@@ -27,7 +27,7 @@ Directions directions_of(const Joints& joints)
             {base::cos(q.x), base::cos(q.y), base::cos(q.z)}};
 }
 
-/// A direction in a plane; (1, 0) where there is none.
+/// A direction in a plane; (1, 0) for a zero vector.
 struct Heading {
     double cosine = 1.0;
     double sine = 0.0;

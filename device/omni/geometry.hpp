@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/capabilities.hpp"
 #include "proto/base/space.hpp"
 
 #include <glm/mat3x3.hpp>
@@ -49,11 +50,12 @@ inline constexpr double force_max_n = 3.3;         // peak, at the origin
 inline constexpr double force_continuous_n = 0.88; // for 24 hours
 inline constexpr double friction_n = 0.26;         // back-drive, at the stylus
 inline constexpr double tip_mass_kg = 0.045;       // apparent
-/// What stays stable in the hand, below the 1.02 N/mm of the mechanism (CHAI3D's table).
+/// The stiffness that stays stable in the hand, below the 1.02 N/mm of the mechanism (CHAI3D's
+/// table).
 inline constexpr double stiffness_max_n_per_m = 700.0;
 inline constexpr double damping_max_ns_per_m = 5.0;
 
-/// Where the stylus is.
+/// The position of the stylus.
 [[nodiscard]] base::Position position_of(const Joints& joints);
 
 /// The angles that put the stylus there, with the elbow up; where that is out of reach, those of
@@ -69,5 +71,7 @@ inline constexpr double damping_max_ns_per_m = 5.0;
 
 /// Whether the mechanism gets there, give or take `slack` radians.
 [[nodiscard]] bool is_reachable(const Joints& joints, double slack = 0.0);
+
+inline constexpr Mechanism mechanism{"omni", jacobian_at};
 
 } // namespace hapnet::device::omni

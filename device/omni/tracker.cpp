@@ -12,7 +12,7 @@ namespace {
 
 // A stylus that rests jitters by less.
 constexpr int resting_counts = 3;
-// After so many lost words a hand may be anywhere.
+// After this many lost reports a hand may be anywhere.
 constexpr std::uint32_t skipped_max = 100;
 // The ranges of the joints and the inkwell's pose are known to no more.
 constexpr double slack_radians = 0.15;
@@ -24,19 +24,19 @@ int farthest(const Counts& a, const Counts& b)
 
 } // namespace
 
-void Tracker::on_word(const Word& word, base::TimePoint now)
+void Tracker::on_report(const Report& report, base::TimePoint now)
 {
     heard_at_ = now;
     heard_nonsense_ = false;
-    if (is_jump(word)) lose();
-    counts_ = word.counts;
-    follow_dock(word, now);
-    buttons_.update(word.buttons, now);
+    if (is_jump(report)) lose();
+    counts_ = report.counts;
+    follow_dock(report, now);
+    buttons_.update(report.buttons, now);
     buttons_.tell(sample_);
-    sample_.docked = word.docked;
+    sample_.docked = report.docked;
     ++sample_.sequence;
     if (!zero_) return;
-    const Joints joints = joints_at(word.counts, *zero_);
+    const Joints joints = joints_at(report.counts, *zero_);
     if (!is_reachable(joints, slack_radians)) return lose();
     sample_.hip = position_of(joints);
     has_moved_ = true;
@@ -49,30 +49,31 @@ void Tracker::lose()
     resting_since_.reset();
 }
 
-bool Tracker::is_jump(const Word& word) const
+bool Tracker::is_jump(const Report& report) const
 {
-    if (!counts_ || word.skipped > skipped_max) return false;
-    return farthest(word.counts, *counts_) > jump_max_counts * (1 + static_cast<int>(word.skipped));
+    if (!counts_ || report.skipped > skipped_max) return false;
+    return farthest(report.counts, *counts_) >
+           jump_max_counts * (1 + static_cast<int>(report.skipped));
 }
 
-void Tracker::follow_dock(const Word& word, base::TimePoint now)
+void Tracker::follow_dock(const Report& report, base::TimePoint now)
 {
-    if (!word.docked) return resting_since_.reset();
-    if (!resting_since_ || farthest(word.counts, resting_at_) > resting_counts) {
+    if (!report.docked) return resting_since_.reset();
+    if (!resting_since_ || farthest(report.counts, resting_at_) > resting_counts) {
         resting_since_ = now;
-        resting_at_ = word.counts;
+        resting_at_ = report.counts;
     }
     if (now - *resting_since_ < rest) return;
     lost_ = false;
-    if (zero_ && farthest(word.counts, counts_at(in_inkwell_, *zero_)) <= resting_counts) return;
-    zero_ = zero_from(word.counts, in_inkwell_);
+    if (zero_ && farthest(report.counts, counts_at(in_inkwell_, *zero_)) <= resting_counts) return;
+    zero_ = zero_from(report.counts, in_inkwell_);
     velocity_ = VelocityFilter{30.0}; // that it is somewhere else now is no motion
 }
 
 const Sample& Tracker::at(base::TimePoint now)
 {
     if (!heard_at_) heard_at_ = now;
-    // Of several words that come together, the last one counts: they say nothing of the time
+    // Of several reports that come together, the last one counts: they do not tell the time
     // between them.
     if (std::exchange(has_moved_, false)) sample_.velocity = velocity_.at(sample_.hip, now);
     sample_.calibrated = zero_.has_value();

@@ -13,30 +13,30 @@
 
 namespace hapnet::device::omni {
 
-/// One word from an Omni.
-struct Word {
+/// One report from an Omni.
+struct Report {
     Counts counts{0};
     bool docked = false;
     std::uint8_t buttons = 0;  // one bit each, 1: down
-    std::uint32_t skipped = 0; // so many words before it were lost
+    std::uint32_t skipped = 0; // number of reports lost before it
 };
 
-/// What the words of an Omni come to: where the stylus is, and what is wrong. Its encoders mean
-/// nothing until the stylus has rested in its inkwell for 50 ms; and nothing again after a break,
-/// or after they have jumped farther than a hand moves or to where the mechanism cannot be, until
-/// it rests there again.
+/// Tracks the stylus and the faults of an Omni by its reports. Its encoders mean nothing until the
+/// stylus has rested in its inkwell for 50 ms; and nothing again after a break, or after they have
+/// jumped farther than a hand moves or to where the mechanism cannot be, until it rests there
+/// again.
 class Tracker {
 public:
     explicit Tracker(const Joints& in_inkwell = inkwell_pose) : in_inkwell_{in_inkwell} {}
 
     // News, with a `now` that never runs backwards.
-    void on_word(const Word& word, base::TimePoint now);
-    /// It spoke and was not understood.
+    void on_report(const Report& report, base::TimePoint now);
+    /// A report came that makes no sense.
     void on_nonsense() { heard_nonsense_ = true; }
     /// Something happened in which the encoders may have begun to count anew, and the arm may have
     /// moved meanwhile: that counts look as if they went on proves nothing.
     void on_break() { lose(); }
-    /// It has gone, for good.
+    /// It is disconnected, for good.
     void on_gone() { gone_ = true; }
 
     /// The state at `now`; the last position where no newer one is known.
@@ -45,17 +45,17 @@ public:
     /// Whether forces mean something where it is: calibrated, out of its inkwell, nothing wrong.
     [[nodiscard]] bool may_push() const;
 
-    /// Farther than this in one word no hand moves: 5 m/s at 1000 words per second.
+    /// No hand moves farther than this in one report: 5 m/s at 1000 reports per second.
     static constexpr int jump_max_counts = 120;
-    /// So long the stylus rests in the inkwell before that counts.
+    /// The stylus must rest in the inkwell for this long before that counts.
     static constexpr base::Duration rest{std::chrono::milliseconds{50}};
-    /// So long it may be silent.
+    /// It may be silent for this long.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
 
 private:
     void lose();
-    void follow_dock(const Word& word, base::TimePoint now);
-    [[nodiscard]] bool is_jump(const Word& word) const;
+    void follow_dock(const Report& report, base::TimePoint now);
+    [[nodiscard]] bool is_jump(const Report& report) const;
     [[nodiscard]] Fault fault_at(base::TimePoint now) const;
 
     Joints in_inkwell_;
@@ -66,7 +66,7 @@ private:
     Counts resting_at_{0};
     bool lost_ = false; // its calibration
     bool gone_ = false;
-    bool heard_nonsense_ = false; // since the last word
+    bool heard_nonsense_ = false; // since the last report
     bool has_moved_ = false;      // since the last at()
     Buttons buttons_;
     VelocityFilter velocity_{30.0}; // Hz: a count a millisecond is 55 mm/s

@@ -15,7 +15,7 @@ namespace hapnet::device::omni1394 {
 namespace {
 
 constexpr std::array<std::string_view, 3> joint_names{"waist", "shoulder", "forearm"};
-// The estimated peak torque for all the counts there are; nobody knows of which sign.
+// The estimated peak torque at full count; its sign is unknown.
 constexpr glm::dvec3 estimated_nm_per_count{omni::torque_max_nm.x / motor_max,
                                             omni::torque_max_nm.y / motor_max,
                                             omni::torque_max_nm.z / motor_max};
@@ -119,7 +119,7 @@ Drive::Drive(Use use, const Profile& profile)
     if (use == Use::read_only) word_max_ = 0;
 }
 
-glm::ivec3 Drive::words_for(const glm::dvec3& torque) const
+glm::ivec3 Drive::motor_words(const glm::dvec3& torque) const
 {
     const glm::dvec3 exact = torque / nm_per_count_;
     if (!base::is_finite(exact)) return glm::ivec3{0};
@@ -150,7 +150,7 @@ void Drive::describe(Capabilities& capabilities) const
     }
     capabilities.stiffness_max_n_per_m = omni::stiffness_max_n_per_m;
     capabilities.damping_max_ns_per_m = omni::damping_max_ns_per_m;
-    capabilities.joints = JointLimits{omni::jacobian_at, torque_max_nm()};
+    capabilities.joints = JointLimits{omni::mechanism, torque_max_nm()};
 }
 
 } // namespace hapnet::device::omni1394

@@ -13,7 +13,7 @@
 
 namespace hapnet::device::omni1394 {
 
-/// What is known of one device, from a file. In TOML; every part may be missing:
+/// Measurements of one device, from a TOML file. Every part may be missing:
 ///
 ///     write_register_20010 = false     # two Omnis on one bus may need that; default true
 ///     [torque_nm_per_count]            # measured at the joint; the sign is the direction
@@ -35,9 +35,9 @@ struct Profile {
 /// Errors say FILE:LINE:COLUMN and what is possible there.
 [[nodiscard]] base::Result<Profile> parse_profile(std::string_view text, const std::string& source);
 
-/// How far a device's motors may be used.
+/// The permitted use of a device's motors.
 enum class Use : std::uint8_t {
-    read_only,    // the default: nobody has measured what a count does
+    read_only,    // the default: the torque per count was not measured
     uncalibrated, // at most a quarter of the counts, at an estimated scale
     measured,     // all of them, by a table
 };
@@ -48,14 +48,14 @@ class Drive {
 public:
     Drive(Use use, const Profile& profile);
 
-    /// The words for a torque, N m; all of them smaller in proportion where one is too large, so
+    /// The motor words for a torque, N m; all are scaled down together when one is too large, so
     /// that the direction stays. Zero for what is not finite.
-    [[nodiscard]] glm::ivec3 words_for(const glm::dvec3& torque) const;
+    [[nodiscard]] glm::ivec3 motor_words(const glm::dvec3& torque) const;
 
     [[nodiscard]] Use use() const { return use_; }
-    /// What the motors do at the largest word that may be sent.
+    /// The torque of the motors at the largest word that may be sent.
     [[nodiscard]] glm::dvec3 torque_max_nm() const;
-    /// Where the device's forces are concerned: the rest is the Omni's.
+    /// The device's limits on force; the rest is the Omni's.
     void describe(Capabilities& capabilities) const;
 
 private:

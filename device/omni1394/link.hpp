@@ -19,7 +19,7 @@ struct Channels {
     std::uint8_t to_host = 0;
 };
 
-/// What came next.
+/// The next event.
 enum class Arrival : std::uint8_t {
     nothing,   // it has nothing more to say now
     packet,    // see the packet

@@ -26,7 +26,7 @@ constexpr std::size_t news_per_beat_max = 16;
 // More than two seconds of packets: it has started to count anew.
 constexpr std::uint32_t skipped_max = 2 * cycles_per_second;
 
-std::string_view words_for(Use use)
+std::string_view describe(Use use)
 {
     switch (use) {
     case Use::read_only:
@@ -65,9 +65,10 @@ Opened<std::string> run(Link& link, StartSequence& sequence)
         sequence.on_answer(room.first(access->writes ? 0 : std::min(*answer, room.size())));
     }
     if (sequence.is_done()) return sequence.serial();
-    return trouble(Fault::communication,
-                   fmt::format("the Omni did not start: {}. Unplug it, plug it in and try again",
-                               sequence.failure()));
+    return device_error(
+        Fault::communication,
+        fmt::format("the Omni did not start: {}. Unplug it, plug it in and try again",
+                    sequence.failure()));
 }
 
 } // namespace
@@ -94,7 +95,7 @@ Omni::Omni(Started started, const Profile& profile, Use use)
     identity_ = {.backend = "omni1394",
                  .serial = std::move(started.serial),
                  .model = "PHANToM Omni (FireWire)",
-                 .note = fmt::format("{}; {}", never_run, words_for(use))};
+                 .note = fmt::format("{}; {}", never_run, describe(use))};
     capabilities_ = capabilities_of(drive_);
 }
 
@@ -166,7 +167,7 @@ void Omni::take(const ReceivedPacket& received, base::TimePoint now)
     } else {
         lost_ += skipped;
     }
-    tracker_.on_word({packet->counts, packet->docked, packet->buttons, skipped}, now);
+    tracker_.on_report({packet->counts, packet->docked, packet->buttons, skipped}, now);
 }
 
 /// Fast flashes ask for the stylus; a steady light says that all is well.
@@ -183,7 +184,7 @@ void Omni::apply(const GovernedForce& force)
     HostPacket packet = lights();
     if (force.motors_on() && drive_.use() != Use::read_only && tracker_.may_push()) {
         const glm::dmat3 jacobian = omni::jacobian_at(sample_.hip);
-        packet.motors = drive_.words_for(glm::transpose(jacobian) * force.force().value);
+        packet.motors = drive_.motor_words(glm::transpose(jacobian) * force.force().value);
         packet.motors_on = true;
     }
     link_->send(packet);

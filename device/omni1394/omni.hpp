@@ -18,7 +18,7 @@ namespace hapnet::device::omni1394 {
 
 /// The PHANToM Omni with FireWire; written from descriptions, never run on the physical device.
 /// Without a measured table of torques it sends no force, except, where that is asked for, a
-/// quarter of what the motors may be told. The device has a watchdog or not: nobody knows. What it
+/// quarter of what the motors may be told. Whether the device has a watchdog is unknown. What it
 /// does when this program is killed is therefore unknown; no more packets come then.
 class Omni final : public Device {
 public:
@@ -37,9 +37,9 @@ public:
     void halt() noexcept override;
     void pace(const std::function<bool()>& beat) override;
 
-    /// What was not heard, by the device's own count of its messages.
+    /// Lost messages, by the device's own count.
     [[nodiscard]] std::uint64_t lost() const { return lost_; }
-    /// What was heard and not understood.
+    /// Messages that made no sense.
     [[nodiscard]] std::uint64_t garbled() const { return garbled_; }
 
 private:

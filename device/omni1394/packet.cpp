@@ -13,7 +13,7 @@ namespace hapnet::device::omni1394 {
 namespace {
 
 constexpr int motor_zero = 0x07ff;
-constexpr std::uint16_t status_base = 0x53c0; // nobody knows what for
+constexpr std::uint16_t status_base = 0x53c0; // purpose unknown
 constexpr std::uint16_t flash_bit = 0x0001;
 constexpr std::uint16_t fast_flash_bit = 0x0002;
 constexpr std::uint16_t motors_on_bit = 0x0008;

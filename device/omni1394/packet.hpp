@@ -16,7 +16,7 @@ namespace hapnet::device::omni1394 {
 // them: ytsutano/raw_omni, scottsharris/phantom-drivers (University of Twente) and
 // jdrew1303/ros_geomagic_touch_phantom_omni. They are read for facts; nothing is copied.
 
-/// What the computer says to the device.
+/// A packet from the computer to the device.
 struct HostPacket {
     /// Of the motors, -2047 to 2047: 12 bits about 0x07ff on the wire.
     glm::ivec3 motors{0};
@@ -35,7 +35,7 @@ using HostBytes = std::array<std::byte, host_packet_bytes>;
 /// nullopt where encode() gives nothing like it.
 [[nodiscard]] std::optional<HostPacket> decode_host(std::span<const std::byte> bytes);
 
-/// What the device says.
+/// A packet from the device.
 struct DevicePacket {
     omni::Counts counts{0};
     std::array<std::uint16_t, 3> gimbal{};          // potentiometers; the low 5 bits are noise
@@ -43,7 +43,7 @@ struct DevicePacket {
     std::uint8_t number = 0;                        // of the packet
     std::uint8_t buttons = 0;                       // bits 0 and 1, 1: down
     bool docked = false;
-    std::uint32_t message = 0; // counts on by 1, also while nobody listens
+    std::uint32_t message = 0; // counts up by 1, also while no program listens
     std::uint32_t clock = 0;   // of unknown unit
 
     friend bool operator==(const DevicePacket&, const DevicePacket&) = default;

@@ -27,7 +27,7 @@ struct RegisterAccess {
     }
 };
 
-/// What has to be said to an Omni before it speaks, step by step: who are you, which channels,
+/// The dialogue that makes an Omni stream, step by step: its identity, the channels,
 /// and go. Does no I/O: ask next(), do that, and tell the answer.
 class StartSequence {
 public:
@@ -41,7 +41,7 @@ public:
     void on_answer(std::span<const std::byte> bytes);
 
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
-    /// Why it is over without being done; "" while nothing is wrong.
+    /// The reason for its failure; "" while there is none.
     [[nodiscard]] const std::string& failure() const { return failure_; }
     /// As printed on the device; "" until it is known.
     [[nodiscard]] const std::string& serial() const { return serial_; }
@@ -70,7 +70,7 @@ private:
     std::string failure_;
 };
 
-/// What ends the streaming, as the last thing said to it.
+/// The access that ends the streaming; the last one to the device.
 [[nodiscard]] RegisterAccess stop_streaming();
 
 } // namespace hapnet::device::omni1394

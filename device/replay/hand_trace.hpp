@@ -12,7 +12,7 @@
 
 namespace hapnet::device {
 
-/// Where a hand was at a time, seconds from the start of a session.
+/// A hand's position at a time, seconds from the start of a session.
 struct HandMoment {
     double time_s = 0.0;
     base::Position hip;

@@ -12,7 +12,7 @@
 
 namespace hapnet::device {
 
-/// What a hand does after the last moment of its trace.
+/// The behaviour of a hand after the last moment of its trace.
 enum class AfterTheEnd : std::uint8_t {
     stays,        // and lets go
     begins_again, // with a jump, unless it ends where it began

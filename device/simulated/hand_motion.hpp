@@ -12,7 +12,7 @@ struct HandAxis {
     double velocity_m_per_s = 0.0;
 };
 
-/// What acts on an axis during a step: a constant force, and a target that moves evenly.
+/// The inputs of an axis during a step: a constant force, and a target that moves evenly.
 struct HandDrive {
     double force_n = 0.0;
     double target_m = 0.0; // at the start of the step

@@ -11,7 +11,7 @@
 
 namespace hapnet::device {
 
-/// What a hand does without meaning to: wander and tremor along x, and what its force lacks of
+/// The involuntary part of a hand: wander and tremor along x, and what its force lacks of
 /// being even. Sums of sines whose frequencies and phases come from the seed, so that it is a pure
 /// function of time.
 class HandNoise {

@@ -6,7 +6,7 @@
 
 namespace hapnet::device {
 
-/// How far a minimum-jerk movement has come, 0 to 1, when the share u of its time has passed
+/// The progress of a minimum-jerk movement, 0 to 1, when the share u of its time has passed
 /// (Flash and Hogan 1985); u outside 0 to 1 is clamped.
 [[nodiscard]] constexpr double minimum_jerk(double u)
 {

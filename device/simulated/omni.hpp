@@ -23,7 +23,7 @@ struct OmniPlant {
     double velocity_cutoff_hz = 30.0; // of the filter on differenced positions
 };
 
-/// Who plays what on which device.
+/// A simulated person and the task to play.
 struct Performer {
     Task task = Task::p1;
     TaskOptions options{};

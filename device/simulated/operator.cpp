@@ -85,8 +85,8 @@ Operator varied(const Operator& person, base::Seed seed, std::uint32_t index, st
     result.force_noise = base::Probability::from_fraction(std::min(noise, 1.0)).value();
     vary(result.reflex.gain, "reflex/gain");
     vary_time(result.reflex.delay, "reflex/delay");
-    vary(result.will.gain_m_per_ns, "will/gain");
-    vary_time(result.will.delay, "will/delay");
+    vary(result.intent.gain_m_per_ns, "will/gain");
+    vary_time(result.intent.delay, "will/delay");
     return result;
 }
 

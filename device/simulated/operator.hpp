@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/simulated/signal_history.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/probability.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/reading.hpp"
@@ -27,16 +29,38 @@ struct HandImpedance {
 
     friend bool operator==(const HandImpedance&, const HandImpedance&) = default;
 };
+constexpr auto fields_of(base::Tag<HandImpedance> /*struct*/)
+{
+    // Wider than hands are; within these a step of 2 ms is short against a hand's motion.
+    return base::fields(
+        "hand",
+        base::field("mass", &HandImpedance::mass_kg, base::Quantity{base::mass_kind, 0.02, 10.0},
+                    "of the hand and its share of the device"),
+        base::field("damping", &HandImpedance::damping_ns_per_m,
+                    base::Quantity{base::damping_kind, 0.0, 100.0}, "of the grip"),
+        base::field("stiffness", &HandImpedance::stiffness_n_per_m,
+                    base::Quantity{base::stiffness_kind, 1.0, 5000.0}, "of the grip"));
+}
 
 /// An involuntary motion along x: a sum of three sines, each a third of the amplitude, whose
 /// frequencies and phases come from the seed.
-struct Unrest {
+struct InvoluntaryMotion {
     double amplitude_m = 0.0;
     double least_hertz = 0.0;
     double most_hertz = 0.0;
 
-    friend bool operator==(const Unrest&, const Unrest&) = default;
+    friend bool operator==(const InvoluntaryMotion&, const InvoluntaryMotion&) = default;
 };
+constexpr auto fields_of(base::Tag<InvoluntaryMotion> /*struct*/)
+{
+    constexpr base::Quantity frequency{base::frequency_kind, 0.0, 100.0};
+    return base::fields(
+        "involuntary-motion",
+        base::field("amplitude", &InvoluntaryMotion::amplitude_m,
+                    base::Quantity{base::length_kind, 0.0, 0.1}, "along x"),
+        base::field("from", &InvoluntaryMotion::least_hertz, frequency, "its lowest frequency"),
+        base::field("to", &InvoluntaryMotion::most_hertz, frequency, "its highest frequency"));
+}
 
 /// The stretch reflex: the hand answers where it was, `delay` ago, off its intention, with `gain`
 /// times its own stiffness. Spinal and long-loop reflexes take 30 to 60 ms (general knowledge).
@@ -46,38 +70,73 @@ struct Reflex {
 
     friend bool operator==(const Reflex&, const Reflex&) = default;
 };
+constexpr auto fields_of(base::Tag<Reflex> /*struct*/)
+{
+    return base::fields("reflex",
+                        base::field("gain", &Reflex::gain, base::Number{0.0, 10.0},
+                                    "times the hand's own stiffness; 0: no reflex"),
+                        base::field("delay", &Reflex::delay,
+                                    base::Time{base::Duration{0}, SignalHistory::delay_max},
+                                    "from the stretch to the reaction"));
+}
 
-/// The will: where a task asks for a force, the intention moves on for as long as force is missing,
-/// by `gain` per second and newton, at most 20 mm; what is missing is what was felt `delay` ago,
-/// smoothed by a first-order low-pass. Reactions to what is felt take about 150 ms, to what is seen
-/// 200 ms (general knowledge). With the 143 N/m of a nominal hand's contact the force comes back
-/// with a time constant of 0.7 s.
-struct Will {
+/// The intent: where a task asks for a force, the intention moves on for as long as force is
+/// missing, by `gain` per second and newton, at most 20 mm; what is missing is what was felt
+/// `delay` ago, smoothed by a first-order low-pass. Reactions to what is felt take about 150 ms, to
+/// what is seen 200 ms (general knowledge). With the 143 N/m of a nominal hand's contact the force
+/// comes back with a time constant of 0.7 s.
+struct Intent {
     double gain_m_per_ns = 0.010; // 0: none
     double cutoff_hertz = 1.5;
     base::Duration delay{std::chrono::milliseconds{150}};
 
-    friend bool operator==(const Will&, const Will&) = default;
+    friend bool operator==(const Intent&, const Intent&) = default;
 };
+constexpr auto fields_of(base::Tag<Intent> /*struct*/)
+{
+    return base::fields("will",
+                        base::field("gain", &Intent::gain_m_per_ns,
+                                    base::Quantity{base::mobility_kind, 0.0, 1.0},
+                                    "speed per newton of missing force; 0: no reaction to force"),
+                        base::field("cutoff", &Intent::cutoff_hertz,
+                                    base::Quantity{base::frequency_kind, 0.01, 100.0},
+                                    "of the low-pass on the missing force"),
+                        base::field("delay", &Intent::delay,
+                                    base::Time{base::Duration{0}, SignalHistory::delay_max},
+                                    "from the force to the reaction"));
+}
 
-/// A simulated person at a device: how the hand yields and how its will wavers, reacts and lags.
+/// A simulated person at a device: how the hand yields and how its intent wavers, reacts and lags.
 /// Not a human being: a linear hand with scripted intentions.
 struct Operator {
     std::string name = "nominal";
     HandImpedance hand{};
-    Unrest wander{.amplitude_m = 2e-3, .least_hertz = 0.3, .most_hertz = 0.9};
-    Unrest tremor{.amplitude_m = 1e-4, .least_hertz = 8.0, .most_hertz = 12.0}; // physiological
+    InvoluntaryMotion wander{.amplitude_m = 2e-3, .least_hertz = 0.3, .most_hertz = 0.9};
+    InvoluntaryMotion tremor{
+        .amplitude_m = 1e-4, .least_hertz = 8.0, .most_hertz = 12.0}; // physiological
     /// Standard deviation of the hand's force as a share of that force, 1 to 10 Hz. Isometric
     /// forces have 2 to 4 % (Jones, Hamilton, Wolpert 2002).
     base::Probability force_noise{};
     Reflex reflex{};
-    Will will{};
+    Intent intent{};
 
     friend bool operator==(const Operator&, const Operator&) = default;
 };
+constexpr auto fields_of(base::Tag<Operator> /*struct*/)
+{
+    return base::fields("operator",
+                        base::field("name", &Operator::name, "of the person, in records"),
+                        base::part(&Operator::hand),
+                        base::field("wander", &Operator::wander, "slow involuntary motion"),
+                        base::field("tremor", &Operator::tremor, "fast involuntary motion"),
+                        base::field("force_noise", &Operator::force_noise,
+                                    "standard deviation of the hand's force, as a share of it"),
+                        base::field("reflex", &Operator::reflex, "stretch reflex"),
+                        base::field("will", &Operator::intent, "reaction to a missing force"));
+}
 
-/// "relaxed", "nominal", "firm": three grips with wander, tremor and will. "lifelike": the nominal
-/// grip with more of them, force noise and a stretch reflex.
+/// "relaxed", "nominal", "firm": three grips with wander, tremor and intent. "lifelike": the
+/// nominal grip with more of them, force noise and a stretch reflex.
 [[nodiscard]] base::Result<Operator> operator_named(std::string_view name);
 
 /// A preset's name, or a table with `preset = "nominal"` and what differs from it; nullopt when a

@@ -1,51 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "device/simulated/delay_line.hpp"
-#include "device/simulated/keys.hpp"
 #include "device/simulated/operator.hpp"
-
-#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device {
 
 namespace {
-
-// Beyond what hands are; within them a step of 2 ms is not long against what a hand does.
-constexpr Range hand_mass{base::mass_kind, 0.02, 10.0};
-constexpr Range hand_damping{base::damping_kind, 0.0, 100.0};
-constexpr Range hand_stiffness{base::stiffness_kind, 1.0, 5000.0};
-constexpr Range unrest_amplitude{base::length_kind, 0.0, 0.1};
-constexpr Range unrest_frequency{base::frequency_kind, 0.0, 100.0};
-constexpr Range will_gain{base::mobility_kind, 0.0, 1.0};
-constexpr Range will_cutoff{base::frequency_kind, 0.01, 100.0};
-constexpr Plain reflex_gain{0.0, 10.0};
-
-template <typename Keys, typename Person>
-void list_operator_keys(Keys& keys, Person& person)
-{
-    keys.value("mass", person.hand.mass_kg, hand_mass);
-    keys.value("damping", person.hand.damping_ns_per_m, hand_damping);
-    keys.value("stiffness", person.hand.stiffness_n_per_m, hand_stiffness);
-    const auto list_unrest = [](auto& unrest) {
-        return [&unrest](auto& inner) {
-            inner.value("amplitude", unrest.amplitude_m, unrest_amplitude);
-            inner.value("from", unrest.least_hertz, unrest_frequency);
-            inner.value("to", unrest.most_hertz, unrest_frequency);
-        };
-    };
-    keys.group("wander", list_unrest(person.wander));
-    keys.group("tremor", list_unrest(person.tremor));
-    keys.value("force_noise", person.force_noise);
-    keys.group("reflex", [&person](auto& inner) {
-        inner.value("gain", person.reflex.gain, reflex_gain);
-        inner.value("delay", person.reflex.delay, DelayLine::delay_max);
-    });
-    keys.group("will", [&person](auto& inner) {
-        inner.value("gain", person.will.gain_m_per_ns, will_gain);
-        inner.value("cutoff", person.will.cutoff_hertz, will_cutoff);
-        inner.value("delay", person.will.delay, DelayLine::delay_max);
-    });
-}
 
 std::optional<Operator> read_preset(const base::Node& node, base::Reading& reading)
 {
@@ -71,9 +30,7 @@ std::optional<Operator> read_operator(const base::Node& node, base::Reading& rea
         if (!found) return std::nullopt;
         person = *found;
     }
-    if (const base::Node* name = table.find("name")) base::read_value(*name, person.name, reading);
-    KeyReader keys{table};
-    list_operator_keys(keys, person);
+    base::read_fields(table, person);
     table.finish();
     if (!reading.is_good()) return std::nullopt;
     return person;
@@ -97,11 +54,6 @@ base::Result<Operator> load_operator(const std::string& name_or_file, const base
     return *std::move(person);
 }
 
-std::string print_operator(const Operator& person)
-{
-    KeyPrinter keys;
-    list_operator_keys(keys, person);
-    return fmt::format("name = {}\n{}", base::quoted(person.name), keys.text());
-}
+std::string print_operator(const Operator& person) { return base::field_lines(person); }
 
 } // namespace hapnet::device

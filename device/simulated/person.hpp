@@ -12,7 +12,7 @@
 
 namespace hapnet::device {
 
-/// Whose part in which task.
+/// A part in a task.
 struct Role {
     Task task = Task::p1;
     TaskOptions options{};
@@ -34,7 +34,7 @@ public:
     /// A fault of the device was latched, or has ended.
     void on_fault(bool is_latched);
 
-    /// What the hand means to do, and by how much its force is off.
+    /// The hand's intention, and the error of its force.
     struct Aim {
         Intention intention;
         double force_share = 0.0;
@@ -42,12 +42,12 @@ public:
     /// The way to its part begins with the first of these after the cue.
     [[nodiscard]] Aim aim(base::TimePoint now);
 
-    /// What it feels: where it is off its intention, and the device's force.
+    /// Its perception: the deviation from its intention, and the device's force.
     struct Feeling {
         glm::dvec3 deviation{0.0};
         glm::dvec3 force{0.0};
     };
-    /// Where it pulls then, and with which force besides its own impedance's.
+    /// The target that it pulls to then, and its force besides its own impedance's.
     struct Effort {
         base::Position target;
         glm::dvec3 force{0.0};

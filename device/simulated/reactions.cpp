@@ -17,25 +17,25 @@ Reaction Reactions::to(const Felt& felt, base::TimePoint now, base::Duration ela
         const double stiffness = reflex.gain * person_.hand.stiffness_n_per_m;
         reaction.force = -stiffness * stretched_.at(now - reflex.delay);
     }
-    if (person_.will.gain_m_per_ns > 0.0) reaction.farther_m = farther(felt, now, elapsed);
+    if (person_.intent.gain_m_per_ns > 0.0) reaction.farther_m = farther(felt, now, elapsed);
     return reaction;
 }
 
 double Reactions::farther(const Felt& felt, base::TimePoint now, base::Duration elapsed)
 {
     constexpr double farther_max_m = 0.020;
-    const Will& will = person_.will;
+    const Intent& intent = person_.intent;
     const double seconds = base::to_seconds(elapsed);
     if (elapsed != smoothed_over_) {
         smoothed_over_ = elapsed;
-        smoothing_keeps_ = base::exp(-base::two_pi * will.cutoff_hertz * seconds);
+        smoothing_keeps_ = base::exp(-base::two_pi * intent.cutoff_hertz * seconds);
     }
     const double missing = felt.wanted_n ? *felt.wanted_n - felt.pressing_n : 0.0;
     missed_.put(now, {missing, 0.0, 0.0});
-    const double known = missed_.at(now - will.delay).x;
+    const double known = missed_.at(now - intent.delay).x;
     missing_n_ = known + smoothing_keeps_ * (missing_n_ - known);
     if (felt.wanted_n) {
-        const double moved = farther_m_ + will.gain_m_per_ns * seconds * missing_n_;
+        const double moved = farther_m_ + intent.gain_m_per_ns * seconds * missing_n_;
         farther_m_ = std::clamp(moved, -farther_max_m, farther_max_m);
     } else {
         farther_m_ *= smoothing_keeps_; // and back to where the script wants it

@@ -2,27 +2,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/simulated/delay_line.hpp"
 #include "device/simulated/operator.hpp"
+#include "device/simulated/signal_history.hpp"
 
 #include <optional>
 
 namespace hapnet::device {
 
-/// What a hand meets in a moment.
+/// A hand's perception at a moment.
 struct Felt {
     glm::dvec3 deviation{0.0};        // of the hand from its intention, metres
     double pressing_n = 0.0;          // the force with which it presses
     std::optional<double> wanted_n{}; // with which it wants to; nullopt: it does not care
 };
 
-/// What it does about it.
+/// Its reaction.
 struct Reaction {
     glm::dvec3 force{0.0};  // of the stretch reflex, newtons
     double farther_m = 0.0; // how much farther it means to press
 };
 
-/// A simulated person's stretch reflex and will. Costs nothing where the operator has none.
+/// A simulated person's stretch reflex and intent. Costs nothing for an operator with neither.
 class Reactions {
 public:
     explicit Reactions(const Operator& person) : person_{person} {}
@@ -34,8 +34,8 @@ private:
     [[nodiscard]] double farther(const Felt& felt, base::TimePoint now, base::Duration elapsed);
 
     Operator person_;
-    DelayLine stretched_;
-    DelayLine missed_;
+    SignalHistory stretched_;
+    SignalHistory missed_;
     double missing_n_ = 0.0; // smoothed
     double farther_m_ = 0.0;
     base::Duration smoothed_over_{}; // what the next one is for

@@ -80,7 +80,7 @@ double between(double begin, double end, double t)
     return minimum_jerk((t - begin) / (end - begin));
 }
 
-/// How far within the cube's face a hand aims that closes in from the start on.
+/// The depth within the cube's face at which a hand aims that closes in from the start on.
 double closing(double squeeze, double t)
 {
     return -clearance_m + (clearance_m - near_m) * between(0.0, near_after_s, t) +

@@ -11,7 +11,7 @@
 
 namespace hapnet::device {
 
-/// Where a hand wants to be, whether it grips, and with which force it wants to press.
+/// A hand's intention: its place, whether it grips, and the force with which it presses.
 struct Intention {
     base::Position target;
     bool gripping = false;
@@ -42,7 +42,7 @@ private:
     [[nodiscard]] Intention wall(double t) const;
     [[nodiscard]] double tap_x(double t) const;
     [[nodiscard]] double squeeze_n() const;
-    /// How far within the face the hand aims to press so.
+    /// The depth within the face at which the hand aims in order to press so.
     [[nodiscard]] double depth_m(double force_n) const;
 
     Task task_;

@@ -13,9 +13,6 @@ namespace hapnet::device {
 
 namespace {
 
-constexpr std::array<std::string_view, all_tasks.size()> task_names{"P1", "T1", "T2", "T3",
-                                                                    "T4", "T5", "T6"};
-
 /// The four sines, millimetres.
 double swings_mm(double seconds)
 {
@@ -31,17 +28,10 @@ double swings_mm(double seconds)
 
 base::Result<Task> task_named(std::string_view name)
 {
-    for (const Task task : all_tasks) {
-        if (name_of(task) == name) return task;
-    }
-    std::string known;
-    for (const std::string_view each : task_names) {
-        known += (known.empty() ? "" : ", ") + std::string{each};
-    }
-    return base::fail(fmt::format("'{}' is not a task; known: {}", name, known));
+    if (const auto task = base::named<Task>(name)) return *task;
+    return base::fail(
+        fmt::format("unknown task '{}': use {}", name, fmt::join(base::names_of_enum<Task>, ", ")));
 }
-
-std::string_view name_of(Task task) { return task_names.at(static_cast<std::size_t>(task)); }
 
 std::string_view scene_of(Task task)
 {

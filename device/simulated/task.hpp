@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/simulated/task_options.hpp"
+#include "proto/base/names.hpp"
 #include "proto/base/result.hpp"
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace hapnet::device {
 
-/// What the two simulated hands play together. docs/design/tasks.md tells of each.
+/// The tasks of the two simulated hands; docs/design/tasks.md describes them.
 enum class Task : std::uint8_t {
     p1, // L holds the cube and carries it along a prescribed path; R watches (Table 1)
     t1, // by turns: L pushes the cube where the path rises, R where it falls
@@ -22,12 +23,17 @@ enum class Task : std::uint8_t {
     t6, // L taps the cube at 3 Hz while R rests on its far side
 };
 
+constexpr auto names_of(base::Tag<Task> /*enum*/)
+{
+    return base::names("P1", "T1", "T2", "T3", "T4", "T5", "T6");
+}
+using base::name_of;
+
 inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3,
                                       Task::t4, Task::t5, Task::t6};
 
 /// "P1", "T1", ... "T6"
 [[nodiscard]] base::Result<Task> task_named(std::string_view name);
-[[nodiscard]] std::string_view name_of(Task task);
 
 /// The name of the built-in scene that the task is made for.
 [[nodiscard]] std::string_view scene_of(Task task);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/fields.hpp"
 #include "proto/base/reading.hpp"
 #include "proto/base/time.hpp"
 
@@ -11,7 +12,7 @@
 
 namespace hapnet::device {
 
-/// What may be chosen of a task. What is not set is the task's own.
+/// Options of a task. Unset ones take the task's own value.
 struct TaskOptions {
     /// T3 to T6: the force that a hand aims to press with on a cube that stays where it is.
     /// T3 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N (the resting hand).
@@ -24,6 +25,25 @@ struct TaskOptions {
 
     friend bool operator==(const TaskOptions&, const TaskOptions&) = default;
 };
+constexpr auto fields_of(base::Tag<TaskOptions> /*struct*/)
+{
+    constexpr base::Quantity aim{base::length_kind, 0.0, 0.02};
+    return base::fields(
+        "task-options",
+        base::field("squeeze", &TaskOptions::squeeze_n, base::Quantity{base::force_kind, 0.0, 3.3},
+                    "T3 to T6: force that a hand aims to press with"),
+        base::field("press_depth", &TaskOptions::press_depth_m, aim,
+                    "T2: depth of each aim within the cube"),
+        base::field("press_amplitude", &TaskOptions::press_amplitude_m, aim,
+                    "T2: amplitude of the presser's aim"),
+        base::field("press_frequency", &TaskOptions::press_hertz,
+                    base::Quantity{base::frequency_kind, 0.1, 10.0},
+                    "T2: instead of 0.5, 1 and 2 Hz"),
+        base::field("pace", &TaskOptions::pace, base::Number{0.1, 2.0},
+                    "T3: of the path; 1 is that of P1 and T1"),
+        base::field("follower_lag", &TaskOptions::follower_lag,
+                    base::Time{base::Duration{0}, std::chrono::seconds{1}}, "T3: of R behind L"));
+}
 
 /// Reads the table at `node`, with the keys squeeze, press_depth, press_amplitude,
 /// press_frequency, pace and follower_lag; nullopt when a complaint was made.

@@ -22,7 +22,7 @@ base::Result<bool> conclude_demo(const DemoReportCommand& command)
     const Circumstances circumstances{command.command, command.start, command.wall_time_s, host()};
     net::ResultFile{command.folder + "/manifest.json"}.commit(
         demo_manifest(run, circumstances).dump(2) + '\n');
-    const auto page = write_report({{command.folder}});
+    const auto page = write_report({command.folder, {}});
     if (!page) return tl::unexpected{page.error()};
     fmt::print("{}", demo_table(run));
     return demo_is_met(run);

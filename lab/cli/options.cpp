@@ -5,11 +5,12 @@
 #include "lab/experiment/read_kind.hpp"
 #include "lab/experiment/text.hpp"
 #include "proto/base/text.hpp"
-#include "proto/base/version.hpp"
+#include "proto/cli/command.hpp"
+#include "proto/cli/parsers.hpp"
+#include "proto/cli/synonyms.hpp"
 #include "scene/text/text.hpp"
 #include "scene/world.hpp"
 
-#include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
@@ -20,252 +21,248 @@ namespace hapnet::lab {
 
 namespace {
 
-CLI::App* add_analyse(CLI::App& app, AnalyseCommand& analyse)
-{
-    auto* command = app.add_subcommand(
-        "analyse", "Compare the records of both peers of one session: how far their cubes and\n"
-                   "forces were apart, what the network did, whether the run is valid.\n"
-                   "A run that is not valid says so; the exit code stays 0");
-    command->add_option("RECORD_A", analyse.record_a, "record of one peer")->required();
-    command->add_option("RECORD_B", analyse.record_b, "record of the other")->required();
-    command->add_flag("--json", analyse.json, "print one JSON object instead of a table");
-    return command;
-}
+constexpr const char* description =
+    "Runs experiments in virtual time, on the same code as the daemons. Analyses, exports and "
+    "replays the records of hapnet-peer. Explains scenes.";
 
-/// The word for its rows is read afterwards.
-void add_export(CLI::App& app, ExportCommand& exported, std::string& rows)
-{
-    auto* command =
-        app.add_subcommand("export", "Print the rows of a record, time counted from its T0");
-    command->add_option("RECORD", exported.record, "record of one peer")->required();
-    command->add_flag_callback(
-        "--csv", [] {}, "as CSV: the only format, and the default");
-    command->add_option("--rows", rows, "ticks of the haptic loop, or messages received")
-        ->option_text("ticks|messages [ticks]")
-        ->check(CLI::IsMember{{"ticks", "messages"}});
-}
+constexpr const char* footer =
+    R"(Examples:
+  hapnet-lab run table1 --out results/table1
+  hapnet-lab run fig6a --quick --out results/fig6a
+  hapnet-lab report results
+  hapnet-lab report a.rec b.rec
+  hapnet-lab analyse a.rec b.rec --json
+  hapnet-lab export a.rec > a.csv
+  hapnet-lab replay a.rec --algorithm dead-reckoning
+  hapnet-lab explain paper)";
 
-/// What a script knows of a run and hapnet-lab does not.
-void add_circumstances(CLI::App& command, auto& run)
-{
-    command.add_option("--command", run.command, "what was typed, for the manifest");
-    command.add_option("--start", run.start, "when it began, for the manifest");
-    command.add_option("--wall-time", run.wall_time_s, "seconds since, for the manifest");
-}
+constexpr const char* exit_codes = R"(  0  done
+  1  the run failed, or a comparison did not hold
+  2  bad usage or input
+  3  the system refused (no permission, disk full))";
 
-CLI::App* add_demo_report(CLI::App& app, DemoReportCommand& demo)
-{
-    auto* command = app.add_subcommand(
-        "demo-report", "The end of scripts/demo.sh: read what it recorded in a folder, print it\n"
-                       "beside the paper's Table 1, write manifest.json. Exit code 1: it misses");
-    command->add_option("FOLDER", demo.folder, "what scripts/demo.sh wrote")->required();
-    add_circumstances(*command, demo);
-    return command;
-}
-
-CLI::App* add_report(CLI::App& app, ReportCommand& report)
-{
-    auto* command = app.add_subcommand(
-        "report", "Write report.html, one page that needs nothing else; also figures/*.svg and\n"
-                  "gnuplot/*. Of a folder: what its experiments found, beside the paper, or what\n"
-                  "its demo or its recorded session shows. Of two records: their session; the\n"
-                  "page is written beside the first");
-    command
-        ->add_option("PATH", report.paths,
-                     "a folder of results, or such a folder's folder; or the records of both peers")
-        ->option_text("DIR | RECORD_A RECORD_B")
-        ->expected(1, 2)
-        ->required();
-    return command;
-}
-
-CLI::App* add_replay(CLI::App& app, ReplayCommand& replay)
-{
-    auto* command = app.add_subcommand(
-        "replay",
-        "Play one recorded peer again in virtual time, with the messages it received and\n"
-        "the hand it had, and compare the forces. Exit code 1: they are not the recorded\n"
-        "ones. A record that was cut off is played as far as it goes, and that is said");
-    command->add_option("RECORD", replay.record, "record of one peer")->required();
-    command
-        ->add_option("--algorithm", replay.algorithm,
-                     "another one than was recorded: what it would have made of the same messages")
-        ->option_text("NAME|FILE");
-    auto* json = command->add_flag("--json", replay.json, "print one JSON object instead of lines");
-    command->add_flag("--csv", replay.csv, "print every tick's recorded and replayed forces")
-        ->excludes(json);
-    return command;
-}
-
-CLI::App* add_real_time(CLI::App& app, RealTimeCommand& real_time)
-{
-    auto* command = app.add_subcommand(
-        "real-time", "The end of scripts/real-time.sh: read the sessions that were played in real\n"
-                     "time, play the same in virtual time, write real_time.csv");
-    command->add_option("DIR", real_time.folder, "the folder of results that holds real-time/")
-        ->required();
-    add_circumstances(*command, real_time);
-    return command;
-}
-
-/// The text of its tick is read afterwards: its complaint is ours.
-CLI::App* add_explain(CLI::App& app, ExplainCommand& explain, std::string& tick)
+/// The names of what is built in: "paper, lift, wall".
+template <typename BuiltIn>
+std::string names_of(std::span<const BuiltIn> all)
 {
     std::vector<std::string_view> names;
-    for (const scene::BuiltInScene& built_in : scene::built_in_scenes()) {
-        names.push_back(built_in.name);
-    }
-    auto* command = app.add_subcommand(
-        "explain", "Say what a scene is, what it needs of a tick and why, and which tick it\n"
-                   "therefore gets: what it does not need costs nothing");
-    command
-        ->add_option(
-            "SCENE", explain.scene,
-            fmt::format("a file (docs/formats/scene.md), or one of {}", fmt::join(names, ", ")))
-        ->required();
-    command->add_option("--tick", tick, "how long a tick is, from 10us to 100ms")
-        ->option_text("TIME [1ms]");
-    command->add_flag_callback(
-        "--no-sleeping", [&explain] { explain.sleeping = false; },
-        "bodies at rest do not fall asleep");
-    command->add_flag("--json", explain.json, "print one JSON object instead of lines");
-    return command;
+    for (const BuiltIn& one : all) names.push_back(one.name);
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Thrown by --list: what else is on the command line does not matter then.
-struct ListOfExperiments {};
+void add_analyse(cli::Command& command, AnalyseCommand& analyse)
+{
+    command.add_alias("analyze");
+    command.describe("Compares the records of both peers of one session: how far apart their cubes "
+                     "and forces were, what the network did, and whether the run is valid. An "
+                     "invalid run is reported; the exit code stays 0.");
+    command.positional("RECORD_A", "The record of one peer", cli::into(analyse.record_a))
+        .required("a.rec b.rec");
+    command.positional("RECORD_B", "The record of the other", cli::into(analyse.record_b))
+        .required("a.rec b.rec");
+    command.flag("--json", "Print one JSON object instead of a table", analyse.json);
+}
 
-/// The built-in experiments, a line each: name and title.
+base::Result<ExportRows> parse_rows(const std::string& text)
+{
+    return cli::one_of({"ticks", "messages"})(text).map([](const std::string& word) {
+        return word == "messages" ? ExportRows::messages : ExportRows::ticks;
+    });
+}
+
+void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
+{
+    command.describe("Prints the rows of a record as CSV. Times count from the start of its "
+                     "session.");
+    command.positional("RECORD", "The record of one peer", cli::into(exported.record))
+        .required("a.rec");
+    command.flag("--csv", "As CSV: the only format, and the default", as_csv);
+    command.option("--rows", "ticks|messages",
+                   "Ticks of the haptic loop, or messages received (default ticks)",
+                   cli::into(exported.rows, parse_rows));
+}
+
+/// Facts that a script knows and hapnet-lab does not.
+void add_circumstances(cli::Command& command, auto& run)
+{
+    constexpr double seconds_max = 1e9;
+    command.option("--command", "TEXT", "The command line, for the manifest",
+                   cli::into(run.command));
+    command.option("--start", "TIME", "When it began (ISO 8601), for the manifest",
+                   cli::into(run.start));
+    command.option("--wall-time", "SECONDS", "How long it took, for the manifest",
+                   cli::into(run.wall_time_s, cli::number(0.0, seconds_max)));
+}
+
+void add_demo_report(cli::Command& command, DemoReportCommand& demo)
+{
+    command.describe("The last step of scripts/demo.sh: reads the records in a folder, prints them "
+                     "beside the paper's Table 1, and writes manifest.json. Exit code 1: outside "
+                     "the bands.");
+    command.positional("DIR", "The folder of scripts/demo.sh", cli::into(demo.folder))
+        .required("results/demo");
+    add_circumstances(command, demo);
+}
+
+void add_report(cli::Command& command, ReportCommand& report)
+{
+    command.describe(
+        "Writes report.html, one self-contained page; also figures/*.svg. Of a folder: "
+        "the results of its experiments beside the paper, of the demo, or of a "
+        "recorded session. Of two records: their session; the page is written beside "
+        "the first.");
+    command
+        .positional("DIR|RECORD_A",
+                    "A folder of results or of such folders; or the record of one peer",
+                    cli::into(report.path))
+        .required("results");
+    command.positional("RECORD_B", "The record of the other peer", cli::into(report.record_b));
+}
+
+void add_replay(cli::Command& command, ReplayCommand& replay)
+{
+    command.describe("Replays one recorded peer in virtual time, with the messages it received and "
+                     "the hand it had, and compares the forces. Exit code 1: they differ from the "
+                     "recorded ones. A record that was cut off is replayed as far as it goes, with "
+                     "a note.");
+    command.positional("RECORD", "The record of one peer", cli::into(replay.record))
+        .required("a.rec");
+    command.option("--algorithm", "NAME|FILE",
+                   "Another algorithm than the recorded one, fed with the same messages",
+                   cli::into(replay.algorithm, [](const std::string& text) {
+                       return cli::meant_value("--algorithm", text);
+                   }));
+    command.flag("--json", "Print one JSON object instead of lines", replay.json);
+    command.flag("--csv", "Print the recorded and replayed forces of every tick", replay.csv);
+}
+
+void add_real_time(cli::Command& command, RealTimeCommand& real_time)
+{
+    command.describe("The last step of scripts/real-time.sh: reads the sessions that ran in real "
+                     "time, plays the same in virtual time, and writes real_time.csv.");
+    command
+        .positional("DIR", "The folder of results that holds real-time/",
+                    cli::into(real_time.folder))
+        .required("results");
+    add_circumstances(command, real_time);
+}
+
+void add_explain(cli::Command& command, ExplainCommand& explain, bool& no_sleeping)
+{
+    command.describe("Describes a scene, what one of its ticks has to compute and why, and which "
+                     "tick it gets therefore. What a scene does not need costs nothing.");
+    command
+        .positional("SCENE",
+                    fmt::format("A file (docs/formats/scene.md), or one of {}",
+                                names_of(scene::built_in_scenes())),
+                    cli::into(explain.scene))
+        .required("paper");
+    command.option("--tick", "TIME", "Length of a tick, from 10us to 100ms (default 1ms)",
+                   cli::into(explain.tick, cli::duration(scene::tick_min, scene::tick_max)));
+    command.flag("--no-sleeping", "Keep bodies at rest awake", no_sleeping);
+    command.flag("--json", "Print one JSON object instead of lines", explain.json);
+}
+
+void add_run(cli::Command& command, RunCommand& run, bool& is_list)
+{
+    constexpr std::uint64_t jobs_max = 1024;
+    command.describe("Runs an experiment in virtual time and writes its results as CSV. Run again "
+                     "after Ctrl-C, or with more seeds, it plays only the missing sessions.");
+    command.add_footer("Examples:\n"
+                       "  hapnet-lab run table1 --out results/table1\n"
+                       "  hapnet-lab run fig6b --seeds 40 --jobs 2 --out results/fig6b\n"
+                       "  hapnet-lab run mine.toml --set both.delay=100ms --out results/mine");
+    command
+        .positional("EXPERIMENT",
+                    fmt::format("A file (docs/use/experiments.md), or one of {}",
+                                names_of(built_in_experiments())),
+                    cli::into(run.experiment))
+        .required("table1 --out results/table1");
+    command.option("--out", "DIR", "The folder for the results", cli::into(run.out))
+        .required("results/mine");
+    command
+        .option("--set", "KEY=VALUE",
+                "Another value for a key of the experiment, such as both.delay=100ms; may be given "
+                "several times",
+                cli::onto(run.settings))
+        .repeated();
+    command.option("--seeds", "N", "Number of seeds (default: the experiment's)",
+                   cli::into(run.seeds, cli::whole_number(1, seeds_max)));
+    command.option("--jobs", "N",
+                   "Number of threads; the results do not depend on it (default: all processors)",
+                   cli::into(run.jobs, cli::whole_number(1, jobs_max)));
+    command.option("--criteria", "FILE",
+                   "Limits that a usable session keeps: a file (docs/design/metrics.md), or paper "
+                   "(default), calibrated on the paper",
+                   cli::into(run.criteria));
+    command.flag("--quick", "Use the values under [quick] of the experiment: rougher", run.quick);
+    command.flag("--list", "Print the names of the built-in experiments and exit", is_list)
+        .instead();
+}
+
 std::string list_of_experiments()
 {
     std::string list;
-    for (const BuiltInExperiment& built_in : built_in_experiments()) {
-        const auto experiment =
-            parse_experiment(built_in.text, std::string{built_in.name}, Overrides{});
-        list += fmt::format("{:<14}{}\n", built_in.name, experiment ? experiment->title : "");
+    for (const BuiltInExperiment& one : built_in_experiments()) {
+        list += std::string{one.name} + "\n";
     }
     return list;
-}
-
-CLI::App* add_run(CLI::App& app, RunCommand& run)
-{
-    constexpr std::uint32_t jobs_max = 1024;
-    std::vector<std::string_view> names;
-    for (const BuiltInExperiment& built_in : built_in_experiments()) names.push_back(built_in.name);
-    auto* command = app.add_subcommand(
-        "run", "Carry out an experiment in virtual time and write its results as CSV. Run again\n"
-               "after Ctrl-C, or with more seeds, it plays only what it has not played yet");
-    command
-        ->add_option(
-            "EXPERIMENT", run.experiment,
-            fmt::format("a file (docs/use/experiments.md), or one of {}", fmt::join(names, ", ")))
-        ->required();
-    command
-        ->add_option("--set", run.settings,
-                     "another value for a key of the experiment, such as both.delay=100ms")
-        ->option_text("KEY=VALUE ...")
-        ->expected(1)
-        ->take_all();
-    command->add_option("--seeds", run.seeds, "how many seeds")
-        ->option_text("N")
-        ->check(CLI::Range(1U, seeds_max));
-    command->add_option("--jobs", run.jobs, "how many threads; does not change the results")
-        ->option_text("N [all processors]")
-        ->check(CLI::Range(1U, jobs_max));
-    command
-        ->add_option(
-            "--criteria", run.criteria,
-            "what a session must keep to be usable: a file (docs/design/metrics.md), or what\n"
-            "was calibrated on the paper")
-        ->option_text("FILE [paper]");
-    command
-        ->add_flag_callback(
-            "--list", [] { throw ListOfExperiments{}; }, "print the built-in experiments and exit")
-        ->trigger_on_parse();
-    command->add_flag("--quick", run.quick, "what the experiment says under [quick]: rougher");
-    command->add_option("--out", run.out, "the folder for the results")
-        ->option_text("DIR")
-        ->required();
-    return command;
-}
-
-net::CommandLine<Command> command_of(RunCommand run, std::span<char*> words)
-{
-    run.command = fmt::format("{}", fmt::join(words, " "));
-    return Command{std::move(run)};
-}
-
-net::CommandLine<Command> command_of(ExplainCommand explain, const std::string& tick)
-{
-    const auto duration = base::parse_duration(tick);
-    if (!duration) return base::fail("--tick: " + duration.error().message);
-    if (*duration < scene::tick_min || *duration > scene::tick_max) {
-        return base::fail(fmt::format("--tick: '{}' is out of range: {} to {} is possible", tick,
-                                      base::to_text(scene::tick_min),
-                                      base::to_text(scene::tick_max)));
-    }
-    explain.tick = *duration;
-    return Command{explain};
 }
 
 } // namespace
 
 net::CommandLine<Command> parse_command_line(std::span<char*> words)
 {
-    CLI::App app{"Carries out experiments in virtual time, reads the records of hapnet-peer, and "
-                 "explains scenes",
-                 "hapnet-lab"};
-    app.set_version_flag("--version", base::version_line("hapnet-lab"));
-    app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 1 failed, 2 usage or bad input, 3 the environment.");
-
-    AnalyseCommand analyse;
-    auto* analyse_command = add_analyse(app, analyse);
-    ExportCommand exported;
-    std::string rows = "ticks";
-    add_export(app, exported, rows);
-    DemoReportCommand demo;
-    auto* demo_command = add_demo_report(app, demo);
-    RealTimeCommand real_time;
-    auto* real_time_command = add_real_time(app, real_time);
-    ReplayCommand replay;
-    auto* replay_command = add_replay(app, replay);
-    ReportCommand report;
-    auto* report_command = add_report(app, report);
-    ExplainCommand explain;
-    std::string tick = "1ms";
-    auto* explain_command = add_explain(app, explain, tick);
+    cli::Command program{"hapnet-lab"};
+    program.describe(description);
+    program.add_footer(footer);
+    program.add_exit_codes(exit_codes);
+    program.require_command();
 
     RunCommand run;
-    auto* run_command = add_run(app, run);
+    bool is_list = false;
+    auto& run_command = program.command("run", "Runs an experiment in virtual time");
+    add_run(run_command, run, is_list);
+    ReportCommand report;
+    auto& report_command =
+        program.command("report", "Writes a page with the results of a folder or session");
+    add_report(report_command, report);
+    AnalyseCommand analyse;
+    auto& analyse_command =
+        program.command("analyse", "Compares the records of both peers of a session");
+    add_analyse(analyse_command, analyse);
+    ExportCommand exported;
+    bool as_csv = true;
+    auto& export_command = program.command("export", "Prints the rows of a record as CSV");
+    add_export(export_command, exported, as_csv);
+    ReplayCommand replay;
+    auto& replay_command = program.command("replay", "Replays a recorded peer in virtual time");
+    add_replay(replay_command, replay);
+    ExplainCommand explain;
+    bool no_sleeping = false;
+    auto& explain_command = program.command("explain", "Describes a scene and the tick it gets");
+    add_explain(explain_command, explain, no_sleeping);
+    DemoReportCommand demo;
+    auto& demo_command = program.command("demo-report", "The last step of scripts/demo.sh");
+    add_demo_report(demo_command, demo);
+    RealTimeCommand real_time;
+    auto& real_time_command = program.command("real-time", "The last step of scripts/real-time.sh");
+    add_real_time(real_time_command, real_time);
 
-    try {
-        app.parse(static_cast<int>(words.size()), words.data());
-    } catch (const CLI::CallForHelp&) {
-        const auto chosen = app.get_subcommands();
-        return net::Answer{chosen.empty() ? app.help() : chosen.front()->help()};
-    } catch (const ListOfExperiments&) {
-        return net::Answer{list_of_experiments()};
-    } catch (const CLI::CallForVersion&) {
-        return net::Answer{base::version_line("hapnet-lab") + "\n"};
-    } catch (const CLI::RequiredError& error) {
-        const bool names_one = words.size() > 1 && app.get_subcommands().empty();
-        if (!names_one) return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
-        return base::fail(std::string{"'"} + words[1] +
-                          "' is not a command; use analyse, explain, export, replay, report or "
-                          "run, "
-                          "see hapnet-lab --help");
-    } catch (const CLI::ParseError& error) {
-        return base::fail(std::string{error.what()} + "; see hapnet-lab --help");
+    if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    if (is_list) return net::Answer{list_of_experiments()};
+    if (replay.json && replay.csv) {
+        return base::fail("--json and --csv exclude each other: give one of them");
     }
-    if (analyse_command->parsed()) return Command{analyse};
-    if (demo_command->parsed()) return Command{demo};
-    if (real_time_command->parsed()) return Command{real_time};
-    if (replay_command->parsed()) return Command{replay};
-    if (report_command->parsed()) return Command{report};
-    if (explain_command->parsed()) return command_of(explain, tick);
-    if (run_command->parsed()) return command_of(std::move(run), words);
-    exported.rows = rows == "messages" ? ExportRows::messages : ExportRows::ticks;
+    explain.sleeping = !no_sleeping;
+    run.command = fmt::format("{}", fmt::join(words, " "));
+    if (analyse_command.is_chosen()) return Command{analyse};
+    if (demo_command.is_chosen()) return Command{demo};
+    if (real_time_command.is_chosen()) return Command{real_time};
+    if (replay_command.is_chosen()) return Command{replay};
+    if (report_command.is_chosen()) return Command{report};
+    if (explain_command.is_chosen()) return Command{explain};
+    if (run_command.is_chosen()) return Command{std::move(run)};
     return Command{exported};
 }
 

@@ -64,7 +64,8 @@ struct ReplayCommand {
 
 /// `hapnet-lab report DIR`, `hapnet-lab report RECORD_A RECORD_B`
 struct ReportCommand {
-    std::vector<std::string> paths; // a folder, or the two records of a session
+    std::string path;     // a folder, or the record of one peer
+    std::string record_b; // of the other; empty: path is a folder
 };
 
 /// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`

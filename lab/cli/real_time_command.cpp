@@ -44,7 +44,7 @@ base::Result<RealTimeResult> result_in(const fs::path& folder, const std::string
     return result_of(session, *twin);
 }
 
-/// The manifest that is there already says this, too; or there is none, and this is all.
+/// Adds to the manifest that is there; without one, writes a manifest of its own.
 base::Result<void> note_in_manifest(const fs::path& folder, Json real_time)
 {
     const auto path = (folder / "manifest.json").string();

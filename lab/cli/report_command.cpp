@@ -129,10 +129,10 @@ struct Source {
     fs::path folder;
 };
 
-base::Result<Source> read_source(const std::vector<std::string>& paths)
+base::Result<Source> read_source(const ReportCommand& command)
 {
-    const fs::path first{paths.front()};
-    if (paths.size() == 1) {
+    const fs::path first{command.path};
+    if (command.record_b.empty()) {
         if (fs::is_regular_file(first) && first.extension() == ".rec") {
             return base::fail("a session has two records: name those of both peers");
         }
@@ -141,13 +141,13 @@ base::Result<Source> read_source(const std::vector<std::string>& paths)
             return Source{std::move(results), first};
         });
     }
-    Source source{{}, first.has_parent_path() ? first.parent_path() : fs::path{"."}};
-    for (const std::string& path : paths) {
+    for (const std::string& path : {command.path, command.record_b}) {
         if (!fs::is_directory(path)) continue;
         return base::fail(path +
                           " is a folder: report one folder, or the two records of a session");
     }
-    const auto added = add_records(source.results, "", paths[0], paths[1]);
+    Source source{{}, first.has_parent_path() ? first.parent_path() : fs::path{"."}};
+    const auto added = add_records(source.results, "", command.path, command.record_b);
     if (!added) return tl::unexpected{added.error()};
     return source;
 }
@@ -161,7 +161,7 @@ void say_what_is_replaced(const fs::path& path, std::string_view page)
     if (before == now) return;
     net::say("hapnet-lab",
              fmt::format("{} is replaced: it was {}", path.string(),
-                         before.empty() ? "a page that does not say what it is about"
+                         before.empty() ? "a page about an unknown subject"
                                         : fmt::format("a page about {}, not {}", before, now)));
 }
 
@@ -169,7 +169,7 @@ void say_what_is_replaced(const fs::path& path, std::string_view page)
 
 base::Result<std::string> write_report(const ReportCommand& command)
 {
-    const auto source = read_source(command.paths);
+    const auto source = read_source(command);
     if (!source) return tl::unexpected{source.error()};
     for (const File& file : report::report_of(source->results, source->folder.string())) {
         const fs::path path = source->folder / file.path;

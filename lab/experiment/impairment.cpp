@@ -32,7 +32,7 @@ base::Duration duration_of(ImpairmentLevel level)
     return std::chrono::microseconds{level.thousandths};
 }
 
-/// Rounded to 0.001 %: what is typed with at most three decimals is kept as it is.
+/// Rounded to 0.001 %: a share typed with at most three decimals is exact.
 base::Probability share_of(ImpairmentLevel level)
 {
     const double fraction = static_cast<double>(level.thousandths) / (100.0 * thousand);

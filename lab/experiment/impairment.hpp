@@ -37,7 +37,7 @@ struct ImpairmentLevel {
 [[nodiscard]] std::string to_text(ImpairmentLevel level);
 [[nodiscard]] double in_units(ImpairmentLevel level);
 
-/// Reads "160ms", "93%" or a number of messages from 0 to 100; complains of what is none.
+/// Reads "160ms", "93%" or a number of messages from 0 to 100; complains of anything else.
 void read_level(const base::Node& node, Impairment impairment, ImpairmentLevel& target,
                 base::Reading& reading);
 /// TOML that reads back as the same level.

@@ -5,6 +5,7 @@
 #include "lab/experiment/read_kind.hpp"
 #include "lab/experiment/text.hpp"
 #include "peer/core/sync/text.hpp"
+#include "proto/base/built_in.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
@@ -199,23 +200,9 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
 base::Result<Experiment> load_experiment(const std::string& file_or_name,
                                          const base::OpenFile& open, const Overrides& overrides)
 {
-    std::vector<std::string_view> names;
-    for (const BuiltInExperiment& built_in : built_in_experiments()) {
-        if (built_in.name == file_or_name) {
-            return parse_experiment(built_in.text, fmt::format("{}.toml", built_in.name),
-                                    overrides);
-        }
-        names.push_back(built_in.name);
-    }
-    const bool is_file =
-        file_or_name.find('/') != std::string::npos || file_or_name.ends_with(".toml");
-    const auto text = open(file_or_name);
-    if (!text && is_file) return tl::unexpected{text.error()};
-    if (!text) {
-        return base::fail(fmt::format("there is neither a file nor an experiment '{}': {}",
-                                      file_or_name, base::suggestion(file_or_name, names)));
-    }
-    return parse_experiment(*text, file_or_name, overrides);
+    const auto found = base::find_text(file_or_name, built_in_experiments(), "an experiment", open);
+    if (!found) return tl::unexpected{found.error()};
+    return parse_experiment(found->text, found->source, overrides);
 }
 
 } // namespace hapnet::lab

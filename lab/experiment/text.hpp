@@ -15,7 +15,7 @@ namespace hapnet::lab {
 
 // Experiments as people write them, in TOML: docs/use/experiments.md.
 
-/// What somebody wants otherwise than the text says.
+/// Values of the command line that replace those of the text.
 struct Overrides {
     bool quick = false;                // what the text says under [quick] counts
     std::vector<std::string> settings; // "limit.delay.to=200ms": the last word

@@ -30,7 +30,7 @@ std::string sentence(const Wording& words, double value, char relation, double l
                        relation, limit * words.scale, words.unit);
 }
 
-// A number that is none keeps no limit.
+// A number that is not finite keeps no limit.
 
 void at_most(std::optional<double> value, double limit, const Wording& words,
              std::vector<std::string>& objections)

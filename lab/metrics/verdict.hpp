@@ -27,7 +27,7 @@ struct Judgement {
     std::vector<std::string> shortcomings;
 };
 
-/// Judges what the task exercised; what it did not is taken as kept.
+/// Judges the metrics that the task exercised; the others count as kept.
 [[nodiscard]] Judgement judge(const Scores& scores, const Criteria& criteria);
 
 } // namespace hapnet::lab

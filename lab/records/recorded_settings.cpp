@@ -3,6 +3,7 @@
 #include "lab/records/recorded_settings.hpp"
 
 #include "device/governor/limits_text.hpp"
+#include "device/mechanisms.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/text.hpp"
 #include "scene/text/text.hpp"
@@ -135,7 +136,8 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     auto algorithm = peer::parse_algorithm(algorithm_text, "algorithm_toml");
     if (!algorithm) return tl::unexpected{algorithm.error()};
     settings.algorithm = *std::move(algorithm);
-    const auto limits = device::parse_limits(limits_text, "governor_toml");
+    const auto limits =
+        device::parse_limits(limits_text, "governor_toml", device::known_mechanisms);
     if (!limits) return tl::unexpected{limits.error()};
     recorded.limits = *limits;
     return recorded;

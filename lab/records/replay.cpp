@@ -4,6 +4,7 @@
 
 #include "device/governor.hpp"
 #include "lab/records/recorded_settings.hpp"
+#include "peer/core/side.hpp"
 #include "peer/core/sync/text.hpp"
 
 #include <algorithm>
@@ -17,71 +18,74 @@ namespace hapnet::lab {
 
 namespace {
 
-/// What the device said in a tick, as far as the governor looks at it.
-device::Sample said_in(const record::TickRow& row)
-{
-    device::Sample sample;
-    sample.hip = row.hip;
-    sample.velocity = row.hip_velocity;
-    sample.gripping = row.gripping;
-    sample.docked = row.docked;
-    sample.calibrated = row.calibrated;
-    sample.fault = static_cast<device::Fault>(row.fault);
-    sample.buttons = row.buttons;
-    sample.presses = row.presses;
-    sample.sequence = row.sample_sequence;
-    return sample;
-}
-
-/// One peer as it was.
-class Revival {
+/// The device and governor of a record: the device reports what the row of each tick holds.
+class RecordedRig {
 public:
-    Revival(const record::Record& record, const RecordedSettings& settings)
-        : record_{record}, mount_{settings.mount}, peer_{settings.peer}, governor_{settings.limits}
+    explicit RecordedRig(const RecordedSettings& settings)
+        : mount_{settings.mount}, governor_{settings.limits}
     {}
 
-    ReplayedTick turn(const record::TickRow& row)
+    void show(const record::TickRow& row)
+    {
+        sample_ = peer::sample_of(row);
+        was_at_fault_ = row.governor == static_cast<std::uint8_t>(device::GovernorState::fault);
+    }
+
+    [[nodiscard]] const device::Sample& read(base::TimePoint /*now*/) const { return sample_; }
+    base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now)
+    {
+        device::Sample own = sample_; // in the device's frame
+        own.hip = mount_.to_device(sample_.hip);
+        own.velocity = mount_.to_device(sample_.velocity);
+        const device::ForceRequest request{mount_.to_device(wanted), permitted};
+        if (was_at_fault_ && governor_.state() != device::GovernorState::fault) {
+            // A fault that nothing in the row explains was latched by the watchdog.
+            device::Governor by_itself = governor_;
+            std::ignore = by_itself.govern(request, own, now);
+            if (by_itself.state() != device::GovernorState::fault) {
+                governor_.latch({device::Fault::timeout, device::Trip::loop});
+            }
+        }
+        return governor_.govern(request, own, now).force();
+    }
+    [[nodiscard]] device::GovernorState governor_state() const { return governor_.state(); }
+    void on_cue(const device::Cue& /*cue*/) {}
+
+private:
+    device::Mount mount_;
+    device::Governor governor_;
+    device::Sample sample_; // in the scene
+    bool was_at_fault_ = false;
+};
+
+/// One peer as it was.
+class Replayer {
+public:
+    Replayer(const record::Record& record, const RecordedSettings& settings)
+        : record_{record}, rig_{settings}, side_{settings.peer}
+    {}
+
+    ReplayedTick step(const record::TickRow& row)
     {
         const auto& messages = record_.messages;
         for (; message_ < messages.size() && messages[message_].tick <= row.tick; ++message_) {
-            peer_.on_datagram(messages[message_].datagram(), messages[message_].received_at);
+            side_.on_datagram(messages[message_].datagram(), messages[message_].received_at);
         }
-        // Its own end comes by the clock; another one's was a person's.
-        if (row.phase == record::Phase::ended) peer_.leave(wire::ByeReason::interrupted);
-        const device::Sample sample = said_in(row);
-        const peer::Tick tick = peer_.tick(
-            row.at(), {sample.hip, sample.velocity, sample.gripping, is_in_hand(sample)});
-        while (peer_.poll()) {}
-        while (peer_.event()) {}
-        const device::Wish wish{mount_.to_device(tick.force), tick.permitted};
-        const base::Force force = governed(wish, sample, row);
-        return {row.tick, row.at(), row.contact, tick.force, row.device, force};
+        // A session's own end comes by the clock; any other one was a person's decision.
+        if (row.phase == record::Phase::ended) side_.peer().leave(wire::ByeReason::interrupted);
+        rig_.show(row);
+        side_.step(row.at(), rig_);
+        while (side_.poll()) {}
+        while (side_.event()) {}
+        return {row.tick, row.at(), row.contact, side_.tick().force, row.device, side_.told()};
     }
 
     [[nodiscard]] std::size_t messages() const { return message_; }
 
 private:
-    base::Force governed(const device::Wish& wish, device::Sample sample,
-                         const record::TickRow& row)
-    {
-        sample.hip = mount_.to_device(sample.hip);
-        sample.velocity = mount_.to_device(sample.velocity);
-        constexpr auto fault = static_cast<std::uint8_t>(device::GovernorState::fault);
-        if (row.governor == fault && governor_.state() != device::GovernorState::fault) {
-            // What nothing in the row explains was the watchdog's doing.
-            device::Governor by_itself = governor_;
-            std::ignore = by_itself.govern(wish, sample, row.at());
-            if (by_itself.state() != device::GovernorState::fault) {
-                governor_.latch({device::Fault::timeout, device::Trip::loop});
-            }
-        }
-        return governor_.govern(wish, sample, row.at()).force();
-    }
-
     const record::Record& record_;
-    device::Mount mount_;
-    peer::Peer peer_;
-    device::Governor governor_;
+    RecordedRig rig_;
+    peer::Side side_;
     std::size_t message_ = 0;
 };
 
@@ -101,18 +105,18 @@ double difference(const base::Force& a, const base::Force& b)
 
 std::optional<std::string> gap_in(const record::Record& record)
 {
-    if (record.ticks.empty()) return "it holds no tick";
+    if (record.ticks.empty()) return "it has no ticks";
     std::uint64_t expected = 0;
     for (const record::TickRow& row : record.ticks) {
         if (row.tick < expected) {
-            return fmt::format("its tick {} stands where tick {} should: the file is damaged",
+            return fmt::format("tick {} follows where tick {} is expected: the file is damaged",
                                row.tick, expected);
         }
         if (row.tick > expected) {
-            return fmt::format("its ticks {} to {} are missing, which its recorder could not write "
-                               "in time, or which were damaged: what came after them cannot be "
-                               "played again",
-                               expected, row.tick - 1);
+            return fmt::format(
+                "ticks {} to {} are missing: they were damaged, or the recorder could "
+                "not write them in time; the ticks after them cannot be replayed",
+                expected, row.tick - 1);
         }
         ++expected;
     }
@@ -138,9 +142,9 @@ base::Result<Replayed> replay(const record::Record& record,
     replayed.algorithm = peer::name_of(settings->peer.algorithm);
     replayed.is_the_recorded_one = !instead;
     replayed.ticks.reserve(record.ticks.size());
-    Revival revival{record, *settings};
+    Replayer replayer{record, *settings};
     for (const record::TickRow& row : record.ticks) {
-        const ReplayedTick& tick = replayed.ticks.emplace_back(revival.turn(row));
+        const ReplayedTick& tick = replayed.ticks.emplace_back(replayer.step(row));
         const double contact = difference(tick.contact, tick.recorded_contact);
         const double device = difference(tick.device, tick.recorded_device);
         replayed.contact_difference_max_n = std::max(replayed.contact_difference_max_n, contact);
@@ -148,7 +152,7 @@ base::Result<Replayed> replay(const record::Record& record,
         const bool differs = contact > tolerance_n || device > tolerance_n;
         if (differs && !replayed.differs_from) replayed.differs_from = row.tick;
     }
-    replayed.messages = revival.messages();
+    replayed.messages = replayer.messages();
     replayed.is_complete = record.ticks.back().phase == record::Phase::ended;
     return replayed;
 }
@@ -180,11 +184,11 @@ std::string to_table(const Replayed& replayed)
         text += "incomplete  the record stops before the session's end: its writer was killed, its "
                 "disk was full, or it was cut off\n";
     }
-    if (!replayed.differs_from) return text + "verdict     the recorded forces, again\n";
+    if (!replayed.differs_from) return text + "verdict     the forces are those of the record\n";
     return text + fmt::format("verdict     {} from tick {} on\n",
                               replayed.is_the_recorded_one
-                                  ? "NOT the recorded forces"
-                                  : "other forces than the recorded algorithm's",
+                                  ? "the forces are NOT those of the record"
+                                  : "the forces differ from those of the recorded algorithm",
                               *replayed.differs_from);
 }
 

@@ -155,7 +155,7 @@ void add_curves(Section& section, const std::vector<CurveRow>& rows,
     section.html += "</div>\n";
     if (!unmeasured.empty()) {
         section.html += fmt::format("<p class='banner'>Not measured in any of these sessions, so "
-                                    "none can have failed by it: {}.</p>\n",
+                                    "no session can have failed by it: {}.</p>\n",
                                     unmeasured);
     }
     section.html += folded("Each task on its own", by_task(rows, criteria));

@@ -142,7 +142,7 @@ std::optional<Section> limits_section(const Results& results, Section section,
 std::optional<Section> fig6a_section(const Results& results)
 {
     return limits_section(results,
-                          {"fig6a", "Fig. 6a: how much delay and jitter is bearable",
+                          {"fig6a", "Fig. 6a: tolerated delay and jitter",
                            "<p>Each limit is searched from below: the bar ends where the first "
                            "session fails.</p>\n"},
                           {"delay", "jitter"});
@@ -151,7 +151,7 @@ std::optional<Section> fig6a_section(const Results& results)
 std::optional<Section> fig6b_section(const Results& results)
 {
     return limits_section(results,
-                          {"fig6b", "Fig. 6b: how much loss is bearable",
+                          {"fig6b", "Fig. 6b: tolerated loss",
                            "<p>Random loss in percent; burst loss as messages lost in a row of "
                            "every 100.</p>\n"},
                           {"random-loss", "burst-loss"});

@@ -78,7 +78,7 @@ Json packed(const Replay& replay)
         },
         replay.rows.front());
     return {{"algorithm", replay.algorithm},     {"task", replay.task},
-            {"bodies", bodies_of(replay.scene)}, {"hip_radius", 1e3 * replay.scene.hips.radius_m},
+            {"bodies", bodies_of(replay.scene)}, {"hip_radius", 1e3 * replay.scene.hands.radius_m},
             {"start_s", replay.start_s},         {"step_s", replay.step_s},
             {"count", replay.rows.size()},       {"columns", columns}};
 }

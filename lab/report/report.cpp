@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/report.hpp"
 
-#include "lab/report/gnuplot.hpp"
 #include "lab/report/page.hpp"
 #include "lab/report/plot/axis.hpp"
 #include "lab/report/section.hpp"
@@ -225,7 +224,6 @@ std::vector<File> report_of(const Results& results, std::string_view folder)
             files.push_back({fmt::format("figures/{}.svg", one.name), standalone(one.svg)});
         }
     }
-    for (File& file : gnuplot_files(results)) files.push_back(std::move(file));
     return files;
 }
 

@@ -10,7 +10,7 @@
 
 namespace hapnet::lab::report {
 
-/// The report of a result folder: report.html, figures/*.svg, gnuplot/*. Equal results give equal
+/// The report of a result folder: report.html and figures/*.svg. Equal results give equal
 /// bytes. `folder` is its name, for the commands that the page shows.
 [[nodiscard]] std::vector<File> report_of(const Results& results, std::string_view folder);
 

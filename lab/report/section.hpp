@@ -28,7 +28,7 @@ struct Section {
     void add_figure(std::string name, std::string svg, std::string_view caption);
 };
 
-// The sections, each from what the folder holds of it; nullopt when that is nothing.
+// The sections. nullopt when the folder has no data for one.
 
 /// The demo's own numbers.
 [[nodiscard]] std::optional<Section> demo_section(const Results& results);

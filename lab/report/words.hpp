@@ -24,7 +24,7 @@ namespace hapnet::lab::report {
 [[nodiscard]] std::string limit_text(double limit, bool is_open, std::string_view unit);
 /// "ms", "%", "of 100"
 [[nodiscard]] std::string_view unit_text(std::string_view unit);
-/// "delay", "burst loss"; what is not known is left as it is.
+/// "delay", "burst loss"; an unknown name stays as it is.
 [[nodiscard]] std::string impairment_text(std::string_view impairment);
 
 [[nodiscard]] std::string_view claim_text(Claim claim); // "calibrated"

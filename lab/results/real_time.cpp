@@ -116,7 +116,7 @@ base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFi
         if (written->missing()) return base::fail(*written->missing());
     }
     if (grip_damping != peer::Settings{}.grip_damping_ns_per_m) {
-        return base::fail("virtual time knows no other grip damping than the default");
+        return base::fail("virtual time supports only the default grip damping");
     }
 
     Parts parts;
@@ -131,7 +131,7 @@ base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFi
         player.person = parts.take(device::load_operator("the/peer's operator", text_of_person));
     }
     if (parts.error()) return base::fail(*parts.error());
-    if (auto why = objection(setting)) return base::fail(*std::move(why));
+    if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
     return setting;
 }
 

@@ -37,8 +37,8 @@ struct Runner {
 };
 
 /// The results of all jobs, in their order: the same for any number of threads. nullopt when `stop`
-/// was requested before the end; what was played until then is in the store. Throws what a thread
-/// has thrown.
+/// was requested before the end; the sessions played until then are in the store. Throws what a
+/// thread has thrown.
 [[nodiscard]] base::Result<std::optional<std::vector<JobResult>>>
 run_all(const Experiment& experiment, const Criteria& criteria, const Runner& runner,
         net::StopSignal& stop);

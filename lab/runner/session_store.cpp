@@ -106,7 +106,7 @@ base::Result<void> SessionStore::read(const FolderIdentity& identity)
         }
         take_line(line);
     }
-    if (text.back() != '\n') append(""); // what comes next is a line of its own
+    if (text.back() != '\n') append(""); // the next session starts a new line
     return {};
 }
 

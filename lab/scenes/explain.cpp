@@ -27,14 +27,14 @@ std::optional<MassRange> masses_of(const scene::Description& description)
     return range;
 }
 
-std::vector<CheaperTick> cheaper_than(scene::Profile chosen, const scene::Needs& needs)
+std::vector<CheaperTick> cheaper_than(scene::StepperKind chosen, const scene::Requirements& needs)
 {
     std::vector<CheaperTick> cheaper;
     for (std::size_t i = 0; i < static_cast<std::size_t>(chosen); ++i) {
-        CheaperTick tick{static_cast<scene::Profile>(i), {}};
-        const scene::FeatureSet can = scene::abilities(tick.profile);
-        for (const scene::Need& need : needs) {
-            if (need.needed && !can.has(need.feature)) tick.lacks.push_back(need.feature);
+        CheaperTick tick{static_cast<scene::StepperKind>(i), {}};
+        const scene::FeatureSet can = scene::abilities_of(tick.profile);
+        for (const scene::Requirement& need : needs) {
+            if (need.is_required && !can.has(need.feature)) tick.lacks.push_back(need.feature);
         }
         cheaper.push_back(std::move(tick));
     }
@@ -48,12 +48,12 @@ std::vector<std::string_view> names_of(const std::vector<scene::Feature>& featur
     return names;
 }
 
-Json json_of(const scene::Needs& needs)
+Json json_of(const scene::Requirements& needs)
 {
     Json list = Json::array();
-    for (const scene::Need& need : needs) {
+    for (const scene::Requirement& need : needs) {
         list.push_back({{"feature", scene::name_of(need.feature)},
-                        {"needed", need.needed},
+                        {"needed", need.is_required},
                         {"because", need.because}});
     }
     return list;
@@ -73,7 +73,7 @@ std::string bodies_text(const Explanation& of)
                        of.planes);
 }
 
-std::string hips_text(const scene::HipDescription& hips)
+std::string hips_text(const scene::HandDescription& hips)
 {
     if (hips.count == 0) return "none";
     const auto text = [](double value, const base::QuantityKind& kind) {
@@ -100,23 +100,23 @@ Explanation explain(const scene::Description& description, base::Duration tick, 
                       [](const scene::BodyDescription& body) { return body.movable; }));
     explanation.fixed = description.bodies.size() - explanation.movable;
     explanation.planes = description.planes.size();
-    explanation.hips = description.hips;
+    explanation.hands = description.hands;
     explanation.mass = masses_of(description);
     explanation.tick = tick;
-    if (explanation.mass && description.hips.count > 0) {
+    if (explanation.mass && description.hands.count > 0) {
         const double dt = base::to_seconds(tick);
         explanation.hand_factor =
-            description.hips.stiffness_n_per_m * dt * dt / explanation.mass->least_kg;
+            description.hands.stiffness_n_per_m * dt * dt / explanation.mass->least_kg;
     }
-    explanation.needs = scene::needs_of(description, sleeping);
-    explanation.profile = scene::profile_for(scene::features_of(explanation.needs));
+    explanation.needs = scene::requirements_of(description, sleeping);
+    explanation.profile = scene::cheapest_stepper(scene::required_features(explanation.needs));
     explanation.cheaper = cheaper_than(explanation.profile, explanation.needs);
     return explanation;
 }
 
 nlohmann::ordered_json to_json(const Explanation& explanation)
 {
-    const scene::HipDescription& hips = explanation.hips;
+    const scene::HandDescription& hips = explanation.hands;
     Json mass = nullptr;
     if (explanation.mass) {
         mass = {{"min", explanation.mass->least_kg}, {"max", explanation.mass->most_kg}};
@@ -153,16 +153,16 @@ std::string to_table(const Explanation& explanation)
                                    explanation.name.empty() ? "without a name" : explanation.name,
                                    explanation.hash);
     text += fmt::format("bodies  {}\n", bodies_text(explanation));
-    text += fmt::format("hands   {}\n", hips_text(explanation.hips));
+    text += fmt::format("hands   {}\n", hips_text(explanation.hands));
     text += fmt::format("tick    {}", base::to_text(explanation.tick));
     if (explanation.hand_factor) {
         text += fmt::format("; k dt^2/m of a hand on the lightest body: {:.3g}",
                             *explanation.hand_factor);
     }
     text += "\n\nWhat the scene needs of a tick, and why:\n";
-    for (const scene::Need& need : explanation.needs) {
+    for (const scene::Requirement& need : explanation.needs) {
         text += fmt::format("  {:<11}  {:<3}  {}\n", scene::name_of(need.feature),
-                            need.needed ? "on" : "off", need.because);
+                            need.is_required ? "on" : "off", need.because);
     }
     text += fmt::format("\nIts tick: {}\n", scene::name_of(explanation.profile));
     for (const CheaperTick& tick : explanation.cheaper) {

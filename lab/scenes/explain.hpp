@@ -15,7 +15,7 @@ namespace hapnet::lab {
 
 /// A tick that would cost less than the one chosen, and what it cannot do for the scene.
 struct CheaperTick {
-    scene::Profile profile = scene::Profile::flight;
+    scene::StepperKind profile = scene::StepperKind::flight;
     std::vector<scene::Feature> lacks;
 };
 
@@ -32,12 +32,12 @@ struct Explanation {
     std::size_t movable = 0;
     std::size_t fixed = 0;
     std::size_t planes = 0;
-    scene::HipDescription hips;
+    scene::HandDescription hands;
     std::optional<MassRange> mass; // nullopt: nothing is movable
     base::Duration tick{};
     std::optional<double> hand_factor; // k dt^2 / m of a hand on the lightest body; nullopt: none
-    scene::Needs needs;
-    scene::Profile profile = scene::Profile::flight;
+    scene::Requirements needs;
+    scene::StepperKind profile = scene::StepperKind::flight;
     std::vector<CheaperTick> cheaper; // the cheapest first
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr base::Duration begins_within{std::chrono::seconds{60}};
 constexpr std::int64_t steps_between_looks = 1024; // at `stop`
 
-/// What one side did while it was in session with the other: one sample a tick, none left out.
+/// One side while it was in session with the other: one sample a tick, without gaps.
 struct Track {
     base::TimePoint first;
     std::vector<Sample> samples;
@@ -31,10 +31,7 @@ bool has_overflowed(const VirtualWorld& world)
     return overflowed(0) || overflowed(1);
 }
 
-bool is_playing(const VirtualPlayer& player)
-{
-    return player.last.phase == peer::Phase::running && !player.peer->is_alone();
-}
+bool is_playing(const VirtualPlayer& player) { return player.last().phase == peer::Phase::running; }
 
 /// A session on its way.
 class Play {
@@ -67,17 +64,17 @@ private:
 void Play::note(std::size_t side)
 {
     const VirtualPlayer& player = world_.side(side);
-    if (player.turned != world_.now()) return; // not its tick
+    if (player.stepped_at != world_.now()) return; // not its tick
     Track& track = tracks_[side];
     if (!is_playing(player)) {
-        const bool in_vain = !world_.side(0).peer->session() && !world_.side(1).peer->session() &&
+        const bool in_vain = !world_.side(0).peer().session() && !world_.side(1).peer().session() &&
                              world_.now() - VirtualWorld::start > begins_within;
         over_ = over_ || !track.samples.empty() || in_vain;
         return;
     }
     if (track.samples.empty()) {
         track.first = world_.now();
-        const auto ticks = player.peer->hands_on() / tick_;
+        const auto ticks = player.peer().hands_on() / tick_;
         track.samples.reserve(static_cast<std::size_t>(ticks) + 1);
     }
     track.samples.push_back(player.sample());
@@ -90,7 +87,7 @@ Trace Play::trace() &&
     auto& [l, r] = tracks_;
     if (l.samples.empty() || r.samples.empty()) return trace;
     const VirtualPlayer& first = world_.side(0);
-    const base::TimePoint start = first.peer->session()->start - first.clock_ahead;
+    const base::TimePoint start = first.peer().session()->start - first.clock_ahead;
 
     // L's samples before R began are left out; R's are taken at L's times.
     const base::Duration wait = std::max(base::Duration{0}, r.first - l.first);
@@ -116,7 +113,7 @@ Trace Play::trace() &&
     r.samples.resize(static_cast<std::size_t>(common));
     trace.begin = l.first + skipped * tick_ - start;
     trace.overlap =
-        std::min(1.0, base::to_seconds(common * tick_) / base::to_seconds(first.peer->hands_on()));
+        std::min(1.0, base::to_seconds(common * tick_) / base::to_seconds(first.peer().hands_on()));
     trace.sides = {std::move(l.samples), std::move(r.samples)};
     return trace;
 }
@@ -132,7 +129,7 @@ std::optional<Trace> play_out(VirtualWorld& world, const std::atomic<bool>* stop
 
 base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop)
 {
-    if (auto why = objection(setting)) return base::fail(*std::move(why));
+    if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
     VirtualWorld world{setting};
     std::optional<Trace> trace = play_out(world, stop);
     if (trace && has_overflowed(world)) {

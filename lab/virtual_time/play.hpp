@@ -18,8 +18,8 @@ namespace hapnet::lab {
 [[nodiscard]] base::Result<Trace> play(const Setting& setting,
                                        const std::atomic<bool>* stop = nullptr);
 
-/// Plays the first pair of a world that has just begun to its end: for players who hold other
-/// devices. nullopt when `stop` became true meanwhile.
+/// Plays the first pair of a new world to its end: for players with other devices. nullopt when
+/// `stop` became true meanwhile.
 [[nodiscard]] std::optional<Trace> play_out(VirtualWorld& world,
                                             const std::atomic<bool>* stop = nullptr);
 

@@ -17,16 +17,16 @@ std::uint16_t tick_rate_hz(base::Duration tick)
     return static_cast<std::uint16_t>(std::min<base::Duration::rep>(rate, UINT16_MAX));
 }
 
-peer::Settings settings_of(const Setting& setting, const Seat& seat)
+peer::Settings settings_of(const Setting& setting, const PlayerId& id)
 {
-    const PlayerSetting& player = setting.players.at(seat.side);
+    const PlayerSetting& player = setting.players.at(id.side);
     peer::Settings settings;
     settings.scene = setting.scene;
     settings.algorithm = player.algorithm;
     settings.tick = setting.tick;
     settings.length = setting.length;
-    settings.introduction = {.id = static_cast<std::uint16_t>(seat.side + 1),
-                             .nonce = seat.nonce,
+    settings.introduction = {.id = static_cast<std::uint16_t>(id.side + 1),
+                             .nonce = id.nonce,
                              .scene_hash = scene::hash(setting.scene),
                              .seed = player.seed.value_or(setting.seed).value(),
                              .tick_rate_hz = tick_rate_hz(setting.tick),
@@ -34,9 +34,9 @@ peer::Settings settings_of(const Setting& setting, const Seat& seat)
     return settings;
 }
 
-std::unique_ptr<device::Device> device_of(const Setting& setting, const Seat& seat)
+std::unique_ptr<device::Device> device_of(const Setting& setting, const PlayerId& id)
 {
-    const PlayerSetting& player = setting.players.at(seat.side);
+    const PlayerSetting& player = setting.players.at(id.side);
     if (player.replay) return std::make_unique<device::Replay>(*player.replay, "a trace");
     return std::make_unique<device::SimulatedOmni>(device::Performer{
         .task = setting.task, .options = setting.task_options, .person = player.person});
@@ -44,40 +44,31 @@ std::unique_ptr<device::Device> device_of(const Setting& setting, const Seat& se
 
 } // namespace
 
-VirtualPlayer::VirtualPlayer(const Setting& setting, const Seat& seat)
-    : rig{device_of(setting, seat), {.tick = setting.tick}},
-      peer{std::make_unique<peer::Peer>(settings_of(setting, seat))},
-      clock_ahead{setting.players.at(seat.side).clock_ahead},
-      id{static_cast<std::uint16_t>(seat.side + 1)}
+VirtualPlayer::VirtualPlayer(const Setting& setting, const PlayerId& id)
+    : rig{device_of(setting, id), {.tick = setting.tick}},
+      side{std::make_unique<peer::Side>(settings_of(setting, id))},
+      clock_ahead{setting.players.at(id.side).clock_ahead}
 {}
 
-void VirtualPlayer::turn(base::TimePoint now)
+void VirtualPlayer::step(base::TimePoint now)
 {
-    turned = now;
-    const base::TimePoint here = now + clock_ahead;
-    hand = rig.read(here);
-    last = peer->tick(here, {hand.hip, hand.velocity, hand.gripping, is_in_hand(hand)});
-    applied = rig.apply(last.force, last.permitted, here);
-    while (const auto event = peer->event()) events.push_back(*event);
-    const auto& session = peer->session();
-    if (session && cued != session->start) {
-        cued = session->start;
-        rig.device().on_cue(
-            {session->start, peer->hands_on(), base::Seed{session->seed}, id, session->is_left});
-    }
+    stepped_at = now;
+    side->step(now + clock_ahead, rig);
+    while (const auto event = side->event()) events.push_back(*event);
 }
 
 Sample VirtualPlayer::sample() const
 {
-    return {.body = peer->position(),
-            .body_velocity = peer->velocity(),
-            .hip = hand.hip,
-            .hip_velocity = hand.velocity,
-            .on_hand = applied,
-            .on_body = last.touched.on_body,
-            .touching = last.touched.touching,
-            .holding = last.touched.holding,
-            .remote_touching = last.remote_touching};
+    const peer::Tick& tick = side->tick();
+    return {.body = peer().position(),
+            .body_velocity = peer().velocity(),
+            .hip = side->sample().hip,
+            .hip_velocity = side->sample().velocity,
+            .on_hand = side->told(),
+            .on_body = tick.touched.on_body,
+            .touching = tick.touched.touching,
+            .holding = tick.touched.holding,
+            .remote_touching = tick.remote_touching};
 }
 
 } // namespace hapnet::lab

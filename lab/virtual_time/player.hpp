@@ -5,7 +5,7 @@
 #include "device/rig.hpp"
 #include "lab/virtual_time/setting.hpp"
 #include "lab/virtual_time/trace.hpp"
-#include "peer/core/peer.hpp"
+#include "peer/core/side.hpp"
 
 #include <array>
 #include <memory>
@@ -16,43 +16,40 @@
 namespace hapnet::lab {
 
 /// Which side of a session a player is, and in which run of its program.
-struct Seat {
+struct PlayerId {
     std::size_t side = 0; // 0: L, with id 1; 1: R, with id 2
     std::uint32_t nonce = 1;
 };
 
-/// One side of a session: everything that a peer daemon has but socket, clock, thread and journal.
-/// What its turn does is what peer::Servo does in one.
+/// One side of a session in virtual time: everything that a peer daemon has but socket, clock,
+/// thread and journal.
 class VirtualPlayer {
 public:
-    VirtualPlayer(const Setting& setting, const Seat& seat);
+    VirtualPlayer(const Setting& setting, const PlayerId& id);
 
     /// A datagram that reached this machine at `arrived`, in the world's time.
     void receive(std::span<const std::byte> datagram, base::TimePoint arrived)
     {
-        peer->on_datagram(datagram, arrived + clock_ahead);
+        side->on_datagram(datagram, arrived + clock_ahead);
     }
 
-    /// One turn of its loop, but for what it sends: poll `peer` for that.
-    void turn(base::TimePoint now);
+    /// One tick of its loop, except for sending: poll `side` for that.
+    void step(base::TimePoint now);
 
-    /// What it did in its last turn.
+    [[nodiscard]] peer::Peer& peer() { return side->peer(); }
+    [[nodiscard]] const peer::Peer& peer() const { return side->peer(); }
+    [[nodiscard]] const peer::Tick& last() const { return side->tick(); }
+    [[nodiscard]] base::Force told() const { return side->told(); }
+    /// Its last tick, for the metrics.
     [[nodiscard]] Sample sample() const;
 
-    // Open to whoever plays fate.
+    // Open to tests and benches, which change them.
     device::Rig rig;
-    std::unique_ptr<peer::Peer> peer;
+    std::unique_ptr<peer::Side> side;
     base::Duration clock_ahead{}; // of the world's time
 
-    // Of its last turn.
-    base::TimePoint turned; // when, in the world's time
-    device::Sample hand;
-    peer::Tick last;
-    base::Force applied;
-
-    std::vector<peer::Event> events;     // all so far
-    std::optional<base::TimePoint> cued; // the start it was cued for
-    std::uint16_t id;
+    base::TimePoint stepped_at;      // its last tick, in the world's time
+    std::vector<peer::Event> events; // all so far
 };
 
 } // namespace hapnet::lab

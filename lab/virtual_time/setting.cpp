@@ -8,27 +8,35 @@
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 
 namespace hapnet::lab {
 
-std::optional<std::string> objection(const Setting& setting)
+base::Result<void> validate(const Setting& setting)
 {
-    if (const auto body = peer::shared_body(setting.scene); !body) return body.error().message;
-    const auto world = scene::World::freeze(setting.scene, {.tick = setting.tick});
-    if (!world) return world.error().message;
-    if (setting.length <= base::Duration{0}) return "a session lasts longer than 0 s";
+    if (auto body = peer::shared_body(setting.scene); !body) {
+        return tl::unexpected{std::move(body).error()};
+    }
+    if (auto world = scene::World::freeze(setting.scene, {.tick = setting.tick}); !world) {
+        return tl::unexpected{std::move(world).error()};
+    }
+    if (setting.length <= base::Duration{0}) return base::fail("a session must be longer than 0 s");
     const bool are_phases = std::ranges::all_of(setting.players, [&](const PlayerSetting& player) {
         return player.phase >= base::Duration{0} && player.phase < setting.tick;
     });
-    if (!are_phases) return "the phase of a player's ticks is 0 s to less than a tick";
+    if (!are_phases) {
+        return base::fail(
+            "the phase of a player's ticks must be at least 0 s and less than a tick");
+    }
     const bool are_traces = std::ranges::none_of(setting.players, [](const PlayerSetting& player) {
         return player.replay && player.replay->empty();
     });
-    if (!are_traces) return "a hand's trace has at least one moment";
+    if (!are_traces) return base::fail("a hand's trace must have at least one row");
     if (const auto fault = emulator::Timeline::fault_of(setting.profile)) {
-        return fmt::format("change {} of the timeline: {}", fault->change + 1, fault->what);
+        return base::fail(
+            fmt::format("change {} of the timeline: {}", fault->change + 1, fault->what));
     }
-    return std::nullopt;
+    return {};
 }
 
 } // namespace hapnet::lab

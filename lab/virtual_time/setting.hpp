@@ -9,6 +9,7 @@
 #include "emulator/core/profile/profile.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/random.hpp"
+#include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 #include "scene/description.hpp"
 
@@ -16,7 +17,6 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <string>
 
 namespace hapnet::lab {
 
@@ -28,8 +28,8 @@ struct PlayerSetting {
                                                        // moment, in the order of time
     base::Duration clock_ahead{};                      // of the world's time
     base::Duration phase{};                            // of its ticks, 0 to less than a tick
-    /// What it offers for the hands, as `hapnet-peer --seed` does: L's counts. nullopt: the
-    /// setting's.
+    /// The seed that it offers for the hands, as `hapnet-peer --seed` does; L's counts. nullopt:
+    /// the setting's.
     std::optional<base::Seed> seed{};
 };
 
@@ -45,7 +45,7 @@ struct Setting {
     std::array<PlayerSetting, 2> players{}; // 0: L, with the lower id; up is from L to R
 };
 
-/// Why no session can be played so, in words that say what to do; nullopt: it can.
-[[nodiscard]] std::optional<std::string> objection(const Setting& setting);
+/// An error when no session can be played with this setting; its message says what to do.
+[[nodiscard]] base::Result<void> validate(const Setting& setting);
 
 } // namespace hapnet::lab

@@ -12,7 +12,7 @@
 
 namespace hapnet::lab {
 
-/// One side in one tick: what its copy of the scene, its hand and its motors did.
+/// One side in one tick: its copy of the scene, its hand and its motors.
 struct Sample {
     base::Position body; // the shared body, after the tick
     base::Velocity body_velocity;
@@ -25,8 +25,8 @@ struct Sample {
     bool remote_touching = false; // as this side believes
 };
 
-/// What both sides of a session did while both were running, at equal times: sample i of either
-/// is at i ticks from the first. From virtual time or from two records: metrics do not know which.
+/// Both sides of a session while both were running, at equal times: sample i of either is i ticks
+/// after the first. It comes from virtual time or from two records; metrics do not know which.
 struct Trace {
     device::Task task = device::Task::p1;
     base::Duration tick{std::chrono::milliseconds{1}};
@@ -37,8 +37,8 @@ struct Trace {
     base::Duration simulated{}; // that was played for it, from the first hello; 0 for records
 };
 
-/// Where a side was between two of its samples, `share` (0 to 1) of the way: straight lines. Flags
-/// are those of the earlier one, and with share 0 all is.
+/// A side between two of its samples, `share` (0 to 1) of the way, on a straight line. Its flags
+/// are the earlier sample's; with share 0 all of it is the earlier sample.
 [[nodiscard]] Sample between(const Sample& earlier, const Sample& later, double share);
 
 } // namespace hapnet::lab

@@ -22,7 +22,7 @@ VirtualWorld::VirtualWorld(const Setting& setting, emulator::QueueLimits limits)
 VirtualWorld::VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits)
 {
     pairs_.reserve(settings.size());
-    seats_.reserve(2 * settings.size());
+    sides_.reserve(2 * settings.size());
     for (const Setting& setting : settings) add(setting, limits);
 }
 
@@ -33,7 +33,7 @@ void VirtualWorld::add(const Setting& setting, emulator::QueueLimits limits)
     for (const Direction direction : {Direction::up, Direction::down}) {
         const bool is_up = direction == Direction::up;
         const PlayerSetting& player = setting.players.at(is_up ? 0 : 1);
-        seats_.push_back({.player = std::nullopt,
+        sides_.push_back({.player = std::nullopt,
                           .out = emulator::Link{is_up ? path.up : path.down,
                                                 {.seed = setting.seed,
                                                  .direction = direction,
@@ -43,20 +43,20 @@ void VirtualWorld::add(const Setting& setting, emulator::QueueLimits limits)
                           .undelayed = {},
                           .next_tick = start + setting.tick + player.phase,
                           .tick = setting.tick});
-        revive(seats_.size() - 1);
+        revive(sides_.size() - 1);
     }
 }
 
 void VirtualWorld::revive(std::size_t side)
 {
     Pair& pair = pairs_[side / 2];
-    seats_[side].player.emplace(pair.setting, Seat{side % 2, pair.next_nonce++});
+    sides_[side].player.emplace(pair.setting, PlayerId{side % 2, pair.next_nonce++});
 }
 
 base::TimePoint VirtualWorld::next_deadline() const
 {
-    base::TimePoint next = seats_.front().next_tick;
-    for (const Place& place : seats_) next = std::min(next, place.next_tick);
+    base::TimePoint next = sides_.front().next_tick;
+    for (const Side& side : sides_) next = std::min(next, side.next_tick);
     for (const Pair& pair : pairs_) {
         if (const auto change = pair.director.next_change()) next = std::min(next, *change);
     }
@@ -67,14 +67,14 @@ void VirtualWorld::step()
 {
     now_ = next_deadline();
     for (std::size_t pair = 0; pair < pairs_.size(); ++pair) follow_timeline(pair);
-    // What is sent at a tick reaches nobody whose tick is at the same time.
-    for (std::size_t side = 0; side < seats_.size(); ++side) {
-        if (seats_[side].next_tick == now_) deliver(side);
+    // A datagram that is sent in a tick does not reach a tick at the same time.
+    for (std::size_t side = 0; side < sides_.size(); ++side) {
+        if (sides_[side].next_tick == now_) deliver(side);
     }
-    for (std::size_t side = 0; side < seats_.size(); ++side) {
-        if (seats_[side].next_tick != now_) continue;
-        if (seats_[side].player) turn(side);
-        seats_[side].next_tick += seats_[side].tick;
+    for (std::size_t side = 0; side < sides_.size(); ++side) {
+        if (sides_[side].next_tick != now_) continue;
+        if (sides_[side].player) play(side);
+        sides_[side].next_tick += sides_[side].tick;
     }
 }
 
@@ -89,14 +89,14 @@ void VirtualWorld::follow_timeline(std::size_t pair)
 {
     emulator::Director& director = pairs_[pair].director;
     if (!director.advance(now_)) return;
-    seats_[2 * pair].out.change(director.path().up, now_);
-    seats_[2 * pair + 1].out.change(director.path().down, now_);
+    sides_[2 * pair].out.change(director.path().up, now_);
+    sides_[2 * pair + 1].out.change(director.path().down, now_);
 }
 
 void VirtualWorld::deliver(std::size_t to)
 {
-    Place& from = seats_[partner_of(to)];
-    auto& receiver = seats_[to].player;
+    Side& from = sides_[partner_of(to)];
+    auto& receiver = sides_[to].player;
     for (const Passing& passing : from.undelayed) {
         emulator::Departure departure = passing.departure;
         departure.bytes = passing.datagram.bytes();
@@ -110,14 +110,14 @@ void VirtualWorld::deliver(std::size_t to)
     }
 }
 
-void VirtualWorld::turn(std::size_t side)
+void VirtualWorld::play(std::size_t side)
 {
-    Place& place = seats_[side];
-    place.player->turn(now_);
-    while (const auto datagram = place.player->peer->poll()) {
+    Side& here = sides_[side];
+    here.player->step(now_);
+    while (const auto datagram = here.player->side->poll()) {
         if (pairs_[side / 2].is_cut) continue;
-        const auto admission = place.out.on_packet(datagram->bytes(), now_);
-        if (admission.departure) place.undelayed.push_back({*admission.departure, *datagram});
+        const auto admission = here.out.on_packet(datagram->bytes(), now_);
+        if (admission.departure) here.undelayed.push_back({*admission.departure, *datagram});
     }
 }
 

@@ -23,11 +23,11 @@ class VirtualWorld {
 public:
     /// When every world begins, and the timelines of its profiles.
     static constexpr base::TimePoint start{std::chrono::seconds{1000}};
-    /// How many datagrams a link holds unless it is said: 1 s of them, which stay in a processor's
-    /// near memory. The emulator's own bound costs more memory than a session takes time.
+    /// The default bound on the datagrams in a link: 1 s of them, which fit into a processor's
+    /// cache. Memory for the emulator's own bound would take longer to set up than a session takes.
     static constexpr emulator::QueueLimits few{1024};
 
-    /// One pair. Ensures that there is no objection() to the setting.
+    /// One pair. The setting must be valid: see validate().
     explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);
     /// One pair for each setting.
     explicit VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits = few);
@@ -38,25 +38,25 @@ public:
     void run_for(base::Duration duration);
 
     /// Kills a side on the spot; nothing is said.
-    void kill(std::size_t side) { seats_[side].player.reset(); }
+    void kill(std::size_t side) { sides_[side].player.reset(); }
     /// Starts it again as a new run.
     void revive(std::size_t side);
-    [[nodiscard]] bool is_alive(std::size_t side) const { return seats_[side].player.has_value(); }
+    [[nodiscard]] bool is_alive(std::size_t side) const { return sides_[side].player.has_value(); }
     /// Nothing passes between the sides of a pair while it is true.
     void cut(bool is_cut, std::size_t pair = 0) { pairs_[pair].is_cut = is_cut; }
 
-    [[nodiscard]] VirtualPlayer& side(std::size_t index) { return *seats_[index].player; }
+    [[nodiscard]] VirtualPlayer& side(std::size_t index) { return *sides_[index].player; }
     [[nodiscard]] const VirtualPlayer& side(std::size_t index) const
     {
-        return *seats_[index].player;
+        return *sides_[index].player;
     }
     [[nodiscard]] const Setting& setting(std::size_t pair = 0) const
     {
         return pairs_[pair].setting;
     }
     [[nodiscard]] base::TimePoint now() const { return now_; }
-    [[nodiscard]] std::size_t sides() const { return seats_.size(); }
-    [[nodiscard]] const emulator::Link& link(std::size_t from) const { return seats_[from].out; }
+    [[nodiscard]] std::size_t sides() const { return sides_.size(); }
+    [[nodiscard]] const emulator::Link& link(std::size_t from) const { return sides_[from].out; }
 
 private:
     /// Undelayed: it left at once, and waits in the receiver's socket.
@@ -64,8 +64,8 @@ private:
         emulator::Departure departure; // but for its bytes
         wire::Datagram datagram;
     };
-    /// A side's place: it stays when the player is killed.
-    struct Place {
+    /// The part of a side that outlives a killed player.
+    struct Side {
         std::optional<VirtualPlayer> player;
         emulator::Link out; // to the other side
         std::vector<Passing> undelayed;
@@ -83,11 +83,11 @@ private:
     [[nodiscard]] base::TimePoint next_deadline() const;
     void follow_timeline(std::size_t pair);
     void deliver(std::size_t to);
-    void turn(std::size_t side);
+    void play(std::size_t side);
 
     base::TimePoint now_ = start;
     std::vector<Pair> pairs_;
-    std::vector<Place> seats_; // two of each pair
+    std::vector<Side> sides_; // two of each pair
 };
 
 } // namespace hapnet::lab

@@ -5,6 +5,7 @@
 #include "device/replay/replay.hpp"
 #include "device/simulated/joints/joint_omni.hpp"
 #include "device/simulated/omni.hpp"
+#include "proto/base/quantity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,10 +55,9 @@ device::Opened<std::unique_ptr<device::Device>> open_chosen(const DeviceChoice& 
     return device::open_device(choice.name, choice.options);
 }
 
-std::string why_not_opened(const DeviceChoice& choice, const device::Trouble& trouble)
+std::string describe_open_error(const DeviceChoice& choice, const device::DeviceError& error)
 {
-    const std::string note = choice.is_real() ? fmt::format(" ({})", device::never_run) : "";
-    return fmt::format("--device {}: {}{}", choice.name, trouble.message, note);
+    return fmt::format("--device {}: {}", choice.name, error.message);
 }
 
 device::Mount mount_of(const DeviceChoice& choice, const device::Capabilities& capabilities)
@@ -69,8 +69,8 @@ device::Mount mount_of(const DeviceChoice& choice, const device::Capabilities& c
     return mount;
 }
 
-std::string words_on_stiffness(const device::Capabilities& capabilities, const device::Mount& mount,
-                               double scene_stiffness_n_per_m)
+std::string note_on_stiffness(const device::Capabilities& capabilities, const device::Mount& mount,
+                              double scene_stiffness_n_per_m)
 {
     const double most = capabilities.stiffness_max_n_per_m;
     const double at_the_hand = scene_stiffness_n_per_m * mount.scale * mount.scale;
@@ -82,6 +82,14 @@ std::string words_on_stiffness(const device::Capabilities& capabilities, const d
         "{:.2f}, or a --scene with softer contacts",
         scene_stiffness_n_per_m, mount.scale, at_the_hand, most, 100.0 * most / at_the_hand,
         std::floor(100.0 * std::sqrt(most / scene_stiffness_n_per_m)) / 100.0);
+}
+
+std::string note_on_force_limit(double asked_n, double allowed_n)
+{
+    if (asked_n <= allowed_n) return "";
+    const auto text = [](double newtons) { return base::quantity_text(newtons, base::force_kind); };
+    return fmt::format("--force-limit {}: the device allows at most {}, and that limit holds",
+                       text(asked_n), text(allowed_n));
 }
 
 std::string_view parts_in(device::Task task)

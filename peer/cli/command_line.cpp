@@ -3,126 +3,171 @@
 #include "peer/cli/command_line.hpp"
 
 #include "peer/doctor/findings.hpp"
-#include "proto/base/text.hpp"
+#include "proto/cli/command.hpp"
+#include "proto/cli/parsers.hpp"
 
-#include <CLI/CLI.hpp>
-#include <functional>
-#include <spdlog/fmt/fmt.h>
-#include <string_view>
+#include <utility>
 
 namespace hapnet::peer {
 
 namespace {
 
+constexpr const char* description =
+    "One of two peers that push the same virtual cube and feel each other through it: a 1 kHz "
+    "haptic loop with its own copy of the scene, a device, and 1000 messages a second to the other "
+    "peer, directly or through hapnet-emulator.";
+
+constexpr const char* footer =
+    R"(Tasks of the hands (docs/design/tasks.md; the lower --id is L and pushes from the left):
+  P1  L holds the cube and carries it along a prescribed path, R watches (the paper's Table 1)
+  T1  in turn: L pushes the cube where the path rises, R where it falls
+  T2  one holds the cube, the other presses against it at 0.5, 1 and 2 Hz; then they swap
+  T3  both squeeze the cube between them and carry it along the path at half speed
+  T4  both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down
+  T5  both press the cube against the static one; in turn one lets go suddenly
+  T6  L taps the cube at 3 Hz while R rests on its far side
+Each task ends with 3 s hands off, within --duration (half of it when that is below 6s). Both peers
+need the same task, and should be given the same --duration. A peer waits for the other one without
+a limit; --duration counts from their common start.
+
+Algorithms (docs/design/algorithms.md; the two peers may use different ones):
+  base            the paper's: the sum of both forces moves a cube that both push; a cube that only
+                  the other peer pushes is where that peer last said
+  dead-reckoning  the same, with the other peer's cube extrapolated to now
+  sep             the same, with the other hand's force extrapolated to now; the open stand-in for
+                  TiDeC
+A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from.
+
+Examples:
+  hapnet-peer --id 1 --listen :7101 --remote 127.0.0.1:7102 --task T3
+  hapnet-peer --id 2 --listen :7102 --remote 127.0.0.1:7101 --task T3
+  hapnet-peer --id 1 --remote 127.0.0.1:7001 --task T3 --record a.rec
+  hapnet-peer --id 2 --remote 127.0.0.1:7002 --task T3 --record b.rec
+  hapnet-peer --id 1 --remote 127.0.0.1:7001 --device falcon --force-limit 500mN
+Each pair runs in two terminals. The second pair needs hapnet-emulator with --listen-a :7001
+--listen-b :7002 between them. The last line is for a device in your hand: read
+docs/use/hardware.md, and run doctor and self-test first.
+
+The peer prints one line "ready ..." on stdout when its loop runs, and events on stderr. SIGINT,
+SIGTERM, SIGHUP or hapnet-ctl SOCKET stop ends it with zero force and says goodbye to the other
+peer.)";
+
+constexpr const char* exit_codes = R"(  0  done
+  1  the run failed
+  2  bad usage
+  3  the system refused (port in use, no route, no such device))";
+
 constexpr const char* list_devices_description =
-    "Lists every haptic device that can be seen without taking hold of it; for one that cannot\n"
-    "be used, why and what to do. The first column is what --device takes. Every backend of them\n"
-    "was never run on the physical device. Exit codes: 0 also when there is none, 2 bad usage.";
+    "Lists every haptic device that can be seen, without opening any; for one that cannot be used, "
+    "why and what to do. The first column is what --device takes. All backends: never run on the "
+    "physical device.";
+constexpr const char* list_devices_exit_codes = R"(  0  done, also when there is no device
+  2  bad usage)";
 constexpr const char* doctor_description =
-    "Looks at what this machine grants to a 1 kHz loop and to haptic devices, and says what to\n"
-    "do where it could be better. Without a device only the loop matters: what it says of devices\n"
-    "is for those who have one (never run on the physical device). Exit codes: 0 nothing is bad,\n"
-    "2 bad usage, 3 something is bad.";
+    "Checks what this machine grants to a 1 kHz loop and to haptic devices, and says how to "
+    "improve "
+    "it. Without a device only the loop matters; the checks of devices were never run on the "
+    "physical device.";
+constexpr const char* doctor_exit_codes = R"(  0  nothing is bad
+  2  bad usage
+  3  something is bad)";
 constexpr const char* self_test_description =
-    "Tries a device through the governor, step by step, and reports what it found:\n"
-    "  read       10 s without force: the rate at which the device speaks, drawn as a histogram\n"
-    "  calibrate  what the device needs from you, such as its stylus in its holder, or its grip\n"
-    "             moved to every stop; it says so\n"
+    "Tries a device through the governor, step by step, and reports the results:\n"
+    "  read       10 s without force: the rate at which the device sends, as a histogram\n"
+    "  calibrate  what the device needs from you, such as its stylus in its holder, or its grip "
+    "moved to every stop; it says so\n"
     "  force      a ramp to 0.2 N to the right, only while you hold the primary button\n"
-    "  cable      you pull the cable, and the loss has to be noticed\n"
-    "Keep a loose grip, clear of the arm's way. --device sim shows what it looks like, without a\n"
-    "device. Exit codes: 0 nothing failed, 1 a step failed, you broke the test off or the device\n"
-    "went, 2 bad usage, 3 the device cannot be opened.";
+    "  cable      you pull the cable, and the test checks that the loss is noticed\n"
+    "Keep a loose grip, clear of the arm's way. --device sim shows a self-test without a device.";
+constexpr const char* self_test_exit_codes = R"(  0  no step failed
+  1  a step failed, you stopped the test, or the device went away
+  2  bad usage
+  3  the device cannot be opened)";
 
-/// Parses a command of a few options; what it says instead of running, or nullopt.
-std::optional<base::Result<net::Answer>> parse(CLI::App& app, std::span<char*> words)
+base::Result<std::string> parse_report_file(const std::string& file)
 {
-    try {
-        app.parse(static_cast<int>(words.size()), words.data());
-    } catch (const CLI::CallForHelp&) {
-        return net::Answer{app.help()};
-    } catch (const CLI::ParseError& error) {
-        return base::fail(fmt::format("{}; see {} --help", error.what(), app.get_name()));
-    }
-    return std::nullopt;
+    if (file != "-") return file;
+    return base::fail("'-' is not a file: the report needs one");
 }
 
-net::CommandLine<Command> answer_of(base::Result<net::Answer> said)
+void add_self_test(cli::Command& command, SelfTestCommand& options)
 {
-    if (!said) return tl::unexpected{said.error()};
-    return *std::move(said);
+    command.describe(self_test_description);
+    command.add_exit_codes(self_test_exit_codes);
+    add_device_options(command, options.device)
+        .required("sim (hapnet-peer list-devices shows the others)");
+    const auto step = cli::one_of({self_test_steps.begin(), self_test_steps.end()});
+    command
+        .option("--skip", "STEP", "Skip a step; may be given several times",
+                [step, &options](const std::string& text) -> base::Result<void> {
+                    auto named = step(text);
+                    if (!named) return tl::unexpected{named.error()};
+                    options.skip.push_back(*std::move(named));
+                    return {};
+                })
+        .repeated();
+    command.option("--read-for", "TIME", "How long to read without force (default 10s)",
+                   cli::into(options.read_for, cli::duration(std::chrono::milliseconds{100},
+                                                             std::chrono::minutes{10})));
+    command.option("--json", "FILE", "Write the report to FILE, too",
+                   cli::into(options.json, parse_report_file));
 }
 
-net::CommandLine<Command> parse_list_devices(std::span<char*> words)
+/// A command's own options, if they do not contradict each other.
+template <typename Options>
+net::CommandLine<Command> checked(base::Result<void> fine, Options options)
 {
-    CLI::App app{list_devices_description, "hapnet-peer list-devices"};
-    DeviceTexts texts;
-    ListDevicesCommand command;
-    add_finding_options(app, texts);
-    app.add_flag("--json", command.json, "Print one JSON object instead of a table");
-    if (const auto said = parse(app, words)) return answer_of(*said);
-    Taker taker;
-    take_finding(command.options, taker, texts);
-    if (taker.error()) return base::fail(*taker.error());
-    return command;
-}
-
-net::CommandLine<Command> parse_doctor(std::span<char*> words)
-{
-    CLI::App app{doctor_description, "hapnet-peer doctor"};
-    DoctorCommand command;
-    bool prints_rules = false;
-    app.add_flag("--json", command.json, "Print one JSON object instead of a table");
-    app.add_flag("--print-udev-rules", prints_rules,
-                 "Print the udev rules of this version, and end");
-    app.add_option("--hd-library", command.hd_library, "The vendor's library of hdapi devices")
-        ->type_name("FILE");
-    if (const auto said = parse(app, words)) return answer_of(*said);
-    if (prints_rules) return net::Answer{std::string{doctor::udev_rules()}};
-    return command;
-}
-
-net::CommandLine<Command> parse_self_test(std::span<char*> words)
-{
-    CLI::App app{self_test_description, "hapnet-peer self-test"};
-    DeviceTexts texts;
-    SelfTestCommand command;
-    std::string read_for = "10s";
-    add_device_options(app, texts);
-    app.add_option("--skip", command.skip, "Leave a step out; may be said several times")
-        ->type_name("STEP")
-        ->check(CLI::IsMember(
-            std::vector<std::string>{self_test_steps.begin(), self_test_steps.end()}));
-    app.add_option("--read-for", read_for, "How long to read without force (default 10s)")
-        ->type_name("TIME");
-    app.add_option("--json", command.json, "Write the report to FILE, too")->type_name("FILE");
-    if (const auto said = parse(app, words)) return answer_of(*said);
-    Taker taker;
-    taker.take(command.read_for, "--read-for", base::parse_duration(read_for));
-    taker.require(command.read_for >= std::chrono::milliseconds{100} &&
-                      command.read_for <= std::chrono::minutes{10},
-                  "--read-for: from 100ms to 10min");
-    taker.require(command.json != "-", "--json: '-' is not a file: the report needs one");
-    taker.require(app.count("--device") > 0,
-                  "--device is required: hapnet-peer list-devices shows what there is, and "
-                  "--device sim tries the test itself");
-    take_device(command.device, taker, texts);
-    if (taker.error()) return base::fail(*taker.error());
-    return command;
+    if (!fine) return tl::unexpected{fine.error()};
+    return Command{std::move(options)};
 }
 
 } // namespace
 
 net::CommandLine<Command> parse_command_line(std::span<char*> words)
 {
-    const std::string_view first = words.size() > 1 ? words[1] : "";
-    if (first == "list-devices") return parse_list_devices(words.subspan(1));
-    if (first == "doctor") return parse_doctor(words.subspan(1));
-    if (first == "self-test") return parse_self_test(words.subspan(1));
-    auto line = parse_options(words);
-    if (!line) return tl::unexpected{line.error()};
-    if (auto* answer = std::get_if<net::Answer>(&*line)) return std::move(*answer);
-    return std::get<Options>(*std::move(line));
+    cli::Command program{"hapnet-peer"};
+    program.describe(description);
+    program.add_footer(footer);
+    program.add_exit_codes(exit_codes);
+    Options session;
+    std::string printed_algorithm;
+    add_session_options(program, session, printed_algorithm);
+
+    auto& list = program.command("list-devices", "Lists the haptic devices, and what keeps one "
+                                                 "from being used");
+    list.describe(list_devices_description);
+    list.add_exit_codes(list_devices_exit_codes);
+    ListDevicesCommand listing;
+    add_finding_options(list, listing.options);
+    list.flag("--json", "Print one JSON object instead of a table", listing.json);
+
+    auto& check = program.command("doctor", "Checks this machine for a haptic loop, and says how "
+                                            "to improve it");
+    check.describe(doctor_description);
+    check.add_exit_codes(doctor_exit_codes);
+    DoctorCommand checking;
+    bool prints_rules = false;
+    check.flag("--json", "Print one JSON object instead of a table", checking.json);
+    check.flag("--print-udev-rules", "Print the udev rules of this version and exit", prints_rules);
+    check.option("--hd-library", "FILE", "The vendor's library of hdapi devices",
+                 cli::into(checking.hd_library));
+
+    auto& self_test = program.command("self-test", "Tries a device step by step, through the "
+                                                   "governor");
+    SelfTestCommand testing;
+    add_self_test(self_test, testing);
+
+    if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    if (list.is_chosen()) return Command{std::move(listing)};
+    if (prints_rules) return net::Answer{std::string{doctor::udev_rules()}};
+    if (check.is_chosen()) return Command{std::move(checking)};
+    if (self_test.is_chosen()) {
+        auto fine = check_device_options(self_test, testing.device);
+        return checked(std::move(fine), std::move(testing));
+    }
+    if (!printed_algorithm.empty()) return net::Answer{printed_algorithm};
+    auto fine = complete(session, program);
+    return checked(std::move(fine), std::move(session));
 }
 
 } // namespace hapnet::peer

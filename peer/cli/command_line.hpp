@@ -40,7 +40,8 @@ struct SelfTestCommand {
 /// Options: a session.
 using Command = std::variant<Options, ListDevicesCommand, DoctorCommand, SelfTestCommand>;
 
-/// Reads the command line; the first word may name a command other than a session.
+/// Reads the command line; the error names the option, what is wrong with it, and what would be
+/// right.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);
 
 } // namespace hapnet::peer

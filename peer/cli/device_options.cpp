@@ -4,13 +4,14 @@
 
 #include "device/omni1394/drive.hpp"
 #include "proto/base/quantity.hpp"
+#include "proto/cli/parsers.hpp"
+#include "proto/cli/synonyms.hpp"
 #include "proto/net/text_file.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
+#include <utility>
 
 namespace hapnet::peer {
 
@@ -25,30 +26,20 @@ constexpr std::string_view replay_prefix = "replay:";
 constexpr double hid_travel_min_m = 0.01;
 constexpr double hid_travel_max_m = 5.0;
 
+constexpr const char* group = "Device";
+
 std::string device_help()
 {
     std::string help =
-        "sim: a simulated Omni in a simulated hand (what a session takes by itself); sim:joints:\n"
-        "with its joints, encoders, motors and inkwell; replay:FILE: a hand that goes the way in\n"
-        "FILE, CSV with time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it";
-    help += fmt::format(";\nor a real one, by serial or the first that is usable; {}:",
-                        device::never_run);
+        "sim (default): a simulated Omni in a simulated hand. sim:joints: the same with joints, "
+        "encoders, motors and an inkwell. replay:FILE: a hand that moves as FILE says, CSV with "
+        "time_s,x_m,y_m,z_m[,gripping] or as hapnet-lab export writes it. A real device, by its "
+        "serial or the first one that is usable";
+    help += fmt::format(" ({}):", device::never_run);
     for (const device::Backend& backend : device::backends()) {
         help += fmt::format("\n  {:<9} {}", backend.name, backend.what);
     }
-    return help + "\n(hapnet-peer list-devices shows those that are there; docs/use/hardware.md)";
-}
-
-/// What --help says of an option, and the form of its value.
-struct Explanation {
-    std::string help;
-    const char* type;
-};
-
-template <typename Text>
-void add_option(CLI::App& app, const char* name, Text& text, const Explanation& explanation)
-{
-    app.add_option(name, text, explanation.help)->type_name(explanation.type)->group("Device");
+    return help + "\nhapnet-peer list-devices shows the connected ones; see docs/use/hardware.md";
 }
 
 base::Result<device::HandTrace> hand_trace_in(const std::string& file)
@@ -63,9 +54,10 @@ base::Result<device::HandTrace> hand_trace_in(const std::string& file)
 base::Result<base::Displacement> parse_offset(const std::string& text)
 {
     const auto refuse = [&] {
-        return base::fail(fmt::format("'{}' is no offset: three lengths such as 0mm,20mm,-5mm, "
-                                      "each of at most 1m",
-                                      text));
+        return base::fail(
+            fmt::format("'{}' is not an offset: write three lengths of at most 1m, such as "
+                        "0mm,20mm,-5mm",
+                        text));
     };
     base::Displacement offset;
     std::string_view rest = text;
@@ -80,17 +72,6 @@ base::Result<base::Displacement> parse_offset(const std::string& text)
     return offset;
 }
 
-base::Result<double> parse_scale(const std::string& text)
-{
-    double scale = 0.0;
-    const char* end = text.data() + text.size();
-    const auto [rest, trouble] = std::from_chars(text.data(), end, scale);
-    const bool is_number = trouble == std::errc{} && rest == end;
-    if (is_number && scale >= mount_scale_min && scale <= mount_scale_max) return scale;
-    return base::fail(fmt::format("'{}' is no scale: a number from {} to {}, such as 1.5", text,
-                                  mount_scale_min, mount_scale_max));
-}
-
 /// The name of a file that holds a firmware, as far as can be told without its device.
 base::Result<std::string> firmware_at(const std::string& file)
 {
@@ -98,8 +79,8 @@ base::Result<std::string> firmware_at(const std::string& file)
     if (!bytes) return tl::unexpected{bytes.error()};
     if (bytes->empty()) return base::fail(fmt::format("{} is empty", file));
     if (bytes->size() <= falcon_firmware_max_bytes) return file;
-    return base::fail(fmt::format("{} has {} bytes, and no firmware of a Falcon has more than {}",
-                                  file, bytes->size(), falcon_firmware_max_bytes));
+    return base::fail(fmt::format("{} has {} bytes; the firmware of a Falcon has at most {}", file,
+                                  bytes->size(), falcon_firmware_max_bytes));
 }
 
 /// The name of a file that holds what an Omni's motors were measured to give.
@@ -128,153 +109,122 @@ base::Result<double> parse_hid_force(const std::string& text)
     return force;
 }
 
-base::Result<double> parse_hid_travel(const std::string& text)
+/// Opens what replay:FILE names. Other devices are only named here.
+base::Result<void> take_device(const std::string& typed, DeviceChoice& choice)
 {
-    auto travel = base::parse_quantity(text, base::length_kind);
-    if (travel && !(*travel >= hid_travel_min_m && *travel <= hid_travel_max_m)) {
-        return base::fail(fmt::format("'{}' is out of range: from {:.0f}mm to {:.0f}m", text,
-                                      1e3 * hid_travel_min_m, hid_travel_max_m));
+    const auto meant = cli::meant_value("--device", typed);
+    if (!meant) return tl::unexpected{meant.error()};
+    choice.name = *meant;
+    if (choice.name.starts_with(replay_prefix)) {
+        return cli::into(choice.replay, hand_trace_in)(choice.name.substr(replay_prefix.size()));
     }
-    return travel;
+    if (choice.is_simulated()) return {};
+    const auto name = device::parse_device_name(choice.name);
+    return name ? base::Result<void>{} : tl::unexpected{name.error()};
 }
 
-/// One that is not for every device.
-struct Belonging {
-    const char* option;
-    bool is_said;
-    std::string_view backend;
-};
-
-/// What would be passed over in silence is a mistake that a person should hear of: a measured
-/// force that does not count is no detail.
-void refuse_options_of_others(Taker& taker, const DeviceTexts& texts)
+void add_hd_library(cli::Command& command, std::string& library)
 {
-    const std::array belongings{
-        Belonging{"--operator", texts.person.has_value(), "sim"},
-        Belonging{"--replay-loop", texts.replay_loops, "replay"},
-        Belonging{"--hd-library", texts.hd_library.has_value(), "hdapi"},
-        Belonging{"--falcon-firmware", texts.falcon_firmware.has_value(), "falcon"},
-        Belonging{"--enable-uncalibrated-force", texts.uncalibrated_force, "omni1394"},
-        Belonging{"--omni-torque", texts.omni_torque.has_value(), "omni1394"},
-        Belonging{"--hid-force", texts.hid_force.has_value(), "hid"},
-        Belonging{"--hid-travel", texts.hid_travel.has_value(), "hid"},
-    };
-    const std::string_view chosen =
-        std::string_view{texts.device}.substr(0, texts.device.find(':'));
-    for (const Belonging& one : belongings) {
-        taker.require(!one.is_said || one.backend == chosen,
-                      fmt::format("{}: it is for --device {}, and has no effect on --device {}: "
-                                  "leave it out, or choose that device",
-                                  one.option, one.backend == "replay" ? "replay:FILE" : one.backend,
-                                  texts.device));
-    }
+    command
+        .option("--hd-library", "FILE",
+                "hdapi: the vendor's library (default: libHD.so where the system finds it)",
+                cli::into(library, library_named))
+        .under(group);
 }
 
-void add_hd_library(CLI::App& app, DeviceTexts& texts)
+void add_hid_force(cli::Command& command, std::optional<double>& force_n)
 {
-    add_option(
-        app, "--hd-library", texts.hd_library,
-        {"hdapi: the vendor's library (default: libHD.so where the system finds it)", "FILE"});
-}
-
-void add_hid_force(CLI::App& app, DeviceTexts& texts)
-{
-    add_option(app, "--hid-force", texts.hid_force,
-               {"hid: the force at the grip at full scale, measured; negative where it pushes the\n"
-                "other way, as --hid-force=-5N (default: no force)",
-                "FORCE"});
+    command
+        .option("--hid-force", "FORCE",
+                "hid: the measured force at the grip at full scale; negative where it pushes the "
+                "other way, as in --hid-force=-5N (default: no force)",
+                cli::into(force_n, parse_hid_force))
+        .under(group);
 }
 
 } // namespace
 
-void add_device_options(CLI::App& app, DeviceTexts& texts)
+cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice)
 {
-    const auto add = [&app](const char* name, auto& text, const std::string& help,
-                            const char* type) {
-        add_option(app, name, text, {help, type});
+    const auto add = [&command](const char* name, const char* value, std::string help,
+                                cli::Take take) -> cli::Option& {
+        return command.option(name, value, std::move(help), std::move(take)).under(group);
     };
-    add("--device", texts.device, device_help(), "sim|sim:joints|replay:FILE|BACKEND[:SERIAL]");
-    add("--operator", texts.person,
-        "Whose hand is simulated: relaxed, nominal (default), firm, lifelike, or a TOML file",
-        "NAME|FILE");
-    app.add_flag("--replay-loop", texts.replay_loops,
-                 "replay:FILE begins again at its end, instead of staying there")
-        ->group("Device");
-    add("--mount-offset", texts.mount_offset,
-        "Where in the scene the zero of a device is (default for a real one: the centre of its\n"
+    const auto load_operator = [](const std::string& name) {
+        return device::load_operator(name, net::text_of_file);
+    };
+    choice.person = load_operator("nominal").value();
+    auto& device = add("--device", "NAME[:SERIAL]", device_help(),
+                       [&choice](const std::string& text) { return take_device(text, choice); });
+    add("--operator", "NAME|FILE",
+        "sim: whose hand is simulated: relaxed, nominal (default), firm, lifelike, or a TOML file",
+        cli::into(choice.person, load_operator));
+    command
+        .flag("--replay-loop", "replay: start FILE again at its end instead of staying there",
+              choice.replay_loops)
+        .under(group);
+    add("--mount-offset", "X,Y,Z",
+        "Position in the scene of the device's zero (default for a real device: the centre of its "
         "workspace is where the paper's cube starts)",
-        "X,Y,Z");
-    add("--mount-scale", texts.mount_scale,
-        "Metres in the scene per metre of the device (default for a real one: as much as it\n"
-        "needs to cover what an Omni does, 160 x 120 x 70 mm, at least 1). Forces grow with it",
-        "NUMBER");
-    add_hd_library(app, texts);
-    add("--falcon-firmware", texts.falcon_firmware,
-        "falcon: its firmware, which hapnet may not bring (default: it runs already)", "FILE");
-    app.add_flag("--enable-uncalibrated-force", texts.uncalibrated_force,
-                 "omni1394: force without a torque table, at most a quarter of full scale")
-        ->group("Device");
-    add("--omni-torque", texts.omni_torque,
-        "omni1394: what its motors were measured to give per count (docs/use/hardware.md)", "FILE");
-    add_hid_force(app, texts);
-    add("--hid-travel", texts.hid_travel,
-        "hid: how far the grip goes from stop to stop of an axis, measured: places, speeds and "
-        "the\n"
-        "limits for them go by it (default: 160mm)",
-        "LENGTH");
+        cli::into(choice.mount_offset, parse_offset));
+    add("--mount-scale", "NUMBER",
+        "Metres in the scene per metre of the device; forces grow with it (default for a real "
+        "device: at least 1, and enough to cover an Omni's 160 x 120 x 70 mm)",
+        cli::into(choice.mount_scale, cli::number(mount_scale_min, mount_scale_max)));
+    add_hd_library(command, choice.options.hd_library);
+    add("--falcon-firmware", "FILE",
+        "falcon: its firmware, which Hapnet may not ship (default: it runs already)",
+        cli::into(choice.options.falcon_firmware, firmware_at));
+    command
+        .flag("--enable-uncalibrated-force",
+              "omni1394: force without a torque table, at most a quarter of full scale",
+              choice.options.uncalibrated_force)
+        .under(group);
+    add("--omni-torque", "FILE",
+        "omni1394: the measured torque of its motors per count (docs/use/hardware.md)",
+        cli::into(choice.options.omni_torque, omni_profile_at));
+    add_hid_force(command, choice.options.hid_force_n);
+    add("--hid-travel", "LENGTH",
+        "hid: the measured travel of the grip from stop to stop of an axis; positions, speeds and "
+        "their limits follow from it (default: 160mm)",
+        cli::into(choice.options.hid_travel_m,
+                  cli::quantity(base::length_kind, hid_travel_min_m, hid_travel_max_m)));
+    return device;
 }
 
-void add_finding_options(CLI::App& app, DeviceTexts& texts)
+void add_finding_options(cli::Command& command, device::DeviceOptions& options)
 {
-    add_hd_library(app, texts);
-    add_hid_force(app, texts);
+    add_hd_library(command, options.hd_library);
+    add_hid_force(command, options.hid_force_n);
 }
 
-void take_finding(device::DeviceOptions& options, Taker& taker, const DeviceTexts& texts)
+/// What would be passed over in silence is a mistake that a person should hear of: a measured
+/// force that does not count is no detail.
+base::Result<void> check_device_options(const cli::Command& command, const DeviceChoice& choice)
 {
-    if (texts.hd_library) {
-        taker.take(options.hd_library, "--hd-library", library_named(*texts.hd_library));
+    struct OptionOfDevice {
+        const char* option;
+        std::string_view device;
+    };
+    constexpr std::array options{
+        OptionOfDevice{"--operator", "sim"},
+        OptionOfDevice{"--replay-loop", "replay"},
+        OptionOfDevice{"--hd-library", "hdapi"},
+        OptionOfDevice{"--falcon-firmware", "falcon"},
+        OptionOfDevice{"--enable-uncalibrated-force", "omni1394"},
+        OptionOfDevice{"--omni-torque", "omni1394"},
+        OptionOfDevice{"--hid-force", "hid"},
+        OptionOfDevice{"--hid-travel", "hid"},
+    };
+    const std::string_view chosen = std::string_view{choice.name}.substr(0, choice.name.find(':'));
+    for (const auto& [option, device] : options) {
+        if (!command.is_given(option) || device == chosen) continue;
+        return base::fail(fmt::format("{}: it is for --device {}, and has no effect on --device "
+                                      "{}: leave it out, or choose that device",
+                                      option, device == "replay" ? "replay:FILE" : device,
+                                      choice.name));
     }
-    if (texts.hid_force) {
-        taker.take(options.hid_force_n, "--hid-force", parse_hid_force(*texts.hid_force));
-    }
-}
-
-void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts)
-{
-    choice.name = texts.device;
-    taker.take(choice.person, "--operator",
-               device::load_operator(texts.person.value_or("nominal"), net::text_of_file));
-    if (texts.mount_offset) {
-        taker.take(choice.mount_offset, "--mount-offset", parse_offset(*texts.mount_offset));
-    }
-    if (texts.mount_scale) {
-        taker.take(choice.mount_scale, "--mount-scale", parse_scale(*texts.mount_scale));
-    }
-    take_finding(choice.options, taker, texts);
-    if (texts.falcon_firmware) {
-        taker.take(choice.options.falcon_firmware, "--falcon-firmware",
-                   firmware_at(*texts.falcon_firmware));
-    }
-    choice.options.uncalibrated_force = texts.uncalibrated_force;
-    if (texts.omni_torque) {
-        taker.take(choice.options.omni_torque, "--omni-torque",
-                   omni_profile_at(*texts.omni_torque));
-    }
-    if (texts.hid_travel) {
-        taker.take(choice.options.hid_travel_m, "--hid-travel",
-                   parse_hid_travel(*texts.hid_travel));
-    }
-    if (texts.device.starts_with(replay_prefix)) {
-        taker.take(choice.replay, "--device",
-                   hand_trace_in(texts.device.substr(replay_prefix.size())));
-        choice.replay_loops = texts.replay_loops;
-    } else if (!choice.is_simulated()) {
-        const auto name = device::parse_device_name(texts.device);
-        taker.require(name.has_value(),
-                      name ? "" : fmt::format("--device: {}", name.error().message));
-    }
-    refuse_options_of_others(taker, texts);
+    return {};
 }
 
 } // namespace hapnet::peer

@@ -5,10 +5,9 @@
 #include "device/catalogue/catalogue.hpp"
 #include "device/replay/hand_trace.hpp"
 #include "device/simulated/operator.hpp"
-#include "peer/cli/taker.hpp"
 #include "proto/base/space.hpp"
+#include "proto/cli/command.hpp"
 
-#include <CLI/App.hpp>
 #include <optional>
 #include <string>
 
@@ -30,30 +29,15 @@ struct DeviceChoice {
     [[nodiscard]] bool is_real() const { return !is_simulated() && !replay; }
 };
 
-/// The words of it on a command line; nullopt or false where nothing is said.
-struct DeviceTexts {
-    std::string device = "sim";
-    std::optional<std::string> person;
-    bool replay_loops = false;
-    std::optional<std::string> hd_library;
-    std::optional<std::string> falcon_firmware;
-    bool uncalibrated_force = false;
-    std::optional<std::string> omni_torque;
-    std::optional<std::string> hid_force;
-    std::optional<std::string> hid_travel;
-    std::optional<std::string> mount_offset;
-    std::optional<std::string> mount_scale;
-};
+/// Adds --device and what belongs to it, bound to `choice`. What is wrong with one of them, or with
+/// a file that it names, is bad usage and found before a device is touched. Gives --device.
+cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice);
 
-/// Adds --device and what belongs to it.
-void add_device_options(CLI::App& app, DeviceTexts& texts);
-/// Of these, what matters to who only looks at the real devices that there are.
-void add_finding_options(CLI::App& app, DeviceTexts& texts);
+/// Of these, what matters to a command that only lists the real devices.
+void add_finding_options(cli::Command& command, device::DeviceOptions& options);
 
-/// Reads them, and the files that they name: what is wrong with one is bad usage, found before a
-/// device is touched. So is an option of another device than the one that is chosen.
-void take_device(DeviceChoice& choice, Taker& taker, const DeviceTexts& texts);
-/// Of these, what add_finding_options() added.
-void take_finding(device::DeviceOptions& options, Taker& taker, const DeviceTexts& texts);
+/// After the command line was read: an option of another device than the chosen one is refused.
+[[nodiscard]] base::Result<void> check_device_options(const cli::Command& command,
+                                                      const DeviceChoice& choice);
 
 } // namespace hapnet::peer

@@ -22,8 +22,8 @@ std::string name_of(const device::Identity& identity)
 std::string device_table(const std::vector<device::Found>& found)
 {
     if (found.empty()) {
-        return "No haptic device is to be seen. If one is connected: is it powered, and does "
-               "hapnet-peer doctor\nfind something? --device sim needs none.\n";
+        return "No haptic device found. Run hapnet-peer doctor to find out why. --device sim needs "
+               "no hardware.\n";
     }
     std::size_t width = 6;
     for (const auto& one : found) width = std::max(width, name_of(one.identity).size());

@@ -8,12 +8,11 @@
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
+#include "proto/cli/command.hpp"
 #include "proto/net/endpoint.hpp"
-#include "proto/net/program.hpp"
 #include "scene/description.hpp"
 
 #include <optional>
-#include <span>
 #include <string>
 
 namespace hapnet::peer {
@@ -38,8 +37,12 @@ struct Options {
     std::optional<std::string> control; // where its socket is to be
 };
 
-/// Reads the command line; the error names the option, what is wrong with it, and what would be
-/// right.
-[[nodiscard]] net::CommandLine<Options> parse_options(std::span<char*> words);
+/// Adds the options of a session, bound to `options`. `printed_algorithm` is what
+/// --print-algorithm prints.
+void add_session_options(cli::Command& program, Options& options, std::string& printed_algorithm);
+
+/// After the command line was read: the scene of the task where none was named, and options that
+/// contradict each other.
+[[nodiscard]] base::Result<void> complete(Options& options, const cli::Command& program);
 
 } // namespace hapnet::peer

@@ -4,7 +4,7 @@
 #include "peer/cli/chosen_device.hpp"
 #include "peer/cli/commands.hpp"
 #include "peer/loop/watchdog.hpp"
-#include "peer/loop/watched_turn.hpp"
+#include "peer/loop/watched_rig.hpp"
 #include "peer/loop/zero_force.hpp"
 #include "peer/self_test/report.hpp"
 #include "peer/self_test/self_test.hpp"
@@ -50,14 +50,14 @@ public:
         const ZeroForceAtTheEnd zero{rig_.device(), watchdog_};
         std::ignore = net::request_real_time(test_priority);
         if (rig_.device().capabilities().pacing == device::Pacing::device) {
-            rig_.device().pace([this] { return turn(), !is_over(); });
+            rig_.device().pace([this] { return tick(), !is_over(); });
         }
         // At our own pace; also after a device that has stopped to set one.
         base::TimePoint due = net::monotonic_now();
         while (!is_over()) {
             due = std::max(due + test_tick, net::monotonic_now());
             net::sleep_until(due);
-            turn();
+            tick();
         }
     }
     void stop() { stop_.store(true, std::memory_order_relaxed); }
@@ -66,23 +66,23 @@ public:
 private:
     [[nodiscard]] bool is_over() const { return ticks_left_ == 0 || watchdog_.is_dying(); }
 
-    void turn()
+    void tick()
     {
         const base::TimePoint now = net::monotonic_now();
         watchdog_.beat(now);
-        WatchedTurn watched{rig_, watchdog_};
+        WatchedRig watched{rig_, watchdog_};
         if (watchdog_.take_fault()) {
             rig_.governor().latch({device::Fault::timeout, device::Trip::loop});
         }
-        const device::Sample& sample = rig_.read(now);
-        self_test::Turn turn{.is_done = true};
+        const device::Sample& sample = watched.read(now);
+        self_test::StepRequest request{.is_done = true};
         if (!is_ending_ && !stop_.load(std::memory_order_relaxed)) {
-            turn = test_.on_tick({sample, rig_.calibration(), applied_}, now);
+            request = test_.on_tick({sample, rig_.calibration(), applied_}, now);
         }
         if (watchdog_.is_dying()) return;
-        applied_ = watched.apply(turn.wanted, turn.permitted, now);
-        prompt_.store(turn.prompt, std::memory_order_relaxed);
-        if (turn.is_done) is_ending_ = true;
+        applied_ = watched.apply(request.wanted, request.permitted, now);
+        prompt_.store(request.prompt, std::memory_order_relaxed);
+        if (request.is_done) is_ending_ = true;
         if (is_ending_) --ticks_left_;
     }
 
@@ -109,7 +109,7 @@ void accompany(TestLoop& loop, net::StopSignal& stop)
         const Prompt prompt = loop.prompt();
         if (prompt == shown) continue;
         shown = prompt;
-        if (prompt != Prompt::nothing) net::say("hapnet-peer", self_test::words_for(prompt));
+        if (prompt != Prompt::nothing) net::say("hapnet-peer", self_test::describe(prompt));
     }
     ended.get();
 }
@@ -119,8 +119,8 @@ std::string stiffness_of_a_session(const DeviceChoice& choice,
                                    const device::Capabilities& capabilities)
 {
     if (!choice.is_real()) return "";
-    return words_on_stiffness(capabilities, mount_of(choice, capabilities),
-                              scene::paper_scene().hips.stiffness_n_per_m);
+    return note_on_stiffness(capabilities, mount_of(choice, capabilities),
+                             scene::paper_scene().hands.stiffness_n_per_m);
 }
 
 } // namespace
@@ -134,7 +134,7 @@ base::Result<int> run(const SelfTestCommand& command)
     const net::CrashStack stack;
     auto opened = open_chosen(command.device, device::Task::p1);
     if (!opened) {
-        net::say("hapnet-peer", why_not_opened(command.device, opened.error()));
+        net::say("hapnet-peer", describe_open_error(command.device, opened.error()));
         return net::exit_environment;
     }
     const auto& capabilities = (*opened)->capabilities();

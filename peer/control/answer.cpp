@@ -23,14 +23,14 @@ bool is_for_an_emulator(std::string_view command)
     return std::find(commands.begin(), commands.end(), command) != commands.end();
 }
 
-std::string shown(const Attended& peer)
+std::string shown(const PeerControl& peer)
 {
     Json reply{{"ok", true}};
     reply.update(peer.show());
     return control::line_of(reply);
 }
 
-std::string stopped(const Attended& peer)
+std::string stopped(const PeerControl& peer)
 {
     peer.stop();
     return control::line_of(Json{{"ok", true}, {"stopping", true}});
@@ -55,7 +55,7 @@ control::Answer begun(Members& members, Request request)
 
 } // namespace
 
-control::Answer answer_to(std::string_view line, const Attended& peer)
+control::Answer answer_to(std::string_view line, const PeerControl& peer)
 {
     const auto json = control::parse_object(line);
     if (!json) return control::refusal(json.error().message);
@@ -70,16 +70,15 @@ control::Answer answer_to(std::string_view line, const Attended& peer)
     if (command == "wait") return begun(members, control::wait_request(members));
     if (command == "watch") return begun(members, control::watch_request(members));
     if (is_for_an_emulator(command)) {
-        return control::refusal(
-            fmt::format("'{}' is for an emulator: a peer says how it is and can be stopped, but "
-                        "nothing of it is changed while it runs; it knows show, stats, watch, "
-                        "wait and stop",
-                        command));
+        return control::refusal(fmt::format(
+            "'{}' is for an emulator: a running peer cannot be changed; use show, stats, "
+            "watch, wait or stop",
+            command));
     }
     return control::refusal("\"command\" must be one of show, stats, watch, wait, stop");
 }
 
-control::Subject subject_of(Attended peer)
+control::Subject subject_of(PeerControl peer)
 {
     auto statistics = peer.statistics;
     return {[peer = std::move(peer)](std::string_view line, base::TimePoint /*now*/) {

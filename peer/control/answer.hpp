@@ -10,19 +10,20 @@
 
 namespace hapnet::peer {
 
-/// A running peer as its clients see it: they ask how it is, and may end it. Called from the
-/// thread that serves them, never from the loop's.
-struct Attended {
+/// A running peer as the clients of its control socket see it: they read its status and may stop
+/// it. Called from the thread that serves them, never from the loop's.
+struct PeerControl {
     std::function<nlohmann::ordered_json()> show; // an object
     std::function<nlohmann::ordered_json()> statistics;
     /// As SIGTERM does.
     std::function<void()> stop;
 };
 
-/// What becomes of a request; PROTOCOL.md describes them. What would change the peer is refused.
-[[nodiscard]] control::Answer answer_to(std::string_view line, const Attended& peer);
+/// The answer to a request line; PROTOCOL.md describes the requests. A request that would change
+/// the peer is refused.
+[[nodiscard]] control::Answer answer_to(std::string_view line, const PeerControl& peer);
 
 /// The peer for a control socket.
-[[nodiscard]] control::Subject subject_of(Attended peer);
+[[nodiscard]] control::Subject subject_of(PeerControl peer);
 
 } // namespace hapnet::peer

@@ -6,7 +6,7 @@ namespace hapnet::peer {
 
 namespace {
 
-// Clocks that count from a boot: nobody's is ten years ahead of another's.
+// The clocks count from a boot: none is ten years ahead of another.
 constexpr base::Duration offset_max{std::chrono::hours{10 * 365 * 24}};
 
 } // namespace

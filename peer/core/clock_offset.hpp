@@ -8,7 +8,7 @@
 
 namespace hapnet::peer {
 
-/// What one echoed message tells of the other side's clock.
+/// A measurement of the other side's clock by one echoed message.
 struct ClockSample {
     base::TimePoint sent;         // by us, our clock
     base::TimePoint heard;        // by them, their clock
@@ -16,7 +16,7 @@ struct ClockSample {
     base::TimePoint answer_heard; // by us, our clock
 };
 
-/// How far the other side's clock is ahead of ours, from echoes (NTP's offset, RFC 5905
+/// Estimates how far the other side's clock is ahead of ours, from echoes (NTP's offset, RFC 5905
 /// section 8). Trusts the sample with the shortest round trip among the last one to two seconds:
 /// queueing delays both lengthen the trip and spoil the offset.
 class ClockOffset {

@@ -13,7 +13,7 @@ double product(const glm::dvec3& a, const glm::dvec3& b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// What of a vector lies across a unit vector.
+/// The part of a vector across a unit vector.
 glm::dvec3 across(const glm::dvec3& v, const glm::dvec3& unit)
 {
     return v - product(v, unit) * unit;
@@ -21,7 +21,7 @@ glm::dvec3 across(const glm::dvec3& v, const glm::dvec3& unit)
 
 } // namespace
 
-base::Force FingerFriction::on_body(const scene::HipInput& hand, const scene::BodyState& body)
+base::Force FingerFriction::on_body(const scene::HandInput& hand, const scene::BodyState& body)
 {
     if (!hand.present) contact_.reset();
     if (!contact_) return {};
@@ -39,7 +39,7 @@ base::Force FingerFriction::on_body(const scene::HipInput& hand, const scene::Bo
     return slipping;
 }
 
-void FingerFriction::on_touch(const scene::HipTouch& touch)
+void FingerFriction::on_touch(const scene::HandTouch& touch)
 {
     const double force_n = base::norm(touch.on_body);
     if (!touch.touching || touch.holding || !(force_n > 0.0)) {

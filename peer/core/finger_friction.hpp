@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/description.hpp"
-#include "scene/input.hpp"
+#include "scene/state.hpp"
 
 #include <optional>
 
@@ -17,12 +17,12 @@ namespace hapnet::peer {
 /// hand.
 class FingerFriction {
 public:
-    explicit FingerFriction(const scene::HipDescription& hips) : hips_{hips} {}
+    explicit FingerFriction(const scene::HandDescription& hips) : hips_{hips} {}
 
     /// On the body, to be held for the coming tick: of a hand that is there and moves so now.
-    [[nodiscard]] base::Force on_body(const scene::HipInput& hand, const scene::BodyState& body);
-    /// What the world's contact did in that tick, whose start on_body() was asked for.
-    void on_touch(const scene::HipTouch& touch);
+    [[nodiscard]] base::Force on_body(const scene::HandInput& hand, const scene::BodyState& body);
+    /// The world's contact in the tick for whose start on_body() was called.
+    void on_touch(const scene::HandTouch& touch);
 
 private:
     struct Contact {
@@ -31,7 +31,7 @@ private:
         std::optional<glm::dvec3> anchor{}; // on the body, seen from its centre
     };
 
-    scene::HipDescription hips_;
+    scene::HandDescription hips_;
     std::optional<Contact> contact_;
 };
 

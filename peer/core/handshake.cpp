@@ -28,7 +28,7 @@ std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
 
 } // namespace
 
-std::optional<wire::ByeReason> Handshake::objection(const wire::Hello& hello) const
+std::optional<wire::ByeReason> Handshake::refusal_of(const wire::Hello& hello) const
 {
     if (hello.peer_id == self_.id) return wire::ByeReason::same_id;
     if (hello.scene_hash != self_.scene_hash) return wire::ByeReason::other_scene;
@@ -40,7 +40,7 @@ std::optional<wire::ByeReason> Handshake::objection(const wire::Hello& hello) co
 std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
                                                    base::TimePoint arrived)
 {
-    if (const auto reason = objection(hello)) return reason;
+    if (const auto reason = refusal_of(hello)) return reason;
     if (!heard_ || heard_->nonce != hello.nonce) meet(hello);
     if (hello.nonce_heard != self_.nonce) { // it has not heard this run of us yet
         asked_ = true;

@@ -9,7 +9,8 @@
 
 namespace hapnet::peer {
 
-/// What a peer brings to the meeting. Id, scene, tick rate and task must suit the other side.
+/// A peer's own description for the handshake. Id, scene, tick rate and task must suit the other
+/// side's.
 struct Introduction {
     std::uint16_t id = 1;
     std::uint32_t nonce = 1; // this run of the program, unpredictable, not 0
@@ -28,7 +29,7 @@ struct Session {
     bool joined_late = false; // the other side was there before: take its cube
 };
 
-/// How two peers find each other and agree on a start: hellos every 20 ms until both know it.
+/// Lets two peers find each other and agree on a start: hellos every 20 ms until both know it.
 /// The lower id sets the start one second after it learns that it was heard, and keeps saying so
 /// until that is acknowledged; the other side joins when it hears of it, if need be late. A peer
 /// that restarts meets one that is in session already and joins that session. Feed with on_hello(),
@@ -54,7 +55,7 @@ public:
     /// The hello that is due, if one is.
     [[nodiscard]] std::optional<wire::Hello> hello(base::TimePoint now);
 
-    /// What the next message to the other side should echo.
+    /// The clock echo for the next message to the other side.
     [[nodiscard]] std::optional<wire::Echo> echo(base::TimePoint now) const;
 
     [[nodiscard]] const std::optional<Session>& session() const { return session_; }
@@ -68,7 +69,7 @@ private:
         std::uint16_t id = 0;
     };
 
-    [[nodiscard]] std::optional<wire::ByeReason> objection(const wire::Hello& hello) const;
+    [[nodiscard]] std::optional<wire::ByeReason> refusal_of(const wire::Hello& hello) const;
     void meet(const wire::Hello& hello);
     [[nodiscard]] bool is_left() const;
     [[nodiscard]] std::uint32_t number() const;

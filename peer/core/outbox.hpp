@@ -9,8 +9,8 @@
 
 namespace hapnet::peer {
 
-/// A first-in-first-out queue of at most `capacity` values that never allocates. When it is
-/// full, the oldest makes room: for words that age, the newest are worth most.
+/// A first-in-first-out queue of at most `capacity` values that never allocates. When it is full,
+/// the oldest value makes room: messages age, and the newest are worth most.
 template <typename Value, std::size_t capacity>
 class Outbox {
 public:

@@ -18,10 +18,10 @@ struct VirtualWall {
 [[nodiscard]] double damping_for_passivity(const VirtualWall& wall, double tick_s);
 
 /// The share, 0 to 1, of a wall's force that a device renders which is known to be stable up to
-/// this stiffness, N/m; 0: nobody has said.
+/// this stiffness, N/m; 0: not known.
 [[nodiscard]] double share_within(double stiffness_max_n_per_m, const VirtualWall& wall);
 
-/// The share, 0 to 1, of a wall's force that may be rendered through a port with so much damping:
+/// The share, 0 to 1, of a wall's force that may be rendered through a port with this damping:
 /// stiffness and damping are softened alike, so that the force is the scene's times this share.
 [[nodiscard]] double passive_share(const VirtualWall& wall, double tick_s,
                                    double port_damping_ns_per_m);

@@ -45,14 +45,14 @@ scene::World world_of(const Settings& settings)
 
 std::optional<FingerFriction> friction_of(const Settings& settings)
 {
-    if (settings.scene.hips.friction == 0.0) return std::nullopt;
-    return FingerFriction{settings.scene.hips};
+    if (settings.scene.hands.friction == 0.0) return std::nullopt;
+    return FingerFriction{settings.scene.hands};
 }
 
-/// How much of the force on the hand may be rendered.
+/// The share of the force on the hand that may be rendered.
 double rendered_share(const Settings& settings)
 {
-    const scene::HipDescription& hips = settings.scene.hips;
+    const scene::HandDescription& hips = settings.scene.hands;
     const VirtualWall wall{hips.stiffness_n_per_m, hips.damping_ns_per_m};
     return std::min(
         share_within(settings.stiffness_max_n_per_m, wall),
@@ -68,7 +68,7 @@ Peer::Peer(const Settings& settings)
       body_{shared_body_of(settings)},
       world_{world_of(settings)},
       friction_{friction_of(settings)},
-      force_max_n_{std::min(settings.scene.hips.force_max_n, scene::force_max_n)},
+      force_max_n_{std::min(settings.scene.hands.force_max_n, scene::force_max_n)},
       share_{rendered_share(settings)}
 {}
 
@@ -90,7 +90,7 @@ void Peer::on_datagram(std::span<const std::byte> datagram, base::TimePoint arri
         return;
     }
     ++counters_.other_version;
-    if (!session()) object({wire::ByeReason::other_version, *version}, arrived);
+    if (!session()) consider_refusal({wire::ByeReason::other_version, *version}, arrived);
 }
 
 void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
@@ -102,11 +102,11 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
         if (had_session) {
             outbox_.put(wire::encode(wire::Bye{0, *reason})); // our session goes on without it
         } else {
-            object({*reason, hello.nonce}, arrived);
+            consider_refusal({*reason, hello.nonce}, arrived);
         }
         return;
     }
-    objection_.reset();
+    pending_refusal_.reset();
     if (!had_met) events_.put(Event::met);
     if (!session() || session()->number == current_.number) return;
     // A late hello of an earlier run may make us change over and back: then count on.
@@ -168,7 +168,7 @@ void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)
     ++counters_.byes;
     const bool refuses = bye.reason >= wire::ByeReason::other_version;
     if (refuses) {
-        if (!session()) object({bye.reason, 0}, arrived);
+        if (!session()) consider_refusal({bye.reason, 0}, arrived);
         return;
     }
     if (!session() || bye.session != current_.number || gone_) return;
@@ -176,21 +176,21 @@ void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)
     if (!leaving_) events_.put(Event::left);
 }
 
-void Peer::object(const Objection& objection, base::TimePoint arrived)
+void Peer::consider_refusal(const PendingRefusal& refusal, base::TimePoint arrived)
 {
     if (refusal_) return;
-    const bool again = objection_ && objection_->reason == objection.reason &&
-                       objection_->about == objection.about;
+    const bool again = pending_refusal_ && pending_refusal_->reason == refusal.reason &&
+                       pending_refusal_->about == refusal.about;
     if (!again) {
-        objection_ = objection;
-    } else if (arrived - objection_->last < objection_every) {
+        pending_refusal_ = refusal;
+    } else if (arrived - pending_refusal_->last < refusal_every) {
         return;
     }
-    objection_->last = arrived;
-    if (++objection_->times < objections) return;
-    refusal_ = objection.reason;
+    pending_refusal_->last = arrived;
+    if (++pending_refusal_->times < refusals_needed) return;
+    refusal_ = refusal.reason;
     events_.put(Event::refused);
-    leave(objection.reason);
+    leave(refusal.reason);
 }
 
 void Peer::leave(wire::ByeReason reason)
@@ -198,8 +198,8 @@ void Peer::leave(wire::ByeReason reason)
     if (leaving_) return;
     leaving_ = true;
     leaving_because_ = reason;
-    const bool nobody_to_tell = !handshake_.has_met() && !refusal_;
-    if (nobody_to_tell) byes_left_ = 0;
+    const bool has_audience = handshake_.has_met() || refusal_;
+    if (!has_audience) byes_left_ = 0;
 }
 
 Phase Peer::phase_at(base::TimePoint now) const
@@ -236,32 +236,34 @@ void Peer::note(Phase phase, double freshness, base::TimePoint now)
 
 Tick Peer::tick(base::TimePoint now, const Hand& hand)
 {
+    const Phase phase = phase_at(now);
+    const bool in_session = phase == Phase::running || phase == Phase::hands_off;
     Tick tick;
-    tick.phase = phase_at(now);
+    tick.phase = gone_ && in_session ? Phase::alone : phase;
     tick.freshness = gone_ ? 0.0 : remote_.freshness(now);
-    note(tick.phase, tick.freshness, now);
-    if (tick.phase == Phase::ended) {
+    note(phase, tick.freshness, now);
+    if (phase == Phase::ended) {
         leave(wire::ByeReason::finished);
         say_bye(now);
         return tick;
     }
     if (const auto hello = handshake_.hello(now)) outbox_.put(wire::encode(*hello));
-    if (tick.phase == Phase::running || tick.phase == Phase::hands_off) play(tick, now, hand);
+    if (in_session) play(tick, now, hand);
     return tick;
 }
 
 void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
 {
     if (!body_known_ && remote_.body()) {
-        put(world_, body_, remote_.body()->position, remote_.body()->velocity);
+        world_.place(body_, remote_.body()->position, remote_.body()->velocity);
         body_known_ = true;
     }
     const bool usable = is_usable(hand);
     if (!usable) ++counters_.unusable_hand;
-    const scene::HipInput input{.position = usable ? hand.hip : base::Position{},
-                                .velocity = usable ? hand.velocity : base::Velocity{},
-                                .present = usable,
-                                .gripping = hand.gripping};
+    const scene::HandInput input{.position = usable ? hand.hip : base::Position{},
+                                 .velocity = usable ? hand.velocity : base::Velocity{},
+                                 .present = usable,
+                                 .gripping = hand.gripping};
     const Situation situation{.now = now,
                               .body = body_,
                               .remote = remote_,
@@ -278,9 +280,9 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
     if (!gone_) say_state(tick, now, usable ? hand : Hand{});
 }
 
-void Peer::move_world(Tick& tick, const Situation& situation, const scene::HipInput& hand)
+void Peer::move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand)
 {
-    world_.hip(own_hand, hand);
+    world_.set_hand(own_hand, hand);
     base::Force rubbing;
     if (friction_) {
         rubbing = friction_->on_body(hand, world_.body(body_));
@@ -296,7 +298,7 @@ void Peer::move_world(Tick& tick, const Situation& situation, const scene::HipIn
     if (friction_) {
         friction_->on_touch(tick.touched);
         tick.touched.on_body += rubbing;
-        tick.touched.on_hip += -rubbing;
+        tick.touched.on_hand += -rubbing;
         on_hand += -rubbing;
     }
     tick.force = share_ * on_hand;
@@ -307,13 +309,13 @@ void Peer::account(const Tick& tick, base::Displacement moved, base::TimePoint n
     const bool touching = tick.touched.touching;
     if (touching) {
         last_touch_ = now;
-        ledger_.add(tick.touched.on_body * settings_.tick);
+        effects_.add(tick.touched.on_body * settings_.tick);
     } else if (tick.remote_touching) {
         last_touch_.reset(); // the other hand has taken the body over
     }
     // The body still coasts from this hand's push for a while after it.
     const bool ours = last_touch_ && now - *last_touch_ < push_lasts;
-    if (ours) ledger_.add(moved);
+    if (ours) effects_.add(moved);
     if (touching || base::norm(moved) > 1e-9) last_stir_ = now;
 }
 
@@ -341,8 +343,8 @@ void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
         state.body = wire::BodyState{.body = static_cast<std::uint16_t>(body_),
                                      .position = position(),
                                      .velocity = velocity(),
-                                     .caused_displacement_nm = ledger_.displacement_nm(),
-                                     .caused_impulse_nns = ledger_.impulse_nns()};
+                                     .caused_displacement_nm = effects_.displacement_nm(),
+                                     .caused_impulse_nns = effects_.impulse_nns()};
     }
     outbox_.put(wire::encode(state));
     ++counters_.sent;

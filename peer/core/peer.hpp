@@ -2,54 +2,55 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "peer/core/effect_sums.hpp"
 #include "peer/core/finger_friction.hpp"
 #include "peer/core/handshake.hpp"
-#include "peer/core/ledger.hpp"
 #include "peer/core/outbox.hpp"
 #include "peer/core/remote.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/algorithm.hpp"
+#include "proto/record/rows.hpp"
 
 #include <optional>
 #include <span>
 
 namespace hapnet::peer {
 
-/// A hand as its device tells: the haptic interface point and whether its owner grips.
+/// A hand as its device reports it: the haptic interface point and whether the hand grips.
 struct Hand {
     base::Position hip;
     base::Velocity velocity;
     bool gripping = false;
-    bool present = true; // somebody holds the device, and its word is good
+    bool present = true; // a person holds the device, and its sample is valid
 };
 
 struct Settings {
     Introduction introduction;
     scene::Description scene = scene::paper_scene(); // one that shared_body() accepts
     Algorithm algorithm;
-    /// Of the device and the loosest grip on it: what a sampled contact may be rendered through
-    /// without that a hand draws energy from it (passive_share). The default is a nominal grip on
-    /// a stylus, and an assumption: fingertips were measured at 4 to 7.4 N s/m (A. Z. Hajian,
-    /// R. D. Howe: Identification of the mechanical impedance at the human finger tip, 1997).
+    /// Damping of the device and the loosest grip on it. It bounds the contacts that can be
+    /// rendered without the hand drawing energy from them (passive_share). The default is a nominal
+    /// grip on a stylus, and an assumption: fingertips were measured at 4 to 7.4 N s/m (A. Z.
+    /// Hajian, R. D. Howe: Identification of the mechanical impedance at the human finger tip,
+    /// 1997).
     double grip_damping_ns_per_m = 4.0;
-    /// Of contacts that the device renders without buzzing, in the scene; 0: nobody has said.
+    /// Stiffest contact that the device renders without buzzing, in the scene; 0: not known.
     double stiffness_max_n_per_m = 0.0;
     Staleness staleness;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration length{std::chrono::seconds{30}}; // of the session, from its start
 };
 
-/// Where in its life a session is. The last 3 s of it (half of it, when it is shorter than 6 s)
-/// are hands off.
-enum class Phase : std::uint8_t { waiting, countdown, running, hands_off, ended };
+/// The phase of a session. Its last 3 s (half of it, when it is shorter than 6 s) are hands off.
+using record::Phase;
 
-/// What a person should be told.
+/// An event that a person should be told of.
 enum class Event : std::uint8_t {
     met,       // the other side answers
     agreed,    // the start is known
     started,   // the session has begun
     joined,    // ... and was under way already: the body is where the other side has it
-    lost,      // nothing heard for so long that the forces faded to zero
+    lost,      // silent for long enough that the forces faded to zero
     back,      // heard again
     restarted, // the other side came back as a new run
     left,      // the other side said goodbye
@@ -59,7 +60,7 @@ enum class Event : std::uint8_t {
     stopped, // before there was a session
 };
 
-/// What was received, and what of it could not be used.
+/// Counters of received messages, and of those that could not be used.
 struct Counters {
     std::uint64_t states = 0; // taken
     std::uint64_t hellos = 0;
@@ -69,16 +70,16 @@ struct Counters {
     std::uint64_t malformed = 0;
     std::uint64_t other_version = 0;
     std::uint64_t implausible = 0;   // out of any scene's reach, or numbered ahead of time
-    std::uint64_t unusable_hand = 0; // ticks in which the device's word was not usable
+    std::uint64_t unusable_hand = 0; // ticks in which the device's sample was not usable
     std::uint64_t sent = 0;
 };
 
-/// What one tick decided.
+/// The result of one tick.
 struct Tick {
     Phase phase = Phase::waiting;
     bool permitted = false; // whether the hand may feel anything at all
     base::Force force;      // on the hand, before the governor
-    scene::HipTouch touched;
+    scene::HandTouch touched;
     bool remote_touching = false;
     base::Force remote_force;                 // that counted
     std::optional<base::Position> remote_hip; // as the algorithm shows it
@@ -93,18 +94,18 @@ struct Tick {
 class Peer {
 public:
     static constexpr base::Duration hands_off_length{std::chrono::seconds{3}};
-    /// Without a state for so long after the start, the other side counts as silent.
+    /// The other side counts as silent when no state came for this long after the start.
     static constexpr base::Duration first_word_within{std::chrono::seconds{1}};
     static constexpr base::Duration body_lingers{std::chrono::seconds{1}};
-    /// So long after its last touch a hand is taken to have caused what the body still moves.
+    /// For this long after its last touch, a hand is taken to have caused the body's motion.
     static constexpr base::Duration push_lasts{std::chrono::milliseconds{200}};
     static constexpr std::uint32_t body_every = 64; // messages
     static constexpr int byes = 5;
     static constexpr base::Duration bye_every{std::chrono::milliseconds{5}};
-    /// A peer is refused for the same reason thrice, this far apart: one damaged datagram is no
-    /// reason.
-    static constexpr int objections = 3;
-    static constexpr base::Duration objection_every{std::chrono::milliseconds{4}};
+    /// A refusal counts when it came three times, at least this far apart: one damaged datagram
+    /// must not end a session.
+    static constexpr int refusals_needed = 3;
+    static constexpr base::Duration refusal_every{std::chrono::milliseconds{4}};
     static constexpr base::Duration::rep sequence_slack = 1000; // ticks
 
     /// The scene must be one that shared_body() and World::freeze() accept.
@@ -132,15 +133,15 @@ public:
     [[nodiscard]] const Counters& counters() const { return counters_; }
     [[nodiscard]] bool is_alone() const { return gone_; }
     [[nodiscard]] std::optional<wire::ByeReason> refusal() const { return refusal_; }
-    /// How long the hands are on, from the start.
+    /// Time from the start until the hands let go.
     [[nodiscard]] base::Duration hands_on() const;
     [[nodiscard]] base::Duration length() const { return settings_.length; }
 
 private:
-    /// Why the two cannot play together, and who or what says so.
-    struct Objection {
+    /// A reason why the two cannot play together, until it has come often enough.
+    struct PendingRefusal {
         wire::ByeReason reason = wire::ByeReason::finished;
-        std::uint32_t about = 0; // the nonce or version objected to
+        std::uint32_t about = 0; // the nonce or version that is refused
         int times{};
         base::TimePoint last{};
     };
@@ -149,13 +150,13 @@ private:
     void on_message(const wire::State& state, base::TimePoint arrived);
     void on_message(const wire::Bye& bye, base::TimePoint arrived);
     [[nodiscard]] bool is_plausible(const wire::State& state) const;
-    void object(const Objection& objection, base::TimePoint arrived);
+    void consider_refusal(const PendingRefusal& refusal, base::TimePoint arrived);
     [[nodiscard]] std::uint32_t sequence_max(base::TimePoint arrived) const;
 
     [[nodiscard]] Phase phase_at(base::TimePoint now) const;
     void note(Phase phase, double freshness, base::TimePoint now);
     void play(Tick& tick, base::TimePoint now, const Hand& hand);
-    void move_world(Tick& tick, const Situation& situation, const scene::HipInput& hand);
+    void move_world(Tick& tick, const Situation& situation, const scene::HandInput& hand);
     void account(const Tick& tick, base::Displacement moved, base::TimePoint now);
     void say_state(Tick& tick, base::TimePoint now, const Hand& hand);
     void say_bye(base::TimePoint now);
@@ -169,7 +170,7 @@ private:
     std::optional<FingerFriction> friction_; // where the scene's hands have any
     double force_max_n_;                     // of the remote hand
     double share_;                           // of the forces on the hand, that may be rendered
-    Ledger ledger_;
+    EffectSums effects_;
     Outbox<wire::Datagram, 8> outbox_;
     Outbox<Event, 32> events_;
     Counters counters_;
@@ -187,7 +188,7 @@ private:
     base::TimePoint agreed_at_;
     std::optional<base::TimePoint> last_touch_; // by this hand
     std::optional<base::TimePoint> last_stir_;  // the body was touched or moved
-    std::optional<Objection> objection_;
+    std::optional<PendingRefusal> pending_refusal_;
     std::optional<wire::ByeReason> refusal_;
     bool leaving_ = false;
     wire::ByeReason leaving_because_ = wire::ByeReason::finished;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
 #include "proto/base/time.hpp"
 #include "proto/wire/message.hpp"
 
@@ -10,18 +11,18 @@
 
 namespace hapnet::peer {
 
-/// How long the newest word of the other side holds, counted from its arrival.
+/// Times for which the newest state of the other side holds and fades, from its arrival.
 struct Staleness {
     base::Duration hold{std::chrono::milliseconds{250}};
     base::Duration fade{std::chrono::milliseconds{50}};
 };
 
-/// What becomes of a state that is not newer than one that is known already: an older one that was
-/// overtaken on its way, or a duplicate.
+/// The treatment of a stale state: an older one that was overtaken on its way, or a duplicate.
 enum class Stale : std::uint8_t { drop, take };
+constexpr auto names_of(base::Tag<Stale> /*enum*/) { return base::names("drop", "take"); }
 
-/// The other side as its newest state tells, or the one that arrived last when the stale ones are
-/// taken, too. Between states everything is held.
+/// The other side as of its newest state, or of the last to arrive when stale ones are taken.
+/// Between states everything is held.
 class Remote {
 public:
     explicit Remote(Staleness staleness, Stale stale = Stale::drop)

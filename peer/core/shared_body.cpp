@@ -16,27 +16,21 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
     const auto found = std::find_if(bodies.begin(), bodies.end(), is_movable);
     const auto count = std::count_if(found, bodies.end(), is_movable);
     if (count != 1) {
-        return base::fail(fmt::format("a session shares one movable body so far; this scene has {}",
+        return base::fail(fmt::format("a session needs exactly one movable body; this scene has {}",
                                       count == 0 ? "none" : fmt::to_string(count)));
     }
     if (found->turning != scene::Turning::locked) {
-        return base::fail("a session shares a body that does not turn so far; this scene's can: "
-                          "give it turning = \"locked\"");
+        return base::fail("sessions do not support rotating bodies yet: set turning = \"locked\"");
     }
-    if (scene.hips.count == 0) return base::fail("a session needs a hand; this scene has none");
+    if (scene.hands.count == 0) return base::fail("a session needs a hand; this scene has none");
     const auto index = found - bodies.begin();
     if (index > std::numeric_limits<number_on_the_wire>::max()) {
-        return base::fail(fmt::format("the body that a session shares is one of the first {} of "
-                                      "its scene; this is number {}",
+        return base::fail(fmt::format("the movable body of a session must be among the first {} "
+                                      "of its scene; this is number {}",
                                       std::numeric_limits<number_on_the_wire>::max() + 1,
                                       index + 1));
     }
     return static_cast<scene::BodyId>(index);
-}
-
-void put(scene::World& world, scene::BodyId body, base::Position position, base::Velocity velocity)
-{
-    world.place(body, position, velocity);
 }
 
 } // namespace hapnet::peer

@@ -51,7 +51,7 @@ Finding on_wake_ups(const Timing& timing)
                 fmt::format("timer slack stays at {:.0f} us", in_microseconds(timing.slack)),
                 "run outside of the container or sandbox that withholds PR_SET_TIMERSLACK"};
     }
-    const std::string text = fmt::format("99 % of wake-ups came at most {:.0f} us late", late_us);
+    const std::string text = fmt::format("p99 lateness of wake-ups: {:.0f} us", late_us);
     if (timing.late_p99 <= late_worth_a_warning) return {"timers", Level::ok, text};
     return {"timers", Level::warning, text,
             "end what keeps the processors busy, and see the findings on real time and on the "
@@ -137,7 +137,7 @@ Finding on_firewire(const Facts& facts)
 Finding on_hd(const Facts& facts)
 {
     if (facts.hd_trouble.empty()) {
-        return {"libHD", Level::ok, fmt::format("it can be loaded ({})", device::never_run)};
+        return {"libHD", Level::ok, "it can be loaded"};
     }
     if (!facts.hd_wanted) {
         return {"libHD", Level::ok, "not there, which only devices of 3D Systems would need"};

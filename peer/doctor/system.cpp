@@ -51,9 +51,9 @@ std::string word_in(const fs::path& file)
 /// The entries of a folder, sorted; none when there is no folder.
 std::vector<fs::path> entries_of(const fs::path& folder)
 {
-    std::error_code trouble;
+    std::error_code error;
     std::vector<fs::path> entries;
-    for (const auto& entry : fs::directory_iterator{folder, trouble}) entries.push_back(entry);
+    for (const auto& entry : fs::directory_iterator{folder, error}) entries.push_back(entry);
     std::sort(entries.begin(), entries.end());
     return entries;
 }
@@ -135,9 +135,9 @@ void find_hid(const fs::path& root, std::vector<Node>& nodes)
 void find_serial(const fs::path& root, std::vector<Node>& nodes)
 {
     for (const fs::path& entry : entries_of(root / "sys/class/tty")) {
-        std::error_code trouble;
-        const fs::path interface = fs::canonical(entry / "device", trouble);
-        if (trouble) continue; // no piece of hardware
+        std::error_code error;
+        const fs::path interface = fs::canonical(entry / "device", error);
+        if (error) continue; // no piece of hardware
         const auto* const id =
             device::find_usb_id(number_of(word_in(interface.parent_path() / "idVendor")),
                                 number_of(word_in(interface.parent_path() / "idProduct")));

@@ -12,23 +12,23 @@
 
 namespace hapnet::peer {
 
-/// Something a person should be told, and when it happened.
-struct Happening {
+/// An event that a person should be told of, and when it happened.
+struct TimedEvent {
     Event event = Event::met;
     base::TimePoint at;
 };
 
-/// The same, of the device.
-struct DeviceHappening {
+/// Likewise for the device.
+struct TimedDeviceNews {
     DeviceNews news;
     base::TimePoint at;
 };
 
-/// What leaves the servo thread for the record, the status line and the log.
-using Entry = std::variant<record::Row, Happening, DeviceHappening>;
+/// A message of the servo thread for the record, the status line and the log.
+using Entry = std::variant<record::Row, TimedEvent, TimedDeviceNews>;
 
-/// The one way out of the servo thread: a bounded queue that never makes it wait. What does not
-/// fit is counted, not waited for.
+/// The one way out of the servo thread: a bounded queue that never makes that thread wait. Entries
+/// that do not fit are dropped and counted.
 class Journal {
 public:
     /// Servo side.
@@ -37,7 +37,7 @@ public:
         if (!entries_.try_enqueue(entry)) lost_.fetch_add(1, std::memory_order_relaxed);
     }
 
-    /// The other side; nullopt when nothing is waiting.
+    /// Reader side; nullopt when the journal is empty.
     [[nodiscard]] std::optional<Entry> take()
     {
         Entry entry;
@@ -51,8 +51,8 @@ private:
     // 8 s of ticks and messages: longer than any stall of a disk that we want to survive.
     static constexpr std::size_t capacity = 16384;
 
-    // Of the two queues of its package the one that ThreadSanitizer can follow: it synchronises by
-    // atomics alone, without free-standing fences.
+    // The package has two queues. ThreadSanitizer can follow this one: it synchronises by atomics
+    // alone, without free-standing fences.
     moodycamel::BlockingReaderWriterCircularBuffer<Entry> entries_{capacity};
     std::atomic<std::uint64_t> lost_{0};
 };

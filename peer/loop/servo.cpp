@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/loop/servo.hpp"
 
-#include "peer/loop/watched_turn.hpp"
+#include "peer/loop/watched_rig.hpp"
 #include "peer/loop/zero_force.hpp"
 #include "proto/net/clock.hpp"
 
@@ -16,21 +16,9 @@ constexpr int servo_priority = 45;    // above the emulator's, below the kernel'
 constexpr int receive_rounds_max = 8; // of up to 64 datagrams
 constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 
-record::Phase phase_of(Phase phase, bool alone)
-{
-    switch (phase) {
-    case Phase::waiting: return record::Phase::waiting;
-    case Phase::countdown: return record::Phase::countdown;
-    case Phase::running: return alone ? record::Phase::alone : record::Phase::running;
-    case Phase::hands_off: return alone ? record::Phase::alone : record::Phase::hands_off;
-    case Phase::ended: return record::Phase::ended;
-    }
-    return record::Phase::ended;
-}
-
 } // namespace
 
-Servo::Servo(const Parts& parts) : parts_{parts}, reporter_{ways_back_of(parts.rig.device())} {}
+Servo::Servo(const Parts& parts) : parts_{parts}, reporter_{recovery_of(parts.rig.device())} {}
 
 void Servo::run()
 {
@@ -44,19 +32,22 @@ void Servo::run()
     done_.store(true, std::memory_order_release);
 }
 
-bool Servo::goes_on() const { return !parts_.peer.finished() && !parts_.watchdog.is_dying(); }
+bool Servo::goes_on() const
+{
+    return !parts_.side.peer().finished() && !parts_.watchdog.is_dying();
+}
 
 void Servo::follow_device()
 {
     device::Device& device = parts_.rig.device();
     if (device.capabilities().pacing != device::Pacing::device) return;
-    DeviceRhythm rhythm{parts_.tick};
-    device.pace([this, &rhythm] { return cycle(rhythm); });
+    DeviceTimer timer{parts_.tick};
+    device.pace([this, &timer] { return on_device_cycle(timer); });
     if (goes_on()) tell_governor_of_silence();
 }
 
-/// The device's own silence ended its rhythm. Else the governor would find that this loop stood
-/// still, and a person be told the wrong thing.
+/// The device fell silent and so ended its pace. Without this the governor would find that the loop
+/// stood still, and a person would be told the wrong cause.
 void Servo::tell_governor_of_silence()
 {
     device::Governor& governor = parts_.rig.governor();
@@ -66,128 +57,98 @@ void Servo::tell_governor_of_silence()
     if (pushes) governor.latch({device::Fault::timeout, device::Trip::silence});
 }
 
-/// One of the device's; whether another is wanted.
-bool Servo::cycle(DeviceRhythm& rhythm)
+/// One cycle of the device; returns whether the device is to go on.
+bool Servo::on_device_cycle(DeviceTimer& timer)
 {
     const base::TimePoint now = net::monotonic_now();
     parts_.watchdog.beat(now);
-    if (const auto beat = rhythm.at(now)) take_turn(*beat, now);
+    if (const auto time = timer.at(now)) tick(*time, now);
     return goes_on();
 }
 
 void Servo::go_at_own_pace()
 {
-    OwnRhythm rhythm{net::monotonic_now(), parts_.tick};
+    FixedRateTimer timer{net::monotonic_now(), parts_.tick};
     while (goes_on()) {
-        net::sleep_until(rhythm.next());
+        net::sleep_until(timer.next());
         const base::TimePoint now = net::monotonic_now();
         parts_.watchdog.beat(now);
-        take_turn(rhythm.begin(now), now);
-        rhythm.end(net::monotonic_now());
+        tick(timer.begin(now), now);
+        timer.end(net::monotonic_now());
     }
 }
 
-void Servo::take_turn(const Beat& beat, base::TimePoint now)
+void Servo::tick(const TickTime& time, base::TimePoint now)
 {
-    record::TickRow row;
-    row.tick = counters_.ticks++;
-    row.due = beat.due;
-    row.late = beat.late;
-    row.missed_before = beat.missed_before;
-    counters_.late.add(row.late);
-    counters_.missed += beat.missed_before;
-    if (stop_.load(std::memory_order_relaxed)) parts_.peer.leave(wire::ByeReason::interrupted);
-    turn(row, now);
-    parts_.journal.put(row);
-    phase_ = row.phase;
-    is_remote_heard_ = row.remote_fresh;
-    force_ = row.device;
-    if (!first_turn_) first_turn_ = now;
-    last_turn_ = now;
-    standing_.give_if_asked([this](Standing& standing) { describe(standing); });
+    counters_.late.add(time.late);
+    counters_.missed += time.missed_before;
+    if (stop_.load(std::memory_order_relaxed)) {
+        parts_.side.peer().leave(wire::ByeReason::interrupted);
+    }
+    play(now);
+    parts_.journal.put(parts_.side.row(counters_.ticks, time));
+    ++counters_.ticks;
+    if (!first_tick_) first_tick_ = now;
+    last_tick_ = now;
+    status_slot_.fill_if_requested([this](ServoStatus& status) { describe(status); });
     running_.store(true, std::memory_order_release);
 }
 
-void Servo::turn(record::TickRow& row, base::TimePoint now)
+void Servo::play(base::TimePoint now)
 {
-    Peer& peer = parts_.peer;
-    WatchedTurn watched{parts_.rig, parts_.watchdog};
-    receive(row.tick);
+    WatchedRig rig{parts_.rig, parts_.watchdog};
+    receive();
     if (parts_.watchdog.take_fault()) {
         parts_.rig.governor().latch({device::Fault::timeout, device::Trip::loop});
     }
-    const device::Sample& sample = parts_.rig.read(now);
-    const Tick tick =
-        peer.tick(now, {sample.hip, sample.velocity, sample.gripping, is_in_hand(sample)});
-    const base::Force force = watched.apply(tick.force, tick.permitted, now);
+    parts_.side.step(now, rig);
     send();
-    while (const auto event = peer.event()) parts_.journal.put(Happening{*event, now});
-    tell_of_device(now);
+    while (const auto event = parts_.side.event()) parts_.journal.put(TimedEvent{*event, now});
+    report_device(now);
     note_session(now);
-
-    row.sent_sequence = tick.sequence;
-    row.phase = phase_of(tick.phase, peer.is_alone());
-    row.touching = tick.touched.touching;
-    row.remote_touching = tick.remote_touching;
-    row.remote_fresh = tick.freshness > 0.0;
-    row.hip = sample.hip;
-    row.hip_velocity = sample.velocity;
-    const scene::BodyState body = peer.body();
-    row.cube = body.position;
-    row.cube_velocity = body.velocity;
-    row.contact = tick.force;
-    row.device = force;
-    row.remote = tick.remote_force;
-    row.gripping = sample.gripping;
-    row.docked = sample.docked;
-    row.calibrated = sample.calibrated;
-    row.buttons = sample.buttons;
-    row.fault = static_cast<std::uint8_t>(sample.fault);
-    row.presses = sample.presses;
-    row.sample_sequence = static_cast<std::uint16_t>(sample.sequence);
-    row.governor = static_cast<std::uint8_t>(parts_.rig.governor().state());
 }
 
-Standing Servo::standing() const
+ServoStatus Servo::status() const
 {
-    Standing standing;
-    describe(standing);
-    return standing;
+    ServoStatus status;
+    describe(status);
+    return status;
 }
 
-void Servo::describe(Standing& standing) const
+void Servo::describe(ServoStatus& status) const
 {
+    const Peer& peer = parts_.side.peer();
     const device::Governor& governor = parts_.rig.governor();
-    standing.at = last_turn_;
-    standing.elapsed = last_turn_ - first_turn_.value_or(last_turn_);
-    standing.phase = phase_;
-    standing.is_remote_heard = is_remote_heard_;
-    standing.force = force_;
-    standing.loop = counters_;
-    standing.messages = parts_.peer.counters();
-    standing.session = parts_.peer.session();
-    standing.clock = parts_.peer.clock();
-    standing.refusal = parts_.peer.refusal();
-    standing.calibration = parts_.rig.calibration();
-    standing.governor_state = governor.state();
-    standing.fault = governor.fault();
-    standing.governor = governor.counters();
-    standing.force_limit_n = governor.limits().force_max_n;
-    standing.motor_heat = governor.heat();
-    standing.device = parts_.rig.counters();
-    standing.watchdog_halts = parts_.watchdog.halts();
-    standing.overflowed = parts_.socket.overflowed();
-    standing.real_time = real_time_;
+    status.at = last_tick_;
+    status.elapsed = last_tick_ - first_tick_.value_or(last_tick_);
+    status.phase = parts_.side.tick().phase;
+    status.is_remote_heard = parts_.side.tick().freshness > 0.0;
+    status.force = parts_.side.told();
+    status.loop = counters_;
+    status.messages = peer.counters();
+    status.session = peer.session();
+    status.clock = peer.clock();
+    status.refusal = peer.refusal();
+    status.calibration = parts_.rig.calibration();
+    status.governor_state = governor.state();
+    status.fault = governor.fault();
+    status.governor = governor.counters();
+    status.force_limit_n = governor.limits().force_max_n;
+    status.motor_heat = governor.heat();
+    status.device = parts_.rig.counters();
+    status.watchdog_halts = parts_.watchdog.halts();
+    status.overflowed = parts_.socket.overflowed();
+    status.real_time = real_time_;
 }
 
-void Servo::tell_of_device(base::TimePoint now)
+void Servo::report_device(base::TimePoint now)
 {
     const device::Rig& rig = parts_.rig;
     const auto news = reporter_.look(rig.calibration(), rig.governor().fault(), now);
-    if (news) parts_.journal.put(DeviceHappening{*news, now});
+    if (news) parts_.journal.put(TimedDeviceNews{*news, now});
 }
 
-void Servo::receive(std::uint64_t tick)
+void Servo::receive()
 {
     // Bounded: a flood must not keep the loop from its device.
     for (int round = 0; round < receive_rounds_max; ++round) {
@@ -197,9 +158,9 @@ void Servo::receive(std::uint64_t tick)
                 ++counters_.strangers;
                 continue;
             }
-            parts_.peer.on_datagram(received.bytes, received.at);
+            parts_.side.on_datagram(received.bytes, received.at);
             if (received.bytes.size() > record::MessageRow::bytes_max) continue;
-            record::MessageRow row{.tick = tick,
+            record::MessageRow row{.tick = counters_.ticks,
                                    .received_at = received.at,
                                    .size = static_cast<std::uint16_t>(received.bytes.size())};
             std::copy(received.bytes.begin(), received.bytes.end(), row.bytes.begin());
@@ -211,7 +172,7 @@ void Servo::receive(std::uint64_t tick)
 
 void Servo::send()
 {
-    while (const auto datagram = parts_.peer.poll()) {
+    while (const auto datagram = parts_.side.poll()) {
         const auto outcome = parts_.socket.send(parts_.remote, datagram->bytes());
         if (outcome != net::SendOutcome::sent) ++counters_.send_failures;
     }
@@ -219,21 +180,17 @@ void Servo::send()
 
 void Servo::note_session(base::TimePoint now)
 {
-    const auto& session = parts_.peer.session();
+    const Peer& peer = parts_.side.peer();
+    const auto& session = peer.session();
     if (!session) return;
-    if (cued_ != session->start) {
-        cued_ = session->start;
-        parts_.rig.device().on_cue({session->start, parts_.peer.hands_on(),
-                                    base::Seed{session->seed}, parts_.id, session->is_left});
-    }
     // A side that was restarted has a clock unknown to us until it has answered.
-    const auto clock = parts_.peer.clock();
+    const auto clock = peer.clock();
     if (!clock) return;
     const bool is_new =
         !noted_ || noted_->session != session->number || noted_->start != session->start;
     if (!is_new && now - *noted_at_ < session_noted_every) return;
     noted_ = record::SessionRow{.start = session->start,
-                                .length = parts_.peer.length(),
+                                .length = peer.length(),
                                 .remote_offset = clock->offset,
                                 .offset_uncertainty = clock->uncertainty,
                                 .session = session->number,

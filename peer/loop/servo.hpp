@@ -3,11 +3,10 @@
 #pragma once
 
 #include "device/rig.hpp"
-#include "peer/core/peer.hpp"
-#include "peer/loop/handover.hpp"
+#include "peer/core/side.hpp"
 #include "peer/loop/journal.hpp"
-#include "peer/loop/rhythm.hpp"
-#include "peer/loop/standing.hpp"
+#include "peer/loop/servo_status.hpp"
+#include "peer/loop/snapshot_slot.hpp"
 #include "peer/loop/watchdog.hpp"
 #include "proto/net/real_time.hpp"
 #include "proto/net/udp_socket.hpp"
@@ -16,28 +15,28 @@
 
 namespace hapnet::peer {
 
-/// The 1 kHz loop: device, scene, governor, device, network, in this order. It goes at its own
-/// pace, waking by absolute time; or, where a device sets the rhythm, at that one's, on the thread
-/// that the device calls it from, and at its own pace again when the device falls silent. A tick
-/// that comes later than a whole period skips the ones it has missed and counts them. After run()
-/// the device has been told zero force three times, whatever ended it.
+/// The 1 kHz loop. Each tick receives datagrams, steps its Side, sends datagrams and writes the
+/// journal, in this order. It runs at a fixed rate, waking at absolute times. A device that sets
+/// the pace calls it instead, on a thread of the device's choice; when that device falls silent,
+/// the loop goes on at the fixed rate. A tick that comes a whole period late skips the ones that it
+/// has missed and counts them. However run() ends, the device has then been told zero force three
+/// times.
 class Servo {
 public:
-    /// All that a servo works with; outlives it.
+    /// Everything that a servo works with; outlives it.
     struct Parts {
-        Peer& peer;
+        Side& side;
         device::Rig& rig;
         net::UdpSocket& socket;
         net::Endpoint remote;
         Journal& journal;
         Watchdog& watchdog;
-        std::uint16_t id = 1;
         base::Duration tick{std::chrono::milliseconds{1}};
     };
 
     explicit Servo(const Parts& parts);
 
-    /// Runs until the session has ended, or until the goodbye after stop() is said.
+    /// Runs until the session has ended, or until the goodbyes after stop() are sent.
     void run();
 
     /// From another thread: leave the session and end.
@@ -47,42 +46,38 @@ public:
     /// From another thread: whether run() has returned.
     [[nodiscard]] bool is_done() const { return done_.load(std::memory_order_acquire); }
 
-    /// From one other thread: asks how it stands after its next tick, and takes what came of that.
-    void ask_standing() { standing_.ask(); }
-    [[nodiscard]] bool take_standing(Standing& into) { return standing_.take(into); }
+    /// From one other thread: requests its status after the next tick, and takes that status.
+    void request_status() { status_slot_.request(); }
+    [[nodiscard]] bool take_status(ServoStatus& into) { return status_slot_.take(into); }
 
-    /// From another thread: what was granted, once is_running().
+    /// From another thread, once is_running(): the real-time rights that were granted.
     [[nodiscard]] net::RealTime real_time() const { return real_time_; }
-    /// After run(): how it stands in the end.
-    [[nodiscard]] Standing standing() const;
+    /// After run(): the status at the end.
+    [[nodiscard]] ServoStatus status() const;
 
 private:
     void follow_device();
     void tell_governor_of_silence();
     void go_at_own_pace();
     [[nodiscard]] bool goes_on() const;
-    [[nodiscard]] bool cycle(DeviceRhythm& rhythm);
-    void take_turn(const Beat& beat, base::TimePoint now);
-    void turn(record::TickRow& row, base::TimePoint now);
-    void tell_of_device(base::TimePoint now);
-    void receive(std::uint64_t tick);
+    [[nodiscard]] bool on_device_cycle(DeviceTimer& timer);
+    void tick(const TickTime& time, base::TimePoint now);
+    void play(base::TimePoint now);
+    void report_device(base::TimePoint now);
+    void receive();
     void send();
     void note_session(base::TimePoint now);
-    void describe(Standing& standing) const;
+    void describe(ServoStatus& status) const;
 
     Parts parts_;
     DeviceReporter reporter_;
     LoopCounters counters_;
-    record::Phase phase_ = record::Phase::waiting; // of the last turn
-    bool is_remote_heard_ = false;                 // in the last turn
-    base::Force force_;                            // told in the last turn
-    std::optional<base::TimePoint> first_turn_;
-    base::TimePoint last_turn_;
-    Handover<Standing> standing_;
+    std::optional<base::TimePoint> first_tick_;
+    base::TimePoint last_tick_;
+    SnapshotSlot<ServoStatus> status_slot_;
     net::RealTime real_time_;
     std::optional<record::SessionRow> noted_;
     std::optional<base::TimePoint> noted_at_;
-    std::optional<base::TimePoint> cued_; // the start that the device was told
     std::atomic<bool> stop_{false};
     std::atomic<bool> running_{false};
     std::atomic<bool> done_{false};

@@ -50,8 +50,8 @@ private:
 
 void supervise(const Supervised& supervised, const std::string& ready)
 {
-    const auto& [servo, watcher, stop, reception] = supervised;
-    const base::Duration every = reception != nullptr ? Reception::every : drain_every;
+    const auto& [servo, monitor, stop, control_session] = supervised;
+    const base::Duration every = control_session != nullptr ? ControlSession::every : drain_every;
     ServoThread thread{servo};
     bool is_announced = false;
     try {
@@ -70,9 +70,9 @@ void supervise(const Supervised& supervised, const std::string& ready)
                     net::say("hapnet-peer", shortage);
                 }
             }
-            if (reception != nullptr) reception->serve(net::monotonic_now());
-            watcher.drain();
-            watcher.show(net::monotonic_now());
+            if (control_session != nullptr) control_session->serve(net::monotonic_now());
+            monitor.drain();
+            monitor.show(net::monotonic_now());
         }
     } catch (...) {
         servo.stop(); // whatever it is: the hand comes first
@@ -80,7 +80,7 @@ void supervise(const Supervised& supervised, const std::string& ready)
         throw;
     }
     thread.join();
-    watcher.finish();
+    monitor.finish();
 }
 
 } // namespace hapnet::peer

@@ -3,20 +3,20 @@
 #pragma once
 
 #include "peer/loop/servo.hpp"
-#include "peer/monitor/reception.hpp"
-#include "peer/monitor/watcher.hpp"
+#include "peer/monitor/control_session.hpp"
+#include "peer/monitor/monitor.hpp"
 #include "proto/net/stop_signal.hpp"
 
 #include <string>
 
 namespace hapnet::peer {
 
-/// A servo, and who looks after it.
+/// A servo and the parts that run beside it.
 struct Supervised {
     Servo& servo;
-    Watcher& watcher;
+    Monitor& monitor;
     net::StopSignal& stop;
-    Reception* reception = nullptr; // null: there is no control socket
+    ControlSession* control_session = nullptr; // null: there is no control socket
 };
 
 /// Runs the servo on a thread of its own and watches it from this one until it has ended; SIGINT,

@@ -15,8 +15,8 @@ namespace hapnet::peer {
 namespace {
 
 constexpr int watchdog_priority = 46;                                    // above the servo's
-constexpr int last_words = 3;                                            // a wire may lose one
-constexpr base::Duration last_words_every{std::chrono::milliseconds{2}}; // longer than a tick
+constexpr int last_halts = 3;                                            // a wire may lose one
+constexpr base::Duration last_halts_every{std::chrono::milliseconds{2}}; // longer than a tick
 
 } // namespace
 
@@ -43,19 +43,19 @@ void Watchdog::watch()
     const std::span<const int> watched{descriptors.data(), crash_ != nullptr ? 1U : 0U};
     base::TimePoint next = net::monotonic_now();
     while (!ending_.load(std::memory_order_acquire)) {
-        if (net::wait_readable(watched, next)) return let_go_for_good();
+        if (net::wait_readable(watched, next)) return halt_for_good();
         next = look(net::monotonic_now());
     }
 }
 
-/// Acts on the silence so far; gives when to look again.
+/// Acts on the silence so far; returns when to look again.
 base::TimePoint Watchdog::look(base::TimePoint now)
 {
     const auto beat = last_beat_.load(std::memory_order_acquire);
     const base::TimePoint last{base::Duration{beat}};
     const Alarm alarm = beat == resting ? Alarm::none : alarm_after(now - last);
     if (alarm != Alarm::none) {
-        // Counted first: who sees the count unchanged has not been forestalled yet.
+        // Counted first: a loop that sees the count unchanged comes before the halt.
         if (alarm_ == Alarm::none) halts_.fetch_add(1, std::memory_order_acq_rel);
         device_.halt();
         if (alarm == Alarm::fault && alarm_ != Alarm::fault) {
@@ -67,13 +67,13 @@ base::TimePoint Watchdog::look(base::TimePoint now)
     return (beat == resting ? now : last) + halt_after + base::Duration{1};
 }
 
-void Watchdog::let_go_for_good()
+void Watchdog::halt_for_good()
 {
     dying_.store(true, std::memory_order_release);
-    // The loop may be in the middle of a turn: the later words outlast it.
-    for (int word = 0; word < last_words; ++word) {
+    // The loop may be in the middle of a tick: the later halts outlast it.
+    for (int i = 0; i < last_halts; ++i) {
         device_.halt();
-        net::sleep_until(net::monotonic_now() + last_words_every);
+        net::sleep_until(net::monotonic_now() + last_halts_every);
     }
     crash_->acknowledge();
 }

@@ -6,8 +6,8 @@
 
 namespace hapnet::peer {
 
-/// On every way out of a loop's scope zero force, repeated because a wire may lose one; and nobody
-/// is to be watched any more.
+/// On every way out of a loop's scope: tells the device zero force, three times because a wire may
+/// lose one, and ends the watch over the loop.
 class ZeroForceAtTheEnd {
 public:
     ZeroForceAtTheEnd(device::Device& device, Watchdog& watchdog)

@@ -15,14 +15,14 @@ std::string_view way_back(const DeviceNews& news)
     const bool needs_a_restart = fault == Fault::disconnected || fault == Fault::not_found ||
                                  news.fault.trip == device::Trip::nonsense;
     if (needs_a_restart) return "";
-    if (news.ways_back.by_simulated_hand) {
+    if (news.recovery.by_simulated_hand) {
         return "; the simulated hand holds still for a second, then presses the button";
     }
-    if (news.ways_back.by_holder) {
+    if (news.recovery.by_holder) {
         return "; to feel force again put the stylus into its holder, or hold it still for a "
                "second and press its button";
     }
-    if (news.ways_back.by_button) {
+    if (news.recovery.by_button) {
         return "; to feel force again hold it still for a second, then press its primary button";
     }
     return "; to feel force again start this program again, as the device has no button";
@@ -30,7 +30,7 @@ std::string_view way_back(const DeviceNews& news)
 
 } // namespace
 
-WaysBack ways_back_of(const device::Device& device)
+Recovery recovery_of(const device::Device& device)
 {
     const device::Capabilities& can = device.capabilities();
     return {.by_holder = can.has_holder,
@@ -38,11 +38,11 @@ WaysBack ways_back_of(const device::Device& device)
             .by_simulated_hand = device.identity().backend == "sim"};
 }
 
-std::string words_for(const DeviceNews& news)
+std::string describe(const DeviceNews& news)
 {
     if (news.is_of_calibration) {
         if (news.calibration == device::CalibrationStep::done) return "the device is calibrated";
-        return std::string{device::words_for(news.calibration)};
+        return std::string{device::describe(news.calibration)};
     }
     if (news.fault.fault == device::Fault::none) return "the device is well again: force ramps in";
     return fmt::format("zero force ({}): {}{}", device::name_of(news.fault.fault),

@@ -9,34 +9,34 @@
 
 namespace hapnet::peer {
 
-/// How a fault of a device can be ended, by who holds it.
-struct WaysBack {
+/// The ways in which the holder of a device can end its fault.
+struct Recovery {
     bool by_holder = false; // it has one for its stylus
     bool by_button = true;
     bool by_simulated_hand = false; // which does it by itself
 };
-[[nodiscard]] WaysBack ways_back_of(const device::Device& device);
+[[nodiscard]] Recovery recovery_of(const device::Device& device);
 
-/// Something about the device that a person should be told.
+/// A change of the device that a person should be told of.
 struct DeviceNews {
     device::CalibrationStep calibration = device::CalibrationStep::done;
     device::Latched fault{}; // none: it is, or is again, without one
     bool is_of_calibration = false;
-    WaysBack ways_back{};
+    Recovery recovery{};
 };
 
-/// What to tell: what it is, and what to do about it, with what the device has.
-[[nodiscard]] std::string words_for(const DeviceNews& news);
+/// The change and what to do about it on this device, for a person.
+[[nodiscard]] std::string describe(const DeviceNews& news);
 
-/// Why a session whose device has a fault by the end was no success; "" when it has none. A fault
-/// that an operator has ended is none.
+/// An error text for a session that ends with a fault of its device; "" without a fault. A fault
+/// that an operator has ended does not count.
 [[nodiscard]] std::string fault_at_the_end(const device::Governor& governor);
 
-/// Finds news in a device's state, tick by tick. Of its calibration and of its faults it tells one
-/// a second at most, and the first at once: of what changes faster, how it is by then.
+/// Finds changes of a device's state, tick by tick. It reports at most one change of calibration
+/// and one of faults a second, the first at once. Of faster changes it reports the newest state.
 class DeviceReporter {
 public:
-    explicit DeviceReporter(const WaysBack& ways_back) : told_{.ways_back = ways_back} {}
+    explicit DeviceReporter(const Recovery& recovery) : told_{.recovery = recovery} {}
 
     [[nodiscard]] std::optional<DeviceNews> look(device::CalibrationStep calibration,
                                                  const device::Latched& fault, base::TimePoint now);

@@ -47,7 +47,7 @@ json tick_json(const LoopCounters& loop)
 
 json messages_json(const Run& run)
 {
-    const Counters& c = run.standing.messages;
+    const Counters& c = run.status.messages;
     return {{"states_sent", c.sent},
             {"states_received", c.states},
             {"outdated", c.outdated},
@@ -57,16 +57,16 @@ json messages_json(const Run& run)
             {"malformed", c.malformed},
             {"other_version", c.other_version},
             {"implausible", c.implausible},
-            {"strangers", run.standing.loop.strangers},
-            {"overflowed", run.standing.overflowed},
-            {"send_failed", run.standing.loop.send_failures}};
+            {"strangers", run.status.loop.strangers},
+            {"overflowed", run.status.overflowed},
+            {"send_failed", run.status.loop.send_failures}};
 }
 
 json session_json(const Run& run)
 {
-    const auto& session = run.standing.session;
+    const auto& session = run.status.session;
     if (!session) return nullptr;
-    const auto& clock = run.standing.clock;
+    const auto& clock = run.status.clock;
     json out{{"number", session->number},
              {"seed", session->seed},
              {"role", session->is_left ? "L" : "R"},
@@ -82,14 +82,14 @@ json session_json(const Run& run)
 
 json governor_json(const Run& run)
 {
-    const Standing& standing = run.standing;
-    const device::GovernorCounters& c = standing.governor;
-    const device::RigCounters& device = standing.device;
-    return {{"state", device::name_of(standing.governor_state)},
-            {"fault", device::name_of(standing.fault.fault)},
-            {"tripped_by", device::name_of(standing.fault.trip)},
-            {"force_limit_n", standing.force_limit_n},
-            {"motor_heat", standing.motor_heat},
+    const ServoStatus& status = run.status;
+    const device::GovernorCounters& c = status.governor;
+    const device::RigCounters& device = status.device;
+    return {{"state", device::name_of(status.governor_state)},
+            {"fault", device::name_of(status.fault.fault)},
+            {"tripped_by", device::name_of(status.fault.trip)},
+            {"force_limit_n", status.force_limit_n},
+            {"motor_heat", status.motor_heat},
             {"not_finite", c.not_finite},
             {"clamped", c.clamped},
             {"heat_limited", c.heat_limited},
@@ -111,27 +111,84 @@ json governor_json(const Run& run)
               {"jump", c.jump_trips},
               {"nonsense", c.nonsense_trips}}},
             {"resets", c.resets},
-            {"watchdog_halts", run.standing.watchdog_halts},
-            {"unusable_samples", run.standing.messages.unusable_hand},
+            {"watchdog_halts", run.status.watchdog_halts},
+            {"unusable_samples", run.status.messages.unusable_hand},
             {"device",
              {{"reads", device.reads},
               {"repeated", device.repeated},
               {"repeated_most", device.repeated_most}}}};
 }
 
-/// Why the run is no measurement; "" when it is one.
+/// The reason why the run is not valid as a measurement; "" when it is.
 std::string_view why_not_valid(const Run& run)
 {
-    const LoopCounters& loop = run.standing.loop;
+    const LoopCounters& loop = run.status.loop;
     const auto p99 = loop.late.quantile(0.99);
     const bool is_punctual =
         p99 && *p99 <= late_budget && missed_share(loop) <= missed_share_budget;
     if (!is_punctual) return "the loop was late";
-    // Also one that an operator has ended: meanwhile the hand did not play.
-    const device::GovernorCounters& c = run.standing.governor;
+    // A fault that an operator has ended counts, too: the hand did not play meanwhile.
+    const device::GovernorCounters& c = run.status.governor;
     const std::uint64_t faults = c.device_faults + c.silence_faults + c.loop_faults +
                                  c.speed_trips + c.jump_trips + c.nonsense_trips;
     return faults > 0 ? "the device was at fault" : "";
+}
+
+using Ordered = nlohmann::ordered_json;
+
+bool is_at_fault(const ServoStatus& status) { return status.fault.fault != device::Fault::none; }
+
+bool is_calibrating(const ServoStatus& status)
+{
+    return status.calibration != device::CalibrationStep::done;
+}
+
+std::string_view words_on_phase(const ServoStatus& status)
+{
+    switch (status.phase) {
+    case record::Phase::waiting:
+        return "waiting for the other peer; is it running, and is the emulator between the two?";
+    case record::Phase::countdown: return "the session starts within a second";
+    case record::Phase::running:
+        return status.is_remote_heard ? "in session"
+                                      : "in session, but the other peer is silent: zero force";
+    case record::Phase::hands_off: return "in session, hands off";
+    case record::Phase::alone: return "the other peer has said goodbye: alone, with zero force";
+    case record::Phase::ended: return "the session has ended";
+    }
+    return "";
+}
+
+/// The most important state: a fault, the calibration or the session, in this order.
+std::string_view state_of(const ServoStatus& status)
+{
+    if (is_at_fault(status)) return "fault";
+    return is_calibrating(status) ? "calibrating" : record::name_of(status.phase);
+}
+
+std::string says(const ServoStatus& status, const Recovery& recovery)
+{
+    DeviceNews news{status.calibration, status.fault, false, recovery};
+    if (is_at_fault(status)) return describe(news);
+    news.is_of_calibration = true;
+    if (is_calibrating(status)) return describe(news);
+    return std::string{words_on_phase(status)};
+}
+
+Ordered shown_session(const Run& run)
+{
+    const auto& session = run.status.session;
+    if (!session) return nullptr;
+    return {{"number", session->number},
+            {"role", session->is_left ? "L" : "R"},
+            {"at_s", base::to_seconds(run.status.at - session->start)}};
+}
+
+Ordered shown_fault(const ServoStatus& status)
+{
+    if (!is_at_fault(status)) return nullptr;
+    return {{"fault", device::name_of(status.fault.fault)},
+            {"tripped_by", device::name_of(status.fault.trip)}};
 }
 
 } // namespace
@@ -167,27 +224,52 @@ json statistics_json(const Run& run)
     json out = configuration_json(run.options, run.device);
     out.erase("started_unix_s");
     out["session"] = session_json(run);
-    out["tick"] = tick_json(run.standing.loop);
+    out["tick"] = tick_json(run.status.loop);
     out["messages"] = messages_json(run);
     out["governor"] = governor_json(run);
     out["record_rows_lost"] = run.journal.lost();
     out["record_whole"] = run.options.record ? json(run.is_record_whole) : json{};
-    out["real_time"] = {{"fifo", run.standing.real_time.fifo},
-                        {"locked_memory", run.standing.real_time.locked_memory}};
+    out["real_time"] = {{"fifo", run.status.real_time.fifo},
+                        {"locked_memory", run.status.real_time.locked_memory}};
     out["refusal"] = nullptr;
-    if (const auto reason = run.standing.refusal) out["refusal"] = words_for(*reason);
+    if (const auto reason = run.status.refusal) out["refusal"] = describe(*reason);
     out["valid"] = why_not_valid(run).empty();
     return out;
 }
 
+Ordered show_json(const Run& run, const Recovery& recovery)
+{
+    const Options& options = run.options;
+    const ServoStatus& status = run.status;
+    return {{"program", "hapnet-peer"},
+            {"version", base::version()},
+            {"peer_id", options.id},
+            {"task", device::name_of(options.task)},
+            {"scene", options.scene_name},
+            {"algorithm", name_of(options.algorithm)},
+            {"seed", options.seed.value()},
+            {"duration_s", base::to_seconds(options.duration)},
+            {"device", run.device},
+            {"force_limit_n", status.force_limit_n},
+            {"elapsed_s", base::to_seconds(status.elapsed)},
+            {"state", state_of(status)},
+            {"says", says(status, recovery)},
+            {"phase", record::name_of(status.phase)},
+            {"remote_heard", status.is_remote_heard},
+            {"session", shown_session(run)},
+            {"force_n", base::norm(status.force)},
+            {"governor", device::name_of(status.governor_state)},
+            {"fault", shown_fault(status)}};
+}
+
 std::string summary(const Run& run)
 {
-    const LoopCounters& loop = run.standing.loop;
-    const Counters& c = run.standing.messages;
+    const LoopCounters& loop = run.status.loop;
+    const Counters& c = run.status.messages;
     const auto p99 = loop.late.quantile(0.99);
     std::string text =
         fmt::format("hapnet-peer {}: {} ticks, {} missed", run.options.id, loop.ticks, loop.missed);
-    if (p99) text += fmt::format(", 99 % at most {:.0f} us late", base::to_seconds(*p99) * 1e6);
+    if (p99) text += fmt::format(", p99 lateness {:.0f} us", base::to_seconds(*p99) * 1e6);
     text += fmt::format("; {} states sent, {} received", c.sent, c.states);
     if (const auto why = why_not_valid(run); !why.empty()) {
         text += fmt::format("; NOT VALID as a measurement: {}", why);
@@ -205,7 +287,7 @@ std::string summary(const Run& run)
     return text;
 }
 
-std::string_view words_for(wire::ByeReason reason)
+std::string_view describe(wire::ByeReason reason)
 {
     switch (reason) {
     case wire::ByeReason::finished: return "finished";

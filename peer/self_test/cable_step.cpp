@@ -6,12 +6,12 @@
 
 namespace hapnet::peer::self_test {
 
-Turn CableStep::on_tick(const Feeling& feeling, base::TimePoint now)
+StepRequest CableStep::on_tick(const StepInput& input, base::TimePoint now)
 {
     if (!start_) start_ = now;
-    if (!heard_ || feeling.sample.sequence != sequence_) heard_ = now;
-    sequence_ = feeling.sample.sequence;
-    fault_ = feeling.sample.fault;
+    if (!heard_ || input.sample.sequence != sequence_) heard_ = now;
+    sequence_ = input.sample.sequence;
+    fault_ = input.sample.fault;
     was_well_ = was_well_ || fault_ == device::Fault::none;
     silent_for_ = now - *heard_;
     const bool is_over = fault_ != device::Fault::none || now - *start_ >= patience;
@@ -25,7 +25,7 @@ Outcome CableStep::outcome() const
     if (!was_well_) {
         outcome.verdict = Verdict::failed;
         outcome.text = fmt::format("the device was at fault before its cable could be pulled: {}",
-                                   device::words_for(fault_));
+                                   device::describe(fault_));
         return outcome;
     }
     const double noticed_ms = 1e3 * base::to_seconds(silent_for_);
@@ -33,7 +33,7 @@ Outcome CableStep::outcome() const
                          fault_ == device::Fault::timeout || fault_ == device::Fault::communication;
     outcome.verdict = is_loss ? Verdict::passed : Verdict::failed;
     outcome.figures = {{"noticed_after_ms", noticed_ms}};
-    outcome.text = fmt::format("noticed {:.0f} ms after its last word, as {}", noticed_ms,
+    outcome.text = fmt::format("noticed {:.0f} ms after its last report, as {}", noticed_ms,
                                device::name_of(fault_));
     return outcome;
 }

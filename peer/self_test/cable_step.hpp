@@ -15,7 +15,7 @@ class CableStep {
 public:
     static constexpr base::Duration patience{std::chrono::seconds{30}};
 
-    [[nodiscard]] Turn on_tick(const Feeling& feeling, base::TimePoint now);
+    [[nodiscard]] StepRequest on_tick(const StepInput& input, base::TimePoint now);
     [[nodiscard]] Outcome outcome() const;
 
 private:

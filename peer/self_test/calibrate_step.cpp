@@ -8,12 +8,12 @@ namespace hapnet::peer::self_test {
 
 namespace {
 
-Prompt prompt_for(const Feeling& feeling)
+Prompt prompt_for(const StepInput& input)
 {
-    if (feeling.sample.calibrated) {
-        return feeling.sample.docked ? Prompt::undock : Prompt::nothing;
+    if (input.sample.calibrated) {
+        return input.sample.docked ? Prompt::undock : Prompt::nothing;
     }
-    switch (feeling.calibration) {
+    switch (input.calibration) {
     case device::CalibrationStep::dock_stylus: return Prompt::dock;
     case device::CalibrationStep::sweep_joints: return Prompt::sweep;
     default: return Prompt::wait;
@@ -22,13 +22,13 @@ Prompt prompt_for(const Feeling& feeling)
 
 } // namespace
 
-Turn CalibrateStep::on_tick(const Feeling& feeling, base::TimePoint now)
+StepRequest CalibrateStep::on_tick(const StepInput& input, base::TimePoint now)
 {
     if (!start_) start_ = now;
     took_ = now - *start_;
-    prompt_ = prompt_for(feeling);
-    has_failed_ = feeling.calibration == device::CalibrationStep::failed;
-    const bool is_in_vain = has_failed_ || feeling.sample.fault == device::Fault::disconnected;
+    prompt_ = prompt_for(input);
+    has_failed_ = input.calibration == device::CalibrationStep::failed;
+    const bool is_in_vain = has_failed_ || input.sample.fault == device::Fault::disconnected;
     return {.is_done = prompt_ == Prompt::nothing || is_in_vain || took_ >= patience,
             .prompt = prompt_};
 }
@@ -40,9 +40,9 @@ Outcome CalibrateStep::outcome() const
     outcome.text = "the device is calibrated, and in a hand";
     if (prompt_ == Prompt::nothing) return outcome;
     outcome.verdict = Verdict::failed;
-    outcome.text = has_failed_ ? std::string{device::words_for(device::CalibrationStep::failed)}
-                               : fmt::format("not done after {:.0f} s; last it was: {}",
-                                             base::to_seconds(took_), words_for(prompt_));
+    outcome.text = has_failed_ ? std::string{device::describe(device::CalibrationStep::failed)}
+                               : fmt::format("not done after {:.0f} s; the last step was: {}",
+                                             base::to_seconds(took_), describe(prompt_));
     return outcome;
 }
 

@@ -20,10 +20,10 @@ double ForceStep::wanted_n(base::Duration into)
     return peak_n * std::clamp(base::to_seconds(edge) / base::to_seconds(ramp), 0.0, 1.0);
 }
 
-void ForceStep::watch(const Feeling& feeling, bool is_held, base::TimePoint now)
+void ForceStep::watch(const StepInput& input, bool is_held, base::TimePoint now)
 {
-    force_most_n_ = std::max(force_most_n_, base::norm(feeling.applied));
-    if (fault_ == device::Fault::none) fault_ = feeling.sample.fault;
+    force_most_n_ = std::max(force_most_n_, base::norm(input.applied));
+    if (fault_ == device::Fault::none) fault_ = input.sample.fault;
     if (is_held) {
         if (!held_since_) held_since_ = now;
         released_at_.reset();
@@ -33,16 +33,15 @@ void ForceStep::watch(const Feeling& feeling, bool is_held, base::TimePoint now)
         was_released_ = true;
     }
     const bool is_over = released_at_ && now - *released_at_ > zero_after;
-    if (is_over && base::norm(feeling.applied) > 0.0) outlasted_release_ = true;
+    if (is_over && base::norm(input.applied) > 0.0) outlasted_release_ = true;
 }
 
-Turn ForceStep::on_tick(const Feeling& feeling, base::TimePoint now)
+StepRequest ForceStep::on_tick(const StepInput& input, base::TimePoint now)
 {
     if (!start_) start_ = now;
-    was_up_ = was_up_ || !feeling.sample.gripping;
-    const bool is_held =
-        dead_man_ == DeadMan::simulated_hand || (was_up_ && feeling.sample.gripping);
-    watch(feeling, is_held, now);
+    was_up_ = was_up_ || !input.sample.gripping;
+    const bool is_held = dead_man_ == DeadMan::simulated_hand || (was_up_ && input.sample.gripping);
+    watch(input, is_held, now);
     const bool is_in_vain = fault_ != device::Fault::none || now - *start_ >= patience;
     if (is_in_vain) return {.is_done = true};
     if (!was_up_ && dead_man_ == DeadMan::person) return {.prompt = Prompt::release_button};
@@ -60,12 +59,13 @@ Outcome ForceStep::outcome() const
     Outcome outcome{.step = "force", .verdict = Verdict::failed, .text = {}};
     outcome.figures = {{"force_max_n", force_most_n_}};
     if (fault_ != device::Fault::none) {
-        outcome.text = device::words_for(fault_);
+        outcome.text = device::describe(fault_);
     } else if (outlasted_release_) {
         outcome.text = "the force outlasted the release of the button: do not use this device";
     } else if (!was_up_ && dead_man_ == DeadMan::person) {
-        outcome.text = "the button was down all the time: do not use this device, as letting go of "
-                       "it would stop nothing";
+        outcome.text =
+            "the button was down all the time: do not use this device, because releasing "
+            "it would stop nothing";
     } else if (!is_complete_) {
         outcome.verdict = Verdict::skipped;
         outcome.text = "the button was not held to the end of the ramp";
@@ -74,10 +74,10 @@ Outcome ForceStep::outcome() const
             fmt::format("the governor let only {:.2f} of {:.2f} N through", force_most_n_, peak_n);
     } else {
         outcome.verdict = Verdict::passed;
-        outcome.text = fmt::format("up to {:.2f} N were asked of the motors{}{}", force_most_n_,
+        outcome.text = fmt::format("the motors were told up to {:.2f} N{}{}", force_most_n_,
                                    was_released_ ? ", and none after a release" : "",
                                    dead_man_ == DeadMan::person
-                                       ? "; whether it pushed you to the right, only you can say"
+                                       ? "; check for yourself that it pushed you to the right"
                                        : "");
     }
     return outcome;

@@ -10,7 +10,7 @@
 
 namespace hapnet::peer::self_test {
 
-/// Who keeps the dead man's button down.
+/// The hand that keeps the dead man's button down.
 enum class DeadMan : std::uint8_t { person, simulated_hand };
 
 /// A ramp to 0.2 N along x in 2 s, a second there, and down again, only while the primary button is
@@ -28,11 +28,11 @@ public:
 
     explicit ForceStep(DeadMan dead_man) : dead_man_{dead_man} {}
 
-    [[nodiscard]] Turn on_tick(const Feeling& feeling, base::TimePoint now);
+    [[nodiscard]] StepRequest on_tick(const StepInput& input, base::TimePoint now);
     [[nodiscard]] Outcome outcome() const;
 
 private:
-    void watch(const Feeling& feeling, bool is_held, base::TimePoint now);
+    void watch(const StepInput& input, bool is_held, base::TimePoint now);
     [[nodiscard]] static double wanted_n(base::Duration into);
 
     DeadMan dead_man_;

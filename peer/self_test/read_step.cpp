@@ -15,11 +15,11 @@ constexpr std::size_t bar_most = 50; // characters
 
 } // namespace
 
-Turn ReadStep::on_tick(const Feeling& feeling, base::TimePoint now)
+StepRequest ReadStep::on_tick(const StepInput& input, base::TimePoint now)
 {
     if (!start_) start_ = now;
     now_ = now;
-    const device::Sample& sample = feeling.sample;
+    const device::Sample& sample = input.sample;
     if (fault_ == device::Fault::none) fault_ = sample.fault;
     if (sample.sequence != sequence_) {
         sequence_ = sample.sequence;
@@ -31,7 +31,7 @@ Turn ReadStep::on_tick(const Feeling& feeling, base::TimePoint now)
 
 void ReadStep::count_gap(base::Duration gap)
 {
-    ++words_;
+    ++reports_;
     all_gaps_.add(gap);
     const double gap_ms = 1e3 * base::to_seconds(gap);
     const auto edge = std::upper_bound(edges_ms.begin(), edges_ms.end(), gap_ms);
@@ -42,7 +42,7 @@ std::string ReadStep::drawing() const
 {
     const auto most = *std::max_element(gaps_.begin(), gaps_.end());
     if (most == 0) return "";
-    std::string text = "time between two words of the device:\n";
+    std::string text = "time between two reports of the device:\n";
     for (std::size_t i = 0; i < gaps_.size(); ++i) {
         const std::string from = i == 0 ? "0" : fmt::format("{}", edges_ms[i - 1]);
         const std::string to = i == edges_ms.size() ? "..." : fmt::format("{}", edges_ms[i]);
@@ -59,19 +59,21 @@ Outcome ReadStep::outcome() const
 {
     Outcome outcome{.step = "read", .verdict = Verdict::failed, .text = {}};
     const double seconds = start_ ? base::to_seconds(now_ - *start_) : 0.0;
-    const double rate_hz = seconds > 0.0 ? static_cast<double>(words_) / seconds : 0.0;
+    const double rate_hz = seconds > 0.0 ? static_cast<double>(reports_) / seconds : 0.0;
     const double median_s = base::to_seconds(all_gaps_.quantile(0.5).value_or(base::Duration{}));
     const double most_s = base::to_seconds(all_gaps_.max().value_or(base::Duration{}));
     outcome.figures = {
         {"rate_hz", rate_hz}, {"gap_p50_ms", 1e3 * median_s}, {"gap_max_ms", 1e3 * most_s}};
     outcome.drawing = drawing();
-    outcome.text = fmt::format("{:.0f} words a second, {:.1f} ms apart in the median and {:.1f} ms "
-                               "at most",
-                               rate_hz, 1e3 * median_s, 1e3 * most_s);
+    outcome.text =
+        fmt::format("{:.0f} reports a second, {:.1f} ms apart in the median and {:.1f} ms "
+                    "at most",
+                    rate_hz, 1e3 * median_s, 1e3 * most_s);
     if (fault_ != device::Fault::none) {
-        outcome.text = fmt::format("{}; {}", device::words_for(fault_), outcome.text);
-    } else if (words_ == 0) {
-        outcome.text = "the device says nothing, although it may have been moved: is it powered?";
+        outcome.text = fmt::format("{}; {}", device::describe(fault_), outcome.text);
+    } else if (reports_ == 0) {
+        outcome.text =
+            "the device sent no reports, although it may have been moved: check its power";
     } else if (median_s * rate_share_wanted * nominal_hz_ > 1.0) {
         outcome.text += fmt::format(", but {:.0f} a second are nominal: another cable, port or "
                                     "hub may help",

@@ -12,15 +12,15 @@
 namespace hapnet::peer::self_test {
 
 /// Reads without force: how often the device has something new to say, and how long it is silent.
-/// It is judged by the median of the time between two words, as some rest while nothing moves.
+/// It is judged by the median of the time between two reports, as some rest while nothing moves.
 class ReadStep {
 public:
     ReadStep(base::Duration length, double nominal_hz) : length_{length}, nominal_hz_{nominal_hz} {}
 
-    [[nodiscard]] Turn on_tick(const Feeling& feeling, base::TimePoint now);
+    [[nodiscard]] StepRequest on_tick(const StepInput& input, base::TimePoint now);
     [[nodiscard]] Outcome outcome() const;
 
-    /// The upper edges of the histogram's bins of the time between two words; the last has none.
+    /// The upper edges of the histogram's bins of the time between two reports; the last has none.
     static constexpr std::array edges_ms{0.5, 0.9, 1.1, 1.5, 2.0, 5.0, 20.0};
 
 private:
@@ -33,7 +33,7 @@ private:
     std::optional<base::TimePoint> heard_;
     base::TimePoint now_;
     std::uint64_t sequence_ = 0;
-    std::uint64_t words_ = 0;
+    std::uint64_t reports_ = 0;
     base::DurationHistogram all_gaps_;
     std::array<std::uint64_t, edges_ms.size() + 1> gaps_{};
     device::Fault fault_ = device::Fault::none;

@@ -46,7 +46,7 @@ std::string report_text(const device::Device& device, const SelfTest& test)
             rest.remove_prefix(end + 1);
         }
     }
-    if (!test.is_finished()) text += "NOT FINISHED: this says nothing of the steps that are left\n";
+    if (!test.is_finished()) text += "NOT FINISHED: the remaining steps were not tested\n";
     return text;
 }
 

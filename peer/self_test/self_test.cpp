@@ -9,7 +9,7 @@ namespace hapnet::peer::self_test {
 
 namespace {
 
-/// What only points may rest while nobody touches it.
+/// A pointer without motors may rest while no hand touches it.
 double rate_wanted_hz(const device::Capabilities& capabilities)
 {
     return capabilities.axes_out > 0 ? capabilities.rate_hz : 0.0;
@@ -44,19 +44,19 @@ SelfTest::SelfTest(const Plan& plan)
     skip_to_next();
 }
 
-Turn SelfTest::on_tick(const Feeling& feeling, base::TimePoint now)
+StepRequest SelfTest::on_tick(const StepInput& input, base::TimePoint now)
 {
     if (at_ == steps_.size()) return {.is_done = true};
     auto& step = steps_[at_].step;
-    Turn turn = std::visit([&](auto& one) { return one.on_tick(feeling, now); }, step);
-    const bool is_lost = feeling.sample.fault == device::Fault::disconnected &&
+    StepRequest request = std::visit([&](auto& one) { return one.on_tick(input, now); }, step);
+    const bool is_lost = input.sample.fault == device::Fault::disconnected &&
                          !std::holds_alternative<CableStep>(step);
-    if (!turn.is_done && !is_lost) return turn;
+    if (!request.is_done && !is_lost) return request;
     outcomes_.push_back(std::visit([](const auto& one) { return one.outcome(); }, step));
     ++at_;
     if (is_lost) {
         outcomes_.back().verdict = Verdict::failed;
-        outcomes_.back().text = device::words_for(device::Fault::disconnected);
+        outcomes_.back().text = device::describe(device::Fault::disconnected);
         skip_rest("the device has gone");
         return {.is_done = true};
     }

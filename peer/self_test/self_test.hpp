@@ -15,7 +15,7 @@
 
 namespace hapnet::peer::self_test {
 
-/// What is to be tried.
+/// The settings of a self-test.
 struct Plan {
     device::Capabilities capabilities{};
     bool is_real = true; // a person holds it, and it has a cable
@@ -28,15 +28,15 @@ class SelfTest {
 public:
     explicit SelfTest(const Plan& plan);
 
-    /// What to do in this tick. `is_done` is that of the whole test.
-    [[nodiscard]] Turn on_tick(const Feeling& feeling, base::TimePoint now);
+    /// The request for this tick. `is_done` refers to the whole test.
+    [[nodiscard]] StepRequest on_tick(const StepInput& input, base::TimePoint now);
 
-    /// Of the steps that are over, or were left out; after the end of all.
+    /// Outcomes of the finished and the skipped steps; after the test, of every step.
     [[nodiscard]] const std::vector<Outcome>& outcomes() const { return outcomes_; }
-    /// The test is broken off: what is under way and what would come is skipped.
+    /// Breaks the test off: the current step and all later ones are skipped.
     void stop() { skip_rest("the test was broken off"); }
-    /// Every step was gone through or left out beforehand: nobody broke the test off, and the
-    /// device was there to the end.
+    /// Every step was done or skipped by choice: the test was not broken off, and the device stayed
+    /// connected.
     [[nodiscard]] bool is_finished() const { return at_ == steps_.size() && !is_cut_short_; }
 
 private:

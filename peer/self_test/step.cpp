@@ -4,24 +4,14 @@
 
 namespace hapnet::peer::self_test {
 
-std::string_view name_of(Verdict verdict)
-{
-    switch (verdict) {
-    case Verdict::passed: return "passed";
-    case Verdict::failed: return "failed";
-    case Verdict::skipped: return "skipped";
-    }
-    return "failed";
-}
-
-std::string_view words_for(Prompt prompt)
+std::string_view describe(Prompt prompt)
 {
     switch (prompt) {
     case Prompt::nothing: return "";
     case Prompt::hold_still: return "reading, without force: move it a little";
-    case Prompt::wait: return device::words_for(device::CalibrationStep::busy);
-    case Prompt::dock: return device::words_for(device::CalibrationStep::dock_stylus);
-    case Prompt::sweep: return device::words_for(device::CalibrationStep::sweep_joints);
+    case Prompt::wait: return device::describe(device::CalibrationStep::busy);
+    case Prompt::dock: return device::describe(device::CalibrationStep::dock_stylus);
+    case Prompt::sweep: return device::describe(device::CalibrationStep::sweep_joints);
     case Prompt::undock: return "take the stylus out of its holder";
     case Prompt::release_button: return "let go of the primary button first";
     case Prompt::hold_button:

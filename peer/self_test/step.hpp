@@ -12,9 +12,13 @@
 namespace hapnet::peer::self_test {
 
 enum class Verdict : std::uint8_t { passed, failed, skipped };
-[[nodiscard]] std::string_view name_of(Verdict verdict);
+constexpr auto names_of(base::Tag<Verdict> /*enum*/)
+{
+    return base::names("passed", "failed", "skipped");
+}
+using base::name_of;
 
-/// What the person is to do now.
+/// The instruction for the person.
 enum class Prompt : std::uint8_t {
     nothing,
     hold_still, // it reads
@@ -28,15 +32,15 @@ enum class Prompt : std::uint8_t {
     pull_cable,
 };
 /// For a person; "" for nothing.
-[[nodiscard]] std::string_view words_for(Prompt prompt);
+[[nodiscard]] std::string_view describe(Prompt prompt);
 
-/// A number that was found, with its unit at the end of its name.
+/// A measured number; its name ends in its unit.
 struct Figure {
     std::string_view name;
     double value = 0.0;
 };
 
-/// How a step went.
+/// The result of a step.
 struct Outcome {
     std::string_view step;
     Verdict verdict = Verdict::skipped;
@@ -45,15 +49,15 @@ struct Outcome {
     std::string drawing{}; // lines of text, or ""
 };
 
-/// What a step is told in a tick.
-struct Feeling {
+/// The input of a step in a tick.
+struct StepInput {
     device::Sample sample;
     device::CalibrationStep calibration = device::CalibrationStep::done;
     base::Force applied; // of the tick before, at the hand
 };
 
-/// What a step wants of the device in a tick.
-struct Turn {
+/// The request of a step to the device in a tick.
+struct StepRequest {
     base::Force wanted{};
     bool permitted = false;
     bool is_done = false;

@@ -136,6 +136,35 @@ tl::expected<Node, DocumentError> convert(const toml::node& node)
                                                "duration is written as a string: \"10s\""}};
 }
 
+/// Whether a line is one of YAML: "delay: 80ms", "- up:", "---".
+bool is_yaml(std::string_view line)
+{
+    const auto start = line.find_first_not_of(" \t-");
+    if (line.starts_with("---")) return true;
+    if (start == std::string_view::npos) return false;
+    line.remove_prefix(start);
+    const auto end = line.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789_-.");
+    return end != 0 && end != std::string_view::npos && line[end] == ':' &&
+           (end + 1 == line.size() || line[end + 1] == ' ' || line[end + 1] == '\r');
+}
+
+/// What a text seems to be that is not TOML; "" where that cannot be told.
+std::string_view other_format(std::string_view text)
+{
+    const auto start = text.find_first_not_of(" \t\r\n");
+    if (start != std::string_view::npos && text[start] == '{') return "JSON";
+    while (!text.empty()) {
+        const auto end = std::min(text.find('\n'), text.size());
+        const auto line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        const auto first = line.find_first_not_of(" \t\r");
+        if (first == std::string_view::npos || line[first] == '#') continue;
+        return is_yaml(line) ? "YAML" : "";
+    }
+    return "";
+}
+
 } // namespace
 
 tl::expected<Node, DocumentError> parse_document(std::string_view text, std::size_t bytes_max)
@@ -147,8 +176,14 @@ tl::expected<Node, DocumentError> parse_document(std::string_view text, std::siz
     if (auto error = TextCheck{}.run(text)) return tl::unexpected{*std::move(error)};
     const toml::parse_result parsed = toml::parse(text);
     if (!parsed) {
-        return tl::unexpected{DocumentError{place_of(parsed.error().source()),
-                                            std::string{parsed.error().description()}}};
+        const auto place = place_of(parsed.error().source());
+        if (const auto format = other_format(text); !format.empty()) {
+            return tl::unexpected{DocumentError{
+                place, fmt::format("this looks like {}; what belongs here is TOML: lines such as "
+                                   "key = \"value\"",
+                                   format)}};
+        }
+        return tl::unexpected{DocumentError{place, std::string{parsed.error().description()}}};
     }
     return convert(parsed.table());
 }

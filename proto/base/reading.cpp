@@ -69,21 +69,26 @@ Result<std::string> Reading::open(const std::string& name) const
     return open_(name);
 }
 
-std::string suggestion(std::string_view word, std::span<const std::string_view> possible)
+std::optional<std::string_view> nearest(std::string_view word,
+                                        std::span<const std::string_view> possible)
 {
-    std::string_view nearest;
+    std::optional<std::string_view> found;
     std::size_t least = 1 + word.substr(0, 40).size() / 3;
-    std::string all;
     for (const std::string_view candidate : possible) {
         const auto changes = distance(word.substr(0, 40), candidate);
-        if (changes <= least && changes < candidate.size()) {
-            least = changes - std::min<std::size_t>(changes, 1);
-            nearest = candidate;
-        }
-        all += fmt::format("{}{}", all.empty() ? "" : ", ", candidate);
+        if (changes > least || changes >= candidate.size()) continue;
+        least = changes - std::min<std::size_t>(changes, 1);
+        found = candidate;
     }
-    if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
-    return fmt::format("use one of {}", all);
+    return found;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> possible)
+{
+    if (const auto meant = nearest(word, possible)) {
+        return fmt::format("did you mean '{}'?", *meant);
+    }
+    return fmt::format("use one of {}", fmt::join(possible, ", "));
 }
 
 const Node* TableReader::find(std::string_view key)

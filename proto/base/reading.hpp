@@ -49,6 +49,10 @@ private:
     std::optional<std::string> complaint_;
 };
 
+/// The one of `possible` that a mistyped word was probably meant to be.
+[[nodiscard]] std::optional<std::string_view> nearest(std::string_view word,
+                                                      std::span<const std::string_view> possible);
+
 /// "did you mean 'jitter'?" or "use one of delay, jitter, ...".
 [[nodiscard]] std::string suggestion(std::string_view word,
                                      std::span<const std::string_view> possible);

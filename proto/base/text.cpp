@@ -26,21 +26,39 @@ struct WholeUnit {
     std::uint64_t size;
 };
 
-constexpr std::array<Unit, 5> units{{
+constexpr std::array<Unit, 11> units{{
     {"ns", 1.0},
     {"us", 1e3},
     {"ms", 1e6},
     {"s", 1e9},
     {"min", 60e9},
+    // As tc and others spell them.
+    {"usec", 1e3},
+    {"usecs", 1e3},
+    {"msec", 1e6},
+    {"msecs", 1e6},
+    {"sec", 1e9},
+    {"secs", 1e9},
 }};
 
 constexpr std::uint64_t most_bits_per_second = 1'000'000'000'000;
-constexpr std::array<WholeUnit, 5> rate_units{{
+constexpr std::array<WholeUnit, 15> rate_units{{
     {"Tbit", 1'000'000'000'000},
     {"Gbit", 1'000'000'000},
     {"Mbit", 1'000'000},
     {"kbit", 1'000},
     {"bit", 1},
+    // Other spellings, never printed: all rates are whole numbers of bit.
+    {"tbit", 1'000'000'000'000},
+    {"gbit", 1'000'000'000},
+    {"mbit", 1'000'000},
+    {"Kbit", 1'000},
+    {"Tbps", 1'000'000'000'000},
+    {"Gbps", 1'000'000'000},
+    {"Mbps", 1'000'000},
+    {"Kbps", 1'000},
+    {"kbit/sec", 1'000},
+    {"Mbit/sec", 1'000'000},
 }};
 
 constexpr std::uint64_t most_bytes = 1ULL << 40;
@@ -123,6 +141,10 @@ Result<Duration> parse_duration(std::string_view text)
             text));
     };
     if (!count) return expected();
+    if (unit_name == "m") {
+        return fail(fmt::format("'{0}' may be minutes or milliseconds: write {1}min or {1}ms", text,
+                                digits));
+    }
     if (unit_name.empty() && *count == 0.0) return Duration{0};
     for (const Unit& unit : units) {
         if (unit.name != unit_name) continue;
@@ -187,6 +209,17 @@ Result<std::uint64_t> parse_bit_rate(std::string_view text)
 {
     auto quantity = split(text);
     if (quantity.unit.ends_with("/s")) quantity.unit.remove_suffix(2);
+    if (number(quantity.digits) && quantity.unit.ends_with("bps") &&
+        (quantity.unit == "bps" || quantity.unit == "kbps" || quantity.unit == "mbps" ||
+         quantity.unit == "gbps")) {
+        const std::string_view prefix = quantity.unit.substr(0, quantity.unit.size() - 3);
+        return fail(fmt::format("'{}' is a number of bytes to tc and of bits to others: write {}{}"
+                                "bit/s for bits a second",
+                                text, quantity.digits,
+                                prefix == "m"   ? "M"
+                                : prefix == "g" ? "G"
+                                                : prefix));
+    }
     const auto rate = whole(quantity, rate_units);
     if (!rate) {
         return fail(fmt::format("'{}' is not a rate: write a number and its unit, such as "

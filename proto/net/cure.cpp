@@ -36,12 +36,27 @@ std::string_view cure_of(const std::error_code& error)
     }
 }
 
+std::string_view connection_cure(int error)
+{
+    switch (error) {
+    case ENOENT:
+    case ECONNREFUSED: return "start the emulator or the peer with --control and this path";
+    case EACCES: return "only the user who started the program may control it";
+    default: return "name the --control of an emulator or a peer";
+    }
+}
+
 } // namespace
 
 std::string explained(const std::system_error& error)
 {
     const auto cure = cure_of(error.code());
     return cure.empty() ? error.what() : fmt::format("{}; {}", error.what(), cure);
+}
+
+std::string explained_connection(const std::system_error& error)
+{
+    return fmt::format("{}; {}", error.what(), connection_cure(error.code().value()));
 }
 
 } // namespace hapnet::net

@@ -10,4 +10,7 @@ namespace hapnet::net {
 /// What the system refused, and what a person can do about it.
 [[nodiscard]] std::string explained(const std::system_error& error);
 
+/// The same of a control socket that a client could not connect to.
+[[nodiscard]] std::string explained_connection(const std::system_error& error);
+
 } // namespace hapnet::net

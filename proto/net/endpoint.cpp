@@ -125,6 +125,14 @@ base::Result<HostPort> parse_host_port(std::string_view text)
     return HostPort{std::string{host}, static_cast<std::uint16_t>(*port)};
 }
 
+base::Result<HostPort> parse_listen_address(std::string_view text)
+{
+    const auto digits = text.substr(text.starts_with(':') ? 1 : 0);
+    const bool is_port =
+        !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+    return parse_host_port(is_port ? fmt::format("127.0.0.1:{}", digits) : std::string{text});
+}
+
 Endpoint resolve(const HostPort& where, int family)
 {
     addrinfo hints{};

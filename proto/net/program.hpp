@@ -9,11 +9,13 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 namespace hapnet::net {
@@ -31,6 +33,14 @@ struct Answer {
 /// A command line as it was understood; the error says what is wrong with it and how to mend it.
 template <typename Options>
 using CommandLine = base::Result<std::variant<Options, Answer>>;
+
+/// What a program does that is not to run: what `said`, a text to print or an error, calls for.
+[[nodiscard]] inline tl::expected<Answer, base::Error>
+answer_of(base::Result<std::optional<std::string>> said)
+{
+    if (!said) return tl::unexpected{said.error()};
+    return Answer{**std::move(said)};
+}
 
 /// Text for a person, on stderr. What nobody can read is not an error: a closed or full stderr
 /// must not end a session.

@@ -7,8 +7,8 @@
 
 namespace hapnet::record {
 
-/// How a field of type T stands in a row: its type and unit as the header names them, its bytes,
-/// and both ways between. take() is false when the bytes are not ones that put() writes.
+/// The encoding of a field of type T in a row: its type and unit as the header names them, its
+/// bytes, and both ways between. take() is false when the bytes are not ones that put() writes.
 template <typename T>
 struct FieldType;
 
@@ -84,14 +84,14 @@ struct FieldType<Phase> {
     static bool take(base::ByteReader& in, Phase& value)
     {
         const std::uint8_t byte = in.u8();
-        if (byte >= phase_names.size()) return false;
+        if (byte >= base::names_of_enum<Phase>.size()) return false;
         value = static_cast<Phase>(byte);
         return true;
     }
 };
 
 /// No clock and no session of ours reads more than 36 years; below, sums of several times cannot
-/// overflow in whoever reads a damaged record.
+/// overflow in a reader of a damaged record.
 inline constexpr base::Duration time_max{std::int64_t{1} << 60};
 
 template <>

@@ -64,7 +64,7 @@ constexpr void for_each_field(R& row, auto&& visit)
     visit("seed", row.seed);
 }
 
-/// What a row is called in the header, and the byte that it starts with. 0 is no kind, so that a
+/// A row's name in the header, and the byte that it starts with. 0 is no kind, so that a
 /// block of zeros, as a file system may leave behind a crash, is not a row.
 template <typename R>
 struct Kind;

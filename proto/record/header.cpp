@@ -23,7 +23,7 @@ nlohmann::json schema_of()
     for_each_field(row, [&]<typename T>(std::string_view name, const T&) {
         nlohmann::json field{{"name", name}, {"type", FieldType<T>::type}, {"offset", offset}};
         if (!FieldType<T>::unit.empty()) field["unit"] = FieldType<T>::unit;
-        if constexpr (std::same_as<T, Phase>) field["values"] = phase_names;
+        if constexpr (std::same_as<T, Phase>) field["values"] = base::names_of_enum<Phase>;
         fields.push_back(std::move(field));
         offset += FieldType<T>::bytes;
     });

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
 #include "proto/base/space.hpp"
 #include "proto/base/time.hpp"
 
@@ -9,36 +10,33 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <variant>
 
 namespace hapnet::record {
 
-/// Where a session stands for this peer.
+/// The phase of a session, as this peer sees it.
 enum class Phase : std::uint8_t {
     waiting,   ///< no T0 agreed
     countdown, ///< T0 agreed, not yet come
     running,   ///< from T0 until the hands let go: what the metrics score
-    hands_off, ///< the tail in which nobody touches and the copies must agree again
+    hands_off, ///< the tail in which no hand touches and the copies must agree again
     alone,     ///< the other side has gone; zero force until the own end
     ended,
 };
 
-/// The words of the phases, in order; also in the header of a record and in its CSV.
-inline constexpr std::array<std::string_view, 6> phase_names{"waiting",   "countdown", "running",
-                                                             "hands_off", "alone",     "ended"};
-
-[[nodiscard]] constexpr std::string_view name_of(Phase phase)
+/// Also in the header of a record and in its CSV.
+constexpr auto names_of(base::Tag<Phase> /*enum*/)
 {
-    return phase_names.at(static_cast<std::size_t>(phase));
+    return base::names("waiting", "countdown", "running", "hands_off", "alone", "ended");
 }
+using base::name_of;
 
-/// One turn of the haptic loop. Times are this peer's CLOCK_MONOTONIC, lengths SI.
+/// One tick of the haptic loop. Times are this peer's CLOCK_MONOTONIC, lengths SI.
 struct TickRow {
     std::uint64_t tick = 0;
     /// When the loop was to wake.
     base::TimePoint due{};
-    /// How long after `due` it woke.
+    /// The time from `due` until it woke.
     base::Duration late{};
     /// Ticks skipped between the row before and this one.
     std::uint32_t missed_before = 0;
@@ -53,13 +51,13 @@ struct TickRow {
     base::Velocity hip_velocity;
     base::Position cube;
     base::Velocity cube_velocity;
-    /// What the scene does to the HIP, before the governor.
+    /// The scene's force on the HIP, before the governor.
     base::Force contact;
-    /// What the device is told, after the governor.
+    /// The force that the device is told, after the governor.
     base::Force device;
     /// The remote contact force as this tick used it.
     base::Force remote;
-    /// What else the device said: the session's forces follow from these and the messages.
+    /// The rest of the device's sample: the session's forces follow from these and the messages.
     bool gripping = false;
     bool docked = false;
     bool calibrated = true;
@@ -67,7 +65,7 @@ struct TickRow {
     std::uint8_t fault = 0; // device::Fault
     /// Presses of the primary button, counted.
     std::uint16_t presses = 0;
-    /// Grows with every word from the device; its lowest bits.
+    /// Grows with every report from the device; its lowest bits.
     std::uint16_t sample_sequence = 0;
     /// device::GovernorState after this tick.
     std::uint8_t governor = 0;
@@ -86,7 +84,7 @@ struct MessageRow {
     std::uint64_t tick = 0;
     /// The kernel's receive stamp.
     base::TimePoint received_at{};
-    /// How much of `bytes` is the datagram; at most bytes_max.
+    /// The size of the datagram in `bytes`; at most bytes_max.
     std::uint16_t size = 0;
     std::array<std::byte, bytes_max> bytes{};
 
@@ -98,7 +96,7 @@ struct MessageRow {
     friend bool operator==(const MessageRow&, const MessageRow&) = default;
 };
 
-/// What both peers agreed on; written when T0 is agreed and whenever any of it changes.
+/// The agreement of both peers; written when T0 is agreed and whenever any of it changes.
 struct SessionRow {
     /// T0 on this peer's clock.
     base::TimePoint start{};

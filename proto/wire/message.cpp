@@ -46,7 +46,7 @@ void put_header(ByteWriter& out, Type type, std::uint32_t session)
     out.u32(session);
 }
 
-/// Times farther from the clock's zero than 36 years are nobody's; refusing them keeps every
+/// No clock reads a time farther from its zero than 36 years; refusing them keeps every
 /// difference of two times within range.
 constexpr std::int64_t time_max_ns = std::int64_t{1} << 60;
 
@@ -141,7 +141,7 @@ void put(ByteWriter& out, const Hello& hello)
     for (auto i = task.size(); i < TaskName::bytes_max; ++i) out.u8(0);
 }
 
-/// What is wrong with a message; nullptr: nothing.
+/// The error in a message; nullptr: none.
 using Fault = const char*;
 
 Fault take(ByteReader& in, Hello& hello)

@@ -69,7 +69,7 @@ struct Hello {
     friend bool operator==(const Hello&, const Hello&) = default;
 };
 
-/// What a peer says of a body it moves: absolute state, and what this peer itself has caused
+/// A body that a peer moves: its absolute state, and the effects that this peer itself has caused
 /// since the session began. The sums are in billionths of a metre and of a newton second; as
 /// running sums they survive loss, reordering and duplication.
 struct BodyState {

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/collide/box_box.hpp"
 
-#include "scene/collide/edge_manifold.hpp"
-#include "scene/collide/face_manifold.hpp"
-#include "scene/collide/features.hpp"
-#include "scene/collide/measures.hpp"
+#include "scene/collide/clip.hpp"
+#include "scene/collide/manifold.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +49,7 @@ double face_separation(const OrientedBox& owner, const OrientedBox& other, int a
 {
     const glm::dvec3& normal = owner.axes[axis];
     return std::abs(glm::dot(normal, other.centre - owner.centre)) -
-           (owner.half[axis] + half_shadow(other, normal));
+           (owner.half[axis] + half_projection(other, normal));
 }
 
 double face_separation_of(const OrientedBox& a, const OrientedBox& b, int axis)
@@ -66,7 +64,7 @@ bool edges_separate(const OrientedBox& a, const OrientedBox& b, EdgePair edges, 
     const double square = glm::dot(normal, normal);
     if (square < parallel) return false;
     const double separation = std::abs(glm::dot(normal, b.centre - a.centre)) -
-                              (half_shadow(a, normal) + half_shadow(b, normal));
+                              (half_projection(a, normal) + half_projection(b, normal));
     return separation > margin * std::sqrt(square);
 }
 
@@ -74,7 +72,7 @@ Manifold exchanged(Manifold manifold)
 {
     manifold.normal = -manifold.normal;
     for (ContactPoint& point : manifold.touching())
-        point.feature = meeting_exchanged(point.feature);
+        point.feature = swapped_feature_pair(point.feature);
     return manifold;
 }
 

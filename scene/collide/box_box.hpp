@@ -4,8 +4,6 @@
 
 #include "scene/collide/manifold.hpp"
 
-#include <optional>
-
 namespace hapnet::scene {
 
 /// The axis that decided last time: tried first the next time, and kept unless another is clearly
@@ -17,24 +15,12 @@ struct BoxBoxMemory {
 /// Where two boxes touch: separating axes, then clipping of the faces (or two edges' closest
 /// points), reduced to four points in a fixed order. Points up to `margin` >= 0 apart count; no
 /// points when the boxes are farther apart, though within the margin there may be none either,
-/// where corners pass each other. Boxes that overlap have one at least. All tolerances are relative
-/// to the smallest half edge of the two: an axis is kept, and a face taken before an edge, unless
-/// another is better by more than 1/128; edges of faces that lie flush count as one within 1/256.
-/// A feature is face, edge or corner of each box, see features.hpp. Mirrored boxes give the same
-/// points mirrored, to the bit.
+/// where corners pass each other. SweptBoxes that overlap have one at least. All tolerances are
+/// relative to the smallest half edge of the two: an axis is kept, and a face taken before an edge,
+/// unless another is better by more than 1/128; edges of faces that lie flush count as one within
+/// 1/256. A feature is face, edge or corner of each box, see features.hpp. Mirrored boxes give the
+/// same points mirrored, to the bit.
 [[nodiscard]] Manifold collide(const OrientedBox& a, const OrientedBox& b, double margin,
                                BoxBoxMemory& memory);
-
-/// When and on which axis two boxes that keep their orientation first touch.
-struct Impact {
-    double time = 0.0;      // seconds from now
-    glm::dvec3 normal{0.0}; // unit, from the first to the second
-};
-
-/// The first touch of `b` moving at `relative_velocity` seen from `a`, within [0, time_max];
-/// nullopt when there is none, or when they overlap already. Exact for boxes that do not turn.
-[[nodiscard]] std::optional<Impact> first_touch(const OrientedBox& a, const OrientedBox& b,
-                                                const glm::dvec3& relative_velocity,
-                                                double time_max);
 
 } // namespace hapnet::scene

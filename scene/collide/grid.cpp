@@ -15,18 +15,18 @@ constexpr unsigned cell_bits = 21;
 // Of the median box, so that a box that reaches far ahead still lies in few cells.
 constexpr double cell_edges = 3.0;
 
-double largest_edge(const Box& box)
+double largest_edge(const Aabb& box)
 {
     const glm::dvec3 size = box.size();
     return std::max({size.x, size.y, size.z});
 }
 
-double median_edge(std::span<const Box> boxes)
+double median_edge(std::span<const Aabb> boxes)
 {
     if (boxes.empty()) return 1.0;
     std::vector<double> edges;
     edges.reserve(boxes.size());
-    for (const Box& box : boxes) edges.push_back(largest_edge(box));
+    for (const Aabb& box : boxes) edges.push_back(largest_edge(box));
     const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
     std::nth_element(edges.begin(), middle, edges.end());
     return *middle;
@@ -34,7 +34,7 @@ double median_edge(std::span<const Box> boxes)
 
 } // namespace
 
-Grid::Grid(std::span<const Box> boxes)
+Grid::Grid(std::span<const Aabb> boxes)
     : nodes_(boxes.size()),
       entries_(boxes.size() * cells_each),
       heads_(std::bit_ceil(4 * boxes.size() + 1), none),
@@ -50,7 +50,7 @@ Grid::Grid(std::span<const Box> boxes)
     }
 }
 
-void Grid::move(BodyId id, const Box& box)
+void Grid::move(BodyId id, const Aabb& box)
 {
     Node& node = nodes_[id];
     const Cells cells = cells_of(box);
@@ -71,7 +71,7 @@ std::int32_t Grid::cell_at(double coordinate) const
     return towards_zero - static_cast<std::int32_t>(static_cast<double>(towards_zero) > cell);
 }
 
-Grid::Cells Grid::cells_of(const Box& box) const
+Grid::Cells Grid::cells_of(const Aabb& box) const
 {
     return {{cell_at(box.low.x), cell_at(box.low.y), cell_at(box.low.z)},
             {cell_at(box.high.x), cell_at(box.high.y), cell_at(box.high.z)}};

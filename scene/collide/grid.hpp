@@ -4,7 +4,7 @@
 
 #include "scene/bodies.hpp"
 #include "scene/bounded.hpp"
-#include "scene/collide/box.hpp"
+#include "scene/collide/aabb.hpp"
 
 #include <algorithm>
 #include <span>
@@ -19,22 +19,22 @@ namespace hapnet::scene {
 class Grid {
 public:
     /// The boxes of all bodies, by their ids.
-    explicit Grid(std::span<const Box> boxes);
+    explicit Grid(std::span<const Aabb> boxes);
 
-    [[nodiscard]] const Box& box(BodyId id) const { return nodes_[id].box; }
-    void move(BodyId id, const Box& box);
+    [[nodiscard]] const Aabb& box(BodyId id) const { return nodes_[id].box; }
+    void move(BodyId id, const Aabb& box);
 
     /// Calls visit(id), of the body itself too, for every body whose box overlaps a body's.
     template <typename Visit>
-    void near(BodyId id, Visit visit) const
+    void for_overlapping(BodyId id, Visit visit) const
     {
-        near(nodes_[id].box, nodes_[id].cells, visit);
+        for_overlapping(nodes_[id].box, nodes_[id].cells, visit);
     }
     /// Calls visit(id) once for every body whose box overlaps the given.
     template <typename Visit>
-    void near(const Box& box, Visit visit) const
+    void for_overlapping(const Aabb& box, Visit visit) const
     {
-        near(box, cells_of(box), visit);
+        for_overlapping(box, cells_of(box), visit);
     }
 
     [[nodiscard]] double cell_m() const { return cell_; }
@@ -57,7 +57,7 @@ private:
         friend bool operator==(const Cells&, const Cells&) = default;
     };
     struct Node {
-        Box box;
+        Aabb box;
         Cells cells;
         BodyId place_in_large = none; // none: it is in the cells
     };
@@ -67,20 +67,20 @@ private:
         Link next = none;
         Link previous = none;
     };
-    struct Question {
-        const Box& box;
+    struct Query {
+        const Aabb& box;
         const Cell& low;
     };
 
     [[nodiscard]] std::int32_t cell_at(double coordinate) const;
-    [[nodiscard]] Cells cells_of(const Box& box) const;
+    [[nodiscard]] Cells cells_of(const Aabb& box) const;
     [[nodiscard]] static std::uint64_t key_of(const Cell& cell);
     [[nodiscard]] std::size_t bucket_of(std::uint64_t key) const;
     void put_in(BodyId id);
     void take_out(BodyId id);
 
     template <typename Visit>
-    void near(const Box& box, const Cells& cells, Visit& visit) const
+    void for_overlapping(const Aabb& box, const Cells& cells, Visit& visit) const
     {
         if (cells.count() > static_cast<double>(nodes_.size())) {
             for (BodyId id = 0; id < nodes_.size(); ++id)
@@ -97,7 +97,7 @@ private:
 
     /// Of the cells that both boxes reach into, it counts in the lowest.
     template <typename Visit>
-    void visit_cell(const Cell& cell, const Question& asked, Visit& visit) const
+    void visit_cell(const Cell& cell, const Query& asked, Visit& visit) const
     {
         const std::uint64_t key = key_of(cell);
         for (Link link = heads_[bucket_of(key)]; link != none; link = entries_[link].next) {

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -38,6 +41,12 @@ struct Manifold {
     [[nodiscard]] std::span<ContactPoint> touching() { return {points.data(), count}; }
 };
 
+/// Where the bodies of a contact are.
+struct ContactPlaces {
+    glm::dvec3 a{0.0};
+    glm::dvec3 b{0.0};
+};
+
 /// Whether some point is at most so far above the surface.
 [[nodiscard]] inline bool lies_on(const Manifold& manifold, double within)
 {
@@ -45,6 +54,45 @@ struct Manifold {
         if (point.separation <= within) return true;
     }
     return false;
+}
+
+/// A face, edge or corner of a box: one bit for each of the (one, two or three) faces that meet
+/// there. What two features have in common is their `and`; where both hold, their `or`.
+using FeatureBits = std::uint32_t;
+
+inline constexpr std::uint32_t feature_bits_count = 6;
+
+/// The face of an axis, 0..2, on its positive or negative side.
+[[nodiscard]] constexpr FeatureBits face_bit(int axis, bool is_positive)
+{
+    return 1U << (2U * static_cast<unsigned>(axis) + (is_positive ? 1U : 0U));
+}
+
+/// Which features of two boxes meet: as ContactPoint::feature holds it.
+[[nodiscard]] constexpr std::uint32_t feature_pair(FeatureBits first, FeatureBits second)
+{
+    return first | second << feature_bits_count;
+}
+
+/// The same meeting with the boxes exchanged.
+[[nodiscard]] constexpr std::uint32_t swapped_feature_pair(std::uint32_t feature)
+{
+    constexpr std::uint32_t mask = (1U << feature_bits_count) - 1U;
+    return feature_pair(feature >> feature_bits_count, feature & mask);
+}
+
+/// Half the length of a box's shadow along a direction, times the direction's length.
+[[nodiscard]] inline double half_projection(const OrientedBox& box, const glm::dvec3& direction)
+{
+    return box.half.x * std::abs(glm::dot(direction, box.axes[0])) +
+           box.half.y * std::abs(glm::dot(direction, box.axes[1])) +
+           box.half.z * std::abs(glm::dot(direction, box.axes[2]));
+}
+
+/// What tolerances are relative to.
+[[nodiscard]] inline double smallest_half(const OrientedBox& a, const OrientedBox& b)
+{
+    return std::min({a.half.x, a.half.y, a.half.z, b.half.x, b.half.y, b.half.z});
 }
 
 } // namespace hapnet::scene

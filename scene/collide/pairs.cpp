@@ -23,10 +23,10 @@ PairSet::PairSet(Room room)
       first_(room.firsts, none),
       second_(room.seconds, none),
       active_{room.pairs_max},
-      coming_{room.pairs_max},
+      arriving_{room.pairs_max},
       added_{room.pairs_max},
       parked_{room.pairs_max},
-      going_{room.pairs_max}
+      removed_{room.pairs_max}
 {}
 
 bool PairSet::add(std::uint32_t a, std::uint32_t b, bool is_active)
@@ -64,14 +64,14 @@ void PairSet::remove(PairIndex index)
         return;
     }
     set_active(index, false);
-    going_.add(index); // its place is free once it is off the list
+    removed_.add(index); // its place is free once it is off the list
 }
 
 void PairSet::set_active(PairIndex index, bool is_active)
 {
     std::uint8_t& mark = marks_[index];
     if (is_active) {
-        if ((mark & listed) == 0) coming_.add(index);
+        if ((mark & listed) == 0) arriving_.add(index);
         mark |= active_mark | listed;
         return;
     }
@@ -86,9 +86,9 @@ void PairSet::settle()
 {
     added_.clear();
     if (!parked_.is_empty()) drop_parked();
-    if (!coming_.is_empty()) merge_coming();
-    for (const PairIndex index : going_) free_.add(index);
-    going_.clear();
+    if (!arriving_.is_empty()) merge_arriving();
+    for (const PairIndex index : removed_) free_.add(index);
+    removed_.clear();
 }
 
 /// Where a pair is in the list of the active ones, or would be.
@@ -118,32 +118,32 @@ void PairSet::drop_parked()
     if (to != nullptr) active_.resize(static_cast<std::size_t>(to - active_.begin()));
     parked_.clear();
     std::size_t kept = 0;
-    for (const PairIndex index : coming_) {
+    for (const PairIndex index : arriving_) {
         if (is_active(index))
-            coming_[kept++] = index;
+            arriving_[kept++] = index;
         else
             marks_[index] = 0;
     }
-    coming_.resize(kept);
+    arriving_.resize(kept);
 }
 
-void PairSet::merge_coming()
+void PairSet::merge_arriving()
 {
-    std::sort(coming_.begin(), coming_.end(),
+    std::sort(arriving_.begin(), arriving_.end(),
               [this](PairIndex x, PairIndex y) { return keys_[x] < keys_[y]; });
     // From the back, so that what lies before the first to come stays as it is.
     PairIndex* from = active_.begin() + active_.size();
-    active_.resize(active_.size() + coming_.size());
+    active_.resize(active_.size() + arriving_.size());
     PairIndex* to = active_.end();
-    for (std::size_t i = coming_.size(); i > 0; --i) {
-        const PairIndex index = coming_[i - 1];
+    for (std::size_t i = arriving_.size(); i > 0; --i) {
+        const PairIndex index = arriving_[i - 1];
         PairIndex* const place = find(active_.begin(), from, index);
         to = std::copy_backward(place, from, to);
         *--to = index;
         from = place;
     }
-    std::swap(added_, coming_);
-    coming_.clear();
+    std::swap(added_, arriving_);
+    arriving_.clear();
 }
 
 void PairSet::link(PairIndex index)

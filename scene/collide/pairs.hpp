@@ -112,7 +112,7 @@ private:
     void unlink(PairIndex index);
     [[nodiscard]] PairIndex* find(PairIndex* first, PairIndex* last, PairIndex index) const;
     void drop_parked();
-    void merge_coming();
+    void merge_arriving();
 
     Bounded<Pair> pairs_;
     Bounded<Links> links_;
@@ -120,9 +120,9 @@ private:
     Bounded<std::uint8_t> marks_;
     Bounded<PairIndex> free_;
     std::vector<PairIndex> first_, second_; // heads of the lists
-    Bounded<PairIndex> active_, coming_, added_;
-    Bounded<PairIndex> parked_; // no longer active, and still listed
-    Bounded<PairIndex> going_;  // of those the removed ones
+    Bounded<PairIndex> active_, arriving_, added_;
+    Bounded<PairIndex> parked_;  // no longer active, and still listed
+    Bounded<PairIndex> removed_; // of those the removed ones
     std::uint32_t size_ = 0;
     std::uint64_t left_out_ = 0;
 };

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/collide/sphere_box.hpp"
 
-#include "scene/maths/per_axis.hpp"
 #include "scene/maths/vector.hpp"
 
 #include <algorithm>
@@ -85,10 +84,10 @@ Face outward_face(const glm::dvec3& outward)
     return face_towards(farthest, outward[farthest]);
 }
 
-PlaceOverlap behind(const Face& face, const glm::dvec3& half, const glm::dvec3& place,
+LocalOverlap behind(const Face& face, const glm::dvec3& half, const glm::dvec3& place,
                     double radius)
 {
-    PlaceOverlap overlap{.depth = radius + (half[face.axis] - along(face, place)), .point = place};
+    LocalOverlap overlap{.depth = radius + (half[face.axis] - along(face, place)), .point = place};
     overlap.normal[face.axis] = face.sign;
     overlap.point[face.axis] = face.sign * half[face.axis];
     return overlap;
@@ -100,7 +99,7 @@ int side_of(double half, double place)
     return static_cast<int>(place > half) - static_cast<int>(place < -half);
 }
 
-SphereOverlap in_world(const OrientedBox& box, const PlaceOverlap& overlap)
+SphereOverlap in_world(const OrientedBox& box, const LocalOverlap& overlap)
 {
     return {.depth = overlap.depth,
             .normal = box.axes * overlap.normal,
@@ -109,7 +108,7 @@ SphereOverlap in_world(const OrientedBox& box, const PlaceOverlap& overlap)
 
 } // namespace
 
-std::optional<PlaceOverlap> SphereBoxMemory::find_here(const glm::dvec3& half,
+std::optional<LocalOverlap> SphereBoxMemory::find_here(const glm::dvec3& half,
                                                        const glm::dvec3& place, double radius)
 {
     if (entered_ && is_behind(*entered_, half, place))
@@ -123,13 +122,13 @@ std::optional<PlaceOverlap> SphereBoxMemory::find_here(const glm::dvec3& half,
     }
     if (gap > 0.0) {
         entered_ = outward_face(outward);
-        return PlaceOverlap{.depth = radius - gap, .normal = outward / gap, .point = closest};
+        return LocalOverlap{.depth = radius - gap, .normal = outward / gap, .point = closest};
     }
     entered_ = nearest_face(half, place);
     return behind(*entered_, half, place, radius);
 }
 
-std::optional<PlaceOverlap> SphereBoxMemory::find(const glm::dvec3& half, const glm::dvec3& place,
+std::optional<LocalOverlap> SphereBoxMemory::find(const glm::dvec3& half, const glm::dvec3& place,
                                                   double radius, const glm::dvec3* before)
 {
     if (before == nullptr) return find_here(half, place, radius);
@@ -160,7 +159,7 @@ std::optional<PlaceOverlap> SphereBoxMemory::find(const glm::dvec3& half, const 
             constexpr double amid = 0.9;
             int within = 0;
             for (const std::size_t i : {0U, 1U, 2U}) within += std::abs(here[i]) <= amid * edge[i];
-            return PlaceOverlap{radius - gap, vector(normal), vector(point), within == 2};
+            return LocalOverlap{radius - gap, vector(normal), vector(point), within == 2};
         }
     }
     const bool was_behind = entered_ && is_behind(*entered_, half, *before);
@@ -175,7 +174,7 @@ std::optional<PlaceOverlap> SphereBoxMemory::find(const glm::dvec3& half, const 
 std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const glm::dvec3& centre,
                                                    double radius)
 {
-    const auto overlap = find(box.half, seen_from(box, centre), radius, nullptr);
+    const auto overlap = find(box.half, to_local(box, centre), radius, nullptr);
     if (!overlap) return std::nullopt;
     return in_world(box, *overlap);
 }
@@ -183,14 +182,14 @@ std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const
 std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const glm::dvec3& centre,
                                                    double radius, const glm::dvec3& before)
 {
-    const auto overlap = find(box.half, seen_from(box, centre), radius, &before);
+    const auto overlap = find(box.half, to_local(box, centre), radius, &before);
     if (!overlap) return std::nullopt;
     return in_world(box, *overlap);
 }
 
 double distance(const OrientedBox& box, const glm::dvec3& point)
 {
-    const glm::dvec3 place = seen_from(box, point);
+    const glm::dvec3 place = to_local(box, point);
     return length(place - closest_point(box.half, place));
 }
 

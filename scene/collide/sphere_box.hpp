@@ -25,7 +25,7 @@ struct SphereOverlap {
 };
 
 /// The same in the box's frame.
-struct PlaceOverlap {
+struct LocalOverlap {
     double depth = 0.0;
     glm::dvec3 normal{0.0};
     glm::dvec3 point{0.0};
@@ -50,13 +50,13 @@ public:
                                                     const glm::dvec3& centre, double radius);
 
     /// Likewise; `before` is where the centre was a tick ago in the box's frame of that time, see
-    /// seen_from(): the face is that which the straight way from there to here meets first.
+    /// to_local(): the face is that which the straight way from there to here meets first.
     [[nodiscard]] std::optional<SphereOverlap>
     find(const OrientedBox& box, const glm::dvec3& centre, double radius, const glm::dvec3& before);
 
     /// Likewise in the frame of a box with such half edges; `before` is null when it is not known.
     /// A sphere in front of one of the faces, as most are, or far away costs a few compares.
-    [[nodiscard]] std::optional<PlaceOverlap> find(const glm::dvec3& half, const glm::dvec3& place,
+    [[nodiscard]] std::optional<LocalOverlap> find(const glm::dvec3& half, const glm::dvec3& place,
                                                    double radius, const glm::dvec3* before);
 
     void forget() { entered_.reset(); }
@@ -67,14 +67,14 @@ public:
     friend bool operator==(const SphereBoxMemory&, const SphereBoxMemory&) = default;
 
 private:
-    [[nodiscard]] std::optional<PlaceOverlap> find_here(const glm::dvec3& half,
+    [[nodiscard]] std::optional<LocalOverlap> find_here(const glm::dvec3& half,
                                                         const glm::dvec3& place, double radius);
 
     std::optional<Face> entered_;
 };
 
 /// A point in a box's own frame.
-[[nodiscard]] inline glm::dvec3 seen_from(const OrientedBox& box, const glm::dvec3& point)
+[[nodiscard]] inline glm::dvec3 to_local(const OrientedBox& box, const glm::dvec3& point)
 {
     const glm::dvec3 offset = point - box.centre;
     return {glm::dot(box.axes[0], offset), glm::dot(box.axes[1], offset),

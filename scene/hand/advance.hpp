@@ -19,18 +19,18 @@ struct MovingBody {
 };
 
 /// How it answers to forces; held for the tick.
-struct Answer {
+struct BodyDynamics {
     glm::dvec3 half{0.0}; // half the edges of the box, on which its hands slide and turn
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame, at the start of the tick
-    bool turns_evenly =
+    bool rotates_uniformly =
         false; // turning does not change it, and it is diagonal: a cube, or one axis
     glm::dvec3 acceleration{0.0}; // of everything but the hands
     glm::dvec3 torque{0.0};       // of everything but the hands, N m
 };
 
 /// A hand's spring on a body: unilateral along its normal, or, when it holds, in all directions.
-struct HipSpring {
+struct HandSpring {
     glm::dvec3 normal{0.0};   // unit, from the body to the hand
     glm::dvec3 arm{0.0};      // from the body's centre to the point of its surface that is pushed
     double radius = 0.0;      // of the hand's sphere, about whose centre the contact turns
@@ -46,7 +46,7 @@ struct HipSpring {
 };
 
 /// What a spring did in the tick.
-struct HipWork {
+struct SpringImpulse {
     glm::dvec3 impulse{0.0}; // on the body, N s
 };
 
@@ -60,7 +60,7 @@ struct HipWork {
 /// 1e-5 for a cube, 2e-4 for other boxes, for stiffness tick^2 / mass from 0.01 to 1000). Two need
 /// the same damping over stiffness. More, or springs that hold: the midpoint rule in sub-ticks,
 /// second order, stable however stiff.
-void advance(MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
-             std::span<HipWork> work, double tick);
+void advance(MovingBody& body, const BodyDynamics& dynamics, std::span<const HandSpring> springs,
+             std::span<SpringImpulse> work, double tick);
 
 } // namespace hapnet::scene

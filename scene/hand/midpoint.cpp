@@ -12,9 +12,9 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr int parts_max = 64;
-constexpr double swing_max = 0.25; // radians of the stiffest mode in a sub-tick
-constexpr double turn_max = 0.05;  // radians of the body in a sub-tick
+constexpr int substeps_max = 64;
+constexpr double swing_max = 0.25;    // radians of the stiffest mode in a sub-tick
+constexpr double rotation_max = 0.05; // radians of the body in a sub-tick
 
 struct Mean {
     double force = 0.0;
@@ -35,10 +35,10 @@ Elastic elastic(double depth, double bend)
 }
 
 /// The mean force of a unilateral spring whose depth grows evenly from `depth` at `closing`.
-Mean mean_force(const HipSpring& spring, double depth, double closing, double part)
+Mean mean_force(const HandSpring& spring, double depth, double closing, double substep)
 {
     const double bend = spring.force_max / spring.stiffness;
-    const double way = part * closing;
+    const double way = substep * closing;
     const double after = depth + way;
     if (depth <= 0.0 && after <= 0.0) return {};
     const Elastic before = elastic(depth, bend);
@@ -47,16 +47,16 @@ Mean mean_force(const HipSpring& spring, double depth, double closing, double pa
     Mean mean;
     if (std::abs(way) <= 1e-6 * size) {
         mean.force = spring.stiffness * 0.5 * (before.force + then.force);
-        mean.slope = after < bend ? 0.5 * spring.stiffness * part : 0.0;
+        mean.slope = after < bend ? 0.5 * spring.stiffness * substep : 0.0;
     } else {
         const double gradient = (then.energy - before.energy) / way;
         mean.force = spring.stiffness * gradient;
-        mean.slope = spring.stiffness * (then.force - gradient) / way * part;
+        mean.slope = spring.stiffness * (then.force - gradient) / way * substep;
     }
     // The damper acts while they overlap.
     const double from = std::max(depth, 0.0);
     const double to = std::max(after, 0.0);
-    mean.force += spring.damping * (to - from) / part;
+    mean.force += spring.damping * (to - from) / substep;
     if (after > 0.0) mean.slope += spring.damping;
     if (mean.force <= 0.0) return {};
     if (mean.force >= spring.force_max) return {spring.force_max, 0.0};
@@ -65,18 +65,18 @@ Mean mean_force(const HipSpring& spring, double depth, double closing, double pa
 
 } // namespace
 
-Midpoint::Midpoint(MovingBody& body, const Answer& answer, std::span<const HipSpring> springs,
-                   std::span<HipWork> work)
+MidpointRule::MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
+                           std::span<const HandSpring> springs, std::span<SpringImpulse> work)
     : body_{body},
-      answer_{answer},
+      dynamics_{dynamics},
       work_{work},
-      turns_{answer.inverse_inertia != glm::dmat3{0.0}},
-      inverse_inertia_{answer.inverse_inertia},
-      inertia_now_{answer.inverse_inertia}
+      rotates_{dynamics.inverse_inertia != glm::dmat3{0.0}},
+      inverse_inertia_{dynamics.inverse_inertia},
+      inertia_now_{dynamics.inverse_inertia}
 {
     base::ensure(springs.size() <= springs_max && springs.size() <= work.size());
     const glm::dmat3 axes = axes_of(body.orientation);
-    for (const HipSpring& form : springs) {
+    for (const HandSpring& form : springs) {
         Spring& spring = spring_[springs_++];
         spring.form = &form;
         spring.depth = -form.gap;
@@ -84,62 +84,63 @@ Midpoint::Midpoint(MovingBody& body, const Answer& answer, std::span<const HipSp
             spring.anchor = form.arm * axes;
             spring.hand = form.arm + form.stretch;
         } else {
-            spring.surface = Surface{form, answer.half, axes};
+            spring.surface = BoxSurface{form, dynamics.half, axes};
             spring.hand = form.arm + (form.radius + form.gap) * form.normal;
         }
     }
 }
 
-int Midpoint::parts(double time)
+int MidpointRule::substeps(double time)
 {
-    place_rows(time);
+    set_rows(time);
     double square = 0.0;
     for (std::size_t i = 0; i < rows_; ++i) {
         const Row& row = row_[i];
         square += spring_[row.spring].form->stiffness *
-                  (glm::dot(row.normal, answer_.inverse_mass * row.normal) +
-                   glm::dot(row.lever, row.swung));
+                  (glm::dot(row.normal, dynamics_.inverse_mass * row.normal) +
+                   glm::dot(row.lever, row.inverse_inertia_lever));
     }
     const glm::dvec3 turning = inertia_now_ * body_.angular_momentum;
     const double swing = time * std::sqrt(square) / swing_max;
-    const double turn = time * std::sqrt(glm::dot(turning, turning)) / turn_max;
+    const double turn = time * std::sqrt(glm::dot(turning, turning)) / rotation_max;
     const double most = std::max(swing, turn);
-    return most < parts_max ? 1 + static_cast<int>(most) : parts_max;
+    return most < substeps_max ? 1 + static_cast<int>(most) : substeps_max;
 }
 
-void Midpoint::pass(double time)
+void MidpointRule::advance(double time)
 {
-    const int count = parts(time);
-    const double part = time / count;
+    const int count = substeps(time);
+    const double substep = time / count;
     for (int i = 0; i < count; ++i) {
-        place_rows(part);
-        solve(part);
-        apply(part);
+        set_rows(substep);
+        solve(substep);
+        apply(substep);
     }
 }
 
-void Midpoint::place_rows(double part)
+void MidpointRule::set_rows(double substep)
 {
-    const double half = 0.5 * part;
+    const double half = 0.5 * substep;
     const glm::dvec3 moved = half * body_.velocity;
     const glm::dvec3 angle = half * (inertia_now_ * body_.angular_momentum);
     inverse_inertia_ = inertia_now_;
-    if (turns_ && !answer_.turns_evenly) {
-        const glm::dmat3 turn = axes_of(turn_by(angle));
+    if (rotates_ && !dynamics_.rotates_uniformly) {
+        const glm::dmat3 turn = axes_of(rotation_by(angle));
         inverse_inertia_ = turn * inertia_now_ * glm::transpose(turn);
     }
     const glm::dmat3 now = axes_of(body_.orientation);
-    const glm::dmat3 axes = axes_of(turn_by(angle) * body_.orientation);
+    const glm::dmat3 axes = axes_of(rotation_by(angle) * body_.orientation);
     rows_ = 0;
     const auto add = [&](std::size_t i, const glm::dvec3& normal, const glm::dvec3& arm,
                          double depth) {
         Row& row = row_[rows_++];
         row = {i, normal, glm::cross(arm, normal)};
-        row.swung = inverse_inertia_ * row.lever;
+        row.inverse_inertia_lever = inverse_inertia_ * row.lever;
         row.depth = depth;
-        row.closing = glm::dot(normal, body_.velocity - spring_[i].form->velocity +
-                                           half * answer_.acceleration) +
-                      glm::dot(row.swung, body_.angular_momentum + half * answer_.torque);
+        row.closing =
+            glm::dot(normal,
+                     body_.velocity - spring_[i].form->velocity + half * dynamics_.acceleration) +
+            glm::dot(row.inverse_inertia_lever, body_.angular_momentum + half * dynamics_.torque);
         row.mean = row.closing;
     };
     for (std::size_t i = 0; i < springs_; ++i) {
@@ -156,29 +157,29 @@ void Midpoint::place_rows(double part)
         }
         const glm::dvec3 hand = spring.hand + half * spring.form->velocity - moved;
         if (spring.depth <= 0.0) spring.depth = spring.surface.at(now, spring.hand).depth;
-        const Hold hold = spring.surface.at(axes, hand);
-        add(i, hold.normal, hand, spring.depth);
+        const ContactGeometry geometry = spring.surface.at(axes, hand);
+        add(i, geometry.normal, hand, spring.depth);
     }
     for (std::size_t i = 0; i < rows_; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
             coupling_[i][j] = coupling_[j][i] =
-                glm::dot(row_[i].normal, answer_.inverse_mass * row_[j].normal) +
-                glm::dot(row_[i].lever, row_[j].swung);
+                glm::dot(row_[i].normal, dynamics_.inverse_mass * row_[j].normal) +
+                glm::dot(row_[i].lever, row_[j].inverse_inertia_lever);
         }
     }
 }
 
-void Midpoint::answer_forces(double part)
+void MidpointRule::update_forces(double substep)
 {
     for (std::size_t i = 0; i < rows_; ++i) {
         Row& row = row_[i];
-        const HipSpring& spring = *spring_[row.spring].form;
+        const HandSpring& spring = *spring_[row.spring].form;
         if (spring.holds) {
-            row.slope = 0.5 * spring.stiffness * part + spring.damping;
+            row.slope = 0.5 * spring.stiffness * substep + spring.damping;
             row.force = spring.stiffness * row.depth + row.slope * row.mean;
-            if (i + 1 == rows_ || row_[i + 1].spring != row.spring) cap(i - 2);
+            if (i + 1 == rows_ || row_[i + 1].spring != row.spring) limit_grip_force(i - 2);
         } else {
-            const Mean mean = mean_force(spring, row.depth, row.mean, part);
+            const Mean mean = mean_force(spring, row.depth, row.mean, substep);
             row.force = mean.force;
             row.slope = mean.slope;
         }
@@ -186,7 +187,7 @@ void Midpoint::answer_forces(double part)
 }
 
 /// The three rows of a spring that holds pull no more together than it can.
-void Midpoint::cap(std::size_t first)
+void MidpointRule::limit_grip_force(std::size_t first)
 {
     Row* const rows = &row_[first];
     const double square = rows[0].force * rows[0].force + rows[1].force * rows[1].force +
@@ -201,7 +202,7 @@ void Midpoint::cap(std::size_t first)
 }
 
 /// One of Newton's steps for the mean closing speeds: each force is taken to follow its slope.
-void Midpoint::respond_to(double part)
+void MidpointRule::newton_step(double substep)
 {
     // In x = sqrt(slope) * change of closing, the matrix is 1 + symmetric: Cholesky.
     // The first rows_ are written before they are read.
@@ -210,7 +211,7 @@ void Midpoint::respond_to(double part)
     std::array<double, rows_max> root;
     std::array<double, rows_max> x;
     // NOLINTEND(cppcoreguidelines-pro-type-member-init)
-    const double half = 0.5 * part;
+    const double half = 0.5 * substep;
     for (std::size_t i = 0; i < rows_; ++i) {
         root[i] = std::sqrt(std::max(row_[i].slope, 0.0));
         double reached = row_[i].closing;
@@ -240,16 +241,16 @@ void Midpoint::respond_to(double part)
     }
 }
 
-void Midpoint::solve(double part)
+void MidpointRule::solve(double substep)
 {
     constexpr int steps_max = 12;
     constexpr double enough = 1e-13;
     for (int step = 0; step < steps_max; ++step) {
-        answer_forces(part);
+        update_forces(substep);
         double before = 0.0;
         std::array<double, rows_max> mean{};
         for (std::size_t i = 0; i < rows_; ++i) mean[i] = row_[i].mean;
-        respond_to(part);
+        newton_step(substep);
         double change = 0.0;
         for (std::size_t i = 0; i < rows_; ++i) {
             change = std::max(change, std::abs(row_[i].mean - mean[i]));
@@ -257,30 +258,30 @@ void Midpoint::solve(double part)
         }
         if (change <= enough * before) break;
     }
-    answer_forces(part);
+    update_forces(substep);
 }
 
-void Midpoint::apply(double part)
+void MidpointRule::apply(double substep)
 {
     glm::dvec3 force{0.0};
-    glm::dvec3 torque = answer_.torque;
+    glm::dvec3 torque = dynamics_.torque;
     for (std::size_t i = 0; i < rows_; ++i) {
         const Row& row = row_[i];
         force -= row.force * row.normal;
         torque -= row.force * row.lever;
-        work_[row.spring].impulse -= (part * row.force) * row.normal;
+        work_[row.spring].impulse -= (substep * row.force) * row.normal;
     }
-    const glm::dvec3 gained = part * (answer_.acceleration + answer_.inverse_mass * force);
-    const glm::dvec3 moved = part * (body_.velocity + 0.5 * gained);
+    const glm::dvec3 gained = substep * (dynamics_.acceleration + dynamics_.inverse_mass * force);
+    const glm::dvec3 moved = substep * (body_.velocity + 0.5 * gained);
     body_.position += moved;
     body_.velocity += gained;
-    if (turns_) {
-        const glm::dvec3 mean = body_.angular_momentum + (0.5 * part) * torque;
-        const glm::dvec3 angle = part * (inverse_inertia_ * mean);
-        body_.angular_momentum += part * torque;
-        body_.orientation = turned(body_.orientation, angle);
-        if (!answer_.turns_evenly) {
-            const glm::dmat3 turn = axes_of(turn_by(angle));
+    if (rotates_) {
+        const glm::dvec3 mean = body_.angular_momentum + (0.5 * substep) * torque;
+        const glm::dvec3 angle = substep * (inverse_inertia_ * mean);
+        body_.angular_momentum += substep * torque;
+        body_.orientation = rotated(body_.orientation, angle);
+        if (!dynamics_.rotates_uniformly) {
+            const glm::dmat3 turn = axes_of(rotation_by(angle));
             inertia_now_ = turn * inertia_now_ * glm::transpose(turn);
         }
     }
@@ -289,12 +290,12 @@ void Midpoint::apply(double part)
         if (!spring.form->holds) {
             double reached = row_[i].closing;
             for (std::size_t j = 0; j < rows_; ++j)
-                reached -= 0.5 * part * coupling_[i][j] * row_[j].force;
-            spring.depth = row_[i].depth + part * reached;
+                reached -= 0.5 * substep * coupling_[i][j] * row_[j].force;
+            spring.depth = row_[i].depth + substep * reached;
         }
     }
     for (std::size_t i = 0; i < springs_; ++i)
-        spring_[i].hand += part * spring_[i].form->velocity - moved;
+        spring_[i].hand += substep * spring_[i].form->velocity - moved;
 }
 
 } // namespace hapnet::scene

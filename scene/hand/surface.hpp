@@ -9,7 +9,7 @@
 namespace hapnet::scene {
 
 /// How a hand's spring acts on a body that lies as it does at some moment.
-struct Hold {
+struct ContactGeometry {
     glm::dvec3 normal{0.0}; // unit, from the body to the hand
     glm::dvec3 lever{0.0};  // arm x normal
     double depth = 0.0;     // > 0: overlap
@@ -18,11 +18,11 @@ struct Hold {
 /// A box and a hand's sphere near it, in the box's frame: where they touch while the box turns and
 /// the hand moves on. The nearest point of the box; a sphere whose centre is within it stays at the
 /// face where it was at the start.
-class Surface {
+class BoxSurface {
 public:
-    Surface() = default;
+    BoxSurface() = default;
     /// `axes` are the box's, in the world.
-    Surface(const HipSpring& spring, const glm::dvec3& half, const glm::dmat3& axes);
+    BoxSurface(const HandSpring& spring, const glm::dvec3& half, const glm::dmat3& axes);
 
     /// Whether it was a face at the start.
     [[nodiscard]] bool is_face() const { return is_face_; }
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] bool is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const;
 
     /// With the hand's centre at `hand`, seen from the box's centre in the world's frame.
-    [[nodiscard]] Hold at(const glm::dmat3& axes, const glm::dvec3& hand) const;
+    [[nodiscard]] ContactGeometry at(const glm::dmat3& axes, const glm::dvec3& hand) const;
 
 private:
     glm::dvec3 half_{0.0};
@@ -38,5 +38,24 @@ private:
     glm::dvec3 face_{0.0}; // its normal
     bool is_face_ = false;
 };
+
+/// A body at the end of its tick.
+struct EnergyCorrection {
+    MovingBody& body;
+    const BodyDynamics& dynamics;
+    const glm::dmat3& inverse_inertia; // now
+    double tick = 0.0;
+};
+
+/// The depth of a spring that presses, as it followed from what was held, and as it is.
+struct SpringDepths {
+    double followed = 0.0;
+    double true_m = 0.0;
+};
+
+/// Scales the speed relative to the hand by the little that makes the spring's energy what the
+/// true depth says; no more than the spring can give in the tick.
+void correct_energy(const EnergyCorrection& settling, const HandSpring& spring,
+                    const SpringDepths& depths, SpringImpulse& work);
 
 } // namespace hapnet::scene

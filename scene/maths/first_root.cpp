@@ -7,26 +7,27 @@ namespace hapnet::scene {
 namespace {
 
 struct Sample {
-    double value, rate, bend;
-    double bend_max; // of |bend| from then on
+    double value, rate, second_derivative;
+    double second_derivative_max; // of |bend| from then on
 };
 
-Sample sample(const Watch& watch, const Courses& courses, double time, double to)
+Sample sample(const WatchedQuantity& watched, const Trajectories& trajectories, double time,
+              double to)
 {
-    Sample s{watch.level + watch.slope * time, watch.slope, 0.0, 0.0};
-    for (std::size_t i = 0; i < courses.size(); ++i) {
-        const Course& course = courses[i];
-        const double p = watch.way_weight[i];
-        const double q = watch.speed_weight[i];
-        if ((p == 0.0 && q == 0.0) || !course.moves()) continue;
-        const Motion motion = course.after(time);
-        const double acceleration = course.acceleration(time, motion);
-        const double jerk = course.jerk(acceleration, motion.speed);
-        const Bounds most = bounds(*course.kernel, acceleration, jerk, to - time);
-        s.value += p * motion.way + q * motion.speed;
+    Sample s{watched.level + watched.slope * time, watched.slope, 0.0, 0.0};
+    for (std::size_t i = 0; i < trajectories.size(); ++i) {
+        const Trajectory& trajectory = trajectories[i];
+        const double p = watched.displacement_weight[i];
+        const double q = watched.speed_weight[i];
+        if ((p == 0.0 && q == 0.0) || !trajectory.moves()) continue;
+        const TrajectoryPoint motion = trajectory.after(time);
+        const double acceleration = trajectory.acceleration(time, motion);
+        const double jerk = trajectory.jerk(acceleration, motion.speed);
+        const Bounds most = bounds(*trajectory.propagator, acceleration, jerk, to - time);
+        s.value += p * motion.displacement + q * motion.speed;
         s.rate += p * motion.speed + q * acceleration;
-        s.bend += p * acceleration + q * jerk;
-        s.bend_max += std::abs(p) * most.acceleration + std::abs(q) * most.jerk;
+        s.second_derivative += p * acceleration + q * jerk;
+        s.second_derivative_max += std::abs(p) * most.acceleration + std::abs(q) * most.jerk;
     }
     return s;
 }
@@ -34,15 +35,16 @@ Sample sample(const Watch& watch, const Courses& courses, double time, double to
 /// The longest time for which value + rate t - bend_max t^2 / 2 stays positive, value >= 0.
 double safe_step(double value, const Sample& s)
 {
-    const double root = std::sqrt(s.rate * s.rate + 2.0 * value * s.bend_max);
+    const double root = std::sqrt(s.rate * s.rate + 2.0 * value * s.second_derivative_max);
     if (s.rate < 0.0) return 2.0 * value / (root - s.rate);
-    if (s.bend_max > 0.0) return (s.rate + root) / s.bend_max;
+    if (s.second_derivative_max > 0.0) return (s.rate + root) / s.second_derivative_max;
     return std::numeric_limits<double>::infinity();
 }
 
 } // namespace
 
-std::optional<double> first_root(const Watch& watch, const Courses& courses, double from, double to)
+std::optional<double> first_root(const WatchedQuantity& watched, const Trajectories& trajectories,
+                                 double from, double to)
 {
     constexpr int steps_max = 200;
     constexpr double near = 1e-14; // of the time searched: as good as reached
@@ -50,14 +52,15 @@ std::optional<double> first_root(const Watch& watch, const Courses& courses, dou
     const double nearest = near * (to - from);
 
     double time = from;
-    Sample s = sample(watch, courses, time, to);
-    if (s.value <= 0.0 || watch.leaves_zero) {
-        const bool falls = s.rate < 0.0 || (s.rate == 0.0 && s.bend < -flat * s.bend_max);
-        if (!watch.leaves_zero && falls) return time;
+    Sample s = sample(watched, trajectories, time, to);
+    if (s.value <= 0.0 || watched.leaves_zero) {
+        const bool falls = s.rate < 0.0 ||
+                           (s.rate == 0.0 && s.second_derivative < -flat * s.second_derivative_max);
+        if (!watched.leaves_zero && falls) return time;
         // From 0 upwards: look again a moment later.
-        if (watch.leaves_zero || safe_step(0.0, s) <= nearest) {
+        if (watched.leaves_zero || safe_step(0.0, s) <= nearest) {
             time = from + (to - from) / 1024.0;
-            s = sample(watch, courses, time, to);
+            s = sample(watched, trajectories, time, to);
             if (s.value < 0.0) return time;
         }
     }
@@ -66,10 +69,10 @@ std::optional<double> first_root(const Watch& watch, const Courses& courses, dou
         if (time + step >= to) return std::nullopt;
         if (step <= nearest) return time;
         time += step;
-        s = sample(watch, courses, time, to);
+        s = sample(watched, trajectories, time, to);
     }
     // Hundreds of periods in one tick, and none has come to it so far: only the end counts.
-    return sample(watch, courses, to, to).value < 0.0 ? std::optional{time} : std::nullopt;
+    return sample(watched, trajectories, to, to).value < 0.0 ? std::optional{time} : std::nullopt;
 }
 
 } // namespace hapnet::scene

@@ -11,7 +11,7 @@ namespace hapnet::scene {
 namespace {
 
 /// The angular velocity in the world's frame of a body that lies so.
-glm::dvec3 angular_velocity(const glm::dquat& orientation, const FreeSpin& spin)
+glm::dvec3 angular_velocity(const glm::dquat& orientation, const FreeRotation& spin)
 {
     const glm::dmat3 axes = axes_of(orientation);
     const glm::dvec3& l = spin.angular_momentum;
@@ -20,30 +20,22 @@ glm::dvec3 angular_velocity(const glm::dquat& orientation, const FreeSpin& spin)
            axes[2] * (spin.inverse_inertia.z * glm::dot(axes[2], l));
 }
 
-/// The rate at which the angle of a turn grows when the body turns at `velocity` behind it: the
-/// inverse of the exponential's derivative, up to the third order.
-glm::dvec3 rate_of(const glm::dvec3& angle, const glm::dvec3& velocity)
-{
-    const glm::dvec3 once = glm::cross(angle, velocity);
-    return velocity - 0.5 * once + (1.0 / 12.0) * glm::cross(angle, once);
-}
-
 } // namespace
 
-HalfTurn half_turn(double z)
+HalfAngle half_angle(double z)
 {
-    if (z <= small_turn_max) return small_half_turn(z);
+    if (z <= small_half_angle_max) return small_half_angle(z);
     const double half = std::sqrt(z);
     if (!(half <= 1e6)) return {};
     return {base::cos(half), base::sin(half) / half};
 }
 
-glm::dquat turn_by(const glm::dvec3& angle)
+glm::dquat rotation_by(const glm::dvec3& angle)
 {
     const glm::dvec3 half = 0.5 * angle;
     const double z = glm::dot(half, half);
     if (!(z <= 1e12)) return {1.0, 0.0, 0.0, 0.0};
-    const HalfTurn turn = half_turn(z);
+    const HalfAngle turn = half_angle(z);
     return {turn.cosine, turn.sinc * half.x, turn.sinc * half.y, turn.sinc * half.z};
 }
 
@@ -63,24 +55,11 @@ glm::dmat3 axes_of(const glm::dquat& orientation)
             2.0 * (xz + wy),       2.0 * (yz - wx),       1.0 - 2.0 * (xx + yy)};
 }
 
-glm::dquat spun(const glm::dquat& orientation, const FreeSpin& spin, double tick)
+glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin, double tick)
 {
     const glm::dvec3 first = angular_velocity(orientation, spin);
-    const glm::dquat halfway = turn_by((0.5 * tick) * first) * orientation;
-    return turned(orientation, tick * angular_velocity(halfway, spin));
-}
-
-glm::dquat spun_finely(const glm::dquat& orientation, const FreeSpin& spin, double tick)
-{
-    const double half = 0.5 * tick;
-    const auto rate = [&](const glm::dvec3& angle) {
-        return rate_of(angle, angular_velocity(turn_by(angle) * orientation, spin));
-    };
-    const glm::dvec3 k1 = angular_velocity(orientation, spin);
-    const glm::dvec3 k2 = rate(half * k1);
-    const glm::dvec3 k3 = rate(half * k2);
-    const glm::dvec3 k4 = rate(tick * k3);
-    return turned(orientation, (tick / 6.0) * (k1 + 2.0 * (k2 + k3) + k4));
+    const glm::dquat halfway = rotation_by((0.5 * tick) * first) * orientation;
+    return rotated(orientation, tick * angular_velocity(halfway, spin));
 }
 
 } // namespace hapnet::scene

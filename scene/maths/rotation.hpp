@@ -15,12 +15,12 @@ namespace hapnet::scene {
 
 /// cos(sqrt(z)) and sin(sqrt(z))/sqrt(z) for 0 <= z <= small_turn_max, within 2 units in the last
 /// place: the half of a turn, squared, of up to 90 degrees. Branch-free, for loops over lanes.
-struct HalfTurn {
+struct HalfAngle {
     double cosine = 1.0;
     double sinc = 1.0;
 };
-inline constexpr double small_turn_max = 0.6168; // (pi/4)^2
-[[nodiscard]] constexpr HalfTurn small_half_turn(double z)
+inline constexpr double small_half_angle_max = 0.6168; // (pi/4)^2
+[[nodiscard]] constexpr HalfAngle small_half_angle(double z)
 {
     // The kernels of fdlibm (Sun Microsystems, 1993) without what they do for reduced arguments.
     const double cosine =
@@ -39,19 +39,12 @@ inline constexpr double small_turn_max = 0.6168; // (pi/4)^2
 }
 
 /// The same for any turn up to 2e6 radians; beyond it no turn at all.
-[[nodiscard]] HalfTurn half_turn(double z);
+[[nodiscard]] HalfAngle half_angle(double z);
 
 /// The turn by |angle| radians about the axis of `angle`.
-[[nodiscard]] glm::dquat turn_by(const glm::dvec3& angle);
+[[nodiscard]] glm::dquat rotation_by(const glm::dvec3& angle);
 
-/// `q` made unit by a square root and divisions, so that it keeps the bits of every compiler.
-[[nodiscard]] inline glm::dquat unit(const glm::dquat& q)
-{
-    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    return {q.w / length, q.x / length, q.y / length, q.z / length};
-}
-
-/// The same for what is unit but for the rounding of a few products: one of Newton's steps.
+/// Makes `q` unit again after the rounding of a few products: one step of Newton's method.
 [[nodiscard]] inline glm::dquat unit_again(const glm::dquat& q)
 {
     const double scale = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
@@ -62,24 +55,20 @@ inline constexpr double small_turn_max = 0.6168; // (pi/4)^2
 [[nodiscard]] glm::dmat3 axes_of(const glm::dquat& orientation);
 
 /// `orientation`, which is unit, after a turn by `angle` (world's frame).
-[[nodiscard]] inline glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& angle)
+[[nodiscard]] inline glm::dquat rotated(const glm::dquat& orientation, const glm::dvec3& angle)
 {
-    return unit_again(turn_by(angle) * orientation);
+    return unit_again(rotation_by(angle) * orientation);
 }
 
 /// How a body turns that nothing touches.
-struct FreeSpin {
+struct FreeRotation {
     glm::dvec3 angular_momentum{0.0}; // kg m^2/s, world's frame; it stays
     glm::dvec3 inverse_inertia{0.0};  // about the body's own axes
 };
 
 /// The orientation of a freely turning body one tick later, by the explicit midpoint rule on the
 /// rotation group: second order. Exact when the three moments of inertia are equal.
-[[nodiscard]] glm::dquat spun(const glm::dquat& orientation, const FreeSpin& spin, double tick);
-
-/// The same by the Runge-Kutta method of Munthe-Kaas (BIT 38, 1998): fourth order, at twice the
-/// cost.
-[[nodiscard]] glm::dquat spun_finely(const glm::dquat& orientation, const FreeSpin& spin,
-                                     double tick);
+[[nodiscard]] glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin,
+                                        double tick);
 
 } // namespace hapnet::scene

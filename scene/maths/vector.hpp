@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -15,6 +17,16 @@ namespace hapnet::scene {
 [[nodiscard]] inline double sum_of_sizes(const glm::dvec3& v)
 {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+/// One number per axis: x, y, z. Unlike a glm vector's, its index costs no branch.
+using PerAxis = std::array<double, 3>;
+
+[[nodiscard]] inline PerAxis per_axis(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+[[nodiscard]] inline glm::dvec3 vector(const PerAxis& a) { return {a[0], a[1], a[2]}; }
+[[nodiscard]] inline double dot(const PerAxis& a, const PerAxis& b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 } // namespace hapnet::scene

@@ -6,137 +6,141 @@ namespace hapnet::scene {
 
 namespace {
 
-using Kind = SlideEvent::Kind;
+using Kind = Event::Kind;
 
 /// `factor` times a spring's depth, plus `level`.
-Watch of_depth(const Spring& spring, double factor)
+WatchedQuantity watch_depth(const FaceSpring& spring, double factor)
 {
     const auto axis = spring.axis;
-    Watch watch{.level = factor * spring.depth, .slope = factor * spring.closing};
-    watch.way_weight[axis] = factor * spring.sign;
+    WatchedQuantity watch{.level = factor * spring.depth, .slope = factor * spring.closing};
+    watch.displacement_weight[axis] = factor * spring.sign;
     return watch;
 }
 
 /// `factor` times what a spring's force is without limits, plus `level`.
-Watch of_tension(const Slide& slide, const Spring& spring, double factor, double level)
+WatchedQuantity watch_tension(const BoxMotion& box, const FaceSpring& spring, double factor,
+                              double level)
 {
-    const double k = factor * slide.hips.stiffness_n_per_m;
-    const double c = factor * slide.hips.damping_ns_per_m;
+    const double k = factor * box.hands.stiffness_n_per_m;
+    const double c = factor * box.hands.damping_ns_per_m;
     const auto axis = spring.axis;
-    Watch watch{.level = level + k * spring.depth + c * spring.closing,
-                .slope = k * spring.closing};
-    watch.way_weight[axis] = k * spring.sign;
+    WatchedQuantity watch{.level = level + k * spring.depth + c * spring.closing,
+                          .slope = k * spring.closing};
+    watch.displacement_weight[axis] = k * spring.sign;
     watch.speed_weight[axis] = c * spring.sign;
     return watch;
 }
 
 /// Most springs act for all the `time` that is looked at: whether this is one of them.
-bool keeps_acting(const Slide& slide, const Spring& spring, double time)
+bool keeps_acting(const BoxMotion& box, const FaceSpring& spring, double time)
 {
-    if (spring.phase != Phase::active) return false;
-    const HipDescription& hips = slide.hips;
-    const SlideAxis& axis = slide.axes[spring.axis];
-    const double closing = spring.closing_at(slide.velocity[spring.axis]);
-    const double k = hips.stiffness_n_per_m;
-    const double c = hips.damping_ns_per_m;
+    if (spring.phase != SpringPhase::pressing) return false;
+    const HandDescription& hands = box.hands;
+    const AxisMotion& axis = box.axes[spring.axis];
+    const double closing = spring.closing_at(box.velocity[spring.axis]);
+    const double k = hands.stiffness_n_per_m;
+    const double c = hands.damping_ns_per_m;
     const double tension = k * spring.depth + c * closing;
     const double rate = std::abs(k * closing + c * spring.sign * axis.acceleration);
-    const double bend = k * axis.most.acceleration + c * axis.most.jerk;
+    const double bend = k * axis.bounds.acceleration + c * axis.bounds.jerk;
     const double change = time * (rate + 0.5 * time * bend);
-    return tension >= change && hips.force_max_n - tension >= change;
+    return tension >= change && hands.force_max_n - tension >= change;
 }
 
-struct SpringWatcher {
-    const Slide& slide;
+struct SpringEventFinder {
+    const BoxMotion& box;
     std::uint32_t index;
-    SlideEvent& first;
+    Event& first;
 
-    void expect(const Watch& watch, Phase next) const
+    void expect(const WatchedQuantity& watch, SpringPhase next) const
     {
-        const auto time = first_root(watch, slide.courses, 0.0, first.time);
+        const auto time = first_root(watch, box.trajectories, 0.0, first.time);
         if (!time) return;
         first = {.time = *time, .kind = Kind::spring, .spring = index, .phase = next};
     }
 
-    void look() const
+    void find() const
     {
-        const Spring& spring = slide.springs[index];
-        const HipDescription& hips = slide.hips;
-        const SlideAxis& axis = slide.axes[spring.axis];
-        const double closing = spring.closing_at(slide.velocity[spring.axis]);
-        const double k = hips.stiffness_n_per_m;
-        const double c = hips.damping_ns_per_m;
+        const FaceSpring& spring = box.springs[index];
+        const HandDescription& hands = box.hands;
+        const AxisMotion& axis = box.axes[spring.axis];
+        const double closing = spring.closing_at(box.velocity[spring.axis]);
+        const double k = hands.stiffness_n_per_m;
+        const double c = hands.damping_ns_per_m;
         const double left = first.time;
-        if (spring.phase == Phase::apart || spring.phase == Phase::slack) {
-            const double away = spring.phase == Phase::apart ? -1.0 : 1.0;
-            if (!stays_positive(away * spring.depth, away * closing, axis.most.acceleration,
+        if (spring.phase == SpringPhase::apart || spring.phase == SpringPhase::slack) {
+            const double away = spring.phase == SpringPhase::apart ? -1.0 : 1.0;
+            if (!stays_positive(away * spring.depth, away * closing, axis.bounds.acceleration,
                                 left)) {
-                expect(of_depth(spring, away),
-                       spring.phase == Phase::apart ? Phase::active : Phase::apart);
+                expect(watch_depth(spring, away), spring.phase == SpringPhase::apart
+                                                      ? SpringPhase::pressing
+                                                      : SpringPhase::apart);
             }
-            if (spring.phase == Phase::apart) return;
+            if (spring.phase == SpringPhase::apart) return;
         }
         const double tension = k * spring.depth + c * closing;
         const double rate = k * closing + c * spring.sign * axis.acceleration;
-        const double bend = k * axis.most.acceleration + c * axis.most.jerk;
-        if (spring.phase == Phase::slack) {
+        const double bend = k * axis.bounds.acceleration + c * axis.bounds.jerk;
+        if (spring.phase == SpringPhase::slack) {
             if (!stays_positive(-tension, -rate, bend, left)) {
-                expect(of_tension(slide, spring, -1.0, 0.0), Phase::active);
+                expect(watch_tension(box, spring, -1.0, 0.0), SpringPhase::pressing);
             }
             return;
         }
-        const double room = hips.force_max_n - tension;
-        if (spring.phase == Phase::limited) {
+        const double room = hands.force_max_n - tension;
+        if (spring.phase == SpringPhase::limited) {
             if (!stays_positive(-room, rate, bend, left)) {
-                expect(of_tension(slide, spring, 1.0, -hips.force_max_n), Phase::active);
+                expect(watch_tension(box, spring, 1.0, -hands.force_max_n), SpringPhase::pressing);
             }
             return;
         }
         if (!stays_positive(tension, rate, bend, left)) {
-            expect(of_tension(slide, spring, 1.0, 0.0), c > 0.0 ? Phase::slack : Phase::apart);
+            expect(watch_tension(box, spring, 1.0, 0.0),
+                   c > 0.0 ? SpringPhase::slack : SpringPhase::apart);
         }
         if (!stays_positive(room, -rate, bend, left)) {
-            expect(of_tension(slide, spring, -1.0, hips.force_max_n), Phase::limited);
+            expect(watch_tension(box, spring, -1.0, hands.force_max_n), SpringPhase::limited);
         }
     }
 };
 
 /// `side` times how far the centre is from a face.
-Watch of_gap(const Slide& slide, std::size_t axis, double side, double face)
+WatchedQuantity watch_gap(const BoxMotion& box, std::size_t axis, double side, double face)
 {
-    Watch watch{.level = side * (slide.place[axis] - face)};
-    watch.way_weight[axis] = side;
+    WatchedQuantity watch{.level = side * (box.position[axis] - face)};
+    watch.displacement_weight[axis] = side;
     return watch;
 }
 
 /// Whether the box cannot come to an obstacle in what is left of the tick: one axis keeps it away.
-bool keeps_away(const Slide& slide, const Obstacle& obstacle, std::size_t i)
+bool separates(const BoxMotion& box, const Obstacle& obstacle, std::size_t i)
 {
-    const double gap = obstacle.gap(i, slide.place[i]);
-    const double reach = slide.axes[i].reach;
+    const double gap = obstacle.gap(i, box.position[i]);
+    const double reach = box.axes[i].reach;
     return gap > reach || (reach == 0.0 && gap >= 0.0);
 }
 
-bool is_out_of_reach(const Slide& slide, const Obstacle& obstacle)
+bool is_out_of_reach(const BoxMotion& box, const Obstacle& obstacle)
 {
-    if (obstacle.is_plane) return keeps_away(slide, obstacle, obstacle.normal_axis);
-    return keeps_away(slide, obstacle, 0) || keeps_away(slide, obstacle, 1) ||
-           keeps_away(slide, obstacle, 2);
+    if (obstacle.is_plane) return separates(box, obstacle, obstacle.normal_axis);
+    return separates(box, obstacle, 0) || separates(box, obstacle, 1) ||
+           separates(box, obstacle, 2);
 }
 
 constexpr std::size_t nothing = 3;
 
 /// The axis that keeps a box away from an obstacle at some moment: the one with the widest gap.
-std::size_t keeping_away(const Slide& slide, const Obstacle& obstacle, double time, std::size_t but)
+std::size_t separating_axis(const BoxMotion& box, const Obstacle& obstacle, double time,
+                            std::size_t but)
 {
     std::size_t widest = nothing;
     double most = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
         if (i == but) continue;
-        const Motion motion = slide.courses[i].after(time);
-        const double place = slide.place[i] + motion.way;
+        const TrajectoryPoint motion = box.trajectories[i].after(time);
+        const double place = box.position[i] + motion.displacement;
         const double gap = obstacle.gap(i, place);
-        const double speed = slide.courses[i].moves() ? motion.speed : 0.0;
+        const double speed = box.trajectories[i].moves() ? motion.speed : 0.0;
         if (gap < 0.0 || (gap == 0.0 && but != nothing && obstacle.side(i, place) * speed < 0.0)) {
             continue;
         }
@@ -149,20 +153,20 @@ std::size_t keeping_away(const Slide& slide, const Obstacle& obstacle, double ti
 }
 
 /// The box touches an obstacle when the last of the three axes has closed its gap.
-void look_for_impact(const Slide& slide, const Obstacle& obstacle, SlideEvent& first)
+void find_impact(const BoxMotion& box, const Obstacle& obstacle, Event& first)
 {
-    constexpr int turns_max = 8; // an axis may open its gap again while another closes
-    std::size_t axis = keeping_away(slide, obstacle, 0.0, nothing);
+    constexpr int rounds_max = 8; // an axis may open its gap again while another closes
+    std::size_t axis = separating_axis(box, obstacle, 0.0, nothing);
     double time = 0.0;
-    for (int turn = 0; turn < turns_max && axis != nothing; ++turn) {
-        const double place = slide.place[axis] + slide.courses[axis].after(time).way;
+    for (int turn = 0; turn < rounds_max && axis != nothing; ++turn) {
+        const double place = box.position[axis] + box.trajectories[axis].after(time).displacement;
         const double side = obstacle.side(axis, place);
         const double face = obstacle.face(axis, side);
         const auto root =
-            first_root(of_gap(slide, axis, side, face), slide.courses, time, first.time);
+            first_root(watch_gap(box, axis, side, face), box.trajectories, time, first.time);
         if (!root) return;
         time = *root;
-        const std::size_t other = keeping_away(slide, obstacle, time, axis);
+        const std::size_t other = separating_axis(box, obstacle, time, axis);
         if (other == nothing) {
             first = {.time = time, .kind = Kind::impact, .axis = axis};
             first.face = face;
@@ -175,19 +179,19 @@ void look_for_impact(const Slide& slide, const Obstacle& obstacle, SlideEvent& f
 }
 
 /// What carries an axis may be lost: by the other forces, or behind its edge.
-void look_at_carrier(const Slide& slide, std::size_t i, SlideEvent& first)
+void find_loss_of_support(const BoxMotion& box, std::size_t i, Event& first)
 {
-    const SlideAxis& axis = slide.axes[i];
+    const AxisMotion& axis = box.axes[i];
     if (axis.load + axis.load_ramp * first.time < 0.0) {
         first = {.time = axis.load / -axis.load_ramp, .kind = Kind::unloading, .axis = i};
     }
-    if (axis.carrier->is_plane) return;
+    if (axis.support->is_plane) return;
     for (const std::size_t j : {(i + 1) % 3, (i + 2) % 3}) {
-        if (-axis.carrier->gap(j, slide.place[j]) > slide.axes[j].reach) continue;
+        if (-axis.support->gap(j, box.position[j]) > box.axes[j].reach) continue;
         for (const double side : {1.0, -1.0}) {
-            const double face = axis.carrier->face(j, side);
+            const double face = axis.support->face(j, side);
             const auto time =
-                first_root(of_gap(slide, j, -side, face), slide.courses, 0.0, first.time);
+                first_root(watch_gap(box, j, -side, face), box.trajectories, 0.0, first.time);
             if (!time) continue;
             first = {.time = *time, .kind = Kind::edge, .axis = j};
             first.face = face;
@@ -197,83 +201,83 @@ void look_at_carrier(const Slide& slide, std::size_t i, SlideEvent& first)
 
 /// Stops or turns back. A bounce that would be over before a tick has passed is none: otherwise a
 /// box would come to rest by endlessly many.
-void arrive(Slide& slide, const SlideEvent& event, double tick)
+void handle_impact(BoxMotion& box, const Event& event, double tick)
 {
     const std::size_t i = event.axis;
-    const Course& course = slide.courses[i];
-    const double closing = -event.side * slide.velocity[i];
-    const double acceleration = course.acceleration(event.time, course.after(event.time));
-    const double back = slide.calm ? 0.0 : event.obstacle->restitution * closing;
+    const Trajectory& trajectory = box.trajectories[i];
+    const double closing = -event.side * box.velocity[i];
+    const double acceleration = trajectory.acceleration(event.time, trajectory.after(event.time));
+    const double back = box.event_limit_reached ? 0.0 : event.obstacle->restitution * closing;
     const double pressing = -event.side * acceleration;
     const bool is_over = 2.0 * back <= pressing * tick;
-    slide.velocity[i] = is_over ? 0.0 : event.side * back;
-    slide.axes[i].stopped = slide.calm;
+    box.velocity[i] = is_over ? 0.0 : event.side * back;
+    box.axes[i].is_stopped = box.event_limit_reached;
 }
 
 } // namespace
 
-bool is_uneventful(const Slide& slide)
+bool is_uneventful(const BoxMotion& box)
 {
-    if (!slide.calm) {
-        for (const Spring& spring : slide.active_springs()) {
-            if (!keeps_acting(slide, spring, slide.left)) return false;
+    if (!box.event_limit_reached) {
+        for (const FaceSpring& spring : box.active_springs()) {
+            if (!keeps_acting(box, spring, box.time_left)) return false;
         }
-        for (const SlideAxis& axis : slide.axes) {
-            if (!axis.carrier) continue;
-            if (!axis.carrier->is_plane) return false;
-            if (axis.load + axis.load_ramp * slide.left < 0.0) return false;
+        for (const AxisMotion& axis : box.axes) {
+            if (!axis.support) continue;
+            if (!axis.support->is_plane) return false;
+            if (axis.load + axis.load_ramp * box.time_left < 0.0) return false;
         }
     }
-    for (const std::uint32_t id : slide.near) {
-        if (!is_out_of_reach(slide, slide.obstacles[id])) return false;
+    for (const std::uint32_t id : box.nearby) {
+        if (!is_out_of_reach(box, box.obstacles[id])) return false;
     }
     return true;
 }
 
-void look_for_event(const Slide& slide, SlideEvent& first)
+void find_event(const BoxMotion& box, Event& first)
 {
-    if (!slide.calm) {
-        for (std::uint32_t i = 0; i < slide.spring_count; ++i) {
-            if (keeps_acting(slide, slide.springs[i], first.time)) continue;
-            SpringWatcher{slide, i, first}.look();
+    if (!box.event_limit_reached) {
+        for (std::uint32_t i = 0; i < box.spring_count; ++i) {
+            if (keeps_acting(box, box.springs[i], first.time)) continue;
+            SpringEventFinder{box, i, first}.find();
         }
         for (std::size_t i = 0; i < 3; ++i) {
-            if (slide.axes[i].carrier) look_at_carrier(slide, i, first);
+            if (box.axes[i].support) find_loss_of_support(box, i, first);
         }
     }
-    for (const std::uint32_t id : slide.near) {
-        const Obstacle& obstacle = slide.obstacles[id];
-        if (!is_out_of_reach(slide, obstacle)) look_for_impact(slide, obstacle, first);
+    for (const std::uint32_t id : box.nearby) {
+        const Obstacle& obstacle = box.obstacles[id];
+        if (!is_out_of_reach(box, obstacle)) find_impact(box, obstacle, first);
     }
 }
 
-void apply(Slide& slide, const SlideEvent& event, double tick)
+void apply(BoxMotion& box, const Event& event, double tick)
 {
-    const HipDescription& hips = slide.hips;
+    const HandDescription& hands = box.hands;
     switch (event.kind) {
     case Kind::none: break;
     case Kind::spring: {
-        Spring& spring = slide.springs[event.spring];
-        const bool touches = spring.phase == Phase::apart;
+        FaceSpring& spring = box.springs[event.spring];
+        const bool touches = spring.phase == SpringPhase::apart;
         spring.phase = event.phase;
-        const double speed = slide.velocity[spring.axis];
-        if (touches && spring.tension(hips, speed) >= hips.force_max_n) {
-            spring.phase = Phase::limited;
+        const double speed = box.velocity[spring.axis];
+        if (touches && spring.tension(hands, speed) >= hands.force_max_n) {
+            spring.phase = SpringPhase::limited;
         }
         break;
     }
     case Kind::impact:
-        slide.place[event.axis] = event.face;
-        arrive(slide, event, tick);
+        box.position[event.axis] = event.face;
+        handle_impact(box, event, tick);
         break;
-    case Kind::unloading: slide.axes[event.axis].leaving = true; break;
-    case Kind::edge: slide.place[event.axis] = event.face; break;
+    case Kind::unloading: box.axes[event.axis].is_losing_support = true; break;
+    case Kind::edge: box.position[event.axis] = event.face; break;
     case Kind::stop:
         for (std::size_t i = 0; i < 3; ++i) {
-            if (slide.courses[i].moves()) slide.velocity[i] = 0.0;
+            if (box.trajectories[i].moves()) box.velocity[i] = 0.0;
         }
         break;
-    case Kind::slip: slide.rubbing.slips = true; break;
+    case Kind::slip: box.dry_friction.starts_slipping = true; break;
     }
 }
 

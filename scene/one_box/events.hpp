@@ -7,7 +7,7 @@
 namespace hapnet::scene {
 
 /// What ends a stretch of a tick.
-struct SlideEvent {
+struct Event {
     enum class Kind : std::uint8_t {
         none,      // the end of the tick
         spring,    // a hand's spring comes into another phase
@@ -20,22 +20,20 @@ struct SlideEvent {
     double time = 0.0; // from the start of the stretch
     Kind kind = Kind::none;
     std::uint32_t spring = 0;
-    Phase phase = Phase::apart;         // the spring's next one
-    std::size_t axis = 0;               // of an impact, an unloading or an edge
-    double face = 0.0;                  // where the centre is at an impact or an edge
-    double side = 0.0;                  // of an impact: +1 at a high face
-    const Obstacle* obstacle = nullptr; // of an impact
+    SpringPhase phase = SpringPhase::apart; // the spring's next one
+    std::size_t axis = 0;                   // of an impact, an unloading or an edge
+    double face = 0.0;                      // where the centre is at an impact or an edge
+    double side = 0.0;                      // of an impact: +1 at a high face
+    const Obstacle* obstacle = nullptr;     // of an impact
 };
 
 /// Whether nothing but dry friction can end the stretch before the tick does: so it nearly always
 /// is, and that is soon seen.
-[[nodiscard]] bool is_uneventful(const Slide& slide);
+[[nodiscard]] bool is_uneventful(const BoxMotion& box);
 /// What happens first in what is left of the tick, if it is before `first`.
-void look_for_event(const Slide& slide, SlideEvent& first);
-/// The same of dry friction.
-void friction_event(const Slide& slide, SlideEvent& first);
+void find_event(const BoxMotion& box, Event& first);
 
 /// Lets it happen; the box has been advanced to its moment. `tick` is the whole one's length.
-void apply(Slide& slide, const SlideEvent& event, double tick);
+void apply(BoxMotion& box, const Event& event, double tick);
 
 } // namespace hapnet::scene

@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "scene/one_box/events.hpp"
+#include "scene/one_box/friction.hpp"
 
 namespace hapnet::scene {
 
-// Coulomb's law with a circular cone. While the box slides straight on, friction is a steady force
-// (or grows steadily with what presses on the carrier), and the courses are exact. Where other
-// forces turn its way, the direction in the middle of the stretch is taken: second order.
-
 namespace {
 
-using State = Rubbing::State;
+using State = DryFriction::State;
 
 PerAxis unit(const PerAxis& a)
 {
@@ -29,15 +25,15 @@ struct Tangential {
 };
 
 /// What the axes do that nothing but friction holds.
-Tangential tangential(const Slide& slide)
+Tangential tangential(const BoxMotion& box)
 {
     Tangential found;
     for (std::size_t i = 0; i < 3; ++i) {
-        const SlideAxis& axis = slide.axes[i];
+        const AxisMotion& axis = box.axes[i];
         if (axis.is_held()) continue;
-        found.velocity[i] = slide.velocity[i];
-        found.push[i] = slide.courses[i].push;
-        found.ramp[i] = slide.courses[i].ramp;
+        found.velocity[i] = box.velocity[i];
+        found.push[i] = box.trajectories[i].push;
+        found.ramp[i] = box.trajectories[i].ramp;
         found.all[found.count++] = i;
     }
     return found;
@@ -45,7 +41,7 @@ Tangential tangential(const Slide& slide)
 
 /// Whether the direction cannot change: only one axis takes part, or force, speed and what answers
 /// them are alike in both.
-bool is_straight(const Slide& slide, const Tangential& free)
+bool is_straight(const BoxMotion& box, const Tangential& free)
 {
     if (free.count < 2) return true;
     const std::size_t i = free.all[0];
@@ -53,7 +49,7 @@ bool is_straight(const Slide& slide, const Tangential& free)
     for (const std::size_t k : {i, j}) {
         if (free.velocity[k] == 0.0 && free.push[k] == 0.0 && free.ramp[k] == 0.0) return true;
     }
-    if (slide.courses[i].kernel != slide.courses[j].kernel) return false;
+    if (box.trajectories[i].propagator != box.trajectories[j].propagator) return false;
     if (free.ramp[i] != 0.0 || free.ramp[j] != 0.0) return false;
     constexpr double rounding = 1e-13;
     const double cross = free.velocity[i] * free.push[j] - free.velocity[j] * free.push[i];
@@ -61,116 +57,121 @@ bool is_straight(const Slide& slide, const Tangential& free)
            rounding * rounding * dot(free.velocity, free.velocity) * dot(free.push, free.push);
 }
 
-void oppose(Slide& slide, const Tangential& free, const PerAxis& direction)
+void oppose(BoxMotion& box, const Tangential& free, const PerAxis& direction)
 {
     for (const std::size_t i : free.axes()) {
-        slide.courses[i].push = free.push[i] - slide.rubbing.limit * direction[i];
-        slide.courses[i].ramp = free.ramp[i] - slide.rubbing.limit_ramp * direction[i];
+        box.trajectories[i].push = free.push[i] - box.dry_friction.limit * direction[i];
+        box.trajectories[i].ramp = free.ramp[i] - box.dry_friction.limit_ramp * direction[i];
     }
 }
 
 /// The direction in the middle of what is left of the tick, found with the one at its start.
-PerAxis turned(Slide& slide, const Tangential& free, const PerAxis& direction)
+PerAxis direction_halfway(BoxMotion& box, const Tangential& free, const PerAxis& direction)
 {
-    oppose(slide, free, direction);
+    oppose(box, free, direction);
     PerAxis middle{};
     for (const std::size_t i : free.axes()) {
-        middle[i] = slide.courses[i].after(0.5 * slide.left).speed;
+        middle[i] = box.trajectories[i].after(0.5 * box.time_left).speed;
     }
     if (!(dot(middle, direction) > 0.0)) return direction;
     return unit(middle);
 }
 
 /// Adds up what presses on the carriers; whether there is any friction.
-bool load(Slide& slide)
+bool load(BoxMotion& box)
 {
-    Rubbing& rubbing = slide.rubbing;
-    rubbing.limit = rubbing.limit_ramp = 0.0;
-    for (const SlideAxis& axis : slide.axes) {
-        if (!axis.carrier) continue;
-        rubbing.limit += axis.carrier->friction * axis.load;
-        rubbing.limit_ramp += axis.carrier->friction * axis.load_ramp;
+    DryFriction& dry_friction = box.dry_friction;
+    dry_friction.limit = dry_friction.limit_ramp = 0.0;
+    for (const AxisMotion& axis : box.axes) {
+        if (!axis.support) continue;
+        dry_friction.limit += axis.support->friction * axis.load;
+        dry_friction.limit_ramp += axis.support->friction * axis.load_ramp;
     }
-    return rubbing.limit > 0.0 || rubbing.limit_ramp > 0.0;
+    return dry_friction.limit > 0.0 || dry_friction.limit_ramp > 0.0;
 }
 
 } // namespace
 
-void with_friction(Slide& slide)
+void add_friction(BoxMotion& box)
 {
-    Rubbing& rubbing = slide.rubbing;
-    const bool has_slipped = rubbing.slips;
-    rubbing.state = State::none;
-    rubbing.slips = false;
-    if (!load(slide)) return;
-    const Tangential free = tangential(slide);
+    DryFriction& dry_friction = box.dry_friction;
+    const bool was_starting_to_slip = dry_friction.starts_slipping;
+    dry_friction.state = State::none;
+    dry_friction.starts_slipping = false;
+    if (!load(box)) return;
+    const Tangential free = tangential(box);
     if (free.count == 0) return;
 
     const double speed_squared = dot(free.velocity, free.velocity);
     const double push_squared = dot(free.push, free.push);
     if (speed_squared == 0.0) {
-        const bool holds = push_squared <= rubbing.limit * rubbing.limit && !has_slipped;
+        const bool holds =
+            push_squared <= dry_friction.limit * dry_friction.limit && !was_starting_to_slip;
         if (holds || push_squared == 0.0) {
-            rubbing.state = State::stuck;
+            dry_friction.state = State::stuck;
             for (const std::size_t i : free.axes()) {
-                slide.courses[i].kernel = nullptr;
+                box.trajectories[i].propagator = nullptr;
             }
             return;
         }
-        rubbing.slips = true;
-        rubbing.direction = unit(free.push);
+        dry_friction.starts_slipping = true;
+        dry_friction.direction = unit(free.push);
     } else {
-        rubbing.direction = unit(free.velocity);
+        dry_friction.direction = unit(free.velocity);
     }
-    rubbing.state = State::sliding;
-    if (!is_straight(slide, free)) rubbing.direction = turned(slide, free, rubbing.direction);
-    oppose(slide, free, rubbing.direction);
+    dry_friction.state = State::sliding;
+    if (!is_straight(box, free))
+        dry_friction.direction = direction_halfway(box, free, dry_friction.direction);
+    oppose(box, free, dry_friction.direction);
 }
 
 namespace {
 
 /// When limit(t)^2 - |push(t)|^2 falls to 0, all of them linear.
-void look_for_slip(const Slide& slide, SlideEvent& first)
+void find_slip(const BoxMotion& box, Event& first)
 {
-    const Rubbing& rubbing = slide.rubbing;
-    const Tangential free = tangential(slide);
-    const double level = std::max(rubbing.limit * rubbing.limit - dot(free.push, free.push), 0.0);
-    const double half_slope = rubbing.limit * rubbing.limit_ramp - dot(free.push, free.ramp);
-    const double bend = rubbing.limit_ramp * rubbing.limit_ramp - dot(free.ramp, free.ramp);
+    const DryFriction& dry_friction = box.dry_friction;
+    const Tangential free = tangential(box);
+    const double level =
+        std::max(dry_friction.limit * dry_friction.limit - dot(free.push, free.push), 0.0);
+    const double half_slope =
+        dry_friction.limit * dry_friction.limit_ramp - dot(free.push, free.ramp);
+    const double bend =
+        dry_friction.limit_ramp * dry_friction.limit_ramp - dot(free.ramp, free.ramp);
     if (level == 0.0 && half_slope >= 0.0 && bend >= 0.0) return;
     const double discriminant = half_slope * half_slope - bend * level;
     if (discriminant < 0.0) return;
     const double rate = -half_slope + std::sqrt(discriminant);
     if (rate <= 0.0 || level >= rate * first.time) return;
-    first = {.time = level / rate, .kind = SlideEvent::Kind::slip};
+    first = {.time = level / rate, .kind = Event::Kind::slip};
 }
 
-void look_for_stop(const Slide& slide, SlideEvent& first)
+void find_stop(const BoxMotion& box, Event& first)
 {
-    const PerAxis& direction = slide.rubbing.direction;
-    Watch watch{.leaves_zero = slide.rubbing.slips};
+    const PerAxis& direction = box.dry_friction.direction;
+    WatchedQuantity watch{.leaves_zero = box.dry_friction.starts_slipping};
     double speed = 0.0;
     double rate = 0.0;
     double bend = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-        if (!slide.courses[i].moves()) continue;
+        if (!box.trajectories[i].moves()) continue;
         watch.speed_weight[i] = direction[i];
-        speed += direction[i] * slide.velocity[i];
-        rate += direction[i] * slide.axes[i].acceleration;
-        bend += std::abs(direction[i]) * slide.axes[i].most.jerk;
+        speed += direction[i] * box.velocity[i];
+        rate += direction[i] * box.axes[i].acceleration;
+        bend += std::abs(direction[i]) * box.axes[i].bounds.jerk;
     }
     if (stays_positive(speed, rate, bend, first.time)) return;
-    const auto time = first_root(watch, slide.courses, 0.0, first.time);
-    if (time) first = {.time = *time, .kind = SlideEvent::Kind::stop};
+    const auto time = first_root(watch, box.trajectories, 0.0, first.time);
+    if (time) first = {.time = *time, .kind = Event::Kind::stop};
 }
 
 } // namespace
 
-void friction_event(const Slide& slide, SlideEvent& first)
+void find_friction_event(const BoxMotion& box, Event& first)
 {
-    if (slide.calm) return;
-    if (slide.rubbing.state == State::stuck) look_for_slip(slide, first);
-    if (slide.rubbing.state == State::sliding) look_for_stop(slide, first);
+    if (box.event_limit_reached) return;
+    if (box.dry_friction.state == State::stuck) find_slip(box, first);
+    if (box.dry_friction.state == State::sliding) find_stop(box, first);
 }
 
 } // namespace hapnet::scene

@@ -12,28 +12,29 @@
 namespace hapnet::scene {
 
 /// A hand at a face of the box; at none: it does not touch, or at an edge or a corner.
-struct FaceTouch {
-    std::uint32_t hip = 0;
-    EnteredFace face;
+struct FaceContact {
+    std::uint32_t hand = 0;
+    BoxFace face;
     double depth = 0.0;
 };
 
 /// The hands at the box and at the fixed boxes, and what has to be remembered of them.
-class SlidingHands {
+class BoxHands {
 public:
-    SlidingHands(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable);
+    BoxHands(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
 
-    /// Adds the springs between the hands and the box to `slide`. What the hands feel of the fixed
+    /// Adds the springs between the hands and the box to `box`. What the hands feel of the fixed
     /// boxes is told at once.
-    void gather(const Frozen& frozen, Stage& stage, Slide& slide);
+    void collide(const WorldConfig& config, WorldState& state, BoxMotion& box);
     /// Adds the forces of hands at edges and corners, once the courses of the axes are known.
     /// Midpoint rule: second order, and it neither makes nor loses energy.
-    static void press_slanted(Slide& slide);
-    /// Whether a hand held with more than its greatest force in the tick that `slide` has run. Then
+    static void add_edge_springs(BoxMotion& box);
+    /// Whether a hand held with more than its greatest force in the tick that `box` has run. Then
     /// `again`, the tick before it ran, has that force held throughout instead.
-    static bool weaken(const Frozen& frozen, Stage& stage, const Slide& slide, Slide& again);
+    static bool limit_grip(const WorldConfig& config, WorldState& state, const BoxMotion& box,
+                           BoxMotion& again);
     /// Tells what the springs did in the tick.
-    static void report(const Frozen& frozen, Stage& stage, const Slide& slide);
+    static void report(const WorldConfig& config, WorldState& state, const BoxMotion& box);
     /// The box has been put somewhere else.
     void forget_box();
 
@@ -43,38 +44,40 @@ private:
         PerAxis half;
     };
     struct Memory {
-        EnteredFace entered;              // of the movable box
+        BoxFace entered;                  // of the movable box
         std::optional<PerAxis> held_at{}; // from the box's centre
-        PerAxis seen_from{};
-        double clear = -1.0; // no fixed box is nearer to `seen_from`, along every axis
+        PerAxis query_position{};
+        double clear = -1.0; // no fixed box is nearer to `query_position`, along every axis
 
         /// Whether no fixed box is within reach of the hand in this tick.
-        [[nodiscard]] bool is_clear(const Frozen& frozen, const HipInput& hip) const
+        [[nodiscard]] bool is_clear(const WorldConfig& config, const HandInput& input) const
         {
-            const PerAxis place = per_axis(hip.position.value);
-            const PerAxis velocity = per_axis(hip.velocity.value);
+            const PerAxis place = per_axis(input.position.value);
+            const PerAxis velocity = per_axis(input.velocity.value);
             double reach = 0.0;
             for (std::size_t i = 0; i < 3; ++i) {
-                const double gone = std::abs(place[i] - seen_from[i]);
-                reach = std::max(gone + frozen.tick * std::abs(velocity[i]), reach);
+                const double gone = std::abs(place[i] - query_position[i]);
+                reach = std::max(gone + config.tick * std::abs(velocity[i]), reach);
             }
-            return reach + frozen.hips.radius_m < clear;
+            return reach + config.hands.radius_m < clear;
         }
     };
 
-    void hold(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
-    void touch_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
+    void hold(const WorldConfig& config, WorldState& state, BoxMotion& box, std::uint32_t index);
+    void collide_box(const WorldConfig& config, WorldState& state, BoxMotion& box,
+                     std::uint32_t index);
     /// Where nothing is as simple as a hand straight before a face. Hands at edges and corners are
-    /// added to `slide`; what pushes a face is returned.
-    FaceTouch meet_box(const Frozen& frozen, Stage& stage, Slide& slide, std::uint32_t index);
-    void touch_fixed(const Frozen& frozen, Stage& stage, std::uint32_t index);
+    /// added to `box`; what pushes a face is returned.
+    FaceContact collide_near_box(const WorldConfig& config, WorldState& state, BoxMotion& box,
+                                 std::uint32_t index);
+    void collide_fixed_boxes(const WorldConfig& config, WorldState& state, std::uint32_t index);
 
     BodyId body_;
     PerAxis half_;
     double margin_; // how far the box may come in a tick beyond what the speeds at its start say
     std::vector<FixedBox> fixed_;
-    std::vector<EnteredFace> entered_fixed_; // by hand, then by box
-    std::array<Memory, hips_max> memory_{};
+    std::vector<BoxFace> entered_fixed_; // by hand, then by box
+    std::array<Memory, hands_max> memory_{};
 };
 
 } // namespace hapnet::scene

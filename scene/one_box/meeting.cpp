@@ -9,7 +9,7 @@ namespace hapnet::scene {
 
 namespace {
 
-EnteredFace nearest_face(const PerAxis& place, const PerAxis& half)
+BoxFace nearest_face(const PerAxis& place, const PerAxis& half)
 {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < 3; ++i) {
@@ -19,14 +19,14 @@ EnteredFace nearest_face(const PerAxis& place, const PerAxis& half)
 }
 
 /// When and through which face of the box grown by the radius the hand comes in.
-struct Arrival {
+struct Entry {
     double time = 0.0;
     std::size_t axis = no_axis; // none: it is inside of the grown box from the start
 };
 
-std::optional<Arrival> arrival(const Approach& hand, const PerAxis& half)
+std::optional<Entry> entry_into_grown_box(const SphereMotion& hand, const PerAxis& half)
 {
-    Arrival found;
+    Entry found;
     for (std::size_t i = 0; i < 3; ++i) {
         const double gap = std::abs(hand.from_centre[i]) - half[i] - hand.radius;
         if (gap < 0.0) continue;
@@ -38,7 +38,7 @@ std::optional<Arrival> arrival(const Approach& hand, const PerAxis& half)
     return found;
 }
 
-PerAxis place_after(const Approach& hand, double time)
+PerAxis place_after(const SphereMotion& hand, double time)
 {
     PerAxis place = hand.from_centre;
     for (std::size_t i = 0; i < 3; ++i) place[i] += time * hand.velocity[i];
@@ -46,50 +46,52 @@ PerAxis place_after(const Approach& hand, double time)
 }
 
 /// A hand that is apart and outside.
-std::optional<Meeting> approaching(const Approach& hand, const PerAxis& half, EnteredFace& entered)
+std::optional<SphereContact> first_contact(const SphereMotion& hand, const PerAxis& half,
+                                           BoxFace& entered)
 {
-    const Outside out{hand.from_centre, half};
-    const auto found = arrival(hand, half);
+    const OutsideVector out{hand.from_centre, half};
+    const auto found = entry_into_grown_box(hand, half);
     if (!found) { // the box may still come to it
         if (out.directions > 1) return std::nullopt;
-        return at_face(hand.from_centre, half, out.face(), hand.radius);
+        return contact_at_face(hand.from_centre, half, out.face(), hand.radius);
     }
     const std::size_t axis = found->axis == no_axis ? out.axis : found->axis;
-    const EnteredFace face = face_at(axis, hand.from_centre[axis]);
-    if (Outside{place_after(hand, found->time), half}.is_along(axis)) {
+    const BoxFace face = face_at(axis, hand.from_centre[axis]);
+    if (OutsideVector{place_after(hand, found->time), half}.is_along(axis)) {
         entered = face;
-        return at_face(hand.from_centre, half, face, hand.radius);
+        return contact_at_face(hand.from_centre, half, face, hand.radius);
     }
     // Towards an edge or a corner: the closest point at the end of the tick gives the normal.
     const PerAxis last = place_after(hand, hand.tick);
-    const Outside end{last, half};
+    const OutsideVector end{last, half};
     if (end.length() >= hand.radius) return std::nullopt;
     entered = face;
-    if (end.is_along(axis)) return at_face(hand.from_centre, half, face, hand.radius);
-    Meeting meeting{.face = {}, .depth = hand.radius, .oblique = end.direction()};
+    if (end.is_along(axis)) return contact_at_face(hand.from_centre, half, face, hand.radius);
+    SphereContact contact{.face = {}, .depth = hand.radius, .edge_normal = end.direction()};
     for (std::size_t i = 0; i < 3; ++i) {
-        meeting.depth -= meeting.oblique[i] * (hand.from_centre[i] - (last[i] - end.away[i]));
+        contact.depth -= contact.edge_normal[i] * (hand.from_centre[i] - (last[i] - end.away[i]));
     }
-    return meeting;
+    return contact;
 }
 
 } // namespace
 
-std::optional<Meeting> meet(const Approach& hand, const PerAxis& half, EnteredFace& entered)
+std::optional<SphereContact> collide_sphere(const SphereMotion& hand, const PerAxis& half,
+                                            BoxFace& entered)
 {
-    const Outside out{hand.from_centre, half};
+    const OutsideVector out{hand.from_centre, half};
     if (out.directions == 0) {
         if (entered.axis == no_axis) entered = nearest_face(hand.from_centre, half);
-        return at_face(hand.from_centre, half, entered, hand.radius);
+        return contact_at_face(hand.from_centre, half, entered, hand.radius);
     }
     const double distance = out.length();
     if (distance >= hand.radius) {
         entered = {};
-        return approaching(hand, half, entered);
+        return first_contact(hand, half, entered);
     }
     entered = out.face();
-    if (out.directions == 1) return at_face(hand.from_centre, half, entered, hand.radius);
-    return Meeting{{}, hand.radius - distance, out.direction()};
+    if (out.directions == 1) return contact_at_face(hand.from_centre, half, entered, hand.radius);
+    return SphereContact{{}, hand.radius - distance, out.direction()};
 }
 
 } // namespace hapnet::scene

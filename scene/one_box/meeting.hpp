@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/maths/per_axis.hpp"
+#include "scene/maths/vector.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace hapnet::scene {
 inline constexpr std::uint8_t no_axis = 3;
 
 /// The face of a box, parallel to the axes, through which a hand's centre went in.
-struct EnteredFace {
+struct BoxFace {
     std::uint8_t axis = no_axis;
     std::int8_t sign = 1;
 };
 /// The one across `axis` on the side of a place, given from the box's centre.
-[[nodiscard]] inline EnteredFace face_at(std::size_t axis, double place)
+[[nodiscard]] inline BoxFace face_at(std::size_t axis, double place)
 {
     return {static_cast<std::uint8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};
 }
 
 /// A hand as a box sees it: from the box's centre, relative to the box's velocity.
-struct Approach {
+struct SphereMotion {
     PerAxis from_centre{};
     PerAxis velocity{};
     double radius = 0.0;
@@ -32,19 +32,19 @@ struct Approach {
 };
 
 /// How a hand meets a box within a tick. The normal holds for the whole tick.
-struct Meeting {
-    EnteredFace face;   // none at an edge or a corner
-    double depth = 0.0; // at the start of the tick, along the normal; < 0: still apart
-    PerAxis oblique{};  // at an edge or a corner: the unit normal, from the box to the hand
+struct SphereContact {
+    BoxFace face;          // none at an edge or a corner
+    double depth = 0.0;    // at the start of the tick, along the normal; < 0: still apart
+    PerAxis edge_normal{}; // at an edge or a corner: the unit normal, from the box to the hand
 };
 
 /// The vector to a place from the closest point of a box around the origin.
-struct Outside {
+struct OutsideVector {
     PerAxis away{};
     std::size_t axis = 0;       // along which it is longest
     std::size_t directions = 0; // that take part: 0 inside, 1 before a face
 
-    Outside(const PerAxis& place, const PerAxis& half)
+    OutsideVector(const PerAxis& place, const PerAxis& half)
     {
         for (std::size_t i = 0; i < 3; ++i) {
             const double beyond = std::abs(place[i]) - half[i];
@@ -54,7 +54,7 @@ struct Outside {
             ++directions;
         }
     }
-    [[nodiscard]] EnteredFace face() const
+    [[nodiscard]] BoxFace face() const
     {
         return {static_cast<std::uint8_t>(axis),
                 static_cast<std::int8_t>(away[axis] < 0.0 ? -1 : 1)};
@@ -74,8 +74,8 @@ struct Outside {
     }
 };
 
-[[nodiscard]] inline Meeting at_face(const PerAxis& from_centre, const PerAxis& half,
-                                     EnteredFace face, double radius)
+[[nodiscard]] inline SphereContact contact_at_face(const PerAxis& from_centre, const PerAxis& half,
+                                                   BoxFace face, double radius)
 {
     return {face, radius + half[face.axis] - face.sign * from_centre[face.axis], {}};
 }
@@ -84,7 +84,7 @@ struct Outside {
 /// While its centre is outside, the closest point decides; inside, the face through which it
 /// came; one that comes inside all of a sudden takes the nearest face. One that is apart meets the
 /// face at which it would arrive at its present velocity.
-[[nodiscard]] std::optional<Meeting> meet(const Approach& hand, const PerAxis& half,
-                                          EnteredFace& entered);
+[[nodiscard]] std::optional<SphereContact> collide_sphere(const SphereMotion& hand,
+                                                          const PerAxis& half, BoxFace& entered);
 
 } // namespace hapnet::scene

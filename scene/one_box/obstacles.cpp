@@ -20,7 +20,7 @@ Obstacle between(const Material& a, const Material& b)
     return obstacle;
 }
 
-Obstacle in_the_way(const PlaneDescription& plane, const BodyForm& movable)
+Obstacle plane_obstacle(const PlaneDescription& plane, const BodyProperties& movable)
 {
     Obstacle obstacle = between(plane.material, movable.material);
     obstacle.is_plane = true;
@@ -37,43 +37,43 @@ Obstacle in_the_way(const PlaneDescription& plane, const BodyForm& movable)
 
 } // namespace
 
-Obstacles::Obstacles(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable)
-    : usual_margin_{std::min(std::min(movable.half.x, movable.half.y), movable.half.z)}
+Obstacles::Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable)
+    : default_margin_{std::min(std::min(movable.half.x, movable.half.y), movable.half.z)}
 {
-    for (const PlaneDescription& plane : frozen.planes) {
-        all_.push_back(in_the_way(plane, movable));
+    for (const PlaneDescription& plane : config.planes) {
+        all_.push_back(plane_obstacle(plane, movable));
     }
     for (const Slot slot : bodies.slot_of) {
-        if (bodies.form[slot].mass > 0.0) continue;
-        Obstacle obstacle = between(bodies.form[slot].material, movable.material);
+        if (bodies.properties[slot].mass > 0.0) continue;
+        Obstacle obstacle = between(bodies.properties[slot].material, movable.material);
         for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<int>(i);
-            const double reach = bodies.form[slot].half[axis] + movable.half[axis];
+            const double reach = bodies.properties[slot].half[axis] + movable.half[axis];
             obstacle.low[i] = bodies.position.at(slot)[axis] - reach;
             obstacle.high[i] = bodies.position.at(slot)[axis] + reach;
         }
         all_.push_back(obstacle);
     }
-    near_ = Bounded<std::uint32_t>{all_.size()};
+    nearby_ = Bounded<std::uint32_t>{all_.size()};
     for (std::size_t i = 0; i < 3; ++i) {
         locked_[i] = movable.inverse_mass[static_cast<int>(i)] == 0.0;
     }
 }
 
-void Obstacles::look(const PerAxis& centre, double reach)
+void Obstacles::refresh(const PerAxis& centre, double reach)
 {
-    seen_from_ = centre;
-    margin_ = std::max(usual_margin_, 2.0 * reach);
-    near_.clear();
+    query_centre_ = centre;
+    margin_ = std::max(default_margin_, 2.0 * reach);
+    nearby_.clear();
     for (std::uint32_t i = 0; i < all_.size(); ++i) {
         const Obstacle& one = all_[i];
         const bool is_near = one.gap(0, centre[0]) <= margin_ && one.gap(1, centre[1]) <= margin_ &&
                              one.gap(2, centre[2]) <= margin_;
-        if (is_near) near_.add(i);
+        if (is_near) nearby_.add(i);
     }
 }
 
-bool Obstacles::put_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const
+bool Obstacles::push_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const
 {
     bool was_inside = false;
     for (const std::uint32_t id : of_those) {

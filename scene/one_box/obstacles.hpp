@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/bounded.hpp"
-#include "scene/maths/per_axis.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/state.hpp"
 
 #include <algorithm>
@@ -42,37 +42,37 @@ struct Obstacle {
 /// order of the description; the rest is looked at again when the box has gone some way.
 class Obstacles {
 public:
-    Obstacles(const Frozen& frozen, const Bodies& bodies, const BodyForm& movable);
+    Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
 
     /// How far the centre may still go before the list of what is near has to be made again.
-    [[nodiscard]] double room(const PerAxis& centre) const
+    [[nodiscard]] double clearance(const PerAxis& centre) const
     {
-        const double x = std::abs(centre[0] - seen_from_[0]);
-        const double y = std::abs(centre[1] - seen_from_[1]);
-        const double z = std::abs(centre[2] - seen_from_[2]);
+        const double x = std::abs(centre[0] - query_centre_[0]);
+        const double y = std::abs(centre[1] - query_centre_[1]);
+        const double z = std::abs(centre[2] - query_centre_[2]);
         return margin_ - std::max(std::max(x, y), z);
     }
     /// At least those within `reach` of the centre, along every axis.
-    [[nodiscard]] std::span<const std::uint32_t> near(const PerAxis& centre, double reach)
+    [[nodiscard]] std::span<const std::uint32_t> nearby(const PerAxis& centre, double reach)
     {
-        if (!(reach <= room(centre))) look(centre, reach);
-        return {near_.begin(), near_.size()};
+        if (!(reach <= clearance(centre))) refresh(centre, reach);
+        return {nearby_.begin(), nearby_.size()};
     }
     [[nodiscard]] const Obstacle& operator[](std::uint32_t index) const { return all_[index]; }
 
     /// Puts the centre out of everything that it is in: to the nearest face of each, along an axis
     /// that is not locked. Whether it was in anything.
-    bool put_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const;
+    bool push_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const;
 
 private:
-    void look(const PerAxis& centre, double reach);
+    void refresh(const PerAxis& centre, double reach);
 
     std::vector<Obstacle> all_;
-    Bounded<std::uint32_t> near_;
+    Bounded<std::uint32_t> nearby_;
     std::array<bool, 3> locked_{};
-    PerAxis seen_from_{};
-    double usual_margin_ = 0.0;
-    double margin_ = -1.0; // what is farther from `seen_from_` is not in the list
+    PerAxis query_centre_{};
+    double default_margin_ = 0.0;
+    double margin_ = -1.0; // what is farther from `query_centre_` is not in the list
 };
 
 } // namespace hapnet::scene

@@ -26,14 +26,15 @@ double integral(double level, double slope, Interval over)
 
 } // namespace
 
-double steady_impulse(const HipDescription& hips, double depth, double closing, double time)
+double impulse_at_constant_velocity(const HandDescription& hands, double depth, double closing,
+                                    double time)
 {
-    const double level = hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing;
-    const double slope = hips.stiffness_n_per_m * closing;
+    const double level = hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing;
+    const double slope = hands.stiffness_n_per_m * closing;
     const Interval overlap = positive(depth, closing, {0.0, time});
     const Interval pushing = positive(level, slope, overlap);
     double impulse = integral(level, slope, pushing);
-    const double over = level - hips.force_max_n;
+    const double over = level - hands.force_max_n;
     if (std::max(over + slope * pushing.from, over + slope * pushing.to) > 0.0) {
         impulse -= integral(over, slope, positive(over, slope, pushing));
     }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/description.hpp"
-#include "scene/maths/per_axis.hpp"
+#include "scene/maths/vector.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,55 +12,55 @@ namespace hapnet::scene {
 
 /// What the spring and damper between a hand and a face do. The force is
 /// clamp(stiffness depth + damping closing speed, 0, force_max) while they overlap, else 0.
-enum class Phase : std::uint8_t {
-    apart,   // no overlap
-    slack,   // they overlap, but it would have to pull
-    active,  // between nothing and the greatest force
-    limited, // the greatest force
+enum class SpringPhase : std::uint8_t {
+    apart,    // no overlap
+    slack,    // they overlap, but it would have to pull
+    pressing, // between nothing and the greatest force
+    limited,  // the greatest force
 };
 
 /// A hand's spring on one face of the box, along one axis.
-struct Spring {
-    std::uint32_t hip;
+struct FaceSpring {
+    std::uint32_t hand;
     std::size_t axis;
     double sign;    // of the normal, from the box to the hand
     double depth;   // at the start of the stretch of time that is looked at
     double closing; // the hand's share of the closing speed
-    Phase phase;
+    SpringPhase phase;
     double impulse; // so far in the tick, N s, >= 0
 
     /// `speed` is the box's along the axis.
     [[nodiscard]] double closing_at(double speed) const { return closing + sign * speed; }
-    [[nodiscard]] double tension(const HipDescription& hips, double speed) const
+    [[nodiscard]] double tension(const HandDescription& hands, double speed) const
     {
-        return hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing_at(speed);
+        return hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing_at(speed);
     }
     /// Takes the phase that belongs to the present state; returns the force.
-    double settle(const HipDescription& hips, double speed)
+    double update_phase(const HandDescription& hands, double speed)
     {
-        phase = Phase::apart;
+        phase = SpringPhase::apart;
         if (depth <= 0.0) return 0.0;
-        const double wanted = tension(hips, speed);
-        if (wanted >= hips.force_max_n) {
-            phase = Phase::limited;
-            return hips.force_max_n;
+        const double wanted = tension(hands, speed);
+        if (wanted >= hands.force_max_n) {
+            phase = SpringPhase::limited;
+            return hands.force_max_n;
         }
-        phase = wanted > 0.0 ? Phase::active : Phase::slack;
+        phase = wanted > 0.0 ? SpringPhase::pressing : SpringPhase::slack;
         return std::max(wanted, 0.0);
     }
 };
 
 /// A hand that holds the box: a spring and a damper in all directions, which also pull.
-struct Grip {
-    std::uint32_t hip;
+struct GripSpring {
+    std::uint32_t hand;
     PerAxis stretch; // from where it is held to the hand, at the start of the stretch of time
     PerAxis velocity;
     PerAxis impulse; // on the box, so far in the tick
 };
 
 /// A hand at an edge or a corner: its force is the midpoint rule's, held for the tick.
-struct SlantedSpring {
-    std::uint32_t hip;
+struct EdgeSpring {
+    std::uint32_t hand;
     PerAxis normal; // unit, from the box to the hand
     double depth;   // along it, at the start of the tick
     double closing; // the hand's share of the closing speed
@@ -69,7 +69,7 @@ struct SlantedSpring {
 
 /// The impulse of the force of a hand on something that stands still, over `time`: exact, since
 /// the depth is linear. N s.
-[[nodiscard]] double steady_impulse(const HipDescription& hips, double depth, double closing,
-                                    double time);
+[[nodiscard]] double impulse_at_constant_velocity(const HandDescription& hands, double depth,
+                                                  double closing, double time);
 
 } // namespace hapnet::scene

@@ -4,134 +4,138 @@
 
 #include "proto/base/ensure.hpp"
 #include "scene/one_box/events.hpp"
+#include "scene/one_box/friction.hpp"
 
 namespace hapnet::scene {
 
 namespace {
 
-const BodyForm& the_movable(const Bodies& bodies)
+const BodyProperties& movable_box(const Bodies& bodies)
 {
     base::ensure(bodies.movable == 1);
-    return bodies.form[0];
+    return bodies.properties[0];
 }
 
 template <bool coulomb>
-void arrange(Slide& slide)
+void start_interval(BoxMotion& box)
 {
-    set_courses(slide);
-    if constexpr (coulomb) with_friction(slide);
-    with_bounds(slide);
+    set_trajectories(box);
+    if constexpr (coulomb) add_friction(box);
+    set_bounds(box);
 }
 
 } // namespace
 
 template <bool coulomb>
-SlidingTick<coulomb>::SlidingTick(const Description& /*description*/, const Frozen& frozen,
-                                  const Stage& stage)
-    : body_{the_movable(stage.bodies).id},
-      laws_{frozen.hips, the_movable(stage.bodies), frozen.tick},
-      obstacles_{frozen, stage.bodies, the_movable(stage.bodies)},
-      hands_{frozen, stage.bodies, the_movable(stage.bodies)}
+OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const WorldConfig& config,
+                                      const WorldState& state)
+    : body_{movable_box(state.bodies).id},
+      oscillators_{config.hands, movable_box(state.bodies), config.tick},
+      obstacles_{config, state.bodies, movable_box(state.bodies)},
+      hands_{config, state.bodies, movable_box(state.bodies)}
 {
-    const PerAxis mobility = per_axis(the_movable(stage.bodies).inverse_mass);
+    const PerAxis mobility = per_axis(movable_box(state.bodies).inverse_mass);
     for (std::size_t i = 0; i < 3; ++i) locked_[i] = mobility[i] == 0.0;
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::tick(const Frozen& frozen, Stage& stage)
+void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 {
-    const Slot slot = stage.bodies.slot_of[body_];
-    Slide slide{frozen.hips, laws_, obstacles_};
-    slide.left = frozen.tick;
-    slide.place = per_axis(stage.bodies.position.at(slot));
-    slide.velocity = per_axis(stage.bodies.velocity.at(slot));
-    const PerAxis gravity = per_axis(frozen.gravity);
+    const Slot slot = state.bodies.slot_of[body_];
+    BoxMotion box{config.hands, oscillators_, obstacles_};
+    box.time_left = config.tick;
+    box.position = per_axis(state.bodies.position.at(slot));
+    box.velocity = per_axis(state.bodies.velocity.at(slot));
+    const PerAxis gravity = per_axis(config.gravity);
     for (std::size_t i = 0; i < 3; ++i) {
-        if (locked_[i]) slide.velocity[i] = 0.0;
-        slide.axes[i].stopped = locked_[i];
-        slide.axes[i].leaving = false;
-        slide.axes[i].steady = gravity[i];
+        if (locked_[i]) box.velocity[i] = 0.0;
+        box.axes[i].is_stopped = locked_[i];
+        box.axes[i].is_losing_support = false;
+        box.axes[i].applied_acceleration = gravity[i];
     }
-    if (!stage.pushed.is_empty()) {
-        const PerAxis push = per_axis(stage.pushes[body_]);
-        for (std::size_t i = 0; i < 3; ++i) slide.axes[i].steady += laws_.inverse_mass() * push[i];
+    if (!state.pushed.is_empty()) {
+        const PerAxis push = per_axis(state.pushes[body_]);
+        for (std::size_t i = 0; i < 3; ++i)
+            box.axes[i].applied_acceleration += oscillators_.inverse_mass() * push[i];
     }
-    see(slide, 0.0);
-    if (obstacles_.put_out(slide.near, slide.place)) see(slide, 0.0);
+    query_obstacles(box, 0.0);
+    if (obstacles_.push_out(box.nearby, box.position)) query_obstacles(box, 0.0);
 
-    hands_.gather(frozen, stage, slide);
-    if (slide.grip_count == 0) {
-        run(frozen, slide);
-        conclude(frozen, stage, slide);
+    hands_.collide(config, state, box);
+    if (box.grip_count == 0) {
+        run_events(config, box);
+        commit(config, state, box);
     } else {
-        try_holding(frozen, stage, slide);
+        solve_with_grips(config, state, box);
     }
 }
 
 template <bool coulomb>
-inline void SlidingTick<coulomb>::see(Slide& slide, double reach)
+inline void OneBoxStepper<coulomb>::query_obstacles(BoxMotion& box, double reach)
 {
-    slide.near = obstacles_.near(slide.place, reach);
-    slide.room = obstacles_.room(slide.place);
+    box.nearby = obstacles_.nearby(box.position, reach);
+    box.clearance = obstacles_.clearance(box.position);
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::try_holding(const Frozen& frozen, Stage& stage, Slide& start)
+void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldState& state,
+                                              BoxMotion& start)
 {
     for (;;) { // each time a hand holds less
-        Slide slide = start.copy();
-        see(slide, 0.0); // what is near may have been looked for elsewhere meanwhile
-        run(frozen, slide);
-        if (SlidingHands::weaken(frozen, stage, slide, start)) continue;
-        conclude(frozen, stage, slide);
+        BoxMotion box = start.copy();
+        query_obstacles(box, 0.0); // what is near may have been looked for elsewhere meanwhile
+        run_events(config, box);
+        if (BoxHands::limit_grip(config, state, box, start)) continue;
+        commit(config, state, box);
         return;
     }
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const
+void OneBoxStepper<coulomb>::commit(const WorldConfig& config, WorldState& state,
+                                    const BoxMotion& box) const
 {
-    const Slot slot = stage.bodies.slot_of[body_];
-    stage.bodies.position.put(slot, vector(slide.place));
-    stage.bodies.velocity.put(slot, vector(slide.velocity));
-    SlidingHands::report(frozen, stage, slide);
+    const Slot slot = state.bodies.slot_of[body_];
+    state.bodies.position.put(slot, vector(box.position));
+    state.bodies.velocity.put(slot, vector(box.velocity));
+    BoxHands::report(config, state, box);
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::run(const Frozen& frozen, Slide& slide)
+void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, BoxMotion& box)
 {
-    arrange<coulomb>(slide);
-    if (slide.slanted_count > 0) {
-        SlidingHands::press_slanted(slide);
-        arrange<coulomb>(slide);
+    start_interval<coulomb>(box);
+    if (box.edge_spring_count > 0) {
+        BoxHands::add_edge_springs(box);
+        start_interval<coulomb>(box);
     }
     for (int events = 1;; ++events) {
         const double reach =
-            std::max(std::max(slide.axes[0].reach, slide.axes[1].reach), slide.axes[2].reach);
-        if (!(reach <= slide.room)) see(slide, reach);
-        SlideEvent event{.time = slide.left};
-        if (!is_uneventful(slide)) look_for_event(slide, event);
-        if constexpr (coulomb) friction_event(slide, event);
-        advance(slide, event.time);
-        if (event.kind == SlideEvent::Kind::none) return;
-        apply(slide, event, frozen.tick);
+            std::max(std::max(box.axes[0].reach, box.axes[1].reach), box.axes[2].reach);
+        if (!(reach <= box.clearance)) query_obstacles(box, reach);
+        Event event{.time = box.time_left};
+        if (!is_uneventful(box)) find_event(box, event);
+        if constexpr (coulomb) find_friction_event(box, event);
+        advance(box, event.time);
+        if (event.kind == Event::Kind::none) return;
+        apply(box, event, config.tick);
         if (events == events_max) {
-            slide.calm = true;
+            box.event_limit_reached = true;
             ++crowded_ticks_;
         }
-        if (slide.left <= 0.0) return;
-        slide.room = obstacles_.room(slide.place);
-        arrange<coulomb>(slide);
+        if (box.time_left <= 0.0) return;
+        box.clearance = obstacles_.clearance(box.position);
+        start_interval<coulomb>(box);
     }
 }
 
 template <bool coulomb>
-void SlidingTick<coulomb>::disturbed(Stage& /*stage*/, BodyId /*body*/)
+void OneBoxStepper<coulomb>::on_body_placed(WorldState& /*state*/, BodyId /*body*/)
 {
     hands_.forget_box();
 }
 
-template class SlidingTick<false>;
-template class SlidingTick<true>;
+template class OneBoxStepper<false>;
+template class OneBoxStepper<true>;
 
 } // namespace hapnet::scene

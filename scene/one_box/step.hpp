@@ -23,35 +23,36 @@ namespace hapnet::scene {
 /// A bounce that would be over before one tick has passed is none. After `events_max` events in a
 /// tick its springs stay as they are and impacts are inelastic, until its end.
 template <bool coulomb>
-class SlidingTick {
+class OneBoxStepper {
 public:
     static constexpr int events_max = 8;
 
-    SlidingTick(const Description& description, const Frozen& frozen, const Stage& stage);
+    OneBoxStepper(const Description& description, const WorldConfig& config,
+                  const WorldState& state);
 
-    void tick(const Frozen& frozen, Stage& stage);
-    void disturbed(Stage& stage, BodyId body);
+    void step(const WorldConfig& config, WorldState& state);
+    void on_body_placed(WorldState& state, BodyId body);
 
     /// In how many ticks there were more events than are followed.
     [[nodiscard]] std::uint64_t crowded_ticks() const { return crowded_ticks_; }
 
 private:
     /// Finds what is within `reach`.
-    void see(Slide& slide, double reach);
-    void run(const Frozen& frozen, Slide& slide);
+    void query_obstacles(BoxMotion& box, double reach);
+    void run_events(const WorldConfig& config, BoxMotion& box);
     /// Where hands hold the box: again with less, when one held with more than its greatest force.
-    void try_holding(const Frozen& frozen, Stage& stage, Slide& start);
-    void conclude(const Frozen& frozen, Stage& stage, const Slide& slide) const;
+    void solve_with_grips(const WorldConfig& config, WorldState& state, BoxMotion& start);
+    void commit(const WorldConfig& config, WorldState& state, const BoxMotion& box) const;
 
     BodyId body_;
     std::array<bool, 3> locked_{};
-    SlideLaws laws_;
+    AxisOscillators oscillators_;
     Obstacles obstacles_;
-    SlidingHands hands_;
+    BoxHands hands_;
     std::uint64_t crowded_ticks_ = 0;
 };
 
-extern template class SlidingTick<false>;
-extern template class SlidingTick<true>;
+extern template class OneBoxStepper<false>;
+extern template class OneBoxStepper<true>;
 
 } // namespace hapnet::scene

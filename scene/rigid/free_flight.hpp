@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/bounded.hpp"
 #include "scene/state.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace hapnet::scene {
@@ -15,29 +17,30 @@ struct SlotRange {
 };
 
 /// Moves bodies by one tick under one acceleration: parabolas, exact.
-void fall(Bodies& bodies, SlotRange range, const glm::dvec3& acceleration, double tick);
+void integrate_parabola(Bodies& bodies, SlotRange range, const glm::dvec3& acceleration,
+                        double tick);
 
 /// Turns bodies by one tick about the axis of their angular momentum, exactly. For those that turn
 /// evenly: with three equal moments of inertia, or about one axis of the world. What does not turn
 /// keeps its orientation to the last bit.
-void turn_evenly(Bodies& bodies, SlotRange range, double tick);
+void rotate_uniformly(Bodies& bodies, SlotRange range, double tick);
 
 /// Whether a body turns evenly, or not at all.
-[[nodiscard]] bool turns_evenly(const BodyForm& form);
+[[nodiscard]] bool rotates_uniformly(const BodyProperties& properties);
 
 /// Turns one body of any kind by one tick in which nothing touches it.
-void turn_freely(Bodies& bodies, Slot slot, double tick);
+void rotate_freely(Bodies& bodies, Slot slot, double tick);
 
 /// Gravity on what of a body is not locked.
-[[nodiscard]] glm::dvec3 falling(const BodyForm& form, const glm::dvec3& gravity);
+[[nodiscard]] glm::dvec3 gravity_on(const BodyProperties& properties, const glm::dvec3& gravity);
 
 /// Moves bodies that nothing touches, whatever their kinds: many at once when all movable bodies of
 /// the scene turn evenly and fall alike, else one by one.
-class Fliers {
+class FreeBodies {
 public:
-    Fliers(const Frozen& frozen, const Bodies& bodies);
+    FreeBodies(const WorldConfig& config, const Bodies& bodies);
 
-    void move(Bodies& bodies, SlotRange range) const;
+    void integrate(Bodies& bodies, SlotRange range) const;
 
 private:
     double tick_;
@@ -47,16 +50,17 @@ private:
 };
 
 /// Bodies that nothing touches: exact parabolas, and rotations that keep the angular momentum.
-class FlightTick {
+class FreeFlightStepper {
 public:
-    FlightTick(const Description& description, const Frozen& frozen, const Stage& stage);
+    FreeFlightStepper(const Description& description, const WorldConfig& config,
+                      const WorldState& state);
 
-    void tick(const Frozen& frozen, Stage& stage);
-    void disturbed(Stage& stage, BodyId body);
+    void step(const WorldConfig& config, WorldState& state);
+    void on_body_placed(WorldState& state, BodyId body);
 
 private:
     /// Bodies side by side that are alike in what keeps them from turning and falling.
-    enum class Kind : std::uint8_t { locked, even, wobbling };
+    enum class Kind : std::uint8_t { locked, uniform, tumbling };
     struct Run {
         Kind kind = Kind::locked;
         SlotRange range;
@@ -64,6 +68,46 @@ private:
     };
 
     std::vector<Run> runs_;
+};
+
+/// Which awake bodies something acts on in a tick: a contact, a hand or a push. The others fly.
+class ActiveBodies {
+public:
+    explicit ActiveBodies(Slot movable) : slots_{movable}, marks_(movable, 0) {}
+
+    /// Whether the body was not one of them.
+    bool add(Slot slot)
+    {
+        if (marks_[slot] != 0) return false;
+        marks_[slot] = 1;
+        slots_.add(slot);
+        return true;
+    }
+    void clear()
+    {
+        for (const Slot slot : slots_) marks_[slot] = 0;
+        slots_.clear();
+    }
+
+    /// In the order in which they came.
+    [[nodiscard]] std::span<const Slot> slots() const { return slots_.all(); }
+
+    /// Calls visit(range) for all the others up to `end`.
+    template <typename Visit>
+    void for_inactive(Slot end, Visit solve_block) const
+    {
+        const auto first = marks_.begin();
+        const auto last = first + end;
+        for (auto from = std::find(first, last, 0); from != last;) {
+            const auto to = std::find(from, last, 1);
+            solve_block(SlotRange{static_cast<Slot>(from - first), static_cast<Slot>(to - first)});
+            from = std::find(to, last, 0);
+        }
+    }
+
+private:
+    Bounded<Slot> slots_;
+    std::vector<std::uint8_t> marks_; // by slot
 };
 
 } // namespace hapnet::scene

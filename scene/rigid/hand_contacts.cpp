@@ -13,11 +13,11 @@ namespace hapnet::scene {
 namespace {
 
 /// The spring and damper alone, at one moment.
-double force_at(const HipDescription& hips, double depth, double closing)
+double force_at(const HandDescription& hands, double depth, double closing)
 {
     if (depth <= 0.0) return 0.0;
-    return std::clamp(hips.stiffness_n_per_m * depth + hips.damping_ns_per_m * closing, 0.0,
-                      hips.force_max_n);
+    return std::clamp(hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing, 0.0,
+                      hands.force_max_n);
 }
 
 /// The mean over a time of a number that changes evenly, limited to [0, most].
@@ -36,167 +36,172 @@ double mean_limited(double from, double to, double most)
 }
 
 /// The mean force on what does not move, of a hand that comes nearer at a constant speed.
-double steady_force(const HipDescription& hips, double depth, double closing, double tick)
+double mean_force_at_constant_velocity(const HandDescription& hands, double depth, double closing,
+                                       double tick)
 {
-    const double end = depth + closing * tick;
-    if (depth <= 0.0 && end <= 0.0) return 0.0;
+    const double forget_departed = depth + closing * tick;
+    if (depth <= 0.0 && forget_departed <= 0.0) return 0.0;
     double share = 1.0;
     double from = depth;
-    double to = end;
+    double to = forget_departed;
     if (depth < 0.0) {
-        share = end / (end - depth);
+        share = forget_departed / (forget_departed - depth);
         from = 0.0;
-    } else if (end < 0.0) {
-        share = depth / (depth - end);
+    } else if (forget_departed < 0.0) {
+        share = depth / (depth - forget_departed);
         to = 0.0;
     }
-    const double damper = hips.damping_ns_per_m * closing;
-    return share * mean_limited(hips.stiffness_n_per_m * from + damper,
-                                hips.stiffness_n_per_m * to + damper, hips.force_max_n);
+    const double damper = hands.damping_ns_per_m * closing;
+    return share * mean_limited(hands.stiffness_n_per_m * from + damper,
+                                hands.stiffness_n_per_m * to + damper, hands.force_max_n);
 }
 
 } // namespace
 
-HandSprings::HandSprings(const Frozen& frozen)
-    : fall_{frozen.tick * frozen.tick * std::sqrt(glm::dot(frozen.gravity, frozen.gravity))},
-      springs_{frozen.hips.count * touched_per_hand_max},
-      forms_{frozen.hips.count * touched_per_hand_max},
-      own_{frozen.hips.count * touched_per_hand_max},
-      work_{frozen.hips.count * touched_per_hand_max}
+HandContacts::HandContacts(const WorldConfig& config)
+    : gravity_reach_{config.tick * config.tick *
+                     std::sqrt(glm::dot(config.gravity, config.gravity))},
+      springs_{config.hands.count * touched_per_hand_max},
+      forces_{config.hands.count * touched_per_hand_max},
+      own_{config.hands.count * touched_per_hand_max},
+      work_{config.hands.count * touched_per_hand_max}
 {}
 
-void HandSprings::begin(const Frozen& frozen, Stage& stage)
+void HandContacts::begin_step(const WorldConfig& config, WorldState& state)
 {
     springs_.clear();
-    forms_.clear();
-    for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
-        for (std::size_t k = 0; k < hands_[i].count; ++k) hands_[i].near[k].is_there = false;
-        stage.touches[i] = {};
-        const HipInput& hip = stage.hips[i];
-        if (!hip.present || !hip.gripping) hands_[i].holding.reset();
+    forces_.clear();
+    for (std::uint32_t i = 0; i < config.hands.count; ++i) {
+        for (std::size_t k = 0; k < hands_[i].count; ++k) hands_[i].nearby[k].is_current = false;
+        state.touches[i] = {};
+        const HandInput& input = state.hands[i];
+        if (!input.present || !input.gripping) hands_[i].holding.reset();
     }
 }
 
-HandSprings::Near* HandSprings::near(Hand& hand, BodyId body)
+HandContacts::NearBody* HandContacts::find_near(Hand& hand, BodyId body)
 {
     for (std::size_t i = 0; i < hand.count; ++i) {
-        if (hand.near[i].body == body) return &hand.near[i];
+        if (hand.nearby[i].body == body) return &hand.nearby[i];
     }
-    if (hand.count == hand.near.size()) return nullptr;
-    Near& fresh = hand.near[hand.count++];
+    if (hand.count == hand.nearby.size()) return nullptr;
+    NearBody& fresh = hand.nearby[hand.count++];
     fresh = {};
     fresh.body = body;
     return &fresh;
 }
 
-void HandSprings::touch(const Frozen& frozen, Stage& stage, std::uint32_t hand,
-                        const Target& target)
+void HandContacts::collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
+                           const Target& target)
 {
-    if (target.is_movable && stage.hips[hand].gripping && hold(frozen, stage, hand, target)) return;
-    press(frozen, stage, hand, target);
+    if (target.is_movable && state.hands[hand].gripping && add_grip(config, state, hand, target))
+        return;
+    add_push(config, state, hand, target);
 }
 
 /// Whether the hand holds the body: then it pulls and pushes in all directions where it took hold.
-bool HandSprings::hold(const Frozen& frozen, Stage& stage, std::uint32_t index,
-                       const Target& target)
+bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
+                            const Target& target)
 {
-    const HipDescription& hips = frozen.hips;
-    const HipInput& hip = stage.hips[index];
+    const HandDescription& hands = config.hands;
+    const HandInput& input = state.hands[index];
     Hand& hand = hands_[index];
-    const double apart = distance(target.box, hip.position.value);
+    const double apart = distance(target.box, input.position.value);
     if (!hand.holding) {
-        if (apart > hips.radius_m + hips.grip_reach_m) return false;
-        hand.holding = Holding{target.body, seen_from(target.box, hip.position.value)};
+        if (apart > hands.radius_m + hands.grip_reach_m) return false;
+        hand.holding = Holding{target.body, to_local(target.box, input.position.value)};
     }
     if (hand.holding->body != target.body) return false;
     const glm::dvec3 arm = target.box.axes * hand.holding->at;
-    HipSpring spring{.arm = arm,
-                     .velocity = hip.velocity.value,
-                     .stiffness = hips.stiffness_n_per_m,
-                     .damping = hips.damping_ns_per_m,
-                     .force_max = hips.force_max_n,
-                     .holds = true,
-                     .stretch = hip.position.value - (target.box.centre + arm)};
+    HandSpring spring{.arm = arm,
+                      .velocity = input.velocity.value,
+                      .stiffness = hands.stiffness_n_per_m,
+                      .damping = hands.damping_ns_per_m,
+                      .force_max = hands.force_max_n,
+                      .holds = true,
+                      .stretch = input.position.value - (target.box.centre + arm)};
     const glm::dvec3 here = target.velocity + glm::cross(target.spin, arm);
     const base::Force wanted{spring.stiffness * spring.stretch +
                              spring.damping * (spring.velocity - here)};
-    const base::Force force = base::limited(wanted, hips.force_max_n);
-    HipTouch& touch = stage.touches[index];
+    const base::Force force = base::limited(wanted, hands.force_max_n);
+    HandTouch& touch = state.touches[index];
     touch.holding = true;
     touch.body = target.body;
-    touch.depth_m = std::max(touch.depth_m, std::max(hips.radius_m - apart, 0.0));
-    touch.on_hip_at_start += -force;
+    touch.depth_m = std::max(touch.depth_m, std::max(hands.radius_m - apart, 0.0));
+    touch.on_hand_at_start += -force;
     add(index, target.body) = spring;
     return true;
 }
 
-void HandSprings::press(const Frozen& frozen, Stage& stage, std::uint32_t index,
-                        const Target& target)
+void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,
+                            const Target& target)
 {
-    const HipDescription& hips = frozen.hips;
-    const HipInput& hip = stage.hips[index];
-    Near* const near_by = near(hands_[index], target.body);
-    if (near_by == nullptr) return;
+    const HandDescription& hands = config.hands;
+    const HandInput& input = state.hands[index];
+    NearBody* const near_body = find_near(hands_[index], target.body);
+    if (near_body == nullptr) return;
     // Looks as far ahead as the two come nearer: a spring may begin to act within the tick.
-    const glm::dvec3& centre = hip.position.value;
+    const glm::dvec3& centre = input.position.value;
     const double turning = sum_of_sizes(target.spin) * sum_of_sizes(target.box.half);
     const double ahead =
-        frozen.tick * (sum_of_sizes(hip.velocity.value - target.velocity) + turning) + 0.5 * fall_;
-    const glm::dvec3 place = seen_from(target.box, centre);
-    const auto overlap = near_by->memory.find(target.box.half, place, hips.radius_m + ahead,
-                                              near_by->before ? &*near_by->before : nullptr);
-    near_by->is_there = true;
-    near_by->before = place;
+        config.tick * (sum_of_sizes(input.velocity.value - target.velocity) + turning) +
+        0.5 * gravity_reach_;
+    const glm::dvec3 place = to_local(target.box, centre);
+    const auto overlap = near_body->memory.find(target.box.half, place, hands.radius_m + ahead,
+                                                near_body->before ? &*near_body->before : nullptr);
+    near_body->is_current = true;
+    near_body->before = place;
     if (!overlap) return;
     const double depth = overlap->depth - ahead;
     const glm::dvec3 normal = target.box.axes * overlap->normal;
     const glm::dvec3 arm = target.box.axes * overlap->point;
     const glm::dvec3 here = target.velocity + glm::cross(target.spin, arm);
-    const double closing = glm::dot(here - hip.velocity.value, normal);
-    HipTouch& touch = stage.touches[index];
+    const double closing = glm::dot(here - input.velocity.value, normal);
+    HandTouch& touch = state.touches[index];
     touch.depth_m = std::max(touch.depth_m, depth);
-    touch.on_hip_at_start.value += force_at(hips, depth, closing) * normal;
+    touch.on_hand_at_start.value += force_at(hands, depth, closing) * normal;
     if (!target.is_movable) {
-        touch.on_hip.value += steady_force(hips, depth, closing, frozen.tick) * normal;
+        touch.on_hand.value +=
+            mean_force_at_constant_velocity(hands, depth, closing, config.tick) * normal;
         return;
     }
     // What does not begin to act within the tick is no spring; what acts already is one, also in
     // the tick in which it ends.
-    if (depth < 0.0 && -depth > closing * frozen.tick + fall_) return;
-    HipSpring& spring = add(index, target.body);
+    if (depth < 0.0 && -depth > closing * config.tick + gravity_reach_) return;
+    HandSpring& spring = add(index, target.body);
     spring.normal = normal;
     spring.arm = arm;
-    spring.radius = hips.radius_m;
+    spring.radius = hands.radius_m;
     spring.gap = -depth;
-    spring.velocity = hip.velocity.value;
-    spring.stiffness = hips.stiffness_n_per_m;
-    spring.damping = hips.damping_ns_per_m;
-    spring.force_max = hips.force_max_n;
+    spring.velocity = input.velocity.value;
+    spring.stiffness = hands.stiffness_n_per_m;
+    spring.damping = hands.damping_ns_per_m;
+    spring.force_max = hands.force_max_n;
     spring.is_amid_face = overlap->is_amid_face;
     spring.holds = false;
 }
 
-HipSpring& HandSprings::add(std::uint32_t hand, BodyId body)
+HandSpring& HandContacts::add(std::uint32_t hand, BodyId body)
 {
     springs_.add() = {hand, body, glm::dvec3{0.0}};
-    return forms_.add();
+    return forces_.add();
 }
 
-HandSprings::OnBody HandSprings::on(BodyId body)
+HandContacts::BodySprings HandContacts::springs_on(BodyId body)
 {
     const auto is_on = [body](const Spring& spring) { return spring.body == body; };
     const std::span<const Spring> all = springs();
     work_.resize(all.size());
-    if (std::all_of(all.begin(), all.end(), is_on)) return {forms_.all(), work_.all()};
+    if (std::all_of(all.begin(), all.end(), is_on)) return {forces_.all(), work_.all()};
     own_.clear();
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (is_on(all[i])) own_.add() = forms_[i];
+        if (is_on(all[i])) own_.add() = forces_[i];
     }
     work_.resize(own_.size());
     return {own_.all(), work_.all()};
 }
 
-void HandSprings::worked(BodyId body)
+void HandContacts::store_impulses(BodyId body)
 {
     std::size_t next = 0;
     for (Spring& spring : springs_.all()) {
@@ -204,41 +209,41 @@ void HandSprings::worked(BodyId body)
     }
 }
 
-void HandSprings::end(std::uint32_t index)
+void HandContacts::forget_departed(std::uint32_t index)
 {
     Hand& hand = hands_[index];
     std::size_t kept = 0;
     for (std::size_t i = 0; i < hand.count; ++i) {
-        if (hand.near[i].is_there) hand.near[kept++] = hand.near[i];
+        if (hand.nearby[i].is_current) hand.nearby[kept++] = hand.nearby[i];
     }
     hand.count = kept;
 }
 
-void HandSprings::report(const Frozen& frozen, Stage& stage)
+void HandContacts::report_forces(const WorldConfig& config, WorldState& state)
 {
-    const double rate = 1.0 / frozen.tick;
+    const double rate = 1.0 / config.tick;
     for (const Spring& spring : springs()) {
-        HipTouch& touch = stage.touches[spring.hand];
+        HandTouch& touch = state.touches[spring.hand];
         const base::Force force{rate * spring.impulse};
-        touch.on_hip += -force;
+        touch.on_hand += -force;
         const double square = glm::dot(force.value, force.value);
         if (!(square > glm::dot(touch.on_body.value, touch.on_body.value))) continue;
         touch.touching = true;
         touch.body = spring.body;
         touch.on_body = force;
     }
-    for (std::uint32_t i = 0; i < frozen.hips.count; ++i) {
-        stage.touches[i].touching = stage.touches[i].touching || stage.touches[i].holding;
+    for (std::uint32_t i = 0; i < config.hands.count; ++i) {
+        state.touches[i].touching = state.touches[i].touching || state.touches[i].holding;
     }
 }
 
-void HandSprings::forget(BodyId body)
+void HandContacts::forget(BodyId body)
 {
     for (Hand& hand : hands_) {
         if (hand.holding && hand.holding->body == body) hand.holding.reset();
         for (std::size_t i = 0; i < hand.count; ++i) {
-            if (hand.near[i].body != body) continue;
-            hand.near[i] = hand.near[--hand.count];
+            if (hand.nearby[i].body != body) continue;
+            hand.nearby[i] = hand.nearby[--hand.count];
             break;
         }
     }

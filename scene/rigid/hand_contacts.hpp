@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/bounded.hpp"
 #include "scene/collide/sphere_box.hpp"
 #include "scene/hand/advance.hpp"
-#include "scene/solver/scratch.hpp"
 #include "scene/state.hpp"
 
 #include <array>
@@ -17,9 +17,9 @@ namespace hapnet::scene {
 inline constexpr std::size_t touched_per_hand_max = 8;
 
 /// The hands' springs of one tick, and what has to be remembered of whom they touch.
-class HandSprings {
+class HandContacts {
 public:
-    explicit HandSprings(const Frozen& frozen);
+    explicit HandContacts(const WorldConfig& config);
 
     /// A hand's spring on a movable body.
     struct Spring {
@@ -29,7 +29,7 @@ public:
     };
 
     /// Begins a tick: whom did the hands touch, nobody.
-    void begin(const Frozen& frozen, Stage& stage);
+    void begin_step(const WorldConfig& config, WorldState& state);
 
     /// Where a body is and how it moves.
     struct Target {
@@ -40,29 +40,30 @@ public:
         glm::dvec3 spin{0.0};
     };
     /// Sees what the hand does to one of the bodies that it may reach.
-    void touch(const Frozen& frozen, Stage& stage, std::uint32_t hand, const Target& target);
+    void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
+                 const Target& target);
     /// Forgets whom the hand has left.
-    void end(std::uint32_t index);
+    void forget_departed(std::uint32_t index);
 
     [[nodiscard]] std::span<const Spring> springs() const { return springs_.all(); }
     /// Those on one body, and where they tell their work; until the next question.
-    struct OnBody {
-        std::span<const HipSpring> springs;
-        std::span<HipWork> work;
+    struct BodySprings {
+        std::span<const HandSpring> springs;
+        std::span<SpringImpulse> work;
     };
-    [[nodiscard]] OnBody on(BodyId body);
+    [[nodiscard]] BodySprings springs_on(BodyId body);
     /// Takes what was told for them.
-    void worked(BodyId body);
+    void store_impulses(BodyId body);
     /// Tells the hands what the springs did.
-    void report(const Frozen& frozen, Stage& stage);
+    void report_forces(const WorldConfig& config, WorldState& state);
 
     void forget(BodyId body);
 
 private:
     /// What of a body near a hand is remembered.
-    struct Near {
+    struct NearBody {
         BodyId body = 0;
-        bool is_there = false; // in this tick
+        bool is_current = false; // in this tick
         SphereBoxMemory memory;
         std::optional<glm::dvec3> before{}; // the hand in the body's frame, a tick ago
     };
@@ -71,22 +72,24 @@ private:
         glm::dvec3 at{0.0}; // in the body's frame
     };
     struct Hand {
-        std::array<Near, touched_per_hand_max> near;
+        std::array<NearBody, touched_per_hand_max> nearby;
         std::size_t count = 0;
         std::optional<Holding> holding;
     };
 
-    HipSpring& add(std::uint32_t hand, BodyId body);
-    bool hold(const Frozen& frozen, Stage& stage, std::uint32_t index, const Target& target);
-    void press(const Frozen& frozen, Stage& stage, std::uint32_t index, const Target& target);
-    [[nodiscard]] Near* near(Hand& hand, BodyId body);
+    HandSpring& add(std::uint32_t hand, BodyId body);
+    bool add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
+                  const Target& target);
+    void add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,
+                  const Target& target);
+    [[nodiscard]] NearBody* find_near(Hand& hand, BodyId body);
 
-    std::array<Hand, hips_max> hands_;
-    double fall_; // what gravity adds to a way in a tick from rest, twice, metres
+    std::array<Hand, hands_max> hands_;
+    double gravity_reach_; // what gravity adds to a way in a tick from rest, twice, metres
     Scratch<Spring> springs_;
-    Scratch<HipSpring> forms_; // in the order of springs_
-    Scratch<HipSpring> own_;   // of one body
-    Scratch<HipWork> work_;    // of one body
+    Scratch<HandSpring> forces_;  // in the order of springs_
+    Scratch<HandSpring> own_;     // of one body
+    Scratch<SpringImpulse> work_; // of one body
 };
 
 } // namespace hapnet::scene

@@ -9,109 +9,93 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace hapnet::scene {
 
 namespace {
 
 /// How far off its straight way a body may come within a tick, in half edges of the smallest body.
-constexpr double strays_most = 0.5;
+constexpr double stray_max = 0.5;
 
 /// An angular impulse changes the momentum only about axes that the body may turn about.
-glm::dvec3 about_free_axes(const BodyForm& form, const glm::dvec3& angular)
+glm::dvec3 about_unlocked_axes(const BodyProperties& properties, const glm::dvec3& angular)
 {
-    if (form.turning == Turning::free) return angular;
-    return {form.inverse_inertia.x > 0.0 ? angular.x : 0.0,
-            form.inverse_inertia.y > 0.0 ? angular.y : 0.0,
-            form.inverse_inertia.z > 0.0 ? angular.z : 0.0};
+    if (properties.turning == Turning::free) return angular;
+    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
+            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
+            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
 
 /// What of a way the body can go.
-glm::dvec3 free_part(const BodyForm& form, const glm::dvec3& way)
+glm::dvec3 unlocked_part(const BodyProperties& properties, const glm::dvec3& way)
 {
-    const glm::dvec3& light = form.inverse_mass;
+    const glm::dvec3& light = properties.inverse_mass;
     return {light.x > 0.0 ? way.x : 0.0, light.y > 0.0 ? way.y : 0.0, light.z > 0.0 ? way.z : 0.0};
 }
 
 /// A turn too small to show in an orientation.
-bool is_nothing(const glm::dvec3& angle)
+bool is_negligible(const glm::dvec3& angle)
 {
     constexpr double nothing = 1e-18;
     return std::abs(angle.x) < nothing && std::abs(angle.y) < nothing &&
            std::abs(angle.z) < nothing;
 }
 
-glm::dvec3 along_plane(const glm::dvec3& v, const glm::dvec3& normal)
+glm::dvec3 tangential_part(const glm::dvec3& v, const glm::dvec3& normal)
 {
     return v - glm::dot(v, normal) * normal;
 }
 
 /// Of everything but the hands and the drag.
-glm::dvec3 acceleration(const BodyCourse& course, const Stage& stage, Slot slot,
-                        const Frozen& frozen)
+glm::dvec3 acceleration_without_hands(const BodyIntegration& integration, const WorldState& state,
+                                      Slot slot, const WorldConfig& config)
 {
-    const BodyForm& form = stage.bodies.form[slot];
-    return falling(form, frozen.gravity) +
-           form.inverse_mass * ((1.0 / frozen.tick) * course.impulse + stage.pushes[form.id]);
+    const BodyProperties& properties = state.bodies.properties[slot];
+    return gravity_on(properties, config.gravity) +
+           properties.inverse_mass *
+               ((1.0 / config.tick) * integration.contact_impulse + state.pushes[properties.id]);
 }
 
-void start(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response)
+void set_start(BodyIntegration& integration, const WorldState& state, Slot slot,
+               const BodyResponse& response)
 {
-    const Bodies& bodies = stage.bodies;
+    const Bodies& bodies = state.bodies;
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
-    course.angular_impulse = about_free_axes(bodies.form[slot], course.angular_impulse);
-    course.start = {bodies.velocity.at(slot), response.inverse_inertia * momentum, glm::dvec3{0.0}};
-    course.angular_momentum = momentum + course.angular_impulse;
+    integration.contact_angular_impulse =
+        about_unlocked_axes(bodies.properties[slot], integration.contact_angular_impulse);
+    integration.start = {bodies.velocity.at(slot), response.inverse_inertia * momentum,
+                         glm::dvec3{0.0}};
+    integration.angular_momentum = momentum + integration.contact_angular_impulse;
 }
 
-void turn(const BodyCourse& course, Bodies& bodies, Slot slot, const BodyMotion& mean, double tick)
+void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, Slot slot,
+                           const BodyMotion& mean, double tick)
 {
-    const BodyForm& form = bodies.form[slot];
-    if (course.has_hands) {
-        const glm::dvec3 more = tick * (mean.spin - course.mean.spin);
-        bodies.orientation.put(slot, is_nothing(more) ? course.orientation
-                                                      : turned(course.orientation, more));
+    const BodyProperties& properties = bodies.properties[slot];
+    if (integration.has_hands) {
+        const glm::dvec3 more = tick * (mean.spin - integration.mean.spin);
+        bodies.orientation.put(slot, is_negligible(more) ? integration.orientation
+                                                         : rotated(integration.orientation, more));
         return;
     }
     const glm::dquat now = bodies.orientation.at(slot);
-    if (is_nothing(tick * mean.spin)) return;
-    if (turns_evenly(form)) {
-        bodies.orientation.put(slot, turned(now, tick * mean.spin));
+    if (is_negligible(tick * mean.spin)) return;
+    if (rotates_uniformly(properties)) {
+        bodies.orientation.put(slot, rotated(now, tick * mean.spin));
         return;
     }
-    const glm::dvec3 momentum =
-        bodies.angular_momentum.at(slot) + 0.5 * course.angular_impulse + mean.angular_impulse;
-    bodies.orientation.put(slot, spun(now, {momentum, form.inverse_inertia}, tick));
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) +
+                                0.5 * integration.contact_angular_impulse + mean.angular_impulse;
+    bodies.orientation.put(slot, rotated_freely(now, {momentum, properties.inverse_inertia}, tick));
 }
 
 } // namespace
 
-Scales scales_of(const Frozen& frozen, const Bodies& bodies)
+BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box)
 {
-    double size = std::numeric_limits<double>::infinity();
-    double least = size;
-    for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        const glm::dvec3& half = bodies.form[slot].half;
-        least = std::min(least, std::min(half.x, std::min(half.y, half.z)));
-        if (slot < bodies.movable) size = least;
-    }
-    constexpr double hardly = 1e-6;
-    const double fall = frozen.tick * std::sqrt(glm::dot(frozen.gravity, frozen.gravity));
-    return {frozen.tick,      size, least, fall, std::max(fall, hardly * size / frozen.tick),
-            1.0 / frozen.tick};
-}
-
-OrientedBox box_of(const Bodies& bodies, Slot slot)
-{
-    return {bodies.position.at(slot), axes_of(bodies.orientation.at(slot)), bodies.form[slot].half};
-}
-
-BodyResponse response_of(const BodyForm& form, const OrientedBox& box)
-{
-    const glm::dvec3& about = form.inverse_inertia;
-    BodyResponse response{form.inverse_mass, glm::dmat3{0.0}};
-    if (turns_evenly(form)) {
+    const glm::dvec3& about = properties.inverse_inertia;
+    BodyResponse response{properties.inverse_mass, glm::dmat3{0.0}};
+    if (rotates_uniformly(properties)) {
         for (int i = 0; i < 3; ++i) response.inverse_inertia[i][i] = about[i];
         return response;
     }
@@ -127,140 +111,149 @@ BodyResponse response_of(const BodyForm& form, const OrientedBox& box)
     return response;
 }
 
-void begin(BodyCourse& course)
+void reset(BodyIntegration& integration)
 {
-    course.impulse = glm::dvec3{0.0};
-    course.angular_impulse = glm::dvec3{0.0};
-    course.thrown = glm::dvec3{0.0};
-    course.thrown_mean = glm::dvec3{0.0};
-    course.rubbing = 0;
-    course.drag = 0.0;
-    course.has_hands = false;
+    integration.contact_impulse = glm::dvec3{0.0};
+    integration.contact_angular_impulse = glm::dvec3{0.0};
+    integration.bounce_angular_impulse = glm::dvec3{0.0};
+    integration.bounce_angular_impulse_mean = glm::dvec3{0.0};
+    integration.friction_contacts = 0;
+    integration.drag = 0.0;
+    integration.has_hands = false;
 }
 
-void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
-            const Frozen& frozen)
+void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
+                        const BodyResponse& response, const WorldConfig& config)
 {
-    const double tick = frozen.tick;
-    start(course, stage, slot, response);
-    const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
-    const glm::dvec3& before = course.start.velocity;
-    course.tentative = {before + tick * rate, response.inverse_inertia * course.angular_momentum,
-                        glm::dvec3{0.0}};
-    if (!turns_evenly(stage.bodies.form[slot])) {
+    const double tick = config.tick;
+    set_start(integration, state, slot, response);
+    const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
+    const glm::dvec3& before = integration.start.velocity;
+    integration.predicted = {before + tick * rate,
+                             response.inverse_inertia * integration.angular_momentum,
+                             glm::dvec3{0.0}};
+    if (!rotates_uniformly(state.bodies.properties[slot])) {
         // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
         // Of what turns far in a tick that rate says nothing: it fades out.
         constexpr double far = 0.3; // radians
-        const glm::dvec3& spin = course.start.spin;
+        const glm::dvec3& spin = integration.start.spin;
         const double fades = std::min(1.0, tick * tick * glm::dot(spin, spin) / (far * far));
-        course.tentative.spin +=
+        integration.predicted.spin +=
             ((1.0 - fades) * tick) *
-            (response.inverse_inertia * glm::cross(course.angular_momentum, spin));
+            (response.inverse_inertia * glm::cross(integration.angular_momentum, spin));
     }
-    course.mean = {before + (0.5 * tick) * rate, 0.5 * (course.start.spin + course.tentative.spin),
-                   glm::dvec3{0.0}};
-    if (course.drag == 0.0) return;
+    integration.mean = {before + (0.5 * tick) * rate,
+                        0.5 * (integration.start.spin + integration.predicted.spin),
+                        glm::dvec3{0.0}};
+    if (integration.drag == 0.0) return;
     // Against the drag the velocity along the plane goes exponentially to where it would stay.
-    const BodyForm& form = stage.bodies.form[slot];
-    const double keeps = base::exp(-course.drag * tick);
-    const glm::dvec3 driven = free_part(form, along_plane(rate, course.carrier));
+    const BodyProperties& properties = state.bodies.properties[slot];
+    const double keeps = base::exp(-integration.drag * tick);
+    const glm::dvec3 driven =
+        unlocked_part(properties, tangential_part(rate, integration.support_normal));
     const glm::dvec3 excess =
-        free_part(form, along_plane(before, course.carrier)) - driven / course.drag;
+        unlocked_part(properties, tangential_part(before, integration.support_normal)) -
+        driven / integration.drag;
     const glm::dvec3 lost = (1.0 - keeps) * excess;
-    course.tentative.velocity += -lost - tick * driven;
-    course.mean.velocity += lost / (course.drag * tick) - excess - (0.5 * tick) * driven;
+    integration.predicted.velocity += -lost - tick * driven;
+    integration.mean.velocity += lost / (integration.drag * tick) - excess - (0.5 * tick) * driven;
 }
 
-void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
-                  const HandsOn& hands)
+void integrate_velocity_with_hands(BodyIntegration& integration, const WorldState& state, Slot slot,
+                                   const BodyResponse& response, const HandForces& hands)
 {
-    const Frozen& frozen = hands.frozen;
-    const Bodies& bodies = stage.bodies;
-    start(course, stage, slot, response);
-    const glm::dvec3 rate = acceleration(course, stage, slot, frozen);
-    const double per_second = 1.0 / frozen.tick;
-    Answer answer{bodies.form[slot].half,
-                  response.inverse_mass,
-                  response.inverse_inertia,
-                  turns_evenly(bodies.form[slot]),
-                  rate,
-                  per_second * course.angular_impulse};
+    const WorldConfig& config = hands.config;
+    const Bodies& bodies = state.bodies;
+    set_start(integration, state, slot, response);
+    const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
+    const double per_second = 1.0 / config.tick;
+    BodyDynamics dynamics{bodies.properties[slot].half,
+                          response.inverse_mass,
+                          response.inverse_inertia,
+                          rotates_uniformly(bodies.properties[slot]),
+                          rate,
+                          per_second * integration.contact_angular_impulse};
     MovingBody body;
     const auto advance_against = [&](const glm::dvec3& drag) {
         body.position = bodies.position.at(slot);
         body.orientation = bodies.orientation.at(slot);
-        body.velocity = course.start.velocity;
+        body.velocity = integration.start.velocity;
         body.angular_momentum = bodies.angular_momentum.at(slot);
-        answer.acceleration = rate - free_part(bodies.form[slot], drag);
-        advance(body, answer, hands.springs, hands.work, frozen.tick);
+        dynamics.acceleration = rate - unlocked_part(bodies.properties[slot], drag);
+        advance(body, dynamics, hands.springs, hands.work, config.tick);
     };
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
     // says when it is too strong for that.
     constexpr double strong = 0.5;
-    if (course.drag == 0.0) {
+    if (integration.drag == 0.0) {
         advance_against(glm::dvec3{0.0});
-    } else if (course.drag * frozen.tick < strong) {
-        const glm::dvec3 before = along_plane(course.start.velocity, course.carrier);
-        advance_against(course.drag * before);
-        const glm::dvec3 after = along_plane(body.velocity, course.carrier);
-        advance_against((0.5 * course.drag) * (before + after));
+    } else if (integration.drag * config.tick < strong) {
+        const glm::dvec3 before =
+            tangential_part(integration.start.velocity, integration.support_normal);
+        advance_against(integration.drag * before);
+        const glm::dvec3 after = tangential_part(body.velocity, integration.support_normal);
+        advance_against((0.5 * integration.drag) * (before + after));
     } else {
-        const glm::dvec3 before = along_plane(course.start.velocity, course.carrier);
-        advance_against((per_second * (1.0 - base::exp(-course.drag * frozen.tick))) * before);
+        const glm::dvec3 before =
+            tangential_part(integration.start.velocity, integration.support_normal);
+        advance_against((per_second * (1.0 - base::exp(-integration.drag * config.tick))) * before);
     }
-    course.has_hands = true;
-    course.position = body.position;
-    course.orientation = body.orientation;
-    course.angular_momentum = about_free_axes(bodies.form[slot], body.angular_momentum);
-    course.tentative.velocity = body.velocity;
-    course.tentative.spin = response.inverse_inertia * body.angular_momentum;
-    course.tentative.angular_impulse = glm::dvec3{0.0};
-    course.mean.velocity = per_second * (body.position - bodies.position.at(slot));
-    course.mean.spin = 0.5 * (course.start.spin + course.tentative.spin);
-    course.mean.angular_impulse = glm::dvec3{0.0};
+    integration.has_hands = true;
+    integration.position = body.position;
+    integration.orientation = body.orientation;
+    integration.angular_momentum =
+        about_unlocked_axes(bodies.properties[slot], body.angular_momentum);
+    integration.predicted.velocity = body.velocity;
+    integration.predicted.spin = response.inverse_inertia * body.angular_momentum;
+    integration.predicted.angular_impulse = glm::dvec3{0.0};
+    integration.mean.velocity = per_second * (body.position - bodies.position.at(slot));
+    integration.mean.spin = 0.5 * (integration.start.spin + integration.predicted.spin);
+    integration.mean.angular_impulse = glm::dvec3{0.0};
 }
 
-void stop_in_time(const ContactBlock& block, const BodyCourse& course, const BodyForm& form,
-                  const Scales& scales, BodyMotion& mean)
+void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
+                const BodyProperties& properties, const Scales& scales, BodyMotion& mean)
 {
     const double sign = block.b != 0 ? 1.0 : -1.0;
-    const glm::dvec3& start = course.start.velocity;
-    const glm::dvec3 slip = free_part(form, start - glm::dot(start, block.normal) * block.normal);
+    const glm::dvec3& set_start = integration.start.velocity;
+    const glm::dvec3 slip =
+        unlocked_part(properties, set_start - glm::dot(set_start, block.normal) * block.normal);
     const double speed = std::sqrt(glm::dot(slip, slip));
     constexpr double hardly = 1e-9;
     if (speed <= hardly * scales.speed) return;
     // Of a body that turns, the centre's way says nothing of what slips where it touches.
     constexpr double steadily = 1e-6;
-    const double turning2 = glm::dot(course.start.spin, course.start.spin);
-    const double across2 = glm::dot(form.half, form.half);
+    const double turning2 = glm::dot(integration.start.spin, integration.start.spin);
+    const double across2 = glm::dot(properties.half, properties.half);
     if (turning2 * across2 > steadily * steadily * speed * speed) return;
     const glm::dvec3 along = slip / speed;
     const double held = sign * (block.impulse.tangent_1 * glm::dot(block.tangent_1, along) +
                                 block.impulse.tangent_2 * glm::dot(block.tangent_2, along));
     // What else pushes along the slip: it brought the body to a stop together with the friction.
-    const double other = -form.mass * speed - held;
+    const double other = -properties.mass * speed - held;
     const double braking = block.friction * block.normal_sum() - other;
-    if (!(braking > form.mass * speed)) return;
-    const double share = form.mass * speed / braking; // of the tick, until the stop
+    if (!(braking > properties.mass * speed)) return;
+    const double share = properties.mass * speed / braking; // of the tick, until the stop
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
-bool keep_to_paths(std::span<const Slot> slots, std::span<const BodyCourse> courses,
-                   ContactSolver& solver, const Scales& scales)
+bool keep_within_swept_path(std::span<const Slot> slots,
+                            std::span<const BodyIntegration> integrations, ContactSolver& solver,
+                            const Scales& scales)
 {
     bool any_strays = false;
     for (const Slot slot : slots) {
         const SolverIndex i = slot + 1;
-        const BodyCourse& course = courses[i];
-        const double most = strays_most * scales.least / scales.tick;
-        const glm::dvec3& path = course.start.velocity;
+        const BodyIntegration& integration = integrations[i];
+        const double most = stray_max * scales.least / scales.tick;
+        const glm::dvec3& path = integration.start.velocity;
         glm::dvec3 low = glm::min(path, glm::dvec3{0.0});
         glm::dvec3 high = glm::max(path, glm::dvec3{0.0});
-        if (course.has_hands) {
-            low = glm::min(low, course.mean.velocity);
-            high = glm::max(high, course.mean.velocity);
+        if (integration.has_hands) {
+            low = glm::min(low, integration.mean.velocity);
+            high = glm::max(high, integration.mean.velocity);
         }
-        glm::dvec3& way = solver.mean(i).velocity;
+        glm::dvec3& way = solver.mean_motion(i).velocity;
         const glm::dvec3 kept = glm::min(glm::max(way, low - most), high + most);
         if (kept == way) continue;
         way = kept;
@@ -270,24 +263,26 @@ bool keep_to_paths(std::span<const Slot> slots, std::span<const BodyCourse> cour
     return any_strays;
 }
 
-void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
-            const Scales& scales)
+void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,
+                        ContactSolver& solver, const Scales& scales)
 {
     const double tick = scales.tick;
     const SolverIndex index = slot + 1;
-    BodyMotion& mean = solver.mean(index);
-    const BodyMotion& ending = solver.ending(index);
-    turn(course, bodies, slot, mean, tick);
+    BodyMotion& mean = solver.mean_motion(index);
+    const BodyMotion& end_motion = solver.end_motion(index);
+    integrate_orientation(integration, bodies, slot, mean, tick);
     const glm::dvec3 from = bodies.position.at(slot);
-    if (course.has_hands) {
-        bodies.position.put(slot, course.position + tick * (mean.velocity - course.mean.velocity));
+    if (integration.has_hands) {
+        bodies.position.put(slot, integration.position +
+                                      tick * (mean.velocity - integration.mean.velocity));
     } else {
         bodies.position.put(slot, from + tick * mean.velocity);
     }
-    bodies.velocity.put(slot, ending.velocity);
+    bodies.velocity.put(slot, end_motion.velocity);
     bodies.angular_momentum.put(
-        slot, about_free_axes(bodies.form[slot],
-                              course.angular_momentum + ending.angular_impulse + course.thrown));
+        slot, about_unlocked_axes(bodies.properties[slot], integration.angular_momentum +
+                                                               end_motion.angular_impulse +
+                                                               integration.bounce_angular_impulse));
 }
 
 } // namespace hapnet::scene

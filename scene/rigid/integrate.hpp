@@ -11,31 +11,20 @@
 
 namespace hapnet::scene {
 
-/// What is small in this scene: everything is measured against it.
-struct Scales {
-    double tick = 1e-3;  // s
-    double size = 0.02;  // m: the smallest half edge of a movable body
-    double least = 0.02; // m: the smallest half edge of all
-    double fall = 0.0;   // m/s: what gravity adds in a tick
-    double speed = 1e-2; // m/s: the above, or what crosses a millionth of the size in a tick
-    double rate = 1e3;   // 1/s: ticks per second
-};
-[[nodiscard]] Scales scales_of(const Frozen& frozen, const Bodies& bodies);
-
 /// A body's way through a tick.
-struct BodyCourse {
-    glm::dvec3 impulse{0.0}; // of last tick's contacts, taken as constant forces
-    glm::dvec3 angular_impulse{0.0};
+struct BodyIntegration {
+    glm::dvec3 contact_impulse{0.0}; // of last tick's contacts, taken as constant forces
+    glm::dvec3 contact_angular_impulse{0.0};
     BodyMotion start;
-    BodyMotion tentative;             // at the end, without what contacts change
-    BodyMotion mean;                  // over the tick, likewise
-    glm::dvec3 angular_momentum{0.0}; // at the end, likewise
-    BodyMotion rebound;               // at the start, as if it had bounced before
-    glm::dvec3 thrown{0.0};           // angular impulse of bounces
-    glm::dvec3 thrown_mean{0.0};      // ... its mean over the tick
-    std::uint32_t rubbing = 0;        // contacts with friction that push
-    double drag = 0.0;                // 1/s, on the plane that carries it
-    glm::dvec3 carrier{0.0};          // its normal
+    BodyMotion predicted;                        // at the end, without what contacts change
+    BodyMotion mean;                             // over the tick, likewise
+    glm::dvec3 angular_momentum{0.0};            // at the end, likewise
+    BodyMotion start_after_bounces;              // at the start, as if it had bounced before
+    glm::dvec3 bounce_angular_impulse{0.0};      // angular impulse of bounces
+    glm::dvec3 bounce_angular_impulse_mean{0.0}; // ... its mean over the tick
+    std::uint32_t friction_contacts = 0;         // contacts with friction that push
+    double drag = 0.0;                           // 1/s, on the plane that carries it
+    glm::dvec3 support_normal{0.0};              // its normal
 
     // Of a body that hands are on, where it would be at the end.
     bool has_hands = false;
@@ -43,40 +32,40 @@ struct BodyCourse {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
 };
 
-[[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
-[[nodiscard]] BodyResponse response_of(const BodyForm& form, const OrientedBox& box);
+[[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);
 
 /// Nothing acts on the body yet.
-void begin(BodyCourse& course);
+void reset(BodyIntegration& integration);
 
 /// The springs on one body.
-struct HandsOn {
-    std::span<const HipSpring> springs;
-    std::span<HipWork> work;
-    const Frozen& frozen;
+struct HandForces {
+    std::span<const HandSpring> springs;
+    std::span<SpringImpulse> work;
+    const WorldConfig& config;
 };
 
 /// Gravity, pushes and last tick's contact impulses, without hands: a parabola.
-void follow(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
-            const Frozen& frozen);
+void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
+                        const BodyResponse& response, const WorldConfig& config);
 
 /// The same with the hands' springs on it, which tell their work.
-void follow_hands(BodyCourse& course, const Stage& stage, Slot slot, const BodyResponse& response,
-                  const HandsOn& hands);
+void integrate_velocity_with_hands(BodyIntegration& integration, const WorldState& state, Slot slot,
+                                   const BodyResponse& response, const HandForces& hands);
 
 /// A contact that stops slipping within the tick does so at its moment: until then friction has
 /// its full strength, and not a mean one until the end. For a body whose only friction it is.
-void stop_in_time(const ContactBlock& block, const BodyCourse& course, const BodyForm& form,
-                  const Scales& scales, BodyMotion& mean);
+void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
+                const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
 /// What a body meets was looked for in the box around its straight way through the tick. When it
 /// is thrown far out of that, it goes only so far that it cannot pass through anything that was
 /// not looked for, and answers to nothing more. Returns whether anybody was.
-bool keep_to_paths(std::span<const Slot> slots, std::span<const BodyCourse> courses,
-                   ContactSolver& solver, const Scales& scales);
+bool keep_within_swept_path(std::span<const Slot> slots,
+                            std::span<const BodyIntegration> integrations, ContactSolver& solver,
+                            const Scales& scales);
 
 /// Moves the body by what was solved.
-void arrive(const BodyCourse& course, Bodies& bodies, Slot slot, ContactSolver& solver,
-            const Scales& scales);
+void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,
+                        ContactSolver& solver, const Scales& scales);
 
 } // namespace hapnet::scene

@@ -10,8 +10,9 @@
 namespace hapnet::scene {
 
 /// Lets bodies bounce at the moment within the tick at which they hit each other, when they do so
-/// fast enough to be seen. `courses` by solver index. One hit of each contact per tick; of several
-/// contacts of a body, one after the other.
-void bounce(ContactSolver& solver, std::span<BodyCourse> courses, const Scales& scales);
+/// fast enough to be seen. `integrations` by solver index. One hit of each contact per tick; of
+/// several contacts of a body, one after the other.
+void apply_restitution(ContactSolver& solver, std::span<BodyIntegration> integrations,
+                       const Scales& scales);
 
 } // namespace hapnet::scene

@@ -17,27 +17,27 @@ constexpr double looks_per_rest = 4.0;
 constexpr double gravity_share = 0.1;
 constexpr double size_share = 1e-3;
 
-double rest_speed(const Frozen& frozen, const BodyForm& form)
+double rest_speed(const WorldConfig& config, const BodyProperties& properties)
 {
-    const double gravity = std::sqrt(glm::dot(frozen.gravity, frozen.gravity));
-    const double size = 2.0 * std::min({form.half.x, form.half.y, form.half.z});
-    return gravity_share * gravity * frozen.tick + size_share * std::sqrt(gravity * size);
+    const double gravity = std::sqrt(glm::dot(config.gravity, config.gravity));
+    const double size = 2.0 * std::min({properties.half.x, properties.half.y, properties.half.z});
+    return gravity_share * gravity * config.tick + size_share * std::sqrt(gravity * size);
 }
 
 /// The angular momentum at which no corner is faster than a speed.
-double rest_momentum(const BodyForm& form, double speed)
+double rest_momentum(const BodyProperties& properties, double speed)
 {
-    const glm::dvec3& easy = form.inverse_inertia;
+    const glm::dvec3& easy = properties.inverse_inertia;
     const double ease = std::max({easy.x, easy.y, easy.z});
     if (ease == 0.0) return std::numeric_limits<double>::infinity();
-    return speed / (ease * std::sqrt(glm::dot(form.half, form.half)));
+    return speed / (ease * std::sqrt(glm::dot(properties.half, properties.half)));
 }
 
 } // namespace
 
-Sleep::Sleep(const Frozen& frozen, const Bodies& bodies)
-    : sleeping_{frozen.sleeping},
-      rest_ticks_{std::max(1.0, std::ceil(rest_s / frozen.tick))},
+Sleep::Sleep(const WorldConfig& config, const Bodies& bodies)
+    : sleeping_{config.sleeping},
+      rest_ticks_{std::max(1.0, std::ceil(rest_s / config.tick))},
       interval_{static_cast<std::uint64_t>(std::max(1.0, rest_ticks_ / looks_per_rest))},
       speed2_(bodies.movable),
       momentum2_(bodies.movable),
@@ -48,35 +48,35 @@ Sleep::Sleep(const Frozen& frozen, const Bodies& bodies)
       queue_{bodies.movable}
 {
     for (Slot slot = 0; slot < bodies.movable; ++slot) {
-        const double speed = rest_speed(frozen, bodies.form[slot]);
-        const double momentum = rest_momentum(bodies.form[slot], speed);
+        const double speed = rest_speed(config, bodies.properties[slot]);
+        const double momentum = rest_momentum(bodies.properties[slot], speed);
         speed2_[slot] = speed * speed;
         momentum2_[slot] = momentum * momentum;
     }
 }
 
-template <Search search>
-void Sleep::wake(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::wake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder)
 {
-    rouse(body, bodies, neighbours);
-    neighbours.settle();
+    wake_island(body, bodies, pair_finder);
+    pair_finder.settle();
 }
 
 /// Wakes everything in the body's island that sleeps, from neighbour to neighbour.
-template <Search search>
-void Sleep::rouse(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::wake_island(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder)
 {
     if (bodies.slot_of[body] >= bodies.movable) return;
-    if (bodies.slot_of[body] >= bodies.awake) get_up(body, bodies, neighbours);
+    if (bodies.slot_of[body] >= bodies.awake) move_to_awake(body, bodies, pair_finder);
     keep_awake(bodies, body);
     if (bodies.awake == bodies.movable) return;
     queue_.clear();
     queue_.add(body);
-    const PairSet& pairs = neighbours.all_pairs();
+    const PairSet& pairs = pair_finder.all_pairs();
     const auto wake_other = [&](PairIndex index, BodyId other) {
         const Slot slot = bodies.slot_of[other];
         if (slot < bodies.awake || slot >= bodies.movable || !touches(pairs[index].memory)) return;
-        get_up(other, bodies, neighbours);
+        move_to_awake(other, bodies, pair_finder);
         queue_.add(other);
     };
     while (!queue_.is_empty()) {
@@ -86,55 +86,56 @@ void Sleep::rouse(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
     }
 }
 
-template <Search search>
-void Sleep::get_up(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::move_to_awake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder)
 {
     const Slot from = bodies.slot_of[body];
     const Slot to = bodies.wake(from);
     swap(from, to);
     rested_[to] = 0.0;
-    neighbours.has_woken(bodies, body);
+    pair_finder.on_wake(bodies, body);
 }
 
-template <Search search>
-void Sleep::lie_down(BodyId body, Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::fall_asleep(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder)
 {
     const Slot from = bodies.slot_of[body];
     bodies.velocity.put(from, glm::dvec3{0.0});
     bodies.angular_momentum.put(from, glm::dvec3{0.0});
     swap(from, bodies.put_to_sleep(from));
-    neighbours.has_fallen_asleep(bodies, body, from);
+    pair_finder.on_sleep(bodies, body, from);
 }
 
-BodyId Sleep::disturbed_sleeper(const Bodies& bodies, const Pair& pair) const
+BodyId Sleep::sleeper_disturbed_by(const Bodies& bodies, const Pair& pair) const
 {
     const Slot a = bodies.slot_of[pair.a];
     const Slot b = bodies.slot_of[pair.b];
     const Slot mover = std::min(a, b); // the awake come first, the fixed last
     const Slot sleeper = std::max(a, b);
-    if (sleeper < bodies.awake || sleeper >= bodies.movable || mover >= bodies.awake) return nobody;
-    if (rested_[mover] > 0.0) return nobody;
+    if (sleeper < bodies.awake || sleeper >= bodies.movable || mover >= bodies.awake)
+        return no_body;
+    if (rested_[mover] > 0.0) return no_body;
     return sleeper == a ? pair.a : pair.b;
 }
 
-template <Search search>
-void Sleep::rest(Bodies& bodies, Neighbours<search>& neighbours, std::uint64_t ticks)
+template <BroadPhase broad_phase>
+void Sleep::update(Bodies& bodies, PairFinder<broad_phase>& pair_finder, std::uint64_t ticks)
 {
     if (!sleeping_) return;
-    if (!count(bodies) || ticks % interval_ != 0) return;
-    find_islands(bodies, neighbours);
+    if (!count_rest(bodies) || ticks % interval_ != 0) return;
+    find_islands(bodies, pair_finder);
     queue_.clear();
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        const BodyId id = bodies.form[slot].id;
-        if (island_rested_[islands_.of(id)] >= rest_ticks_) queue_.add(id);
+        const BodyId id = bodies.properties[slot].id;
+        if (island_rested_[islands_.root_of(id)] >= rest_ticks_) queue_.add(id);
     }
     // By their ids, so that the order of the slots has one reason less to depend on the past.
     std::sort(queue_.begin(), queue_.end());
-    for (const BodyId id : queue_) lie_down(id, bodies, neighbours);
-    neighbours.settle();
+    for (const BodyId id : queue_) fall_asleep(id, bodies, pair_finder);
+    pair_finder.settle();
 }
 
-bool Sleep::count(const Bodies& bodies)
+bool Sleep::count_rest(const Bodies& bodies)
 {
     const Bodies::Lanes3& v = bodies.velocity;
     const Bodies::Lanes3& l = bodies.angular_momentum;
@@ -151,20 +152,20 @@ bool Sleep::count(const Bodies& bodies)
     return any != 0.0;
 }
 
-template <Search search>
-void Sleep::find_islands(const Bodies& bodies, Neighbours<search>& neighbours)
+template <BroadPhase broad_phase>
+void Sleep::find_islands(const Bodies& bodies, PairFinder<broad_phase>& pair_finder)
 {
-    for (Slot slot = 0; slot < bodies.awake; ++slot) islands_.part(bodies.form[slot].id);
-    for (const PairIndex index : neighbours.pairs()) {
-        const Pair& pair = neighbours.pair(index);
+    for (Slot slot = 0; slot < bodies.awake; ++slot) islands_.reset(bodies.properties[slot].id);
+    for (const PairIndex index : pair_finder.pairs()) {
+        const Pair& pair = pair_finder.pair(index);
         const bool are_awake =
             bodies.slot_of[pair.a] < bodies.awake && bodies.slot_of[pair.b] < bodies.awake;
         if (are_awake && touches(pair.memory)) islands_.join(pair.a, pair.b);
     }
     for (Slot slot = 0; slot < bodies.awake; ++slot)
-        island_rested_[bodies.form[slot].id] = std::numeric_limits<double>::infinity();
+        island_rested_[bodies.properties[slot].id] = std::numeric_limits<double>::infinity();
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
-        double& least = island_rested_[islands_.of(bodies.form[slot].id)];
+        double& least = island_rested_[islands_.root_of(bodies.properties[slot].id)];
         least = std::min(least, rested_[slot]);
     }
 }
@@ -176,11 +177,11 @@ void Sleep::swap(Slot a, Slot b)
     std::swap(rested_[a], rested_[b]);
 }
 
-template void Sleep::wake(BodyId, Bodies&, Neighbours<Search::scan>&);
-template void Sleep::wake(BodyId, Bodies&, Neighbours<Search::grid>&);
-template void Sleep::rouse(BodyId, Bodies&, Neighbours<Search::scan>&);
-template void Sleep::rouse(BodyId, Bodies&, Neighbours<Search::grid>&);
-template void Sleep::rest(Bodies&, Neighbours<Search::scan>&, std::uint64_t);
-template void Sleep::rest(Bodies&, Neighbours<Search::grid>&, std::uint64_t);
+template void Sleep::wake(BodyId, Bodies&, PairFinder<BroadPhase::all_pairs>&);
+template void Sleep::wake(BodyId, Bodies&, PairFinder<BroadPhase::grid>&);
+template void Sleep::wake_island(BodyId, Bodies&, PairFinder<BroadPhase::all_pairs>&);
+template void Sleep::wake_island(BodyId, Bodies&, PairFinder<BroadPhase::grid>&);
+template void Sleep::update(Bodies&, PairFinder<BroadPhase::all_pairs>&, std::uint64_t);
+template void Sleep::update(Bodies&, PairFinder<BroadPhase::grid>&, std::uint64_t);
 
 } // namespace hapnet::scene

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/bounded.hpp"
-#include "scene/collide/neighbours.hpp"
+#include "scene/collide/pair_finder.hpp"
 #include "scene/solver/islands.hpp"
 
 #include <cstdint>
@@ -23,34 +23,34 @@ namespace hapnet::scene {
 /// known; at the end of the tick, with the contacts' memories written, rest().
 class Sleep {
 public:
-    Sleep(const Frozen& frozen, const Bodies& bodies);
+    Sleep(const WorldConfig& config, const Bodies& bodies);
 
     /// Wakes a body and all that touches it, one through the other, and starts its time at rest
     /// anew. Slots change.
-    template <Search search>
-    void wake(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
+    template <BroadPhase broad_phase>
+    void wake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
 
     /// Wakes those asleep whom an awake body that is not at rest touches, and what touches them.
     /// `touching(index)`: whether the pair's manifold of this tick has points. Returns whether it
     /// woke anybody: then neighbours.pairs_added() are to be looked at and this to be called again.
-    template <Search search, typename Touching>
-    bool wake_touched(Bodies& bodies, Neighbours<search>& neighbours, Touching touching)
+    template <BroadPhase broad_phase, typename Touching>
+    bool wake_touched(Bodies& bodies, PairFinder<broad_phase>& pair_finder, Touching touching)
     {
         if (bodies.awake == bodies.movable) return false;
         touched_.clear();
-        for (const PairIndex index : neighbours.pairs()) {
-            const BodyId sleeper = disturbed_sleeper(bodies, neighbours.pair(index));
+        for (const PairIndex index : pair_finder.pairs()) {
+            const BodyId sleeper = sleeper_disturbed_by(bodies, pair_finder.pair(index));
             // What finds no room is found by the next call.
-            if (sleeper != nobody && touching(index)) touched_.add(sleeper);
+            if (sleeper != no_body && touching(index)) touched_.add(sleeper);
         }
-        for (const BodyId sleeper : touched_) rouse(sleeper, bodies, neighbours);
-        neighbours.settle();
+        for (const BodyId sleeper : touched_) wake_island(sleeper, bodies, pair_finder);
+        pair_finder.settle();
         return !touched_.is_empty();
     }
 
     /// Counts the time at rest of those awake and puts islands to sleep. `ticks`: of the world.
-    template <Search search>
-    void rest(Bodies& bodies, Neighbours<search>& neighbours, std::uint64_t ticks);
+    template <BroadPhase broad_phase>
+    void update(Bodies& bodies, PairFinder<broad_phase>& pair_finder, std::uint64_t ticks);
 
     /// Starts the time at rest of an awake body anew: a hand touches it.
     void keep_awake(const Bodies& bodies, BodyId body) { rested_[bodies.slot_of[body]] = 0.0; }
@@ -59,20 +59,20 @@ public:
     [[nodiscard]] double rested(Slot slot) const { return rested_[slot]; }
 
 private:
-    static constexpr BodyId nobody = ~BodyId{0};
+    static constexpr BodyId no_body = ~BodyId{0};
 
     /// The one of a pair that is asleep while the other is awake and not at rest; or nobody.
-    [[nodiscard]] BodyId disturbed_sleeper(const Bodies& bodies, const Pair& pair) const;
-    template <Search search>
-    void rouse(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
-    template <Search search>
-    void get_up(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
-    template <Search search>
-    void lie_down(BodyId body, Bodies& bodies, Neighbours<search>& neighbours);
+    [[nodiscard]] BodyId sleeper_disturbed_by(const Bodies& bodies, const Pair& pair) const;
+    template <BroadPhase broad_phase>
+    void wake_island(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
+    template <BroadPhase broad_phase>
+    void move_to_awake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
+    template <BroadPhase broad_phase>
+    void fall_asleep(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
     /// Counts; whether anybody has been at rest long enough.
-    [[nodiscard]] bool count(const Bodies& bodies);
-    template <Search search>
-    void find_islands(const Bodies& bodies, Neighbours<search>& neighbours);
+    [[nodiscard]] bool count_rest(const Bodies& bodies);
+    template <BroadPhase broad_phase>
+    void find_islands(const Bodies& bodies, PairFinder<broad_phase>& pair_finder);
     void swap(Slot a, Slot b);
 
     bool sleeping_;

@@ -3,7 +3,7 @@
 #include "scene/rigid/step.hpp"
 
 #include "scene/collide/box_plane.hpp"
-#include "scene/collide/nearby.hpp"
+#include "scene/collide/sweep.hpp"
 #include "scene/rigid/restitution.hpp"
 
 #include <algorithm>
@@ -18,37 +18,37 @@ namespace {
 constexpr std::size_t contacts_per_body_max = 8;
 
 // A contact that misses by less than this share of what gravity adds in a tick is in balance.
-constexpr double quiet = 1e-10;
+constexpr double velocity_tolerance = 1e-10;
 // The solver goes on until no contact changes its speed by more than this share of it ...
-constexpr double enough = 1e-6;
+constexpr double velocity_converged = 1e-6;
 // ... or this much was done (a stack takes 23 sweeps from nothing); the next tick goes on.
 constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
 // for, and the most that is moved apart in one tick.
-constexpr double overlap_quiet = 1e-9;
-constexpr double overlap_enough = 1e-6;
-constexpr double overlap_most = 0.02;
+constexpr double overlap_tolerance = 1e-9;
+constexpr double overlap_converged = 1e-6;
+constexpr double correction_max = 0.02;
 constexpr std::uint32_t overlap_visits_max = 200;
 // Of an overlap that is there, this share is removed per tick: not all, so that contacts that
 // contradict each other settle.
-constexpr double overlap_share = 0.3;
+constexpr double correction_share = 0.3;
 
 // Surfaces that push each other and are not farther apart than this, in smallest half edges, touch.
 // What is left of moving overlaps apart is less; chasing it would keep heaps from coming to rest.
-constexpr double touching = 2e-6;
+constexpr double touch_distance = 2e-6;
 
 /// The least normal speed for which two surfaces so far apart do not overlap at the tick's end.
-double closing(double separation, double impulse, const Scales& scales)
+double velocity_bias(double separation, double impulse, const Scales& scales)
 {
-    const double nothing = impulse > 0.0 ? touching * scales.size : 0.0;
-    return separation > nothing ? -separation * scales.rate : 0.0;
+    const double negligible = impulse > 0.0 ? touch_distance * scales.size : 0.0;
+    return separation > negligible ? -separation * scales.rate : 0.0;
 }
 
-double parting(double separation, const Scales& scales)
+double position_bias(double separation, const Scales& scales)
 {
     if (separation >= 0.0) return -separation * scales.rate;
-    return std::min(overlap_share * -separation, overlap_most * scales.size) * scales.rate;
+    return std::min(correction_share * -separation, correction_max * scales.size) * scales.rate;
 }
 
 double friction_of(const Material& a, const Material& b)
@@ -56,133 +56,135 @@ double friction_of(const Material& a, const Material& b)
     return std::sqrt(a.friction * b.friction);
 }
 
-std::size_t blocks_for(const Frozen& frozen, const Bodies& bodies)
+std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
 {
-    const std::size_t others = bodies.size() - 1 + frozen.planes.size();
+    const std::size_t others = bodies.size() - 1 + config.planes.size();
     return bodies.movable * std::min(others, contacts_per_body_max);
 }
 
-bool any_bounces(const Frozen& frozen, const Bodies& bodies)
+bool any_bounces(const WorldConfig& config, const Bodies& bodies)
 {
     const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
-    return std::any_of(bodies.form.begin(), bodies.form.end(), bounces) ||
-           std::any_of(frozen.planes.begin(), frozen.planes.end(), bounces);
+    return std::any_of(bodies.properties.begin(), bodies.properties.end(), bounces) ||
+           std::any_of(config.planes.begin(), config.planes.end(), bounces);
 }
 
 } // namespace
 
-template <Crowd crowd>
-RigidTick<crowd>::RigidTick(const Description& /*description*/, const Frozen& frozen,
-                            const Stage& stage)
-    : scales_{scales_of(frozen, stage.bodies)},
-      bounces_{any_bounces(frozen, stage.bodies)},
-      neighbours_{frozen, stage.bodies},
-      sleep_{frozen, stage.bodies},
-      hands_{frozen},
-      boxes_{stage.bodies, scales_},
-      fliers_{frozen, stage.bodies},
-      engaged_{stage.bodies.movable},
-      courses_{stage.bodies.movable + std::size_t{1}},
-      solver_{stage.bodies.movable, blocks_for(frozen, stage.bodies)}
+template <BroadPhase broad_phase>
+RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
+                                        const WorldConfig& config, const WorldState& state)
+    : scales_{scales_of(config, state.bodies)},
+      bounces_{any_bounces(config, state.bodies)},
+      pairs_{config, state.bodies},
+      sleep_{config, state.bodies},
+      hand_contacts_{config},
+      boxes_{state.bodies, scales_},
+      free_bodies_{config, state.bodies},
+      active_{state.bodies.movable},
+      integrations_{state.bodies.movable + std::size_t{1}},
+      solver_{state.bodies.movable, blocks_for(config, state.bodies)}
 {}
 
-template <Crowd crowd>
-void RigidTick<crowd>::tick(const Frozen& frozen, Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& state)
 {
-    Bodies& bodies = stage.bodies;
-    neighbours_.update(bodies);
+    Bodies& bodies = state.bodies;
+    pairs_.update(bodies);
     boxes_.begin_tick();
-    feel(frozen, stage);
-    if constexpr (sleeps) wake(stage);
-    look(bodies);
-    meet_planes(frozen, stage);
-    meet_bodies(stage);
-    carry();
-    set_out(frozen, stage);
-    solve(stage);
-    move_apart();
-    for (const Slot slot : engaged_.slots()) {
-        arrive(courses_[slot + 1], bodies, slot, solver_, scales_);
+    collide_hands(config, state);
+    if constexpr (sleeps) wake_touched(state);
+    begin_solver(bodies);
+    collide_planes(config, state);
+    collide_bodies(state);
+    warm_start();
+    integrate_velocities(config, state);
+    solve_velocities(state);
+    correct_positions();
+    for (const Slot slot : active_.slots()) {
+        integrate_position(integrations_[slot + 1], bodies, slot, solver_, scales_);
     }
-    engaged_.for_others(bodies.awake, [&](SlotRange range) { fliers_.move(bodies, range); });
-    engaged_.clear();
-    hands_.report(frozen, stage);
-    if constexpr (sleeps) sleep_.rest(bodies, neighbours_, stage.ticks);
+    active_.for_inactive(bodies.awake,
+                         [&](SlotRange range) { free_bodies_.integrate(bodies, range); });
+    active_.clear();
+    hand_contacts_.report_forces(config, state);
+    if constexpr (sleeps) sleep_.update(bodies, pairs_, state.ticks);
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::disturbed(Stage& stage, BodyId body)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 {
     // What it left and what it meets wakes.
-    if constexpr (sleeps) sleep_.wake(body, stage.bodies, neighbours_);
-    neighbours_.forget(body);
-    hands_.forget(body);
+    if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
+    pairs_.forget(body);
+    hand_contacts_.forget(body);
 }
 
 /// What the hands touch; they wake it.
-template <Crowd crowd>
-void RigidTick<crowd>::feel(const Frozen& frozen, Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldState& state)
 {
-    Bodies& bodies = stage.bodies;
-    hands_.begin(frozen, stage);
-    for (std::uint32_t hand = 0; hand < frozen.hips.count; ++hand) {
-        const HipInput& hip = stage.hips[hand];
-        if (hip.present) {
-            const glm::dvec3& from = hip.position.value;
+    Bodies& bodies = state.bodies;
+    hand_contacts_.begin_step(config, state);
+    for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
+        const HandInput& input = state.hands[hand];
+        if (input.present) {
+            const glm::dvec3& from = input.position.value;
             const double radius =
-                frozen.hips.radius_m + (hip.gripping ? frozen.hips.grip_reach_m : 0.0);
-            for (const BodyId id : neighbours_.reached_by(
-                     hand, {from, from + scales_.tick * hip.velocity.value, radius})) {
+                config.hands.radius_m + (input.gripping ? config.hands.grip_reach_m : 0.0);
+            for (const BodyId id : pairs_.near_hand(
+                     hand, {from, from + scales_.tick * input.velocity.value, radius})) {
                 const Slot slot = bodies.slot_of[id];
-                hands_.touch(frozen, stage, hand,
-                             {id, slot < bodies.movable, boxes_.at(bodies, id).box,
-                              bodies.velocity.at(slot), bodies.angular_velocity(slot)});
+                hand_contacts_.collide(config, state, hand,
+                                       {id, slot < bodies.movable, boxes_.at(bodies, id).box,
+                                        bodies.velocity.at(slot), bodies.angular_velocity(slot)});
             }
         }
-        hands_.end(hand);
+        hand_contacts_.forget_departed(hand);
     }
     if constexpr (sleeps) {
-        for (const HandSprings::Spring& spring : hands_.springs()) {
-            sleep_.wake(spring.body, bodies, neighbours_);
+        for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
+            sleep_.wake(spring.body, bodies, pairs_);
         }
     }
 }
 
 /// What is pushed, or hit by who is awake, wakes.
-template <Crowd crowd>
-void RigidTick<crowd>::wake(Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::wake_touched(WorldState& state)
 {
-    Bodies& bodies = stage.bodies;
+    Bodies& bodies = state.bodies;
     if constexpr (sleeps) {
-        for (const BodyId body : stage.pushed) sleep_.wake(body, bodies, neighbours_);
-        const auto meet_now = [&](PairIndex index) {
-            return between(stage, neighbours_.pair(index)).manifold.count > 0;
+        for (const BodyId body : state.pushed) sleep_.wake(body, bodies, pairs_);
+        const auto are_touching = [&](PairIndex index) {
+            return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
         };
-        while (sleep_.wake_touched(bodies, neighbours_, meet_now)) {}
+        while (sleep_.wake_touched(bodies, pairs_, are_touching)) {}
     }
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::look(const Bodies& bodies)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::begin_solver(const Bodies& bodies)
 {
     solver_.begin(bodies.awake);
-    courses_.resize(bodies.awake + std::size_t{1});
-    courses_[0] = {};
+    integrations_.resize(bodies.awake + std::size_t{1});
+    integrations_[0] = {};
 }
 
 /// Begins the tick for an awake body that something acts on.
-template <Crowd crowd>
-void RigidTick<crowd>::engage(const Bodies& bodies, Slot slot)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
 {
-    if (!engaged_.add(slot)) return;
-    const BodyForm& form = bodies.form[slot];
-    solver_.response(slot + 1) = response_of(form, boxes_.at(bodies, form.id).box);
-    begin(courses_[slot + 1]);
+    if (!active_.add(slot)) return;
+    const BodyProperties& properties = bodies.properties[slot];
+    solver_.response(slot + 1) = response_of(properties, boxes_.at(bodies, properties.id).box);
+    reset(integrations_[slot + 1]);
 }
 
-template <Crowd crowd>
-ContactBlock* RigidTick<crowd>::meet(const Manifold& manifold, const ContactPlaces& centres,
-                                     ContactMemory& memory)
+template <BroadPhase broad_phase>
+ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
+                                                     const ContactPlaces& centres,
+                                                     ContactMemory& memory)
 {
     if (manifold.count == 0) {
         memory.count = 0;
@@ -197,70 +199,71 @@ ContactBlock* RigidTick<crowd>::meet(const Manifold& manifold, const ContactPlac
     prepare(block, manifold, centres, memory);
     block.memory = &memory;
     for (std::uint32_t i = 0; i < block.count; ++i) {
-        block.least[i] = closing(block.separation[i], block.begun[i], scales_);
+        block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
     }
     return &block;
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::meet_planes(const Frozen& frozen, const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, const WorldState& state)
 {
-    const Bodies& bodies = stage.bodies;
-    for (const PairIndex index : neighbours_.plane_pairs()) {
-        Pair& pair = neighbours_.plane_pair(index);
-        const PlaneDescription& plane = frozen.planes[pair.b];
+    const Bodies& bodies = state.bodies;
+    for (const PairIndex index : pairs_.plane_pairs()) {
+        Pair& pair = pairs_.plane_pair(index);
+        const PlaneDescription& plane = config.planes[pair.b];
         const Slot slot = bodies.slot_of[pair.a];
-        const BoxNow& now = boxes_.at(bodies, pair.a);
+        const SweptBox& now = boxes_.at(bodies, pair.a);
         const OrientedBox& box = now.box;
         const Manifold manifold =
             collide(PlaneSurface{plane.normal, plane.offset_m}, box, now.reach);
-        const bool is_carried = touches(pair.memory) || lies_on(manifold, touching * scales_.size);
-        ContactBlock* const block = meet(manifold, {box.centre, box.centre}, pair.memory);
+        const bool is_supported =
+            touches(pair.memory) || lies_on(manifold, touch_distance * scales_.size);
+        ContactBlock* const block = add_contact(manifold, {box.centre, box.centre}, pair.memory);
         if (block == nullptr) continue;
-        engage(bodies, slot);
-        const BodyForm& form = bodies.form[slot];
+        activate(bodies, slot);
+        const BodyProperties& properties = bodies.properties[slot];
         block->a = 0;
         block->b = slot + 1;
-        block->friction = friction_of(form.material, plane.material);
-        block->restitution = std::max(form.material.restitution, plane.material.restitution);
-        if (form.drag > 0.0 && is_carried) {
-            courses_[block->b].drag = form.drag / form.mass;
-            courses_[block->b].carrier = plane.normal;
+        block->friction = friction_of(properties.material, plane.material);
+        block->restitution = std::max(properties.material.restitution, plane.material.restitution);
+        if (properties.drag > 0.0 && is_supported) {
+            integrations_[block->b].drag = properties.drag / properties.mass;
+            integrations_[block->b].support_normal = plane.normal;
         }
     }
 }
 
-template <Crowd crowd>
-BoxMeeting RigidTick<crowd>::between(const Stage& stage, Pair& pair)
+template <BroadPhase broad_phase>
+SweptContact RigidStepper<broad_phase>::collide_pair(const WorldState& state, Pair& pair)
 {
-    const Bodies& bodies = stage.bodies;
-    const auto box_path = [&](BodyId id) {
-        const BoxNow& now = boxes_.at(bodies, id);
+    const Bodies& bodies = state.bodies;
+    const auto box_sweep = [&](BodyId id) {
+        const SweptBox& now = boxes_.at(bodies, id);
         const Slot slot = bodies.slot_of[id];
-        return BoxPath{now.box, bodies.velocity.at(slot), slot < bodies.awake ? now.reach : 0.0,
-                       now.radius};
+        return BoxSweep{now.box, bodies.velocity.at(slot), slot < bodies.awake ? now.reach : 0.0,
+                        now.radius};
     };
-    return meeting(box_path(pair.a), box_path(pair.b), scales_.tick, pair.memory.axis);
+    return collide_swept(box_sweep(pair.a), box_sweep(pair.b), scales_.tick, pair.memory.axis);
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::meet_bodies(const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
 {
-    const Bodies& bodies = stage.bodies;
+    const Bodies& bodies = state.bodies;
     const auto index_of = [&](Slot slot) -> SolverIndex {
         if (slot >= bodies.awake) return 0;
-        engage(bodies, slot);
+        activate(bodies, slot);
         return slot + 1;
     };
-    for (const PairIndex index : neighbours_.pairs()) {
-        Pair& pair = neighbours_.pair(index);
+    for (const PairIndex index : pairs_.pairs()) {
+        Pair& pair = pairs_.pair(index);
         const Slot a = bodies.slot_of[pair.a];
         const Slot b = bodies.slot_of[pair.b];
-        const BoxMeeting meeting = between(stage, pair);
-        ContactBlock* const block = meet(meeting.manifold, meeting.centres, pair.memory);
+        const SweptContact swept = collide_pair(state, pair);
+        ContactBlock* const block = add_contact(swept.manifold, swept.centres, pair.memory);
         if (block == nullptr) continue;
-        const Material& one = bodies.form[a].material;
-        const Material& other = bodies.form[b].material;
+        const Material& one = bodies.properties[a].material;
+        const Material& other = bodies.properties[b].material;
         block->a = index_of(a);
         block->b = index_of(b);
         block->friction = friction_of(one, other);
@@ -269,119 +272,127 @@ void RigidTick<crowd>::meet_bodies(const Stage& stage)
 }
 
 /// Sums up what last tick's contacts do to each body.
-template <Crowd crowd>
-void RigidTick<crowd>::carry()
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::warm_start()
 {
     for (const ContactBlock& block : solver_.blocks()) {
-        const Wrench push = wrench(block, modal(block, block.impulse));
-        BodyCourse& b = courses_[block.b];
-        b.impulse += push.impulse;
-        b.angular_impulse += glm::cross(block.arm_b, push.impulse) + push.angular;
-        BodyCourse& a = courses_[block.a];
-        a.impulse -= push.impulse;
-        a.angular_impulse -= glm::cross(block.arm_a, push.impulse) + push.angular;
+        const Wrench push = wrench(block, contact_vector(block, block.impulse));
+        BodyIntegration& b = integrations_[block.b];
+        b.contact_impulse += push.impulse;
+        b.contact_angular_impulse += glm::cross(block.arm_b, push.impulse) + push.angular;
+        BodyIntegration& a = integrations_[block.a];
+        a.contact_impulse -= push.impulse;
+        a.contact_angular_impulse -= glm::cross(block.arm_a, push.impulse) + push.angular;
     }
 }
 
 /// Where everyone that something acts on would go.
-template <Crowd crowd>
-void RigidTick<crowd>::set_out(const Frozen& frozen, const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config,
+                                                     const WorldState& state)
 {
-    for (const BodyId body : stage.pushed) engage(stage.bodies, stage.bodies.slot_of[body]);
-    push_by_hands(frozen, stage);
-    solver_.ending(0) = {};
-    solver_.mean(0) = {};
-    for (const Slot slot : engaged_.slots()) {
-        BodyCourse& course = courses_[slot + 1];
-        if (!course.has_hands) follow(course, stage, slot, solver_.response(slot + 1), frozen);
-        if (bounces_) course.rebound = course.start;
+    for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
+    integrate_hand_springs(config, state);
+    solver_.end_motion(0) = {};
+    solver_.mean_motion(0) = {};
+    for (const Slot slot : active_.slots()) {
+        BodyIntegration& integration = integrations_[slot + 1];
+        if (!integration.has_hands)
+            integrate_velocity(integration, state, slot, solver_.response(slot + 1), config);
+        if (bounces_) integration.start_after_bounces = integration.start;
     }
-    if (bounces_) bounce(solver_, courses_.all(), scales_);
-    for (const Slot slot : engaged_.slots()) {
-        solver_.ending(slot + 1) = courses_[slot + 1].tentative;
+    if (bounces_) apply_restitution(solver_, integrations_.all(), scales_);
+    for (const Slot slot : active_.slots()) {
+        solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
     }
     for (ContactBlock& block : solver_.blocks()) {
-        set_bend(block, courses_[block.a].start.spin, courses_[block.b].start.spin, scales_.tick);
+        set_centripetal_velocity(block, integrations_[block.a].start.spin,
+                                 integrations_[block.b].start.spin, scales_.tick);
     }
 }
 
-template <Crowd crowd>
-void RigidTick<crowd>::push_by_hands(const Frozen& frozen, const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config,
+                                                       const WorldState& state)
 {
-    for (const HandSprings::Spring& spring : hands_.springs()) {
-        const Slot slot = stage.bodies.slot_of[spring.body];
-        engage(stage.bodies, slot);
-        BodyCourse& course = courses_[slot + 1];
-        if (course.has_hands) continue;
-        const auto [springs, work] = hands_.on(spring.body);
-        follow_hands(course, stage, slot, solver_.response(slot + 1), {springs, work, frozen});
-        hands_.worked(spring.body);
+    for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
+        const Slot slot = state.bodies.slot_of[spring.body];
+        activate(state.bodies, slot);
+        BodyIntegration& integration = integrations_[slot + 1];
+        if (integration.has_hands) continue;
+        const auto [springs, work] = hand_contacts_.springs_on(spring.body);
+        integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
+                                      {springs, work, config});
+        hand_contacts_.store_impulses(spring.body);
     }
 }
 
 /// Finds the velocities at the end, and from them the mean ones.
-template <Crowd crowd>
-void RigidTick<crowd>::solve(const Stage& stage)
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::solve_velocities(const WorldState& state)
 {
-    const Bodies& bodies = stage.bodies;
+    const Bodies& bodies = state.bodies;
     const std::span<ContactBlock> blocks = solver_.blocks();
     const SolverOutcome outcome =
-        solver_.solve({quiet * scales_.speed, enough * scales_.speed, sweeps_max, visits_max});
+        solver_.solve_velocities({velocity_tolerance * scales_.speed,
+                                  velocity_converged * scales_.speed, sweeps_max, visits_max});
     counts_.contacts = static_cast<std::uint32_t>(blocks.size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
-    for (const Slot slot : engaged_.slots()) {
-        const BodyCourse& course = courses_[slot + 1];
-        const BodyMotion& ending = solver_.ending(slot + 1);
-        solver_.mean(slot + 1) = {course.mean.velocity +
-                                      0.5 * (ending.velocity - course.tentative.velocity),
-                                  course.mean.spin + 0.5 * (ending.spin - course.tentative.spin),
-                                  course.thrown_mean + 0.5 * ending.angular_impulse};
+    for (const Slot slot : active_.slots()) {
+        const BodyIntegration& integration = integrations_[slot + 1];
+        const BodyMotion& end_motion = solver_.end_motion(slot + 1);
+        solver_.mean_motion(slot + 1) = {
+            integration.mean.velocity +
+                0.5 * (end_motion.velocity - integration.predicted.velocity),
+            integration.mean.spin + 0.5 * (end_motion.spin - integration.predicted.spin),
+            integration.bounce_angular_impulse_mean + 0.5 * end_motion.angular_impulse};
     }
     const auto weight_of = [&](const ContactBlock& block) {
-        const double a = block.a != 0 ? bodies.form[block.a - 1].mass : 0.0;
-        const double b = block.b != 0 ? bodies.form[block.b - 1].mass : 0.0;
+        const double a = block.a != 0 ? bodies.properties[block.a - 1].mass : 0.0;
+        const double b = block.b != 0 ? bodies.properties[block.b - 1].mass : 0.0;
         return (a + b) * scales_.speed;
     };
     for (const ContactBlock& block : blocks) {
-        remember(block, weight_of(block), *block.memory);
+        store_impulses(block, weight_of(block), *block.memory);
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
-        ++courses_[block.a].rubbing;
-        ++courses_[block.b].rubbing;
+        ++integrations_[block.a].friction_contacts;
+        ++integrations_[block.b].friction_contacts;
     }
     for (const ContactBlock& block : blocks) {
         if (block.friction == 0.0 || (block.a != 0) == (block.b != 0)) continue;
         const SolverIndex index = block.a + block.b;
-        if (courses_[index].rubbing != 1) continue;
-        stop_in_time(block, courses_[index], bodies.form[index - 1], scales_, solver_.mean(index));
+        if (integrations_[index].friction_contacts != 1) continue;
+        apply_stop(block, integrations_[index], bodies.properties[index - 1], scales_,
+                   solver_.mean_motion(index));
     }
 }
 
 /// Changes the ways so that nothing overlaps at the end, without a change of velocities.
-template <Crowd crowd>
-void RigidTick<crowd>::move_apart()
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::correct_positions()
 {
     for (ContactBlock& block : solver_.blocks()) {
         for (std::uint32_t i = 0; i < block.count; ++i) {
-            block.least[i] = parting(block.separation[i], scales_);
+            block.speed_min[i] = position_bias(block.separation[i], scales_);
         }
-        for (double& part : block.bend) part *= 0.5; // of the mean over the tick
+        for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
     const double length = scales_.size * scales_.rate;
-    const SolverLimits limits{overlap_quiet * length, overlap_enough * length, sweeps_max,
+    const SolverLimits limits{overlap_tolerance * length, overlap_converged * length, sweeps_max,
                               overlap_visits_max};
-    solver_.separate(limits);
+    solver_.correct_positions(limits);
     // Who is thrown out of his way is held back, and the others go as far as that lets them.
     const auto keep = [&] {
-        return keep_to_paths(engaged_.slots(), courses_.all(), solver_, scales_);
+        return keep_within_swept_path(active_.slots(), integrations_.all(), solver_, scales_);
     };
     if (!keep()) return;
-    solver_.separate_again(limits);
+    solver_.correct_positions_again(limits);
     keep();
 }
 
-template class RigidTick<Crowd::lone>;
-template class RigidTick<Crowd::few>;
-template class RigidTick<Crowd::many>;
+template class RigidStepper<BroadPhase::none>;
+template class RigidStepper<BroadPhase::all_pairs>;
+template class RigidStepper<BroadPhase::grid>;
 
 } // namespace hapnet::scene

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/collide/boxes.hpp"
-#include "scene/collide/nearby.hpp"
-#include "scene/collide/neighbours.hpp"
-#include "scene/rigid/active_bodies.hpp"
+#include "scene/collide/pair_finder.hpp"
+#include "scene/collide/sweep.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
@@ -18,9 +16,6 @@
 
 namespace hapnet::scene {
 
-/// How the movable bodies of a rigid tick meet each other.
-enum class Crowd : std::uint8_t { lone, few, many };
-
 /// Bodies that turn, rest on each other and are pushed by hands.
 ///
 /// A tick: contacts where the bodies are; everyone's course under gravity, pushes, hands, and last
@@ -28,13 +23,14 @@ enum class Crowd : std::uint8_t { lone, few, many };
 /// anything at the tick's end, again as constant forces: so what rests, slides or is pushed
 /// steadily moves exactly. Bounces happen at their moment within the tick. What overlaps is moved
 /// apart without gaining speed.
-template <Crowd crowd>
-class RigidTick {
+template <BroadPhase broad_phase>
+class RigidStepper {
 public:
-    RigidTick(const Description& description, const Frozen& frozen, const Stage& stage);
+    RigidStepper(const Description& description, const WorldConfig& config,
+                 const WorldState& state);
 
-    void tick(const Frozen& frozen, Stage& stage);
-    void disturbed(Stage& stage, BodyId body);
+    void step(const WorldConfig& config, WorldState& state);
+    void on_body_placed(WorldState& state, BodyId body);
 
     /// What was done, for tests and measurements.
     struct Counts {
@@ -46,48 +42,46 @@ public:
     [[nodiscard]] const Counts& counts() const { return counts_; }
 
 private:
-    static constexpr Search search = crowd == Crowd::many ? Search::grid : Search::scan;
-    static constexpr bool sleeps = crowd != Crowd::lone;
+    /// Fixed bodies and hands have to be found, too, where there is but one movable body.
+    static constexpr BroadPhase search =
+        broad_phase == BroadPhase::grid ? BroadPhase::grid : BroadPhase::all_pairs;
+    static constexpr bool sleeps = broad_phase != BroadPhase::none;
     struct NoSleep {
-        NoSleep(const Frozen& /*frozen*/, const Bodies& /*bodies*/) {}
+        NoSleep(const WorldConfig& /*config*/, const Bodies& /*bodies*/) {}
     };
 
-    void feel(const Frozen& frozen, Stage& stage);
-    void wake(Stage& stage);
-    void look(const Bodies& bodies);
-    void engage(const Bodies& bodies, Slot slot);
-    void meet_planes(const Frozen& frozen, const Stage& stage);
-    void meet_bodies(const Stage& stage);
-    [[nodiscard]] BoxMeeting between(const Stage& stage, Pair& pair);
-    ContactBlock* meet(const Manifold& manifold, const ContactPlaces& centres,
-                       ContactMemory& memory);
-    void carry();
-    void set_out(const Frozen& frozen, const Stage& stage);
-    void push_by_hands(const Frozen& frozen, const Stage& stage);
-    void solve(const Stage& stage);
-    void move_apart();
+    void collide_hands(const WorldConfig& config, WorldState& state);
+    void wake_touched(WorldState& state);
+    void begin_solver(const Bodies& bodies);
+    void activate(const Bodies& bodies, Slot slot);
+    void collide_planes(const WorldConfig& config, const WorldState& state);
+    void collide_bodies(const WorldState& state);
+    [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
+    ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,
+                              ContactMemory& memory);
+    void warm_start();
+    void integrate_velocities(const WorldConfig& config, const WorldState& state);
+    void integrate_hand_springs(const WorldConfig& config, const WorldState& state);
+    void solve_velocities(const WorldState& state);
+    void correct_positions();
 
     Scales scales_;
     bool bounces_ = false;
-    Neighbours<search> neighbours_;
+    PairFinder<search> pairs_;
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
-    HandSprings hands_;
-    Boxes boxes_;
-    Fliers fliers_;
-    Engaged engaged_;
-    Scratch<BodyCourse> courses_; // by solver index; of those engaged
+    HandContacts hand_contacts_;
+    SweptBoxes boxes_;
+    FreeBodies free_bodies_;
+    ActiveBodies active_;
+    Scratch<BodyIntegration> integrations_; // by solver index; of those engaged
     ContactSolver solver_;
-    std::array<HipSpring, hips_max> springs_{}; // on one body
-    std::array<HipWork, hips_max> work_{};
+    std::array<HandSpring, hands_max> springs_{}; // on one body
+    std::array<SpringImpulse, hands_max> work_{};
     Counts counts_;
 };
 
-using LoneTick = RigidTick<Crowd::lone>;
-using FewTick = RigidTick<Crowd::few>;
-using ManyTick = RigidTick<Crowd::many>;
-
-extern template class RigidTick<Crowd::lone>;
-extern template class RigidTick<Crowd::few>;
-extern template class RigidTick<Crowd::many>;
+extern template class RigidStepper<BroadPhase::none>;
+extern template class RigidStepper<BroadPhase::all_pairs>;
+extern template class RigidStepper<BroadPhase::grid>;
 
 } // namespace hapnet::scene

@@ -11,7 +11,7 @@ namespace hapnet::scene {
 namespace {
 
 /// The impulses of a block as numbers of one kind, N s.
-constexpr std::size_t parts = 7;
+constexpr std::size_t numbers_per_block = 7;
 
 // A few sweeps are made of any island: the first, to and fro.
 constexpr std::uint32_t sweeps_min = 3;
@@ -54,40 +54,41 @@ double distance2(std::span<const double> a, std::span<const double> b)
 
 ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
     : responses_{bodies + 1},
-      ending_{bodies + 1},
-      mean_{bodies + 1},
+      end_motions_{bodies + 1},
+      mean_motions_{bodies + 1},
       blocks_{blocks},
       contacts_{bodies + 1},
-      parents_{bodies + 1},
+      islands_{bodies + 1},
       starts_{bodies + 2},
       order_{blocks},
-      before_{parts * std::min(blocks, mixed_max)},
-      after_{parts * std::min(blocks, mixed_max)},
-      good_{parts * std::min(blocks, mixed_max)},
+      before_{numbers_per_block * std::min(blocks, mixed_max)},
+      after_{numbers_per_block * std::min(blocks, mixed_max)},
+      good_{numbers_per_block * std::min(blocks, mixed_max)},
       saved_{bodies + 1},
-      anderson_{parts * std::min(blocks, mixed_max)}
+      anderson_{numbers_per_block * std::min(blocks, mixed_max)}
 {}
 
 void ContactSolver::begin(std::size_t bodies)
 {
     responses_.resize(bodies + 1);
-    ending_.resize(bodies + 1);
-    mean_.resize(bodies + 1);
+    end_motions_.resize(bodies + 1);
+    mean_motions_.resize(bodies + 1);
     blocks_.clear();
 }
 
-SolverOutcome ContactSolver::solve(const SolverLimits& limits)
+SolverOutcome ContactSolver::solve_velocities(const SolverLimits& limits)
 {
-    return run({Mode::contacts, ending_.all(), limits});
+    return run({Mode::contacts, end_motions_.all(), limits});
 }
 
-SolverOutcome ContactSolver::separate(const SolverLimits& limits)
+SolverOutcome ContactSolver::correct_positions(const SolverLimits& limits)
 {
     const auto overlaps = [&](const ContactBlock& block) {
-        Modal velocity = velocity_at(block, mean_[block.a], mean_[block.b]);
-        for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.bend[i];
+        ContactVector velocity = velocity_at(block, mean_motions_[block.a], mean_motions_[block.b]);
+        for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.centripetal_velocity[i];
         for (std::size_t i = 0; i < block.count; ++i) {
-            if (block.normal_speed(velocity, i) < block.least[i] - limits.quiet) return true;
+            if (block.normal_speed(velocity, i) < block.speed_min[i] - limits.tolerance)
+                return true;
         }
         return false;
     };
@@ -98,21 +99,22 @@ SolverOutcome ContactSolver::separate(const SolverLimits& limits)
     for (ContactBlock& block : blocks) {
         ContactImpulse start;
         for (std::size_t i = 0; i < block.count; ++i) {
-            start.normal[i] = std::max(0.0, 0.5 * (block.impulse.normal[i] - block.begun[i]));
+            start.normal[i] =
+                std::max(0.0, 0.5 * (block.impulse.normal[i] - block.start_impulse[i]));
         }
         block.impulse = start;
-        apply(block, modal(block, start), mean_.all());
+        apply(block, contact_vector(block, start), mean_motions_.all());
     }
-    return run({Mode::separations, mean_.all(), limits});
+    return run({Mode::positions, mean_motions_.all(), limits});
 }
 
-SolverOutcome ContactSolver::separate_again(const SolverLimits& limits)
+SolverOutcome ContactSolver::correct_positions_again(const SolverLimits& limits)
 {
     for (ContactBlock& block : blocks_.all()) {
         block.impulse = {};
         block.has_matrix = false;
     }
-    return run({Mode::separations, mean_.all(), limits});
+    return run({Mode::positions, mean_motions_.all(), limits});
 }
 
 SolverOutcome ContactSolver::run(const Task& task)
@@ -120,10 +122,11 @@ SolverOutcome ContactSolver::run(const Task& task)
     SolverOutcome outcome{1, 0.0};
     count_contacts();
     for (ContactBlock& block : blocks_.all()) {
-        block.change = visit(block, task, is_alone(block) ? Depth::exact : Depth::nearer);
+        block.change =
+            solve_block(block, task, is_alone(block) ? Effort::full : Effort::one_iteration);
         outcome.change = std::max(outcome.change, block.change);
     }
-    if (outcome.change <= task.limits.enough || blocks_.size() < 2) return outcome;
+    if (outcome.change <= task.limits.converged || blocks_.size() < 2) return outcome;
     find_islands();
     std::size_t moving = 0;
     for_moving_islands(task, [&](Island island) { moving += island.size(); });
@@ -135,8 +138,8 @@ SolverOutcome ContactSolver::run(const Task& task)
     outcome.change = 0.0;
     for_moving_islands(task, [&](Island island) {
         const SolverOutcome one = run_island(its, island);
-        const bool is_done = one.change <= task.limits.enough;
-        if (task.mode == Mode::contacts && !is_done) lose_energy(task, island);
+        const bool is_done = one.change <= task.limits.converged;
+        if (task.mode == Mode::contacts && !is_done) limit_energy(task, island);
         outcome.sweeps = std::max(outcome.sweeps, one.sweeps);
         outcome.change = std::max(outcome.change, one.change);
     });
@@ -147,7 +150,7 @@ SolverOutcome ContactSolver::run(const Task& task)
 template <typename Do>
 void ContactSolver::for_moving_islands(const Task& task, Do&& act)
 {
-    const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.enough; };
+    const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.converged; };
     std::uint32_t begin = 0;
     for (const std::uint32_t end : starts_.all()) {
         const Island island = order_.all().subspan(begin, end - begin);
@@ -163,30 +166,30 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
         while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
             outcome.change = sweep(task, island);
             outcome.sweeps += 2;
-            if (outcome.change <= task.limits.enough) break;
+            if (outcome.change <= task.limits.converged) break;
         }
         return outcome;
     }
-    before_.resize(parts * island.size());
-    after_.resize(parts * island.size());
-    good_.resize(parts * island.size());
-    anderson_.begin(parts * island.size());
-    note(island, before_.all());
+    before_.resize(numbers_per_block * island.size());
+    after_.resize(numbers_per_block * island.size());
+    good_.resize(numbers_per_block * island.size());
+    anderson_.begin(numbers_per_block * island.size());
+    read_impulses(island, before_.all());
     double shortest2 = std::numeric_limits<double>::infinity();
     double first2 = -1.0;
     bool has_jumped = false;
     while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
         outcome.change = sweep(task, island);
         outcome.sweeps += 2;
-        if (outcome.change <= task.limits.enough) break;
-        note(island, after_.all());
+        if (outcome.change <= task.limits.converged) break;
+        read_impulses(island, after_.all());
         if (first2 < 0.0) first2 = size2(after_.all());
         const double step2 = distance2(before_.all(), after_.all());
         // A mixture that leads astray, because something opens or slips there, is taken back.
         constexpr double astray = 4.0;
         if (has_jumped && !(step2 <= astray * shortest2)) {
-            step_back(task, island);
-            anderson_.begin(parts * island.size());
+            undo_mixture(task, island);
+            anderson_.begin(numbers_per_block * island.size());
             std::copy(good_.all().begin(), good_.all().end(), before_.all().begin());
             has_jumped = false;
             continue;
@@ -198,21 +201,21 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
         constexpr double too_far = 1e4;
         if (size2(before_.all()) > too_far * too_far * first2) {
             std::copy(after_.all().begin(), after_.all().end(), before_.all().begin());
-            anderson_.begin(parts * island.size());
+            anderson_.begin(numbers_per_block * island.size());
             has_jumped = false;
         }
-        if (has_jumped) jump(task, island);
+        if (has_jumped) take_mixture(task, island);
     }
     return outcome;
 }
 
 /// Impulses on the way to the answer may leave more energy than none at all would have. Then they
 /// are scaled to what leaves least.
-void ContactSolver::lose_energy(const Task& task, Island island)
+void ContactSolver::limit_energy(const Task& task, Island island)
 {
     const auto scale_all = [&](double by) {
         for (const std::uint32_t i : island) {
-            Modal change = modal(blocks_[i], blocks_[i].impulse);
+            ContactVector change = contact_vector(blocks_[i], blocks_[i].impulse);
             for (double& part : change) part *= by;
             apply(blocks_[i], change, task.motions);
         }
@@ -221,8 +224,9 @@ void ContactSolver::lose_energy(const Task& task, Island island)
         double sum = 0.0;
         for (const std::uint32_t i : island) {
             const ContactBlock& block = blocks_[i];
-            const Modal impulse = modal(block, block.impulse);
-            const Modal speed = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+            const ContactVector impulse = contact_vector(block, block.impulse);
+            const ContactVector speed =
+                velocity_at(block, task.motions[block.a], task.motions[block.b]);
             for (std::size_t k = 0; k < impulse.size(); ++k) sum += impulse[k] * speed[k];
         }
         return sum;
@@ -233,7 +237,7 @@ void ContactSolver::lose_energy(const Task& task, Island island)
     const double without = product();
     const double answer = with - without;
     if (with + without <= 0.0) {
-        bring_back(task, island);
+        restore(task, island);
         return;
     }
     const double share = without < 0.0 ? -without / answer : 0.0;
@@ -251,38 +255,39 @@ double ContactSolver::sweep(const Task& task, Island island)
 {
     double change = 0.0;
     for (const std::uint32_t i : island)
-        change = std::max(change, visit(blocks_[i], task, Depth::nearer));
+        change = std::max(change, solve_block(blocks_[i], task, Effort::one_iteration));
     for (std::size_t i = island.size(); i-- > 0;) {
-        change = std::max(change, visit(blocks_[island[i]], task, Depth::nearer));
+        change = std::max(change, solve_block(blocks_[island[i]], task, Effort::one_iteration));
     }
     return change;
 }
 
-void ContactSolver::note(Island island, std::span<double> impulses) const
+void ContactSolver::read_impulses(Island island, std::span<double> impulses) const
 {
-    for (std::size_t i = 0; i < island.size(); ++i) read(blocks_[island[i]], &impulses[parts * i]);
+    for (std::size_t i = 0; i < island.size(); ++i)
+        read(blocks_[island[i]], &impulses[numbers_per_block * i]);
 }
 
 /// From after_ to before_; the way back is kept.
-void ContactSolver::jump(const Task& task, Island island)
+void ContactSolver::take_mixture(const Task& task, Island island)
 {
     std::copy(after_.all().begin(), after_.all().end(), good_.all().begin());
     save(task, island);
     for (std::size_t i = 0; i < island.size(); ++i) {
         ContactBlock& block = blocks_[island[i]];
-        Modal change = modal(block, block.impulse);
-        write(block, &before_[parts * i]);
-        const Modal now = modal(block, block.impulse);
+        ContactVector change = contact_vector(block, block.impulse);
+        write(block, &before_[numbers_per_block * i]);
+        const ContactVector now = contact_vector(block, block.impulse);
         for (std::size_t k = 0; k < change.size(); ++k) change[k] = now[k] - change[k];
         apply(block, change, task.motions);
     }
 }
 
-void ContactSolver::step_back(const Task& task, Island island)
+void ContactSolver::undo_mixture(const Task& task, Island island)
 {
-    bring_back(task, island);
+    restore(task, island);
     for (std::size_t i = 0; i < island.size(); ++i) {
-        write(blocks_[island[i]], &good_[parts * i]);
+        write(blocks_[island[i]], &good_[numbers_per_block * i]);
     }
 }
 
@@ -295,7 +300,7 @@ void ContactSolver::save(const Task& task, Island island)
     }
 }
 
-void ContactSolver::bring_back(const Task& task, Island island)
+void ContactSolver::restore(const Task& task, Island island)
 {
     for (const std::uint32_t i : island) {
         task.motions[blocks_[i].a] = saved_[blocks_[i].a];
@@ -303,34 +308,37 @@ void ContactSolver::bring_back(const Task& task, Island island)
     }
 }
 
-double ContactSolver::visit(ContactBlock& block, const Task& task, Depth depth)
+double ContactSolver::solve_block(ContactBlock& block, const Task& task, Effort depth)
 {
-    Modal velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
-    for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.bend[i];
-    const double quiet = task.limits.quiet;
-    const bool pushes_only = task.mode == Mode::separations;
-    if (pushes_only ? is_separated(block, velocity, quiet) : is_solved(block, velocity, quiet)) {
+    ContactVector velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
+    for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.centripetal_velocity[i];
+    const double tolerance = task.limits.tolerance;
+    const bool pushes_only = task.mode == Mode::positions;
+    if (pushes_only ? normals_are_solved(block, velocity, tolerance)
+                    : is_solved(block, velocity, tolerance)) {
         return 0.0;
     }
     if (!block.has_matrix) build_matrix(block, responses_[block.a], responses_[block.b]);
-    const Modal change = pushes_only             ? scene::solve_normals(block, velocity, quiet)
-                         : depth == Depth::exact ? scene::solve(block, velocity, quiet)
-                                                 : scene::improve(block, velocity, quiet);
+    const ContactVector change = pushes_only ? scene::solve_normals(block, velocity, tolerance)
+                                 : depth == Effort::full
+                                     ? scene::solve(block, velocity, tolerance)
+                                     : scene::iterate(block, velocity, tolerance);
     apply(block, change, task.motions);
-    const Modal gained = times(block.matrix, change);
+    const ContactVector gained = times(block.matrix, change);
     const double arm = block.torsion_arm;
     double most = std::max({std::abs(gained[0]), std::abs(gained[3]), std::abs(gained[4])});
     for (const std::size_t turn : {1U, 2U, 5U}) most = std::max(most, arm * std::abs(gained[turn]));
     return most;
 }
 
-Modal ContactSolver::solve_one(ContactBlock& block, const Modal& velocity, double quiet)
+ContactVector ContactSolver::solve_alone(ContactBlock& block, const ContactVector& velocity,
+                                         double tolerance)
 {
     if (!block.has_matrix) build_matrix(block, responses_[block.a], responses_[block.b]);
-    return scene::solve(block, velocity, quiet);
+    return scene::solve(block, velocity, tolerance);
 }
 
-void ContactSolver::apply(const ContactBlock& block, const Modal& change,
+void ContactSolver::apply(const ContactBlock& block, const ContactVector& change,
                           std::span<BodyMotion> motions)
 {
     Wrench push = wrench(block, change);
@@ -357,32 +365,19 @@ bool ContactSolver::is_alone(const ContactBlock& block) const
     return (block.a == 0 || contacts_[block.a] == 1) && (block.b == 0 || contacts_[block.b] == 1);
 }
 
-SolverIndex ContactSolver::root_of(SolverIndex body)
-{
-    while (parents_[body] != body) {
-        parents_[body] = parents_[parents_[body]];
-        body = parents_[body];
-    }
-    return body;
-}
-
 /// Sorts the blocks by islands: first those of the body with the lowest index, each in the order
 /// of its blocks.
 void ContactSolver::find_islands()
 {
     const std::size_t bodies = responses_.size();
-    parents_.resize(bodies);
-    for (SolverIndex i = 0; i < bodies; ++i) parents_[i] = i;
+    for (SolverIndex i = 0; i < bodies; ++i) islands_.reset(i);
     for (const ContactBlock& block : blocks_.all()) {
-        if (block.a == 0 || block.b == 0) continue;
-        const SolverIndex a = root_of(block.a);
-        const SolverIndex b = root_of(block.b);
-        parents_[std::max(a, b)] = std::min(a, b);
+        if (block.a != 0 && block.b != 0) islands_.join(block.a, block.b);
     }
     starts_.resize(bodies + 1);
     for (std::uint32_t& start : starts_.all()) start = 0;
     const auto root_of_block = [&](const ContactBlock& block) {
-        return root_of(block.a != 0 ? block.a : block.b);
+        return islands_.root_of(block.a != 0 ? block.a : block.b);
     };
     for (const ContactBlock& block : blocks_.all()) ++starts_[root_of_block(block) + 1];
     for (std::size_t i = 1; i <= bodies; ++i) starts_[i] += starts_[i - 1];

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/bounded.hpp"
 #include "scene/solver/anderson.hpp"
-#include "scene/solver/block.hpp"
-#include "scene/solver/scratch.hpp"
+#include "scene/solver/block_solver.hpp"
+#include "scene/solver/islands.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -14,8 +15,8 @@ namespace hapnet::scene {
 
 /// When to stop.
 struct SolverLimits {
-    double quiet = 0.0;           // m/s: a contact that misses by less is left alone
-    double enough = 0.0;          // m/s: when no contact changed its speed by more, that was it
+    double tolerance = 0.0;       // m/s: a contact that misses by less is left alone
+    double converged = 0.0;       // m/s: when no contact changed its speed by more, that was it
     std::uint32_t sweeps_max = 1; // over an island
     std::uint32_t visits_max =
         std::numeric_limits<std::uint32_t>::max(); // over all islands, beyond a few sweeps
@@ -41,25 +42,25 @@ public:
 
     [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
     /// At the end of the tick.
-    [[nodiscard]] BodyMotion& ending(SolverIndex body) { return ending_[body]; }
+    [[nodiscard]] BodyMotion& end_motion(SolverIndex body) { return end_motions_[body]; }
     /// The mean over the tick: what moves the bodies.
-    [[nodiscard]] BodyMotion& mean(SolverIndex body) { return mean_[body]; }
+    [[nodiscard]] BodyMotion& mean_motion(SolverIndex body) { return mean_motions_[body]; }
 
     [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
     ContactBlock& add() { return blocks_.add(); }
     [[nodiscard]] std::span<ContactBlock> blocks() { return blocks_.all(); }
 
     /// Changes the impulses of the contacts and the velocities at the end of the tick.
-    SolverOutcome solve(const SolverLimits& limits);
+    SolverOutcome solve_velocities(const SolverLimits& limits);
     /// The same for the mean velocities, without friction, and impulses that begin at zero.
-    SolverOutcome separate(const SolverLimits& limits);
+    SolverOutcome correct_positions(const SolverLimits& limits);
     /// Once more, when bodies answer otherwise.
-    SolverOutcome separate_again(const SolverLimits& limits);
+    SolverOutcome correct_positions_again(const SolverLimits& limits);
     /// What one block changes in velocities that are told, which stay as they are.
-    Modal solve_one(ContactBlock& block, const Modal& velocity, double quiet);
+    ContactVector solve_alone(ContactBlock& block, const ContactVector& velocity, double tolerance);
 
 private:
-    enum class Mode : std::uint8_t { contacts, separations };
+    enum class Mode : std::uint8_t { contacts, positions };
     /// What is solved, and for which velocities.
     struct Task {
         Mode mode = Mode::contacts;
@@ -68,7 +69,7 @@ private:
     };
 
     /// How far a visit goes where a block slips: to the end, or some way, as the next one goes on.
-    enum class Depth : std::uint8_t { exact, nearer };
+    enum class Effort : std::uint8_t { full, one_iteration };
 
     using Island = std::span<const std::uint32_t>; // its blocks
 
@@ -77,28 +78,28 @@ private:
     void for_moving_islands(const Task& task, Do&& act);
     SolverOutcome run_island(const Task& task, Island island);
     void save(const Task& task, Island island);
-    void bring_back(const Task& task, Island island);
-    void lose_energy(const Task& task, Island island);
+    void restore(const Task& task, Island island);
+    void limit_energy(const Task& task, Island island);
     double sweep(const Task& task, Island island);
-    void note(Island island, std::span<double> impulses) const;
-    void jump(const Task& task, Island island);
-    void step_back(const Task& task, Island island);
-    double visit(ContactBlock& block, const Task& task, Depth depth);
-    void apply(const ContactBlock& block, const Modal& change, std::span<BodyMotion> motions);
+    void read_impulses(Island island, std::span<double> impulses) const;
+    void take_mixture(const Task& task, Island island);
+    void undo_mixture(const Task& task, Island island);
+    double solve_block(ContactBlock& block, const Task& task, Effort depth);
+    void apply(const ContactBlock& block, const ContactVector& change,
+               std::span<BodyMotion> motions);
     void count_contacts();
     [[nodiscard]] bool is_alone(const ContactBlock& block) const;
     void find_islands();
-    [[nodiscard]] SolverIndex root_of(SolverIndex body);
 
     Scratch<BodyResponse> responses_;
-    Scratch<BodyMotion> ending_;
-    Scratch<BodyMotion> mean_;
+    Scratch<BodyMotion> end_motions_;
+    Scratch<BodyMotion> mean_motions_;
     Scratch<ContactBlock> blocks_;
 
     Scratch<std::uint32_t> contacts_; // of each body
 
-    // Islands: of which body, by body; the blocks in the order of their islands; where each ends.
-    Scratch<SolverIndex> parents_;
+    // By solver index; then the blocks in the order of their islands, and where each ends.
+    Islands islands_;
     Scratch<std::uint32_t> starts_;
     Scratch<std::uint32_t> order_;
     Scratch<double> before_, after_, good_; // impulses of an island

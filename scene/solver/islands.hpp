@@ -2,26 +2,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/input.hpp"
-
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace hapnet::scene {
 
-/// Which bodies belong together: a union-find. An island is known by the lowest of its ids,
+/// Which bodies belong together: a union-find. An island is known by the lowest of its numbers,
 /// whatever the order in which its bodies were joined.
 class Islands {
 public:
-    explicit Islands(BodyId bodies) : parents_(bodies) {}
+    using Body = std::uint32_t;
 
-    /// The body is an island of its own. To be said of every body before it is joined.
-    void part(BodyId body) { parents_[body] = body; }
-    void join(BodyId a, BodyId b);
-    /// The lowest id of its island.
-    [[nodiscard]] BodyId of(BodyId body);
+    explicit Islands(std::size_t bodies) : parents_(bodies) {}
+
+    /// Makes the body an island of its own. Every body needs it before it is joined.
+    void reset(Body body) { parents_[body] = body; }
+    void join(Body a, Body b)
+    {
+        const Body one = root_of(a);
+        const Body other = root_of(b);
+        parents_[std::max(one, other)] = std::min(one, other);
+    }
+    /// The lowest number of its island.
+    [[nodiscard]] Body root_of(Body body)
+    {
+        while (parents_[body] != body) {
+            parents_[body] = parents_[parents_[body]];
+            body = parents_[body];
+        }
+        return body;
+    }
 
 private:
-    std::vector<BodyId> parents_;
+    std::vector<Body> parents_;
 };
 
 } // namespace hapnet::scene

@@ -240,7 +240,7 @@ void read_bodies(TableReader& table, Growing& growing)
     }
 }
 
-void read_hips(TableReader& table, HipDescription& hips)
+void read_hands(TableReader& table, HandDescription& hands)
 {
     Reading& reading = table.reading();
     with(table, "hips", [&](const Node& node) {
@@ -248,27 +248,27 @@ void read_hips(TableReader& table, HipDescription& hips)
         if (entries == nullptr) return base::complain_of(node, "a table [hips]", reading);
         TableReader keys{*entries, node.place, reading};
         with(keys, "count", [&](const Node& count) {
-            const auto value = base::count_of(count, hips_max);
-            if (value) hips.count = static_cast<std::uint32_t>(*value);
-            const auto expected = fmt::format("a whole number of hands from 0 to {}", hips_max);
+            const auto value = base::count_of(count, hands_max);
+            if (value) hands.count = static_cast<std::uint32_t>(*value);
+            const auto expected = fmt::format("a whole number of hands from 0 to {}", hands_max);
             if (!value) base::complain_of(count, expected, reading);
         });
         const auto quantity = [&](std::string_view key, double& target, const Span& span) {
             with(keys, key, [&](const Node& value) { read(value, target, span, reading); });
         };
-        quantity("radius", hips.radius_m, radius_span);
-        quantity("stiffness", hips.stiffness_n_per_m, stiffness_span);
-        quantity("damping", hips.damping_ns_per_m, drag_span);
-        quantity("grip_reach", hips.grip_reach_m, reach_span);
+        quantity("radius", hands.radius_m, radius_span);
+        quantity("stiffness", hands.stiffness_n_per_m, stiffness_span);
+        quantity("damping", hands.damping_ns_per_m, drag_span);
+        quantity("grip_reach", hands.grip_reach_m, reach_span);
         with(keys, "friction", [&](const Node& friction) {
-            text::read_share(friction, hips.friction, friction_max, reading);
+            text::read_share(friction, hands.friction, friction_max, reading);
         });
         with(keys, "force_max", [&](const Node& force) {
             const auto* word = std::get_if<std::string>(&force.value);
             if (word == nullptr || *word != "none") {
-                return read(force, hips.force_max_n, force_span, reading);
+                return read(force, hands.force_max_n, force_span, reading);
             }
-            hips.force_max_n = std::numeric_limits<double>::infinity();
+            hands.force_max_n = std::numeric_limits<double>::infinity();
         });
         keys.finish();
     });
@@ -306,7 +306,7 @@ base::Result<Description> parse_scene(std::string_view text, const std::string& 
     with(table, "name", [&](const Node& node) { base::read_value(node, scene.name, reading); });
     with(table, "gravity",
          [&](const Node& node) { read(node, scene.gravity, gravity_span, reading); });
-    read_hips(table, scene.hips);
+    read_hands(table, scene.hands);
     read_planes(table, growing);
     read_bodies(table, growing);
     table.finish();

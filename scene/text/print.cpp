@@ -92,19 +92,20 @@ private:
     std::string text_;
 };
 
-void print_hips(Lines& lines, const HipDescription& hips)
+void print_hands(Lines& lines, const HandDescription& hands)
 {
     lines.heading("[hips]");
-    lines.add("count", base::value_text(hips.count));
-    lines.add("radius", hips.radius_m, base::length_kind);
-    lines.add("stiffness", hips.stiffness_n_per_m, base::stiffness_kind);
-    lines.add("damping", hips.damping_ns_per_m, base::damping_kind);
-    lines.add("force_max", std::isinf(hips.force_max_n)
+    lines.add("count", base::value_text(hands.count));
+    lines.add("radius", hands.radius_m, base::length_kind);
+    lines.add("stiffness", hands.stiffness_n_per_m, base::stiffness_kind);
+    lines.add("damping", hands.damping_ns_per_m, base::damping_kind);
+    lines.add("force_max", std::isinf(hands.force_max_n)
                                ? base::quoted("none")
-                               : with_unit(hips.force_max_n, base::force_kind));
-    lines.add("grip_reach", hips.grip_reach_m, base::length_kind);
-    constexpr HipDescription usual;
-    if (!is_same(hips.friction, usual.friction)) lines.add("friction", number_text(hips.friction));
+                               : with_unit(hands.force_max_n, base::force_kind));
+    lines.add("grip_reach", hands.grip_reach_m, base::length_kind);
+    constexpr HandDescription usual;
+    if (!is_same(hands.friction, usual.friction))
+        lines.add("friction", number_text(hands.friction));
 }
 
 void print_plane(Lines& lines, const PlaneDescription& plane)
@@ -165,7 +166,7 @@ std::string to_text(const Description& description)
     Lines lines;
     lines.name(description.name);
     lines.add("gravity", description.gravity, base::acceleration_kind);
-    print_hips(lines, description.hips);
+    print_hands(lines, description.hands);
     for (const PlaneDescription& plane : description.planes) print_plane(lines, plane);
     for (const BodyDescription& body : description.bodies) print_body(lines, body);
     return std::move(lines).text();

@@ -3,10 +3,11 @@
 # SPDX-License-Identifier: MIT
 #
 # Sessions of two peers through the emulator, for the scripts that play some. To be sourced by a
-# script that has set program (its name, for messages) and bin (the folder of the programs), and
-# has started no other processes. Whatever ends the script, its sessions end too.
+# script that has set program (its name, for messages) and bin (the folder of the programs). Whatever
+# ends the script, its sessions end too.
 
 children=()
+builder=
 
 # Where the programs run: in the network namespaces $namespace-1, -emulator and -2, which
 # scripts/lib/namespaces.sh makes; empty: on loopback.
@@ -32,9 +33,16 @@ socket_of() {
 }
 
 stop_children() {
-    ((${#children[@]} == 0)) || kill -TERM "${children[@]}" 2>/dev/null || true
-    wait
+    ((${#children[@]} > 0)) || return 0
+    kill -TERM "${children[@]}" 2>/dev/null || true
+    wait "${children[@]}" || true
     children=()
+}
+
+stop_all() {
+    stop_children
+    [[ -z $builder ]] || kill -TERM "$builder" 2>/dev/null || true
+    [[ -z $builder ]] || wait "$builder" || true
 }
 
 # fail WHY [LOG...]: says why and what the logs end with, and ends the script.
@@ -45,14 +53,30 @@ fail() {
     exit 1
 }
 
-trap stop_children EXIT
+trap stop_all EXIT
 trap 'echo "$program: interrupted" >&2; exit 130' INT TERM
 
-# Installs what is missing and builds the programs that a session needs.
+# build_programs PROGRAM...: installs what is missing and builds these.
 build_programs() {
     scripts/setup.sh
-    cmake --preset release -DHAPNET_TESTS=OFF
-    cmake --build --preset release --target hapnet-emulator hapnet-peer hapnet-lab
+    [[ -e build/release/build.ninja ]] || cmake --preset release -DHAPNET_TESTS=OFF
+    cmake --build --preset release --target "$@"
+}
+
+# build_beside LOG PROGRAM...: builds these while sessions play, which wait for most of their time.
+# The kernel's idle class takes only what they leave, and gives way to them at once.
+build_beside() {
+    build_log=$1
+    chrt --idle 0 ninja -C build/release "${@:2}" >"$build_log" 2>&1 &
+    builder=$!
+}
+
+# finish_build: waits for what build_beside() began.
+finish_build() {
+    local failed=
+    wait "$builder" || failed=yes
+    builder=
+    [[ -z $failed ]] || fail "building failed:" "$build_log"
 }
 
 # start_emulator FOLDER OPTION...: sets emulator, address_a and address_b.

@@ -29,7 +29,7 @@ scene::World world_of(const Play& play)
 }
 
 /// Where a hand on a circle is at a tick.
-scene::HipInput on_circle(double radius, double period_s, std::uint64_t tick)
+scene::HandInput on_circle(double radius, double period_s, std::uint64_t tick)
 {
     const double turn = base::two_pi * static_cast<double>(tick) * 1e-3 / period_s;
     const double speed = base::two_pi * radius / period_s;
@@ -47,7 +47,7 @@ void play_on(scene::World& world, std::uint64_t ticks)
         auto right = on_circle(-0.045, 2.9, now);
         right.gripping = now % 4000 > 3500;
         if (now % 5000 == 4999) left.position.value.x = 0.5; // and back in the next tick
-        base::ensure(!world.hip(0, left) && !world.hip(1, right));
+        base::ensure(!world.set_hand(0, left) && !world.set_hand(1, right));
         world.tick();
     }
 }

@@ -12,18 +12,18 @@ namespace {
 
 namespace scene = hapnet::scene;
 
-template <typename Tick>
+template <typename Stepper>
 int spin(const scene::Description& description, long ticks)
 {
-    const scene::Frozen frozen{
-        .planes = description.planes, .hips = description.hips, .gravity = description.gravity};
-    scene::Stage stage{.bodies = scene::Bodies{description}};
-    stage.pushes.resize(description.bodies.size());
-    stage.is_pushed.resize(description.bodies.size());
-    for (scene::HipInput& hip : stage.hips) hip.present = false;
-    for (const std::uint32_t index : {0U, 1U}) stage.hips[index] = hapnet::cost::hand(index);
-    Tick tick{description, frozen, stage};
-    for (long left = ticks; left > 0; --left) tick.tick(frozen, stage);
+    const scene::WorldConfig config{
+        .planes = description.planes, .hands = description.hands, .gravity = description.gravity};
+    scene::WorldState state{.bodies = scene::Bodies{description}};
+    state.pushes.resize(description.bodies.size());
+    state.is_pushed.resize(description.bodies.size());
+    for (scene::HandInput& hand : state.hands) hand.present = false;
+    for (const std::uint32_t index : {0U, 1U}) state.hands[index] = hapnet::cost::hand(index);
+    Stepper stepper{description, config, state};
+    for (long left = ticks; left > 0; --left) stepper.step(config, state);
     return 0;
 }
 
@@ -32,12 +32,14 @@ int spin(const scene::Description& description, long ticks)
 int main(int argc, char** argv)
 {
     if (argc != 3) return 2;
-    const std::string_view profile = argv[1];
-    const auto description = hapnet::cost::scene_for(profile);
+    const std::string_view kind = argv[1];
+    const auto description = hapnet::cost::scene_for(kind);
     const long ticks = std::atol(argv[2]);
-    if (profile == "sliding") return spin<scene::SlidingTick<false>>(description, ticks);
-    if (profile == "sliding-coulomb") return spin<scene::SlidingTick<true>>(description, ticks);
-    if (profile == "lone") return spin<scene::LoneTick>(description, ticks);
-    if (profile == "few") return spin<scene::FewTick>(description, ticks);
+    if (kind == "sliding") return spin<scene::OneBoxStepper<false>>(description, ticks);
+    if (kind == "sliding-coulomb") return spin<scene::OneBoxStepper<true>>(description, ticks);
+    if (kind == "lone")
+        return spin<scene::RigidStepper<scene::BroadPhase::none>>(description, ticks);
+    if (kind == "few")
+        return spin<scene::RigidStepper<scene::BroadPhase::all_pairs>>(description, ticks);
     return 2;
 }

@@ -12,9 +12,9 @@ int main(int argc, char** argv)
     namespace scene = hapnet::scene;
     if (argc != 3) return 2;
     auto world = scene::World::freeze(hapnet::cost::scene_for(argv[1]), {.sleeping = true});
-    if (!world || name_of(world->profile()) != argv[1]) return 2;
+    if (!world || name_of(world->stepper_kind()) != argv[1]) return 2;
     for (const std::uint32_t index : {0U, 1U}) {
-        if (world->hip(index, hapnet::cost::hand(index))) return 2;
+        if (world->set_hand(index, hapnet::cost::hand(index))) return 2;
     }
     for (long left = std::atol(argv[2]); left > 0; --left) world->tick();
     return 0;

@@ -54,7 +54,7 @@ TEST(EmulatorUsage, PrintsItsVersion)
 
 TEST(EmulatorUsage, RefusesWhatItDoesNotKnowNamingIt)
 {
-    expect_refusal(run_with({"--dealy", "160ms"}), 2, {"--dealy", "--help"});
+    expect_refusal(run_with({"--dealy", "160ms"}), 2, {"--dealy", "did you mean --delay?"});
     expect_refusal(run_with({"stray"}), 2, {"stray"});
     expect_refusal(run("hapnet-emulator", {}), 2, {"--listen-a"});
     expect_refusal(run("hapnet-emulator", {"--listen-a", "127.0.0.1:0"}), 2, {"--listen-b"});

@@ -26,7 +26,7 @@ void write_file(const fs::path& path, const std::string& text)
     std::ofstream{path} << text;
 }
 
-TEST(LabReport, WritesThePageItsFiguresAndTheGnuplotFilesOfAFolderAndItsSubfolders)
+TEST(LabReport, WritesThePageAndItsFiguresOfAFolderAndItsSubfolders)
 {
     const TemporaryFolder temporary;
     const fs::path folder = temporary.file("results");
@@ -43,8 +43,6 @@ TEST(LabReport, WritesThePageItsFiguresAndTheGnuplotFilesOfAFolderAndItsSubfolde
     EXPECT_NE(page.find("<section id='qos'"), std::string::npos);
     EXPECT_NE(page.find("scripts/fig7.sh --out " + folder.string() + "/fig7"), std::string::npos);
     EXPECT_TRUE(fs::exists(folder / "figures/table1-mean.svg"));
-    EXPECT_TRUE(fs::exists(folder / "gnuplot/table1.gp"));
-    EXPECT_TRUE(fs::exists(folder / "gnuplot/table1.dat"));
     EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
     EXPECT_EQ(text_of((folder / "report.html").string()), page) << "made again, it is the same";
 }

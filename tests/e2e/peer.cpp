@@ -58,12 +58,34 @@ void Peer::stop()
     expect_end();
 }
 
+void Peer::stop_on_a_busy_machine()
+{
+    process_->signal(SIGTERM);
+    const auto exit = process_->wait_exit(30s);
+    const auto fault = statistics()["governor"]["fault"];
+    EXPECT_TRUE(fault == "none" || fault == "timeout") << fault;
+    EXPECT_EQ(exit, fault == "none" ? 0 : 1) << process_->err();
+}
+
 nlohmann::json Peer::statistics() const
 {
     auto json =
         nlohmann::json::parse(text_of(folder_.file("run.json")), nullptr, /*exceptions*/ false);
     EXPECT_TRUE(json.is_object());
     return json.is_object() ? json : nlohmann::json::object();
+}
+
+nlohmann::json answer_of(const std::string& socket, const std::string& command)
+{
+    const Outcome outcome = run("hapnet-ctl", {socket, "--json", command});
+    auto answer = nlohmann::json::parse(outcome.out, nullptr, /*exceptions*/ false);
+    EXPECT_TRUE(answer.is_object()) << outcome.out << outcome.err;
+    return answer.is_object() ? answer : nlohmann::json::object();
+}
+
+std::string fault_at(const std::string& socket)
+{
+    return answer_of(socket, "stats")["governor"]["fault"];
 }
 
 namespace {

@@ -4,10 +4,14 @@
 
 #include "tests/e2e/process.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <tuple>
 #include <vector>
 
 namespace hapnet::e2e {
@@ -38,6 +42,10 @@ public:
     /// SIGTERM, and its end.
     void stop();
 
+    /// SIGTERM, and its end: with exit code 1, too, when the machine stood still and the peer
+    /// therefore ends at zero force.
+    void stop_on_a_busy_machine();
+
     /// Of the newest run, after its end.
     [[nodiscard]] nlohmann::json statistics() const;
     [[nodiscard]] std::string record() const { return folder_.file("run.rec"); }
@@ -49,6 +57,36 @@ private:
     std::vector<std::string> words_;
     std::optional<Process> process_;
 };
+
+/// What a running peer answers to a command of its control socket.
+[[nodiscard]] nlohmann::json answer_of(const std::string& socket, const std::string& command);
+
+/// The fault that holds the device of a running peer at zero force, as its control socket names it:
+/// "none", or "timeout" when the machine stood still.
+[[nodiscard]] std::string fault_at(const std::string& socket);
+
+/// What a person who cannot feel the cube does, 60 s at most: while one of the peers at these
+/// sockets is at zero force for a fault, hold the device still for the second that it needs, and
+/// press its button until the fault has gone. Whether the cube is felt then.
+template <typename Felt, typename Press>
+[[nodiscard]] bool comes_to_be_felt(const std::vector<std::string>& sockets, Felt felt, Press press)
+{
+    using namespace std::chrono_literals;
+    const auto is_at_zero = [&] {
+        return std::any_of(sockets.begin(), sockets.end(),
+                           [](const std::string& socket) { return fault_at(socket) != "none"; });
+    };
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    while (!comes_true(felt, 1s)) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        if (!is_at_zero()) continue;
+        std::this_thread::sleep_for(1200ms);
+        press(true);
+        std::ignore = comes_true([&] { return felt() || !is_at_zero(); }, 1s);
+        press(false);
+    }
+    return true;
+}
 
 /// A tick of a record, as far as these tests look at it.
 struct Tick {

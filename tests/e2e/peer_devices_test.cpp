@@ -156,7 +156,7 @@ TEST(PeerDevices, RefusesBadUsageNamingTheCure)
     };
     const std::string free = "127.0.0.1:9";
     for (const Case& c : {
-             Case{{"list-devices", "--jsn"}, 2, {"--jsn", "list-devices --help"}},
+             Case{{"list-devices", "--jsn"}, 2, {"--jsn", "did you mean --json?"}},
              Case{{"doctor", "now"}, 2, {"now", "doctor --help"}},
              Case{{"self-test"}, 2, {"--device is required", "list-devices"}},
              Case{{"self-test", "--device", "sim", "--skip", "all"}, 2, {"--skip", "cable"}},
@@ -170,7 +170,7 @@ TEST(PeerDevices, RefusesBadUsageNamingTheCure)
                   3,
                   {"--device hdapi", "/no/hd", "--hd-library"}},
              Case{{"--remote", free, "--mount-offset", "1mm,2mm"}, 2, {"0mm,20mm,-5mm"}},
-             Case{{"--remote", free, "--mount-scale", "-1"}, 2, {"from 0.05 to 20"}},
+             Case{{"--remote", free, "--mount-scale", "-1"}, 2, {"0.05 to 20"}},
              Case{{"--remote", free, "--hid-force", "0N"}, 2, {"--hid-force", "not 0"}},
              Case{{"--remote", free, "--device", "hid:1", "--omni-torque", "/no.toml"},
                   2,

@@ -18,18 +18,43 @@ using namespace std::chrono_literals;
 
 const std::vector<std::string> long_t3{"--task", "T3", "--duration", "120s"};
 
+/// Waits until a peer has made so many ticks more.
+void expect_to_play_on(const std::string& socket, int ticks)
+{
+    const auto count = [&] { return answer_of(socket, "stats")["tick"]["count"].get<int>(); };
+    EXPECT_TRUE(comes_true([&, end = count() + ticks] { return count() >= end; }));
+}
+
 /// Peer A, the emulator, peer B, in a session that outlasts every test.
 struct Three {
     Three()
     {
         EXPECT_TRUE(a.says("session started"));
         EXPECT_TRUE(b.says("session started"));
-        std::this_thread::sleep_for(1500ms); // the forces have ramped in
+        for (const Peer* peer : {&a, &b}) expect_to_push(*peer);
     }
 
+    [[nodiscard]] std::string socket_of(const Peer& peer) const
+    {
+        return folder.file(&peer == &a ? "a.sock" : "b.sock");
+    }
+    void expect_to_push(const Peer& peer) const
+    {
+        EXPECT_TRUE(comes_true(
+            [&] { return answer_of(socket_of(peer), "show").value("force_n", 0.0) > 0.1; }));
+        expect_to_play_on(socket_of(peer), 500);
+    }
+    [[nodiscard]] std::vector<std::string> options(const std::string& socket) const
+    {
+        auto words = long_t3;
+        words.insert(words.end(), {"--control", folder.file(socket)});
+        return words;
+    }
+
+    TemporaryFolder folder;
     Emulator emulator{{"--delay", "20ms"}};
-    Peer a{1, free_place(), emulator.a().to_text(), long_t3};
-    Peer b{2, free_place(), emulator.b().to_text(), long_t3};
+    Peer a{1, free_place(), emulator.a().to_text(), options("a.sock")};
+    Peer b{2, free_place(), emulator.b().to_text(), options("b.sock")};
 };
 
 /// What a survivor's record must show: an outage with zero force, and play before and after it.
@@ -66,18 +91,18 @@ TEST(PeerTrouble, APeerThatIsKilledAndStartedAgainJoinsTheOtherThatFeltNothingMe
         const auto said_before = survivor.process().err().size();
         dead.kill();
         EXPECT_TRUE(survivor.says("silent"));
-        std::this_thread::sleep_for(500ms);
+        expect_to_play_on(three.socket_of(survivor), 500);
         dead.restart();
         EXPECT_TRUE(survivor.says("restarted"));
         EXPECT_TRUE(dead.says("joined the session under way"));
         EXPECT_GT(survivor.process().err().size(), said_before);
-        std::this_thread::sleep_for(700ms);
+        expect_to_play_on(three.socket_of(survivor), 700);
         if (!kills_a) continue;
         expect_outage_with_zero_force(survivor); // B's record holds it; B starts anew
         EXPECT_TRUE(dead.says("goodbye"));
         survivor.restart();
         EXPECT_TRUE(survivor.says("joined the session under way"));
-        std::this_thread::sleep_for(1200ms);
+        expect_to_play_on(three.socket_of(survivor), 1200);
     }
     three.a.stop();
     three.b.stop();
@@ -92,14 +117,14 @@ TEST(PeerTrouble, AnEmulatorThatIsKilledAndStartedAgainLetsTheSameSessionGoOn)
     EXPECT_EQ(emulator.wait_exit(5s), 128 + SIGKILL);
     EXPECT_TRUE(three.a.says("silent"));
     EXPECT_TRUE(three.b.says("silent"));
-    std::this_thread::sleep_for(500ms);
+    for (const Peer* peer : {&three.a, &three.b}) expect_to_play_on(three.socket_of(*peer), 500);
     Process again{"hapnet-emulator",
                   {"--listen-a", three.emulator.a().to_text(), "--listen-b",
                    three.emulator.b().to_text(), "--delay", "20ms"}};
     EXPECT_TRUE(again.wait_for_out("ready ", 10s));
     EXPECT_TRUE(three.a.says("heard again"));
     EXPECT_TRUE(three.b.says("heard again"));
-    std::this_thread::sleep_for(700ms);
+    for (const Peer* peer : {&three.a, &three.b}) expect_to_play_on(three.socket_of(*peer), 700);
     expect_outage_with_zero_force(three.a);
     EXPECT_TRUE(three.b.says("goodbye"));
     expect_outage_with_zero_force(three.b);
@@ -118,8 +143,7 @@ TEST(PeerTrouble, APeerThatIsToldToStopSaysGoodbyeAndLeavesStatistics)
         a.process().signal(stop);
         EXPECT_EQ(a.process().wait_exit(5s), 0);
         EXPECT_TRUE(b.says("goodbye"));
-        std::this_thread::sleep_for(300ms);
-        EXPECT_EQ(b.process().wait_exit(0ms), std::nullopt) << "it ended with the other";
+        EXPECT_EQ(b.process().wait_exit(300ms), std::nullopt) << "it ended with the other";
         b.stop();
         for (Peer* peer : {&a, &b}) {
             const auto statistics = peer->statistics();

@@ -51,7 +51,7 @@ TEST(PeerUsage, PrintsItsVersion)
 TEST(PeerUsage, RefusesWhatItDoesNotKnowNamingIt)
 {
     expect_refusal(run("hapnet-peer", {}), 2, {"--remote"});
-    expect_refusal(run_peer_with({"--tsak", "P1"}), 2, {"--tsak", "--help"});
+    expect_refusal(run_peer_with({"--tsak", "P1"}), 2, {"--tsak", "did you mean --task?"});
     expect_refusal(run_peer_with({"stray"}), 2, {"stray"});
     expect_refusal(run_peer_with({"--task", "P2"}), 2, {"--task", "'P2'", "P1, T1, T2, T3"});
     expect_refusal(run_peer_with({"--operator", "giant"}), 2, {"--operator", "'giant'", "nominal"});
@@ -75,7 +75,7 @@ TEST(PeerUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
     expect_refusal(run_peer_with({"--grip-damping", "0"}), 2, {"--grip-damping", "more than 0"});
     expect_refusal(run_peer_with({"--force-limit", "3"}), 2, {"--force-limit", "'3'", "500mN"});
     expect_refusal(run_peer_with({"--force-limit", "-1N"}), 2, {"--force-limit", "0N to 40N"});
-    expect_refusal(run_peer_with({"--listen", "7000"}), 2, {"--listen", "HOST:PORT"});
+    expect_refusal(run_peer_with({"--listen", "here"}), 2, {"--listen", "HOST:PORT"});
     expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:0"}), 2, {"--remote", "port"});
     expect_refusal(run("hapnet-peer", {"--remote", "127.0.0.1:99999"}), 2, {"--remote", "65535"});
     expect_refusal(run_peer_with({"--listen", "[::1]:0"}), 2,

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <sys/types.h>
+#include <thread>
 #include <vector>
 
 namespace hapnet::e2e {
@@ -58,6 +59,20 @@ private:
     Stream out_;
     Stream err_;
 };
+
+/// Whether this comes true within `most`. Looks every few milliseconds, so that a test waits for a
+/// state and not for a time.
+template <typename Condition>
+[[nodiscard]] bool comes_true(Condition condition,
+                              std::chrono::milliseconds most = std::chrono::seconds{20})
+{
+    const auto deadline = std::chrono::steady_clock::now() + most;
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() >= deadline) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    }
+    return true;
+}
 
 /// What a program that ends by itself leaves behind.
 struct Outcome {

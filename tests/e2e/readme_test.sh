@@ -2,14 +2,14 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Runs the ```sh blocks of a README as they stand, on loopback, and fails when a command of one
-# fails. Left out are blocks after a line "<!-- not run by readme_test: why -->".
-# Usage: readme_test.sh README FOLDER-WITH-THE-PROGRAMS
+# Runs the ```sh blocks of a Markdown page as they stand, on loopback, and fails when a command of
+# one fails. Blocks after a line "<!-- not run by readme_test: why -->" are left out.
+# Usage: readme_test.sh PAGE FOLDER-WITH-THE-PROGRAMS [FEWEST-BLOCKS-TO-RUN]
 set -euo pipefail
 
-readme=$(realpath "$1")
+page=$(realpath "$1")
 programs=$(realpath "$2")
-blocks_min=3
+blocks_min=${3:-1}
 seconds_max=60 # for one block
 
 folder=$(mktemp -d)
@@ -23,21 +23,22 @@ awk '
     /^```sh$/ && !left_out { file = sprintf("block-%03d.sh", NR); next }
     /^```/ { file = ""; left_out = 0 }
     file { print > file }
-' "$readme"
+' "$page"
 
+shopt -s nullglob
 blocks=(block-*.sh)
 if ((${#blocks[@]} < blocks_min)); then
-    echo "only ${#blocks[@]} blocks to run in $readme; expected $blocks_min or more" >&2
+    echo "only ${#blocks[@]} blocks to run in $page; expected $blocks_min or more" >&2
     exit 1
 fi
 
 for block in "${blocks[@]}"; do
     line=$((10#${block//[^0-9]/}))
-    printf '\n== the block at line %d of the README\n' "$line"
+    printf '\n== %s, the block at line %d\n' "$page" "$line"
     begin=$SECONDS
     if ! timeout --kill-after 5 "$seconds_max" bash -e "$block"; then
-        echo "FAILED: the block at line $line of the README" >&2
-        tail -n 20 results/*/*.log 2>/dev/null >&2 || true
+        echo "FAILED: the block at line $line of $page" >&2
+        tail -n 20 ./*.log results/*/*.log 2>/dev/null >&2 || true
         exit 1
     fi
     printf -- '-- %d s\n' $((SECONDS - begin))

@@ -14,6 +14,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <limits>
+#include <poll.h>
 #include <stdexcept>
 #include <string>
 #include <sys/mman.h>
@@ -161,26 +162,26 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
     net::UdpSocket socket{net::resolve(net::parse_host_port(asked.listen).value())};
     device::Rig rig{std::make_unique<RecordingOmni>(asked, pipe), device::GovernorLimits{}};
     peer::Journal journal;
-    peer::Watcher watcher{journal, std::nullopt, 1};
+    peer::Monitor monitor{journal, std::nullopt, 1};
     peer::Settings settings;
     settings.introduction = {.id = 1,
                              .nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U),
                              .scene_hash = scene::hash(settings.scene),
                              .seed = 1,
                              .task = wire::TaskName::from_text("P1").value()};
-    peer::Peer peer{settings};
+    peer::Side side{settings};
     peer::Watchdog watchdog{rig.device(), &crash};
-    peer::Servo servo{{peer, rig, socket, net::resolve(net::parse_host_port(asked.remote).value()),
-                       journal, watchdog, 1}};
+    peer::Servo servo{{side, rig, socket, net::resolve(net::parse_host_port(asked.remote).value()),
+                       journal, watchdog}};
     const peer::Options unused;
     std::optional<control::Server> server;
-    std::optional<peer::Reception> reception;
+    std::optional<peer::ControlSession> control_session;
     if (!asked.control.empty()) {
-        server.emplace(asked.control, peer::Reception::limits);
-        reception.emplace(
-            peer::Reception::Parts{*server, servo, unused, journal, watcher, "recorded"});
+        server.emplace(asked.control, peer::ControlSession::limits);
+        control_session.emplace(
+            peer::ControlSession::Parts{*server, servo, unused, journal, monitor, "recorded"});
     }
-    peer::supervise({servo, watcher, stop, reception ? &*reception : nullptr}, "");
+    peer::supervise({servo, monitor, stop, control_session ? &*control_session : nullptr}, "");
     return 0;
 }
 
@@ -217,6 +218,12 @@ bool RecordedPeer::take_one()
     if (read(pipe_, &told, sizeof told) != static_cast<ssize_t>(sizeof told)) return false;
     told_.push_back(told);
     return true;
+}
+
+bool RecordedPeer::has_more(int wait_ms) const
+{
+    pollfd polled{pipe_, POLLIN, 0};
+    return poll(&polled, 1, wait_ms) > 0;
 }
 
 bool RecordedPeer::pushes()

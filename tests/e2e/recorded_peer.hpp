@@ -56,6 +56,20 @@ public:
 
     /// Waits until its hand has felt a force 200 times.
     [[nodiscard]] bool pushes();
+    /// Waits, 20 s at most, until this holds for all that the device was told; false: it never did.
+    template <typename Condition>
+    [[nodiscard]] bool tells(Condition condition)
+    {
+        while (!condition(told_)) {
+            if (!has_more(20'000) || !take_one()) return false;
+        }
+        return true;
+    }
+    /// Reads what the device was told so far: unread, it would fill the pipe and stop the daemon.
+    void take_what_is_there()
+    {
+        while (has_more(0) && take_one()) {}
+    }
     void signal(int number) const;
     /// To one of its threads, in the order in which they began: 0 is the main one.
     void signal_thread(std::size_t thread, int number) const;
@@ -66,6 +80,7 @@ public:
 
 private:
     bool take_one();
+    [[nodiscard]] bool has_more(int wait_ms) const;
 
     int pid_ = -1;
     int pipe_ = -1;

@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
     const auto code = taken_from<unsigned int>(bytes);
     base::ensure((code == error::none) == (fault_of(code) == device::Fault::none));
-    base::ensure(!words_for_refusal("", code, text).empty());
+    base::ensure(!describe_error("", code, text).empty());
 
     Properties properties;
     for (double& value : properties.workspace_mm) value = taken_from<double>(bytes);

@@ -33,8 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             tracker.on_nonsense();
         } else {
             base::ensure(omni1394::decode_device(omni1394::encode(*packet)) == packet);
-            tracker.on_word({packet->counts, packet->docked, packet->buttons, packet->message % 4},
-                            now);
+            tracker.on_report(
+                {packet->counts, packet->docked, packet->buttons, packet->message % 4}, now);
         }
         const device::Sample& sample = tracker.at(now);
         base::ensure(base::is_finite(sample.hip) && base::is_finite(sample.velocity));
@@ -56,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     base::ensure(profile || !profile.error().message.empty());
     if (profile) {
         const omni1394::Drive drive{omni1394::use_of(*profile, true), *profile};
-        const glm::ivec3 words = drive.words_for({1.0, -2.0, 3.0});
+        const glm::ivec3 words = drive.motor_words({1.0, -2.0, 3.0});
         for (const int joint : {0, 1, 2}) base::ensure(std::abs(words[joint]) <= 2047);
     }
     return 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/fuzz_target.hpp"
-#include "tests/unit/peer/control/attended_fake.hpp"
+#include "tests/unit/peer/control/fake_peer_control.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     using namespace hapnet;
     const base::TimePoint start{};
-    peer::AttendedFake fake;
+    peer::FakePeerControl fake;
     control::Conversation conversation;
     std::string text;
     for (const std::uint8_t byte : std::span{data, size}) text += static_cast<char>(byte);

@@ -17,7 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto scene = scene::parse_scene(text, "fuzz");
     if (!scene) return 0;
     base::ensure(scene::check(*scene).has_value());
-    std::ignore = scene::profile_for(scene::features_of(scene::needs_of(*scene, true)));
+    std::ignore =
+        scene::cheapest_stepper(scene::required_features(scene::requirements_of(*scene, true)));
     if (scene->bodies.size() > 64) return 0; // printed, it says the same at length
     const auto printed = scene::to_text(*scene);
     const auto again = scene::parse_scene(printed, "printed");

@@ -69,9 +69,9 @@ Description scene_from(Bytes& bytes)
         scene.bodies.push_back(body_from(bytes));
     if ((bytes.byte() & 1U) == 0)
         scene.planes.push_back({.name = {}, .offset_m = bytes.number(0.1)});
-    scene.hips.radius_m = 0.001 + std::abs(bytes.number(0.02));
-    scene.hips.stiffness_n_per_m = std::abs(bytes.number(1e9));
-    scene.hips.damping_ns_per_m = std::abs(bytes.number(1e4));
+    scene.hands.radius_m = 0.001 + std::abs(bytes.number(0.02));
+    scene.hands.stiffness_n_per_m = std::abs(bytes.number(1e9));
+    scene.hands.damping_ns_per_m = std::abs(bytes.number(1e4));
     return scene;
 }
 
@@ -81,7 +81,8 @@ void act(World& world, Bytes& bytes)
     switch (what % 4U) {
     case 0: {
         const base::Position at{bytes.vector(0.1)};
-        std::ignore = world.hip(what >> 7U, {at, {bytes.vector(100.0)}, true, (what & 64U) != 0});
+        std::ignore =
+            world.set_hand(what >> 7U, {at, {bytes.vector(100.0)}, true, (what & 64U) != 0});
         break;
     }
     case 1: std::ignore = world.push(what >> 6U, {bytes.vector(1e6)}); break;
@@ -89,7 +90,7 @@ void act(World& world, Bytes& bytes)
     default: { // anything at all: refused, or in range
         const double one = bytes.anything();
         const double other = bytes.anything();
-        std::ignore = world.hip(what >> 7U, {.position = {{one, other, 0.0}}});
+        std::ignore = world.set_hand(what >> 7U, {.position = {{one, other, 0.0}}});
         std::ignore = world.push(what >> 6U, {{other, one, 0.0}});
     }
     }
@@ -114,9 +115,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             base::ensure(base::is_finite(state.angular_velocity));
             base::ensure(std::isfinite(glm::dot(state.orientation, state.orientation)));
         }
-        for (std::uint32_t hand = 0; hand < scene.hips.count; ++hand) {
+        for (std::uint32_t hand = 0; hand < scene.hands.count; ++hand) {
             const double force = base::norm(world->touch(hand).on_body);
-            base::ensure(force <= scene.hips.force_max_n * (1.0 + 1e-6));
+            base::ensure(force <= scene.hands.force_max_n * (1.0 + 1e-6));
         }
     }
     return 0;

@@ -14,10 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_left_out(const fs::path& folder)
+/// What is built or recorded lies at the top, as .gitignore has it; docs/results is of the project.
+bool is_left_out(const fs::recursive_directory_iterator& folder)
 {
-    const auto name = folder.filename().string();
-    return name == "build" || name == "results" || (name.front() == '.' && name != ".ci");
+    const auto name = folder->path().filename().string();
+    const bool is_output = folder.depth() == 0 && (name == "build" || name == "results");
+    return is_output || (name.front() == '.' && name != ".ci");
 }
 
 bool is_text(const fs::path& file)
@@ -77,7 +79,7 @@ std::vector<SourceFile> read_tree(const std::string& root)
     std::vector<SourceFile> files;
     for (auto entry = fs::recursive_directory_iterator{root}; entry != fs::end(entry); ++entry) {
         if (entry->is_directory()) {
-            if (is_left_out(entry->path())) entry.disable_recursion_pending();
+            if (is_left_out(entry)) entry.disable_recursion_pending();
             continue;
         }
         if (!is_text(entry->path())) continue;
@@ -89,6 +91,19 @@ std::vector<SourceFile> read_tree(const std::string& root)
     std::sort(files.begin(), files.end(),
               [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
     return files;
+}
+
+std::set<std::string> paths_below(const std::string& root)
+{
+    std::set<std::string> paths;
+    for (auto entry = fs::recursive_directory_iterator{root}; entry != fs::end(entry); ++entry) {
+        if (entry->is_directory()) {
+            if (is_left_out(entry)) entry.disable_recursion_pending();
+            continue;
+        }
+        paths.insert(entry->path().lexically_relative(root).string());
+    }
+    return paths;
 }
 
 } // namespace hapnet::tidy

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,5 +35,8 @@ struct Include {
 
 /// Every text file below `root` that the project holds, without what is built or recorded there.
 [[nodiscard]] std::vector<SourceFile> read_tree(const std::string& root);
+
+/// The paths of all files below `root` that the project holds, text or not.
+[[nodiscard]] std::set<std::string> paths_below(const std::string& root);
 
 } // namespace hapnet::tidy

@@ -34,10 +34,10 @@ struct Close {
 using UsbDevice = std::unique_ptr<libusb_device, Unref>;
 using Handle = std::unique_ptr<libusb_device_handle, Close>;
 
-Trouble trouble_of(int result, const std::string& what)
+DeviceError error_of(int result, const std::string& what)
 {
     const auto with = [&](Fault fault) {
-        return Trouble{fault, fmt::format("{}: {}", what, words_for(fault)), result};
+        return DeviceError{fault, fmt::format("{}: {}", what, describe(fault)), result};
     };
     switch (result) {
     case LIBUSB_ERROR_ACCESS: return with(Fault::permission);
@@ -52,7 +52,7 @@ Trouble trouble_of(int result, const std::string& what)
     }
     return {Fault::internal,
             fmt::format("{}: libusb says {}: {}", what, libusb_error_name(result),
-                        words_for(Fault::internal)),
+                        describe(Fault::internal)),
             result};
 }
 
@@ -60,7 +60,7 @@ Opened<Context> start_libusb()
 {
     libusb_context* context = nullptr;
     const int result = libusb_init(&context);
-    if (result != LIBUSB_SUCCESS) return tl::unexpected{trouble_of(result, "libusb")};
+    if (result != LIBUSB_SUCCESS) return tl::unexpected{error_of(result, "libusb")};
     return Context{context};
 }
 
@@ -121,28 +121,28 @@ Candidate open_usb(libusb_device* device)
         const std::string node =
             fmt::format("the Falcon at /dev/bus/usb/{:03}/{:03}", libusb_get_bus_number(device),
                         libusb_get_device_address(device));
-        return {port_of(device), tl::unexpected{trouble_of(result, node)}};
+        return {port_of(device), tl::unexpected{error_of(result, node)}};
     }
     return {serial_of(device, handle), Handle{handle}};
 }
 
 /// Takes hold of its interface, if need be from the kernel's driver for FTDI's chips.
-std::optional<Trouble> claim(libusb_device_handle* handle, const std::string& serial)
+std::optional<DeviceError> claim(libusb_device_handle* handle, const std::string& serial)
 {
     libusb_set_auto_detach_kernel_driver(handle, 1);
     const int result = libusb_claim_interface(handle, 0);
     if (result == LIBUSB_SUCCESS) return std::nullopt;
-    return trouble_of(result, "Falcon " + serial);
+    return error_of(result, "Falcon " + serial);
 }
 
-std::optional<Trouble> trouble_with(Candidate& candidate)
+std::optional<DeviceError> error_with(Candidate& candidate)
 {
     if (!candidate.handle) return candidate.handle.error();
     libusb_device_handle* const handle = candidate.handle->get();
     // Not from the kernel's driver: this only looks.
     if (libusb_kernel_driver_active(handle, 0) == 1) return std::nullopt;
     const int result = libusb_claim_interface(handle, 0);
-    if (result != LIBUSB_SUCCESS) return trouble_of(result, "Falcon " + candidate.serial);
+    if (result != LIBUSB_SUCCESS) return error_of(result, "Falcon " + candidate.serial);
     libusb_release_interface(handle, 0);
     return std::nullopt;
 }
@@ -153,8 +153,9 @@ Opened<std::vector<std::byte>> firmware_in(const std::string& file)
     std::ifstream stream{file, std::ios::binary};
     const std::vector<char> text{std::istreambuf_iterator<char>{stream}, {}};
     if (!stream.is_open() || stream.bad() || text.empty()) {
-        return trouble(Fault::firmware_missing,
-                       fmt::format("--falcon-firmware: '{}' cannot be read, or is empty", file));
+        return device_error(
+            Fault::firmware_missing,
+            fmt::format("--falcon-firmware: '{}' cannot be read, or is empty", file));
     }
     const auto bytes = std::as_bytes(std::span{text});
     return std::vector<std::byte>{bytes.begin(), bytes.end()};
@@ -165,16 +166,16 @@ class Starter {
 public:
     Starter(libusb_device_handle* handle, Startup& startup) : handle_{handle}, startup_{startup} {}
 
-    std::optional<Trouble> run()
+    std::optional<DeviceError> run()
     {
         for (;;) {
             const Step step = startup_.step();
             if (std::holds_alternative<Ready>(step)) return std::nullopt;
-            if (const auto* refused = std::get_if<Refused>(&step)) return refused->trouble;
+            if (const auto* refused = std::get_if<Refused>(&step)) return refused->error;
             if (const auto* ask = std::get_if<Ask>(&step)) note(carry_out(*ask));
             if (const auto* say = std::get_if<Say>(&step)) note(carry_out(*say));
             if (const auto* listen = std::get_if<Listen>(&step)) carry_out(*listen);
-            if (result_ == LIBUSB_ERROR_NO_DEVICE) return trouble_of(result_, "the Falcon");
+            if (result_ == LIBUSB_ERROR_NO_DEVICE) return error_of(result_, "the Falcon");
         }
     }
 
@@ -229,18 +230,18 @@ private:
 /// The one with this serial or port; for "" the first that is usable.
 Opened<Candidate> choose(libusb_context* context, const std::string& serial)
 {
-    std::optional<Trouble> first_trouble;
+    std::optional<DeviceError> first_trouble;
     for (const UsbDevice& device : falcons_of(context)) {
         Candidate candidate = open_usb(device.get());
         const bool is_it = candidate.serial == serial || port_of(device.get()) == serial;
         if (!serial.empty() && !is_it) continue;
-        auto why = serial.empty() ? trouble_with(candidate) : std::nullopt;
+        auto why = serial.empty() ? error_with(candidate) : std::nullopt;
         if (!why) return candidate;
         if (!first_trouble) first_trouble = std::move(why);
     }
     if (first_trouble) return tl::unexpected{*std::move(first_trouble)};
     const std::string which = serial.empty() ? "no Falcon" : "no Falcon " + serial;
-    return trouble(Fault::not_found, fmt::format("{}: {}", which, words_for(Fault::not_found)));
+    return device_error(Fault::not_found, fmt::format("{}: {}", which, describe(Fault::not_found)));
 }
 
 Opened<std::unique_ptr<Device>> start(Context context, Candidate&& candidate,
@@ -269,7 +270,7 @@ std::vector<Found> find_falcons()
     if (!context) return {{identity_of(""), context.error()}};
     for (const UsbDevice& device : falcons_of(context->get())) {
         Candidate candidate = open_usb(device.get());
-        auto why = trouble_with(candidate);
+        auto why = error_with(candidate);
         found.push_back({identity_of(std::move(candidate.serial)), std::move(why)});
     }
     return found;

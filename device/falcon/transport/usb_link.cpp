@@ -44,7 +44,7 @@ UsbLink::UsbLink(ClaimedUsb usb)
 UsbLink::~UsbLink()
 {
     closes_ = true;
-    if (ear_ == Ear::listens) libusb_cancel_transfer(in_.get());
+    if (listening_ == Listening::pending) libusb_cancel_transfer(in_.get());
     if (sends_) libusb_cancel_transfer(out_.get());
     if (interrupts_) libusb_cancel_transfer(urgent_.get());
     for (int i = 0; i < close_rounds && !is_idle(); ++i) handle_events(brief_wait_ms);
@@ -55,7 +55,10 @@ UsbLink::~UsbLink()
     std::ignore = urgent_.release();
 }
 
-bool UsbLink::is_idle() const noexcept { return ear_ != Ear::listens && !sends_ && !interrupts_; }
+bool UsbLink::is_idle() const noexcept
+{
+    return listening_ != Listening::pending && !sends_ && !interrupts_;
+}
 
 bool UsbLink::submit(libusb_transfer* transfer) noexcept
 {
@@ -67,9 +70,9 @@ bool UsbLink::submit(libusb_transfer* transfer) noexcept
 
 void UsbLink::listen() noexcept
 {
-    if (ear_ != Ear::idle || closes_) return;
-    ear_ = Ear::listens; // first: what it hears may be noted before submit() returns
-    if (!submit(in_.get())) ear_ = Ear::idle;
+    if (listening_ != Listening::idle || closes_) return;
+    listening_ = Listening::pending; // first: what it hears may be noted before submit() returns
+    if (!submit(in_.get())) listening_ = Listening::idle;
 }
 
 bool UsbLink::send(const Packet& packet) noexcept
@@ -123,13 +126,13 @@ void UsbLink::handle_events(int milliseconds_max) noexcept
 /// Takes what has been heard, and goes on listening.
 void UsbLink::collect() noexcept
 {
-    if (ear_ == Ear::has_heard) {
+    if (listening_ == Listening::completed) {
         const auto size = static_cast<std::size_t>(in_->actual_length);
         const auto bytes = std::as_bytes(std::span{in_buffer_}).first(size);
         const auto theirs = bytes.subspan(std::min(ftdi_status_bytes, size));
         std::copy(theirs.begin(), theirs.end(), std::span{inbox_}.subspan(inbox_size_).begin());
         inbox_size_ += theirs.size();
-        ear_ = Ear::idle;
+        listening_ = Listening::idle;
     }
     listen();
 }
@@ -138,7 +141,8 @@ void UsbLink::on_in(libusb_transfer* transfer)
 {
     auto& link = *static_cast<UsbLink*>(transfer->user_data);
     if (transfer->status == LIBUSB_TRANSFER_NO_DEVICE) link.is_gone_ = true;
-    link.ear_ = transfer->status == LIBUSB_TRANSFER_COMPLETED ? Ear::has_heard : Ear::idle;
+    link.listening_ =
+        transfer->status == LIBUSB_TRANSFER_COMPLETED ? Listening::completed : Listening::idle;
 }
 
 void UsbLink::on_out(libusb_transfer* transfer)

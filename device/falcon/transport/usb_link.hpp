@@ -58,8 +58,8 @@ private:
     using Transfer = std::unique_ptr<libusb_transfer, Free>;
     using Buffer = std::array<unsigned char, usb_packet_bytes>;
 
-    /// Of the transfer that listens.
-    enum class Ear : std::uint8_t { idle, listens, has_heard };
+    /// State of the incoming transfer.
+    enum class Listening : std::uint8_t { idle, pending, completed };
 
     static void on_in(libusb_transfer* transfer);
     static void on_out(libusb_transfer* transfer);
@@ -80,7 +80,7 @@ private:
     Buffer urgent_buffer_{};
     std::array<std::byte, 4 * usb_packet_bytes> inbox_{}; // receive() collects so often at most
     std::size_t inbox_size_ = 0;
-    std::atomic<Ear> ear_{Ear::idle};
+    std::atomic<Listening> listening_{Listening::idle};
     std::atomic<bool> sends_{false};
     bool closes_ = false;
     std::atomic<bool> is_gone_{false};

@@ -23,7 +23,7 @@ std::string variable(const char* name)
     return value == nullptr ? "" : value;
 }
 
-/// Where guides of the vendor and of others have it; the first that is there counts.
+/// The places named by guides of the vendor and of others; the first that exists counts.
 std::vector<fs::path> configuration_folders()
 {
     std::vector<fs::path> folders;
@@ -37,7 +37,7 @@ std::vector<fs::path> configuration_folders()
     return folders;
 }
 
-/// What the kernel tells in hexadecimal digits; 0 where it tells nothing.
+/// A number in the kernel's hexadecimal digits; 0 when there is none.
 std::uint16_t usb_number_in(const fs::path& file)
 {
     std::ifstream in{file};
@@ -52,8 +52,8 @@ std::vector<std::string> configured_names()
 {
     for (const fs::path& folder : configuration_folders()) {
         std::vector<std::string> names;
-        std::error_code trouble;
-        for (const auto& entry : fs::directory_iterator{folder, trouble}) {
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator{folder, error}) {
             if (entry.path().extension() == ".config") names.push_back(entry.path().stem());
         }
         std::sort(names.begin(), names.end());
@@ -65,8 +65,8 @@ std::vector<std::string> configured_names()
 std::vector<std::string> models_on_usb()
 {
     std::vector<std::string> models;
-    std::error_code trouble;
-    for (const auto& entry : fs::directory_iterator{"/sys/bus/usb/devices", trouble}) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator{"/sys/bus/usb/devices", error}) {
         const auto* const id = find_usb_id(usb_number_in(entry.path() / "idVendor"),
                                            usb_number_in(entry.path() / "idProduct"));
         if (id == nullptr || id->kind != UsbKind::touch) continue;

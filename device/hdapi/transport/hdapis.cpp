@@ -41,19 +41,19 @@ public:
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
     [[nodiscard]] CalibrationStep calibrate(base::TimePoint /*now*/) override
     {
-        return calibration_step(opening_.seat->report().calibration, style_);
+        return calibration_step(opening_.client->report().calibration, style_);
     }
     [[nodiscard]] Sample read(base::TimePoint now) override
     {
-        return stylus_.read(opening_.seat->report(), now);
+        return stylus_.read(opening_.client->report(), now);
     }
     void apply(const GovernedForce& force) override
     {
         const base::Force& it = force.force();
-        opening_.seat->command({{it.x(), it.y(), it.z()}, force.motors_on()});
+        opening_.client->command({{it.x(), it.y(), it.z()}, force.motors_on()});
     }
-    void halt() noexcept override { opening_.seat->halt(); }
-    void pace(const std::function<bool()>& beat) override { opening_.seat->pace(beat); }
+    void halt() noexcept override { opening_.client->halt(); }
+    void pace(const std::function<bool()>& beat) override { opening_.client->pace(beat); }
 
 private:
     Scheduler& scheduler_;

@@ -38,14 +38,14 @@ Opened<std::vector<Opening>> Scheduler::open(const std::vector<std::string>& nam
     for (const std::string& name : names) {
         if (std::any_of(open_.begin(), open_.end(),
                         [&](const Opening& one) { return one.name == name; })) {
-            return trouble(Fault::in_use,
-                           words_for_refusal(name, error::already_open, "open in this program"),
-                           error::already_open);
+            return device_error(Fault::in_use,
+                                describe_error(name, error::already_open, "open in this program"),
+                                error::already_open);
         }
     }
     stop();
     std::vector<Opening> fresh;
-    std::optional<Trouble> why_not;
+    std::optional<DeviceError> why_not;
     for (const std::string& name : names) {
         auto opening = open_one(name);
         if (!opening) {
@@ -72,10 +72,10 @@ Opened<Opening> Scheduler::open_one(const std::string& name)
         const Fault fault =
             fault_of(error.code) == Fault::in_use ? Fault::in_use : Fault::not_found;
         const std::string said = text_of(functions_.get_error_string(error.code));
-        return trouble(fault, words_for_refusal(name, error.code, said), error.code);
+        return device_error(fault, describe_error(name, error.code, said), error.code);
     }
     functions_.make_current_device(handle);
-    Opening opening{.seat = nullptr,
+    Opening opening{.client = nullptr,
                     .name = name,
                     .model = text_of(functions_.get_string(parameter::model)),
                     .serial = text_of(functions_.get_string(parameter::serial)),
@@ -83,7 +83,7 @@ Opened<Opening> Scheduler::open_one(const std::string& name)
     functions_.disable(capability::force_output);  // until a governor asks for force
     functions_.enable(capability::force_clamping); // the library's own limit, behind ours
     std::ignore = first_error(functions_);         // of what this model does not have
-    opening.seat = std::make_shared<Seat>(
+    opening.client = std::make_shared<SchedulerClient>(
         DeviceCycle{functions_, handle, preferred_style(opening.properties.calibration_styles)});
     return opening;
 }
@@ -98,18 +98,18 @@ void Scheduler::close(const Opening& opening)
 
 void Scheduler::give_back(const Opening& opening)
 {
-    const Handle handle = opening.seat->handle();
+    const Handle handle = opening.client->handle();
     functions_.make_current_device(handle);
     functions_.disable(capability::force_output);
     functions_.disable_device(handle);
     std::ignore = first_error(functions_);
-    std::erase_if(open_, [&](const Opening& one) { return one.seat == opening.seat; });
+    std::erase_if(open_, [&](const Opening& one) { return one.client == opening.client; });
 }
 
 Opened<bool> Scheduler::start()
 {
     if (open_.empty()) return true;
-    for (const Opening& opening : open_) opening.seat->on_start();
+    for (const Opening& opening : open_) opening.client->on_start();
     callback_ = functions_.schedule_asynchronous(&Scheduler::serve_all, this, priority_max);
     functions_.set_scheduler_rate(rate_hz);
     std::ignore = first_error(functions_); // a device that knows other rates keeps its own
@@ -117,18 +117,19 @@ Opened<bool> Scheduler::start()
     is_running_ = true;
     const ErrorInfo error = first_error(functions_);
     if (error.code == error::none) return true;
-    return trouble(Fault::internal,
-                   fmt::format("libHD cannot start its scheduler (error 0x{:x}: {}): end other "
-                               "programs that use the device, and plug it in again",
-                               error.code, text_of(functions_.get_error_string(error.code))),
-                   error.code);
+    return device_error(
+        Fault::internal,
+        fmt::format("libHD cannot start its scheduler (error 0x{:x}: {}): end other "
+                    "programs that use the device, and plug it in again",
+                    error.code, text_of(functions_.get_error_string(error.code))),
+        error.code);
 }
 
 void Scheduler::stop()
 {
     if (!is_running_) return;
-    for (const Opening& opening : open_) opening.seat->begin_silence();
-    for (const Opening& opening : open_) opening.seat->await_silence();
+    for (const Opening& opening : open_) opening.client->begin_silence();
+    for (const Opening& opening : open_) opening.client->await_silence();
     functions_.stop_scheduler();
     functions_.unschedule(callback_);
     is_running_ = false;
@@ -138,7 +139,7 @@ void Scheduler::stop()
 unsigned int Scheduler::serve_all(void* self)
 {
     const auto* scheduler = static_cast<Scheduler*>(self);
-    for (const Opening& opening : scheduler->open_) opening.seat->serve();
+    for (const Opening& opening : scheduler->open_) opening.client->serve();
     scheduler->hand_out_errors();
     return callback_continue;
 }
@@ -149,12 +150,12 @@ void Scheduler::hand_out_errors() const
         const ErrorInfo latest = functions_.get_error();
         if (latest.code == error::none) return;
         const auto is_named = [&](const Opening& one) {
-            return one.seat->handle() == latest.handle;
+            return one.client->handle() == latest.handle;
         };
         const bool is_of_all = std::none_of(open_.begin(), open_.end(), is_named);
         // The first that came is taken off last, and stays: the others follow from it.
         for (const Opening& one : open_) {
-            if (is_of_all || is_named(one)) one.seat->note(latest.code);
+            if (is_of_all || is_named(one)) one.client->note(latest.code);
         }
     }
 }

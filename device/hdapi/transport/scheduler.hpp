@@ -4,7 +4,7 @@
 
 #include "device/fault.hpp"
 #include "device/hdapi/mapping.hpp"
-#include "device/hdapi/transport/seat.hpp"
+#include "device/hdapi/transport/scheduler_client.hpp"
 
 #include <memory>
 #include <mutex>
@@ -15,7 +15,7 @@ namespace hapnet::device::hdapi {
 
 /// A device as the library opened it.
 struct Opening {
-    std::shared_ptr<Seat> seat;
+    std::shared_ptr<SchedulerClient> client;
     std::string name; // as in the vendor's configuration, "" for the default one
     std::string model;
     std::string serial;

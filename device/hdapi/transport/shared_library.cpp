@@ -32,10 +32,11 @@ Opened<void*> open_library(const std::string& file)
             if (complaint.empty()) complaint = last_complaint();
         }
     }
-    return trouble(Fault::library_missing,
-                   fmt::format("cannot load libHD, the vendor's library ({}): install OpenHaptics "
-                               "and the device's driver from 3D Systems, or say --hd-library FILE",
-                               complaint));
+    return device_error(
+        Fault::library_missing,
+        fmt::format("cannot load libHD, the vendor's library ({}): install OpenHaptics "
+                    "and the device's driver from 3D Systems, or say --hd-library FILE",
+                    complaint));
 }
 
 /// Finds functions by name; remembers the first that is not there.
@@ -86,7 +87,7 @@ Opened<Functions> load_library(const std::string& file)
     finder.find(all.schedule_asynchronous, "hdScheduleAsynchronous");
     finder.find(all.unschedule, "hdUnschedule");
     if (finder.missing().empty()) return all;
-    return trouble(
+    return device_error(
         Fault::library_missing,
         fmt::format("{} is no libHD that this program knows: it has no {}(); OpenHaptics "
                     "3.0 to 3.4 has it",

@@ -10,7 +10,7 @@ namespace hapnet::device::hid {
 
 namespace {
 
-/// What a call has come to that gives -1 when it fails; errno was 0 before it.
+/// The result of a call that returns -1 when it fails; errno was 0 before it.
 Moved moved_by(int result)
 {
     if (result >= 0) return Moved::yes;
@@ -35,13 +35,13 @@ Opened<std::unique_ptr<Wire>> HidrawWire::open(const std::string& path, std::opt
 {
     Handle handle{hid_open_path(path.c_str())};
     if (!handle || hid_set_nonblocking(handle.get(), 1) != 0) {
-        return trouble(Fault::communication,
-                       path + " does not open: unplug the device and plug it in again", errno);
+        return device_error(Fault::communication,
+                            path + " does not open: unplug the device and plug it in again", errno);
     }
     return std::unique_ptr<Wire>{new HidrawWire{std::move(handle), std::move(claim)}};
 }
 
-Heard HidrawWire::read(std::span<std::byte> into)
+ReadResult HidrawWire::read(std::span<std::byte> into)
 {
     const int size = hid_read(handle_.get(), raw(into), into.size());
     if (size < 0) return {Moved::gone, 0};

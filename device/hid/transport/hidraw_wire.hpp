@@ -24,7 +24,7 @@ public:
     [[nodiscard]] static Opened<std::unique_ptr<Wire>> open(const std::string& path,
                                                             std::optional<Claim> claim);
 
-    [[nodiscard]] Heard read(std::span<std::byte> into) override;
+    [[nodiscard]] ReadResult read(std::span<std::byte> into) override;
     [[nodiscard]] Moved write(std::span<const std::byte> report) override;
     [[nodiscard]] Moved set_feature(std::span<const std::byte> report) override;
     [[nodiscard]] Moved get_feature(std::span<std::byte> report) override;

@@ -5,7 +5,7 @@
 #include "device/hid/pid_device.hpp"
 #include "device/hid/pid_opening.hpp"
 #include "device/hid/pid_sender.hpp"
-#include "device/hid/seen.hpp"
+#include "device/hid/recognise.hpp"
 #include "device/hid/spacemouse.hpp"
 #include "device/hid/transport/hidraw_wire.hpp"
 #include "device/hid/transport/node.hpp"
@@ -30,11 +30,11 @@ std::string narrow(const wchar_t* text)
 }
 
 /// Every node that is a device of ours.
-std::vector<Seen> look_around()
+std::vector<RecognisedDevice> look_around()
 {
     const std::unique_ptr<hid_device_info, decltype(&hid_free_enumeration)> all{
         hid_enumerate(0, 0), &hid_free_enumeration};
-    std::vector<Seen> found;
+    std::vector<RecognisedDevice> found;
     std::vector<std::string> paths; // a device stands in the list once for each of its uses
     for (const hid_device_info* one = all.get(); one != nullptr; one = one->next) {
         const std::string path = one->path;
@@ -51,14 +51,15 @@ std::vector<Seen> look_around()
     return found;
 }
 
-Opened<std::unique_ptr<Device>> open_spacemouse(const Seen& seen, Claim claim)
+Opened<std::unique_ptr<Device>> open_spacemouse(const RecognisedDevice& seen, Claim claim)
 {
     auto wire = HidrawWire::open(seen.path, std::move(claim));
     if (!wire) return tl::unexpected{wire.error()};
     return std::make_unique<SpaceMouse>(identity_of(seen, {}), *std::move(wire));
 }
 
-Opened<std::unique_ptr<Device>> open_pid(const Seen& seen, const Options& options, Claim claim)
+Opened<std::unique_ptr<Device>> open_pid(const RecognisedDevice& seen, const Options& options,
+                                         Claim claim)
 {
     PidParts parts{
         .identity = identity_of(seen, options), .input = *seen.input, .options = options};
@@ -78,7 +79,7 @@ Opened<std::unique_ptr<Device>> open_pid(const Seen& seen, const Options& option
     return std::make_unique<PidDevice>(std::move(parts));
 }
 
-Opened<std::unique_ptr<Device>> open_seen(const Seen& seen, const Options& options)
+Opened<std::unique_ptr<Device>> open_seen(const RecognisedDevice& seen, const Options& options)
 {
     if (seen.unusable) return tl::unexpected{*seen.unusable};
     auto claim = Claim::take(seen.path);
@@ -92,7 +93,7 @@ Opened<std::unique_ptr<Device>> open_seen(const Seen& seen, const Options& optio
 std::vector<Found> find_hids(const Options& options)
 {
     std::vector<Found> found;
-    for (const Seen& seen : look_around()) {
+    for (const RecognisedDevice& seen : look_around()) {
         Found one{identity_of(seen, options), seen.unusable};
         if (!one.unusable) {
             const auto claim = Claim::take(seen.path);
@@ -105,19 +106,19 @@ std::vector<Found> find_hids(const Options& options)
 
 Opened<std::unique_ptr<Device>> open_hid(const std::string& serial, const Options& options)
 {
-    std::optional<Trouble> first;
-    for (const Seen& seen : look_around()) {
+    std::optional<DeviceError> first;
+    for (const RecognisedDevice& seen : look_around()) {
         if (!serial.empty() && serial != seen.serial && serial != seen.node) continue;
         auto opened = open_seen(seen, options);
         if (opened) return opened;
         if (!first) first = opened.error();
     }
     if (first) return tl::unexpected{*first};
-    return trouble(Fault::not_found, serial.empty()
-                                         ? "there is no force-feedback device (USB HID PID) and no "
-                                           "SpaceMouse: check cable and power"
-                                         : "there is no HID device " + serial +
-                                               ": hapnet-peer list-devices shows those that are");
+    return device_error(Fault::not_found,
+                        serial.empty() ? "there is no force-feedback device (USB HID PID) and no "
+                                         "SpaceMouse: check cable and power"
+                                       : "there is no HID device " + serial +
+                                             ": hapnet-peer list-devices shows those that are");
 }
 
 } // namespace hapnet::device::hid

@@ -15,21 +15,22 @@ namespace hapnet::device::hid {
 
 namespace {
 
-tl::unexpected<Trouble> why_not(const std::string& path, int error)
+tl::unexpected<DeviceError> why_not(const std::string& path, int error)
 {
     if (error == EACCES || error == EPERM) {
-        return trouble(Fault::permission,
-                       "no permission to use " + path +
-                           ": install the udev rules (hapnet-peer doctor says how), then unplug "
-                           "the device and plug it in again",
-                       error);
+        return device_error(
+            Fault::permission,
+            "no permission to use " + path +
+                ": install the udev rules (hapnet-peer doctor says how), then unplug "
+                "the device and plug it in again",
+            error);
     }
     if (error == EWOULDBLOCK || error == EBUSY) {
-        return trouble(Fault::in_use, path + " is in use by another program: end that one first",
-                       error);
+        return device_error(Fault::in_use,
+                            path + " is in use by another program: end that one first", error);
     }
-    return trouble(Fault::disconnected, path + " has gone: plug the device in and start again",
-                   error);
+    return device_error(Fault::disconnected, path + " has gone: plug the device in and start again",
+                        error);
 }
 
 } // namespace

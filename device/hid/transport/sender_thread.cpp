@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/hid/transport/sender_thread.hpp"
 
-#include "device/hid/pump.hpp"
-#include "device/hid/transport/bell.hpp"
+#include "device/hid/transport/wake_event.hpp"
 
 #include <atomic>
 #include <semaphore>
@@ -23,18 +22,18 @@ struct SenderThread::Shared {
         while (true) {
             // Asked first: what was ordered before it was set is then sent below.
             const bool ends = is_closing;
-            while (pump_one(mailbox, sender, *wire)) {}
+            while (send_next(mailbox, sender, *wire)) {}
             if (ends) break;
-            bell.wait();
+            wake_event.wait();
         }
-        wire.reset(); // whoever waits may open the device again
+        wire.reset(); // the destructor's caller may open the device again
         done.release();
     }
 
     std::unique_ptr<Wire> wire;
     PidSender sender;
     Mailbox mailbox;
-    Bell bell;
+    WakeEvent wake_event;
     std::atomic<bool> is_closing{false};
     std::binary_semaphore done{0};
 };
@@ -48,12 +47,12 @@ SenderThread::SenderThread(std::unique_ptr<Wire> wire, PidSender sender)
 SenderThread::~SenderThread()
 {
     shared_->is_closing = true;
-    shared_->bell.ring();
+    shared_->wake_event.signal();
     std::ignore = shared_->done.try_acquire_for(close_max);
 }
 
 Mailbox& SenderThread::mailbox() { return shared_->mailbox; }
 
-void SenderThread::wake() noexcept { shared_->bell.ring(); }
+void SenderThread::wake() noexcept { shared_->wake_event.signal(); }
 
 } // namespace hapnet::device::hid

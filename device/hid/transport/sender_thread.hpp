@@ -13,7 +13,7 @@ namespace hapnet::device::hid {
 
 /// An outbox with a thread of its own: the kernel lets a write to hidraw wait for the device, for
 /// up to 5 s and whatever the file's flags say, and no tick may.
-class SenderThread final : public Outbox {
+class SenderThread final : public ReportSender {
 public:
     SenderThread(std::unique_ptr<Wire> wire, PidSender sender);
     /// Waits for the last order to be sent, but no longer than close_max; a thread that is still

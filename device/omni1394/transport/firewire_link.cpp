@@ -101,7 +101,7 @@ Opened<std::unique_ptr<Link>> FirewireLink::open(const std::string& path)
     auto node = Node::open(path);
     if (!node) return tl::unexpected{node.error()};
     if (!node->lock()) {
-        return trouble(Fault::in_use, fmt::format("{}: {}", path, words_for(Fault::in_use)));
+        return device_error(Fault::in_use, fmt::format("{}: {}", path, describe(Fault::in_use)));
     }
     auto sender = Node::open(path);
     if (!sender) return tl::unexpected{sender.error()};
@@ -128,7 +128,7 @@ Opened<std::uint8_t> FirewireLink::allocate_channel(std::uint32_t bytes)
     wanted.bandwidth = 4 * (packet_overhead_bytes + bytes) + bandwidth_overhead;
     const std::string what = "a channel of the FireWire bus";
     if (const int error = node_.control(FW_CDEV_IOC_ALLOCATE_ISO_RESOURCE, &wanted); error != 0) {
-        return tl::unexpected{trouble_of(error, what)};
+        return tl::unexpected{error_of(error, what)};
     }
     while (node_.hear(event_, channel_within) == Heard::event) {
         fw_cdev_event_iso_resource given{};
@@ -139,10 +139,11 @@ Opened<std::uint8_t> FirewireLink::allocate_channel(std::uint32_t bytes)
         if (given.channel >= 0 && given.bandwidth > 0) {
             return static_cast<std::uint8_t>(given.channel);
         }
-        return trouble(Fault::in_use, what + ": none is free; unplug other FireWire devices");
+        return device_error(Fault::in_use, what + ": none is free; unplug other FireWire devices");
     }
-    return trouble(Fault::timeout, what + ": the bus does not answer; unplug the device and plug "
-                                          "it in again");
+    return device_error(Fault::timeout, what +
+                                            ": the bus does not answer; unplug the device and plug "
+                                            "it in again");
 }
 
 Opened<std::size_t> FirewireLink::read_register(std::uint64_t address, std::span<std::byte> bytes)
@@ -173,7 +174,7 @@ Opened<std::size_t> FirewireLink::transact(std::uint32_t code, std::uint64_t add
     sent.generation = node_.generation();
     const std::string what = fmt::format("register {:#x}", address);
     if (const int error = node_.control(FW_CDEV_IOC_SEND_REQUEST, &sent); error != 0) {
-        return tl::unexpected{trouble_of(error, what)};
+        return tl::unexpected{error_of(error, what)};
     }
     while (node_.hear(event_, answer_within) == Heard::event) {
         fw_cdev_event_response answer{};
@@ -183,11 +184,12 @@ Opened<std::size_t> FirewireLink::transact(std::uint32_t code, std::uint64_t add
             continue;
         }
         if (answer.rcode != RCODE_COMPLETE) {
-            return trouble(Fault::communication,
-                           fmt::format("{}: the device refuses ({:#x}); unplug it and plug it in "
-                                       "again",
-                                       what, answer.rcode),
-                           answer.rcode);
+            return device_error(
+                Fault::communication,
+                fmt::format("{}: the device refuses ({:#x}); unplug it and plug it in "
+                            "again",
+                            what, answer.rcode),
+                answer.rcode);
         }
         const auto data = event_.content().subspan(data_at);
         const std::size_t size =
@@ -195,14 +197,14 @@ Opened<std::size_t> FirewireLink::transact(std::uint32_t code, std::uint64_t add
         std::copy_n(data.begin(), size, response.begin());
         return size;
     }
-    return trouble(Fault::timeout, what + ": no answer; check the device's cable and power");
+    return device_error(Fault::timeout, what + ": no answer; check the device's cable and power");
 }
 
 Opened<Channels> FirewireLink::start(const Channels& channels)
 {
     const auto check = [](int error, const char* what) -> Opened<int> {
         if (error == 0) return 0;
-        return tl::unexpected{trouble_of(error, what)};
+        return tl::unexpected{error_of(error, what)};
     };
     fw_cdev_start_iso begin{};
     begin.cycle = -1;

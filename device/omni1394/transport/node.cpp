@@ -43,12 +43,12 @@ std::uint64_t address_of(void* pointer)
 
 } // namespace
 
-Trouble trouble_of(int error, const std::string& what)
+DeviceError error_of(int error, const std::string& what)
 {
     const Fault fault = fault_of(error);
     return {
         fault,
-        fmt::format("{}: {}: {}", what, std::generic_category().message(error), words_for(fault)),
+        fmt::format("{}: {}: {}", what, std::generic_category().message(error), describe(fault)),
         error};
 }
 
@@ -63,14 +63,14 @@ std::uint32_t Event::type() const
 Opened<Node> Node::open(const std::string& path)
 {
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-    if (descriptor < 0) return tl::unexpected{trouble_of(errno, path)};
+    if (descriptor < 0) return tl::unexpected{error_of(errno, path)};
     Node node{descriptor, 0};
     fw_cdev_event_bus_reset reset{};
     fw_cdev_get_info info{};
     info.version = interface_version;
     info.bus_reset = address_of(&reset);
     if (const int error = node.control(FW_CDEV_IOC_GET_INFO, &info); error != 0) {
-        return tl::unexpected{trouble_of(error, path)};
+        return tl::unexpected{error_of(error, path)};
     }
     node.generation_ = reset.generation;
     return node;

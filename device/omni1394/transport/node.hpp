@@ -13,7 +13,7 @@
 
 namespace hapnet::device::omni1394 {
 
-/// What the kernel says of a node: one of the events of <linux/firewire-cdev.h>, byte for byte.
+/// An event of a node: one of those of <linux/firewire-cdev.h>, byte for byte.
 /// Big enough for a page of isochronous headers.
 struct alignas(8) Event {
     std::array<std::byte, 4096 + 64> bytes{};
@@ -27,7 +27,7 @@ struct alignas(8) Event {
     }
 };
 
-/// What reading an event came to.
+/// The result of reading an event.
 enum class Heard : std::uint8_t { nothing, event, gone };
 
 /// An open /dev/fwN: thin, and without decisions. The kernel has one isochronous context for each
@@ -62,7 +62,7 @@ private:
     std::uint32_t generation_ = 0;
 };
 
-/// Why a call to the kernel failed, with the cure.
-[[nodiscard]] Trouble trouble_of(int error, const std::string& what);
+/// The error of a failed call to the kernel, with the remedy.
+[[nodiscard]] DeviceError error_of(int error, const std::string& what);
 
 } // namespace hapnet::device::omni1394

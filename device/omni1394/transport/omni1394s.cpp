@@ -65,10 +65,10 @@ Found found(const Seen& seen)
     if (read && *read == quadlet.size()) {
         omni.identity.serial = serial_of(quadlet_of(quadlet));
     } else {
-        omni.unusable =
-            read ? Trouble{Fault::communication, "it does not say its serial number: unplug it, "
-                                                 "plug it in again, and start again"}
-                 : read.error();
+        omni.unusable = read ? DeviceError{Fault::communication,
+                                           "it does not say its serial number: unplug it, "
+                                           "plug it in again, and start again"}
+                             : read.error();
     }
     return omni;
 }
@@ -79,9 +79,9 @@ Opened<Profile> profile_in(const std::string& file)
     std::ifstream in{file};
     std::ostringstream text;
     text << in.rdbuf();
-    if (!in) return trouble(Fault::not_found, file + ": cannot be read");
+    if (!in) return device_error(Fault::not_found, file + ": cannot be read");
     const auto profile = parse_profile(text.str(), file);
-    if (!profile) return trouble(Fault::internal, profile.error().message);
+    if (!profile) return device_error(Fault::internal, profile.error().message);
     return *profile;
 }
 
@@ -98,9 +98,9 @@ Opened<std::unique_ptr<Device>> open_omni(const std::string& serial, const Optio
 {
     const auto profile = profile_in(options.profile);
     if (!profile) return tl::unexpected{profile.error()};
-    Trouble why{Fault::not_found,
-                fmt::format("no FireWire Omni {}is on a bus: {}",
-                            serial.empty() ? "" : serial + " ", words_for(Fault::not_found))};
+    DeviceError why{Fault::not_found,
+                    fmt::format("no FireWire Omni {}is on a bus: {}",
+                                serial.empty() ? "" : serial + " ", describe(Fault::not_found))};
     for (const Seen& seen : look_around()) {
         const Found omni = found(seen);
         if (omni.unusable) {

@@ -10,7 +10,7 @@
 
 namespace hapnet::device::omni1394 {
 
-/// What a person may say of the FireWire Omnis.
+/// Options of the FireWire Omnis.
 struct Options {
     std::string profile{};           // a file as of device/omni1394/drive.hpp; "": none
     bool uncalibrated_force = false; // a quarter of full scale without such a file

@@ -32,7 +32,7 @@ Capabilities capabilities_of(const JointPlantFigures& plant)
     can.resolution_m = omni::radians_per_count * omni::link_m;
     can.buttons = 2;
     can.has_holder = true;
-    can.joints = JointLimits{omni::jacobian_at, plant.torque_max_nm};
+    can.joints = JointLimits{omni::mechanism, plant.torque_max_nm};
     return can;
 }
 
@@ -42,7 +42,7 @@ JointOmni::JointOmni(const JointOmniSettings& settings)
     : capabilities_{capabilities_of(settings.plant)},
       plant_{settings.plant},
       person_{settings.role},
-      mishaps_{settings.mishaps},
+      injected_faults_{settings.injected_faults},
       intended_{plant_.tip()}
 {
     const HandImpedance& hand = person_.hand();
@@ -112,7 +112,7 @@ Sample JointOmni::read(base::TimePoint now)
     advance(now);
     speak(now);
     Sample sample = tracker_.at(now);
-    if (mishaps_.has(Mishap::Kind::not_a_number, now - *start_)) {
+    if (injected_faults_.has(InjectedFault::Kind::not_a_number, now - *start_)) {
         sample.hip = {glm::dvec3{std::numeric_limits<double>::quiet_NaN()}};
     }
     return sample;
@@ -121,16 +121,18 @@ Sample JointOmni::read(base::TimePoint now)
 void JointOmni::speak(base::TimePoint now)
 {
     const base::Duration since = now - *start_;
-    const auto happens = [&](Mishap::Kind kind) { return mishaps_.has(kind, since); };
+    const auto happens = [&](InjectedFault::Kind kind) {
+        return injected_faults_.has(kind, since);
+    };
     ++words_;
-    if (happens(Mishap::Kind::unplug)) tracker_.on_gone();
-    if (happens(Mishap::Kind::stall)) return;
-    if (happens(Mishap::Kind::dropped_words) && words_ % 2 == 0) return;
-    if (happens(Mishap::Kind::communication_error)) return tracker_.on_nonsense();
-    omni::Word word{.counts = plant_.counts(), .docked = plant_.is_docked(), .buttons = pressed_};
+    if (happens(InjectedFault::Kind::unplug)) tracker_.on_gone();
+    if (happens(InjectedFault::Kind::stall)) return;
+    if (happens(InjectedFault::Kind::dropped_reports) && words_ % 2 == 0) return;
+    if (happens(InjectedFault::Kind::communication_error)) return tracker_.on_nonsense();
+    omni::Report word{.counts = plant_.counts(), .docked = plant_.is_docked(), .buttons = pressed_};
     if (is_gripping_) word.buttons |= 1U;
-    if (happens(Mishap::Kind::encoder_jump)) word.counts.x += encoder_jump_counts;
-    tracker_.on_word(word, now);
+    if (happens(InjectedFault::Kind::encoder_jump)) word.counts.x += encoder_jump_counts;
+    tracker_.on_report(word, now);
 }
 
 void JointOmni::apply(const GovernedForce& force)

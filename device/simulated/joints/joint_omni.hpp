@@ -4,7 +4,7 @@
 
 #include "device/device.hpp"
 #include "device/omni/tracker.hpp"
-#include "device/simulated/joints/mishap.hpp"
+#include "device/simulated/joints/injected_fault.hpp"
 #include "device/simulated/joints/plant.hpp"
 #include "device/simulated/person.hpp"
 
@@ -13,11 +13,11 @@
 
 namespace hapnet::device {
 
-/// A simulated Omni, joint by joint, and who holds it.
+/// A simulated Omni, joint by joint, and the person who holds it.
 struct JointOmniSettings {
     Role role{};
     JointPlantFigures plant{};
-    Mishaps mishaps{};
+    InjectedFaults injected_faults{};
 };
 
 /// A simulated Omni with its encoders, motors, friction, stops and inkwell, held by a simulated
@@ -41,7 +41,10 @@ public:
     void lead_to(const base::Position& place);
     /// ... and presses the buttons: one bit each.
     void press(std::uint8_t buttons) { pressed_ = buttons; }
-    void set_mishaps(Mishaps mishaps) { mishaps_ = std::move(mishaps); }
+    void set_injected_faults(InjectedFaults injected_faults)
+    {
+        injected_faults_ = std::move(injected_faults);
+    }
 
     [[nodiscard]] const JointPlant& plant() const { return plant_; }
 
@@ -64,7 +67,7 @@ private:
     Capabilities capabilities_;
     JointPlant plant_;
     Person person_;
-    Mishaps mishaps_;
+    InjectedFaults injected_faults_;
     omni::Tracker tracker_;
     std::atomic<bool> halted_{false};
     std::optional<Walk> walk_;

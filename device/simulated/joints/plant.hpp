@@ -25,7 +25,7 @@ struct JointPlantFigures {
     double dock_hold_n = 1.0;   // what it takes to pull the stylus out of its inkwell: estimate
     double dock_reach_m = 4e-3; // from so near the inkwell takes it
     bool begins_docked = true;  // else with the stylus at the origin
-    /// Where the encoders were when the power came on, as angles.
+    /// The encoders' angles when the power came on.
     omni::Joints zero{{0.30, -0.20, 0.10}};
 };
 
@@ -44,9 +44,9 @@ class JointPlant {
 public:
     explicit JointPlant(const JointPlantFigures& figures = {});
 
-    /// What the motors are told, N m; they saturate.
+    /// The commanded motor torques, N m; they saturate.
     void set_torque(const glm::dvec3& newton_metres);
-    /// nullopt: nobody holds it.
+    /// nullopt: no hand holds it.
     void set_grip(const std::optional<Grip>& grip) { grip_ = grip; }
 
     /// Lives through a time, in equal steps of 50 us at most. The grip's target moves on evenly.

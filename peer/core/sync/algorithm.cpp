@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/sync/algorithm.hpp"
 
-#include "peer/core/sync/keys.hpp"
+#include "proto/base/text.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -10,12 +10,12 @@ namespace hapnet::peer {
 
 base::Result<Algorithm> algorithm_named(std::string_view name)
 {
-    if (name == Keys<BaseAlgorithm>::name) return BaseAlgorithm{};
-    if (name == Keys<DeadReckoning>::name) return DeadReckoning{};
-    if (name == Keys<EstimatorPredictor>::name) return EstimatorPredictor{};
-    return base::fail(fmt::format("'{}' is not an algorithm; known: {}, {}, {}", name,
-                                  Keys<BaseAlgorithm>::name, Keys<DeadReckoning>::name,
-                                  Keys<EstimatorPredictor>::name));
+    const auto& [plain, dead_reckoning, sep] = algorithm_names;
+    if (name == plain) return BaseAlgorithm{};
+    if (name == dead_reckoning) return DeadReckoning{};
+    if (name == sep) return EstimatorPredictor{};
+    return base::fail(fmt::format("unknown algorithm {}: {}", base::quoted(name),
+                                  base::suggestion(name, algorithm_names)));
 }
 
 const BaseOptions& base_options(const Algorithm& algorithm)

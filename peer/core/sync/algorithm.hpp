@@ -12,11 +12,16 @@
 
 namespace hapnet::peer {
 
-/// How two copies of the shared body are kept together: a closed set, chosen by name. Each is a
-/// small value that is told of every state that arrives (hear()), moves the world (tick()), and
+/// The algorithms that keep two copies of the shared body together: a closed set, by name. Each is
+/// a small value that is told of every state that arrives (hear()), moves the world (tick()), and
 /// forgets a run of the other side that has ended (forget()). docs/design/algorithms.md describes
 /// them.
 using Algorithm = std::variant<BaseAlgorithm, DeadReckoning, EstimatorPredictor>;
+
+/// The names of the algorithms, in the order of their variant.
+inline constexpr auto algorithm_names =
+    base::names(base::described_name<BaseOptions>, base::described_name<DeadReckoningOptions>,
+                base::described_name<EstimatorPredictorOptions>);
 
 /// "base", "dead-reckoning" or "sep", with all defaults.
 [[nodiscard]] base::Result<Algorithm> algorithm_named(std::string_view name);

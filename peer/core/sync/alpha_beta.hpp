@@ -27,7 +27,8 @@ public:
     [[nodiscard]] const glm::dvec3& slope() const { return slope_; } // per second
 
 private:
-    /// Of samples so far apart: most are a tick apart, and an exponential costs more than the rest.
+    /// For the interval between samples: mostly one tick, and an exponential costs more than the
+    /// rest.
     struct Gains {
         base::Duration apart{};
         double alpha = 0.0;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/sync/base_algorithm.hpp"
 
-#include "peer/core/shared_body.hpp"
-
 #include <algorithm>
 
 namespace hapnet::peer {
@@ -45,9 +43,9 @@ Outcome BaseAlgorithm::tick(scene::World& world, const Situation& situation, con
         remote_moved_ = remote_displacement(remote);
     }
     world.tick();
-    const scene::HipTouch& own = world.touch(own_hand);
+    const scene::HandTouch& own = world.touch(own_hand);
     outcome.touched = own;
-    outcome.on_hand = own.on_hip;
+    outcome.on_hand = own.on_hand;
     own_force_n_ = base::norm(own.on_body);
     if (own.touching && options_.remote_force_on == RemoteForceOn::body_and_hand) {
         outcome.on_hand += remote.force;
@@ -142,7 +140,7 @@ void BaseAlgorithm::put_there(scene::World& world, scene::BodyId body, Presence:
         there.position.value = {there.position.x(), own.position.y(), own.position.z()};
         there.velocity.value = {there.velocity.x(), own.velocity.y(), own.velocity.z()};
     }
-    put(world, body, there.position, there.velocity);
+    world.place(body, there.position, there.velocity);
 }
 
 } // namespace hapnet::peer

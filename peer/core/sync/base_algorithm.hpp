@@ -14,7 +14,7 @@ namespace hapnet::peer {
 ///   the direction);
 /// - only the other hand touches: the body is where the other side last said (absolute, so that
 ///   nothing accumulates);
-/// - nobody touches: the body coasts; 200 ms later the higher id blends to the lower id's pose
+/// - no hand touches: the body coasts; 200 ms later the higher id blends to the lower id's pose
 ///   within 100 ms, so that the copies agree again.
 class BaseAlgorithm {
 public:

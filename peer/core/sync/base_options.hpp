@@ -3,6 +3,7 @@
 #pragma once
 
 #include "peer/core/remote.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/time.hpp"
 
 #include <chrono>
@@ -16,18 +17,43 @@ namespace hapnet::peer {
 
 /// The sign of a displacement: as it moves the body on, or as printed, which moves it back.
 enum class DisplacementSign : std::uint8_t { current_minus_previous, previous_minus_current };
-/// Who forms the remote displacement: the receiver, from two absolute positions, or the sender,
-/// whose increments are lost with their messages.
+constexpr auto names_of(base::Tag<DisplacementSign> /*enum*/)
+{
+    return base::names("current-minus-previous", "previous-minus-current");
+}
+
+/// The side that forms the remote displacement: the receiver, from two absolute positions, or the
+/// sender, whose increments are lost with their messages.
 enum class DisplacementFrom : std::uint8_t { positions, increments };
+constexpr auto names_of(base::Tag<DisplacementFrom> /*enum*/)
+{
+    return base::names("positions", "increments");
+}
+
 /// When a body that this hand does not touch is where the other side has it.
 enum class FollowWhile : std::uint8_t { touching, always };
+constexpr auto names_of(base::Tag<FollowWhile> /*enum*/)
+{
+    return base::names("touching", "always");
+}
+
 enum class Follow : std::uint8_t { absolute, relative };
-/// Where the remote hand's force acts; on the hand it counts twice.
+constexpr auto names_of(base::Tag<Follow> /*enum*/) { return base::names("absolute", "relative"); }
+
+/// The place where the remote hand's force acts; on the hand it counts twice.
 enum class RemoteForceOn : std::uint8_t { body, body_and_hand };
-/// What moves a body that both push: the sum of the forces, or the stronger hand alone.
+constexpr auto names_of(base::Tag<RemoteForceOn> /*enum*/)
+{
+    return base::names("body", "body-and-hand");
+}
+
+/// The force that moves a body pushed by both: the sum, or the stronger hand's alone.
 enum class BothPush : std::uint8_t { sum, stronger };
+constexpr auto names_of(base::Tag<BothPush> /*enum*/) { return base::names("sum", "stronger"); }
+
 /// Along what the remote side acts on this copy.
 enum class Axes : std::uint8_t { all, x };
+constexpr auto names_of(base::Tag<Axes> /*enum*/) { return base::names("all", "x"); }
 
 struct BaseOptions {
     DisplacementSign displacement = DisplacementSign::current_minus_previous;
@@ -43,8 +69,8 @@ struct BaseOptions {
     /// which is twice the delay.
     base::Duration hysteresis{0};
     Stale stale = Stale::drop;
-    /// The remote hand counts as off the body when nothing has come for so long; nullopt: its last
-    /// word holds until it is stale.
+    /// The remote hand counts as off the body after this silence; nullopt: its last state holds
+    /// until it is stale.
     std::optional<base::Duration> let_go_after{};
     Axes axes = Axes::all;
     /// So long after both hands are off, the higher id's body begins to go to the lower id's place;
@@ -54,5 +80,40 @@ struct BaseOptions {
 
     friend bool operator==(const BaseOptions&, const BaseOptions&) = default;
 };
+
+/// The longest time that a parameter of an algorithm may be.
+inline constexpr base::Time parameter_time{base::Duration{0}, std::chrono::seconds{10}};
+
+constexpr auto fields_of(base::Tag<BaseOptions> /*struct*/)
+{
+    return base::fields(
+        "base",
+        base::field("displacement", &BaseOptions::displacement,
+                    "the sign of a remote displacement (A1)"),
+        base::field("displacement_from", &BaseOptions::displacement_from,
+                    "formed by the receiver, or by the sender (A2)"),
+        base::field("follow_while", &BaseOptions::follow_while,
+                    "the other hand touches, or always (A3)"),
+        base::field("follow", &BaseOptions::follow, "where the other body is, or as it moves (A4)"),
+        base::field("bleed", &BaseOptions::bleed, parameter_time,
+                    "time constant of a relative follow's return (A4)")
+            .absent_as("never"),
+        base::field("remote_force_on", &BaseOptions::remote_force_on,
+                    "what the remote force acts on (A5)"),
+        base::field("both_push", &BaseOptions::both_push, "who moves what both push (A6)"),
+        base::field("hysteresis", &BaseOptions::hysteresis, parameter_time,
+                    "the stronger keeps the body so long, and a round trip at least (A6)"),
+        base::field("stale", &BaseOptions::stale,
+                    "messages that were overtaken, and duplicates (A7)"),
+        base::field("let_go_after", &BaseOptions::let_go_after, parameter_time,
+                    "without a message; until then the last one holds (A8)")
+            .absent_as("never"),
+        base::field("axes", &BaseOptions::axes, "along which the other side acts (A10)"),
+        base::field("settle_after", &BaseOptions::settle_after, parameter_time,
+                    "both hands are off (A11)")
+            .absent_as("never"),
+        base::field("settle_within", &BaseOptions::settle_within, parameter_time,
+                    "to the lower id's place (A11)"));
+}
 
 } // namespace hapnet::peer

@@ -2,9 +2,41 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/sync/dead_reckoning.hpp"
 
+#include "proto/base/quantity.hpp"
+#include "proto/base/text.hpp"
+
 #include <algorithm>
+#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::peer {
+
+void HorizonFormat::read(const base::Node& node, Horizon& target, base::Reading& reading) const
+{
+    const auto* name = std::get_if<std::string>(&node.value);
+    const auto found = name == nullptr
+                           ? horizon_names.end()
+                           : std::find(horizon_names.begin(), horizon_names.end(), *name);
+    if (found != horizon_names.end()) {
+        target = {static_cast<Horizon::Law>(found - horizon_names.begin()), {}};
+        return;
+    }
+    const auto text = base::quantity(node);
+    if (!text || !base::parse_duration(*text)) return base::complain_of(node, describe(), reading);
+    base::Duration fixed{};
+    parameter_time.read(node, fixed, reading);
+    if (reading.is_good()) target = {Horizon::Law::fixed, fixed};
+}
+
+std::string HorizonFormat::print(const Horizon& horizon) const
+{
+    if (horizon.law == Horizon::Law::fixed) return parameter_time.print(horizon.fixed);
+    return base::quoted(horizon_names.at(static_cast<std::size_t>(horizon.law)));
+}
+
+std::string HorizonFormat::describe() const
+{
+    return fmt::format("{}, or {}", fmt::join(horizon_names, ", "), parameter_time.describe());
+}
 
 DeadReckoning::DeadReckoning(const DeadReckoningOptions& options)
     : options_{options}, base_{options.base}, delay_{options.horizon_memory}

@@ -12,6 +12,10 @@ namespace hapnet::peer {
 /// How far apart in time two consecutive states are taken to be: one tick, whatever was lost
 /// between them (the paper); as they arrived; as they were sent.
 enum class VelocityRule : std::uint8_t { nominal, arrival, sender };
+constexpr auto names_of(base::Tag<VelocityRule> /*enum*/)
+{
+    return base::names("nominal", "arrival", "sender");
+}
 
 /// How old a body's place was when its message arrived: nobody asks; so old as the path's mean
 /// delay makes it, which varies slowly; so old as this very message's stamp says; a fixed time.
@@ -22,6 +26,15 @@ struct Horizon {
     base::Duration fixed{}; // of the law of this name
 
     friend bool operator==(const Horizon&, const Horizon&) = default;
+};
+/// Of the laws that are written by name; a fixed one is written as its time.
+inline constexpr auto horizon_names = base::names("none", "one-way", "packet-age");
+
+/// A horizon as it is written: "one-way", or a time.
+struct HorizonFormat {
+    void read(const base::Node& node, Horizon& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const Horizon& horizon) const;
+    [[nodiscard]] std::string describe() const;
 };
 
 struct DeadReckoningOptions {
@@ -43,6 +56,30 @@ struct DeadReckoningOptions {
 
     friend bool operator==(const DeadReckoningOptions&, const DeadReckoningOptions&) = default;
 };
+constexpr auto fields_of(base::Tag<DeadReckoningOptions> /*struct*/)
+{
+    using Options = DeadReckoningOptions;
+    return base::fields(
+        "dead-reckoning",
+        base::field("velocity", &Options::velocity, "how far apart two messages are taken to be"),
+        base::field("horizon", &Options::horizon, HorizonFormat{},
+                    "how old a message is at its arrival; also a time"),
+        base::field("horizon_memory", &Options::horizon_memory, base::Count{1, 1'000'000},
+                    "messages in the mean one-way delay"),
+        base::field("blend_within", &Options::blend_within, parameter_time,
+                    "a new prediction takes over from the last")
+            .absent_as("none"),
+        base::field("ahead_max", &Options::ahead_max, parameter_time,
+                    "of a prediction, from the sending")
+            .absent_as("none"),
+        base::field("speed_max", &Options::speed_max_m_per_s,
+                    base::Quantity{base::speed_kind, 0.0, 1000.0}, "of the estimated velocity"),
+        base::field("lead_max", &Options::lead_max_m, base::Quantity{base::length_kind, 0.0, 100.0},
+                    "of the prediction before the message's place"),
+        base::field("gap_max", &Options::gap_max, parameter_time,
+                    "across a longer one there is no velocity"),
+        base::part(&Options::base));
+}
 
 /// The paper's dead reckoning: the base algorithm, with the other side's body where it should be by
 /// now, from its last two places by a first-order prediction,
@@ -59,7 +96,7 @@ public:
     void forget();
 
     [[nodiscard]] const DeadReckoningOptions& options() const { return options_; }
-    /// Where the other side's body should be at `now`; nullopt before the first word of it.
+    /// The other side's body extrapolated to `now`; nullopt before its first state.
     [[nodiscard]] std::optional<base::Position> predicted(base::TimePoint now) const;
     /// H for the newest message.
     [[nodiscard]] base::Duration horizon() const;

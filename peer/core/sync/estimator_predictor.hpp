@@ -13,12 +13,12 @@ namespace hapnet::peer {
 struct EstimatorPredictorOptions {
     base::Duration time_constant{std::chrono::milliseconds{10}}; // of the filters
     base::Duration force_ahead_max{std::chrono::milliseconds{10}};
-    /// The hand's place is predicted by at most the median delay and so much.
+    /// The hand's place is predicted by at most the median delay plus this.
     base::Duration hip_ahead_beyond_delay{std::chrono::milliseconds{20}};
-    /// A sample older than the median delay and so much is predicted on less and less, ...
+    /// Beyond the median delay plus this, a sample is predicted on less and less, ...
     base::Duration fade_after{std::chrono::milliseconds{10}};
     base::Duration fade_within{std::chrono::milliseconds{50}}; // ... down to not at all
-    /// What is given out changes by at most so much: 0.5 N a tick is where people notice a step.
+    /// The output changes by at most this: people notice steps from 0.5 N a tick on.
     double force_slew_n_per_s = 500.0;
     double hip_slew_m_per_s = 5.0;
     /// After a longer gap between two messages the filters start anew.
@@ -28,6 +28,27 @@ struct EstimatorPredictorOptions {
     friend bool operator==(const EstimatorPredictorOptions&,
                            const EstimatorPredictorOptions&) = default;
 };
+constexpr auto fields_of(base::Tag<EstimatorPredictorOptions> /*struct*/)
+{
+    using Options = EstimatorPredictorOptions;
+    return base::fields(
+        "sep",
+        base::field("time_constant", &Options::time_constant, parameter_time, "of the filters"),
+        base::field("force_ahead_max", &Options::force_ahead_max, parameter_time,
+                    "of the force's prediction"),
+        base::field("hip_ahead_beyond_delay", &Options::hip_ahead_beyond_delay, parameter_time,
+                    "and the median delay: of the prediction of the hand's place"),
+        base::field("fade_after", &Options::fade_after, parameter_time,
+                    "and the median delay: then an old sample is predicted on less"),
+        base::field("fade_within", &Options::fade_within, parameter_time, "down to not at all"),
+        base::field("force_slew", &Options::force_slew_n_per_s,
+                    base::Quantity{base::force_rate_kind, 0.0, 1e6}, "of the predicted force"),
+        base::field("hip_slew", &Options::hip_slew_m_per_s,
+                    base::Quantity{base::speed_kind, 0.0, 1000.0}, "of the predicted place"),
+        base::field("gap_max", &Options::gap_max, parameter_time,
+                    "after a longer one the filters start anew"),
+        base::part(&Options::base));
+}
 
 /// SEP, the synchronised estimator and predictor: the base algorithm with the remote hand's force
 /// and place predicted to now from their senders' stamps by alpha-beta filters. It stands in for
@@ -44,7 +65,7 @@ public:
     [[nodiscard]] const EstimatorPredictorOptions& options() const { return options_; }
 
 private:
-    /// How far the filters' values are carried on.
+    /// The time by which the filters' values are extrapolated.
     struct Ahead {
         double force_s = 0.0;
         double hip_s = 0.0;

@@ -14,7 +14,7 @@ namespace hapnet::peer {
 /// is the path's delay and not that of the survivors.
 class OneWayDelay {
 public:
-    /// `memory`: so many messages make up the mean, at least 1.
+    /// `memory`: number of messages in the mean, at least 1.
     explicit OneWayDelay(std::uint32_t memory) : memory_{memory} {}
 
     void add(base::Duration delay);

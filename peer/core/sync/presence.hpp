@@ -14,16 +14,16 @@ struct Presence {
         base::Velocity velocity;
     };
 
-    bool heard = false;       // its word is neither stale nor let go
+    bool heard = false;       // its state is neither stale nor let go
     bool touching = false;    // its hand touches the body
     base::Force force;        // of that hand on the body; zero when it does not touch
-    std::optional<Pose> pose; // of its body, also when its word is stale
+    std::optional<Pose> pose; // of its body, also when its state is stale
 };
 
 /// As it was last heard: faded with age, and with no more force than a contact can exert.
 [[nodiscard]] Presence presence_of(const Situation& situation, const BaseOptions& options);
 
-/// What of a remote force acts.
+/// The part of a remote force that acts.
 [[nodiscard]] base::Force along(base::Force force, Axes axes);
 
 } // namespace hapnet::peer

@@ -27,21 +27,21 @@ struct Heard {
     double force_max_n = scene::force_max_n; // that a contact of this scene can exert
 };
 
-/// What one tick of an algorithm decides from, besides this peer's hand, which the world knows.
+/// The input of one tick of an algorithm, besides this peer's hand, which is in the world.
 struct Situation {
     base::TimePoint now;
     scene::BodyId body = 0; // the shared one
     const Remote& remote;   // the other side as last heard
-    double freshness = 0.0; // of that word, 0 to 1
+    double freshness = 0.0; // of its state, 0 to 1
     bool yields = false;    // at rest, this peer takes the other's pose (the higher id)
     base::Duration tick{std::chrono::milliseconds{1}}; // this and what follows: as in Heard
     std::optional<ClockOffset::Estimate> clock{};
     double force_max_n = scene::force_max_n;
 };
 
-/// What one tick of an algorithm came to.
+/// The result of one tick of an algorithm.
 struct Outcome {
-    scene::HipTouch touched;                  // by this peer's hand
+    scene::HandTouch touched;                 // by this peer's hand
     base::Force on_hand;                      // what that hand is to feel
     bool remote_touching = false;             // whether the remote hand counts as touching
     base::Force remote_force;                 // that it counts as exerting on the body

@@ -3,7 +3,7 @@
 #include "tests/bench/device/overhead.hpp"
 
 #include "proto/net/clock.hpp"
-#include "tests/bench/device/turns.hpp"
+#include "tests/bench/device/ticks.hpp"
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ constexpr double target_us = 10.0; // of a tick of 1000
 
 std::int64_t clock_ns() { return net::monotonic_now().time_since_epoch().count(); }
 
-/// What reading the clock twice costs: part of every turn's time, and none of it.
+/// What reading the clock twice costs: part of every tick's time, and none of it.
 double clock_cost_ns()
 {
     std::vector<double> costs;
@@ -39,8 +39,8 @@ double quantile(std::vector<double>& values, double share)
 
 std::vector<Row> measure_overhead(int blocks)
 {
-    Turns governed{Load::governed};
-    Turns contact{Load::contact};
+    Ticks governed{Load::governed};
+    Ticks contact{Load::contact};
     std::vector<double> with;
     std::vector<double> without;
     for (int block = 0; block < blocks; ++block) {
@@ -50,7 +50,7 @@ std::vector<Row> measure_overhead(int blocks)
     const double clock = clock_cost_ns();
     std::vector<Row> rows;
     for (const auto& [metric, share] : {std::pair{"p50_us", 0.5}, std::pair{"p99_us", 0.99}}) {
-        Row row{.name = "servo's turn, two hands on the cube",
+        Row row{.name = "servo's tick, two hands on the cube",
                 .subject = "governor, kinematics and contact",
                 .baseline = "contact alone",
                 .metric = metric,

@@ -8,8 +8,8 @@
 
 namespace hapnet::bench {
 
-/// What a turn of the servo costs between the device's bytes and the network's, beside the same
-/// turn without governor and kinematics. They take turns in blocks of a thousand, `blocks` each.
+/// What a tick of the servo costs between the device's bytes and the network's, beside the same
+/// tick without governor and kinematics. They take turns in blocks of a thousand, `blocks` each.
 [[nodiscard]] std::vector<Row> measure_overhead(int blocks);
 
 } // namespace hapnet::bench

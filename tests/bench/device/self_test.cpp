@@ -1,20 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "tests/bench/device/overhead.hpp"
-#include "tests/bench/device/turns.hpp"
+#include "tests/bench/device/ticks.hpp"
 
 #include <gtest/gtest.h>
 
 namespace hapnet::bench {
 namespace {
 
-TEST(Turns, FeelTheCubeWithAndWithoutAGovernor)
+TEST(Ticks, FeelTheCubeWithAndWithoutAGovernor)
 {
     for (const Load load : {Load::contact, Load::governed}) {
-        Turns turns{load};
-        EXPECT_GT(base::norm(turns.felt()), 0.1);
+        Ticks ticks{load};
+        EXPECT_GT(base::norm(ticks.felt()), 0.1);
         if (load == Load::governed) {
-            EXPECT_EQ(turns.governor().state(), device::GovernorState::active);
+            EXPECT_EQ(ticks.governor().state(), device::GovernorState::active);
         }
     }
 }

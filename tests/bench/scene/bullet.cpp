@@ -70,7 +70,7 @@ public:
         for (const auto& body : scene.bodies) add(body);
         for (const auto& plane : scene.planes) add(plane);
         if (options.hip_force == HipForce::native) {
-            for (std::uint32_t i = 0; i < scene.hips.count; ++i) add_hip();
+            for (std::uint32_t i = 0; i < scene.hands.count; ++i) add_hip();
         }
     }
 
@@ -79,7 +79,7 @@ public:
         for (const auto& body : bodies_) world_.removeRigidBody(body.get());
     }
 
-    void hip(std::uint32_t index, const scene::HipInput& input) override
+    void set_hand(std::uint32_t index, const scene::HandInput& input) override
     {
         const bool is_new = !hips_[index].present;
         hips_[index] = input;
@@ -93,7 +93,7 @@ public:
     void step() override
     {
         if (options_.hip_force == HipForce::held) {
-            for (std::uint32_t i = 0; i < scene_.hips.count; ++i) push(i);
+            for (std::uint32_t i = 0; i < scene_.hands.count; ++i) push(i);
         }
         for (const std::size_t i : dragged_) {
             const btVector3 v = bodies_[i]->getLinearVelocity();
@@ -195,12 +195,12 @@ private:
     {
         const btScalar far = scalar_of(1.0 + static_cast<double>(bodies_.size()));
         btRigidBody& hand =
-            add(std::make_unique<btSphereShape>(scalar_of(scene_.hips.radius_m)), 0.0,
+            add(std::make_unique<btSphereShape>(scalar_of(scene_.hands.radius_m)), 0.0,
                 btTransform{btQuaternion::getIdentity(), btVector3{0, far, 0}});
         hand.setFriction(0);
         hand.setCollisionFlags(hand.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-        hand.setContactStiffnessAndDamping(scalar_of(scene_.hips.stiffness_n_per_m),
-                                           scalar_of(scene_.hips.damping_ns_per_m));
+        hand.setContactStiffnessAndDamping(scalar_of(scene_.hands.stiffness_n_per_m),
+                                           scalar_of(scene_.hands.damping_ns_per_m));
         hand.forceActivationState(DISABLE_DEACTIVATION);
         world_.addRigidBody(&hand);
     }
@@ -212,7 +212,7 @@ private:
 
     void push(std::uint32_t index)
     {
-        const Load load = penalty(state(0), scene_.bodies[0].half, hips_[index], scene_.hips);
+        const Load load = penalty(state(0), scene_.bodies[0].half, hips_[index], scene_.hands);
         forces_[index] = load.force;
         if (load.force == glm::dvec3{0.0}) return;
         bodies_[0]->activate();
@@ -245,7 +245,7 @@ private:
     std::vector<std::unique_ptr<btRigidBody>> bodies_; // bodies, planes, hands
     std::vector<std::size_t> dragged_;
     Hips hips_ = absent_hips();
-    std::array<glm::dvec3, scene::hips_max> forces_{};
+    std::array<glm::dvec3, scene::hands_max> forces_{};
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;
     btDbvtBroadphase broadphase_;

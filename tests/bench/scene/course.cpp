@@ -26,8 +26,8 @@ std::size_t steps_of(double duration_s, double tick_s)
 void set_hands(Engine& engine, const Course& course, double time_s)
 {
     if (!course.hands) return;
-    for (std::uint32_t i = 0; i < course.scene.hips.count; ++i) {
-        engine.hip(i, course.hands(i, time_s));
+    for (std::uint32_t i = 0; i < course.scene.hands.count; ++i) {
+        engine.set_hand(i, course.hands(i, time_s));
     }
 }
 
@@ -83,17 +83,17 @@ private:
     double block(std::size_t steps)
     {
         if (step_ + steps > steps_of(course_->duration_s, contender_.options.tick_s)) begin();
-        const std::uint32_t hands = course_->hands ? course_->scene.hips.count : 0;
+        const std::uint32_t hands = course_->hands ? course_->scene.hands.count : 0;
         inputs_.clear();
         for (std::size_t i = 0; i < steps; ++i, ++step_) {
             for (std::uint32_t hand = 0; hand < hands; ++hand) {
                 inputs_.push_back(course_->hands(hand, time_s()));
             }
         }
-        const scene::HipInput* input = inputs_.data();
+        const scene::HandInput* input = inputs_.data();
         const auto start = Clock::now();
         for (std::size_t i = 0; i < steps; ++i) {
-            for (std::uint32_t hand = 0; hand < hands; ++hand) engine_->hip(hand, *input++);
+            for (std::uint32_t hand = 0; hand < hands; ++hand) engine_->set_hand(hand, *input++);
             engine_->step();
         }
         const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
@@ -107,7 +107,7 @@ private:
     std::size_t step_ = 0;
     std::size_t block_steps_ = 1;
     double used_ns_ = 0.0;
-    std::vector<scene::HipInput> inputs_;
+    std::vector<scene::HandInput> inputs_;
     std::vector<double> samples_;
 };
 

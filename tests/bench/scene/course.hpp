@@ -13,7 +13,7 @@ namespace hapnet::bench {
 struct Course {
     scene::Description scene;
     double duration_s = 1.0;
-    std::function<scene::HipInput(std::uint32_t hand, double time_s)> hands; // empty: none
+    std::function<scene::HandInput(std::uint32_t hand, double time_s)> hands; // empty: none
     double warm_up_s = 0.0; // before anything is timed
 };
 

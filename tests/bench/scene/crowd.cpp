@@ -21,7 +21,7 @@ scene::Description field(int count)
         scene.bodies.back().position = {{pitch * (i % side), 0.0, pitch * (i / side)}};
     }
     scene.planes = {platform()};
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     return scene;
 }
 
@@ -151,9 +151,9 @@ private:
 Course pushed_crowd(int count)
 {
     Course course = paper_course(scene::Turning::free);
-    const scene::HipDescription hips = course.scene.hips;
+    const scene::HandDescription hands = course.scene.hands;
     course.scene = field(count);
-    course.scene.hips = hips;
+    course.scene.hands = hips;
     course.warm_up_s = 0.3; // until what rests has fallen asleep
     return course;
 }

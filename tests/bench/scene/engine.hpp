@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/input.hpp"
 #include "scene/requirements.hpp"
+#include "scene/state.hpp"
 
 #include <memory>
 #include <optional>
@@ -22,7 +22,7 @@ public:
     virtual ~Engine() = default;
 
     /// Where a hand is at the start of the next step.
-    virtual void hip(std::uint32_t index, const scene::HipInput& input) = 0;
+    virtual void set_hand(std::uint32_t index, const scene::HandInput& input) = 0;
     virtual void step() = 0;
     [[nodiscard]] virtual scene::BodyState state(scene::BodyId body) const = 0;
     /// What a hand did to the bodies in the last step, N.
@@ -42,7 +42,7 @@ struct EngineOptions {
     bool is_stock = false;        // peers: without the tuning for bodies of centimetres
     bool has_fast_bodies = false; // peers: with continuous collision detection where there is one
     HipForce hip_force = HipForce::held;
-    std::optional<scene::Profile> profile; // ours: instead of the cheapest
+    std::optional<scene::StepperKind> stepper; // ours: instead of the cheapest
 };
 
 /// An engine that can be measured. In a peer the hands meet body 0 alone, which is in its favour.

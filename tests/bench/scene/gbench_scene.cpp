@@ -27,15 +27,15 @@ void tick(benchmark::State& state, const Course& course, bool sleeping)
     scene::World world = frozen(course.scene, {.sleeping = sleeping});
     double time_s = 0.0;
     const auto step = [&] {
-        for (std::uint32_t i = 0; course.hands && i < course.scene.hips.count; ++i) {
-            std::ignore = world.hip(i, course.hands(i, time_s));
+        for (std::uint32_t i = 0; course.hands && i < course.scene.hands.count; ++i) {
+            std::ignore = world.set_hand(i, course.hands(i, time_s));
         }
         world.tick();
         time_s += 1e-3;
     };
     while (time_s < course.warm_up_s) step();
     for ([[maybe_unused]] auto _ : state) step();
-    state.SetLabel(std::string{scene::name_of(world.profile())});
+    state.SetLabel(std::string{scene::name_of(world.stepper_kind())});
 }
 
 scene::OrientedBox box_at(const glm::dvec3& centre, double turn)

@@ -18,15 +18,15 @@ constexpr double reach = 0.025; // from a cube's centre to a hand's that just to
 double sign_of(std::uint32_t hand) { return hand == 0 ? -1.0 : 1.0; }
 
 /// Two hands that stand still and press a cube at the origin so deep.
-std::function<scene::HipInput(std::uint32_t, double)> squeeze(double left_m, double right_m)
+std::function<scene::HandInput(std::uint32_t, double)> squeeze(double left_m, double right_m)
 {
     return [left_m, right_m](std::uint32_t hand, double) {
         const double depth = hand == 0 ? left_m : right_m;
-        return scene::HipInput{{{sign_of(hand) * (reach - depth), 0.0, 0.0}}, {}};
+        return scene::HandInput{{{sign_of(hand) * (reach - depth), 0.0, 0.0}}, {}};
     };
 }
 
-scene::HipDescription springs(double stiffness, double damping, std::uint32_t count)
+scene::HandDescription springs(double stiffness, double damping, std::uint32_t count)
 {
     return {.stiffness_n_per_m = stiffness,
             .damping_ns_per_m = damping,
@@ -45,12 +45,12 @@ Scenario bounce(double stiffness_n_per_m, double offset_m, scene::Turning turnin
 {
     scene::Description scene = lone_cube(turning);
     scene.bodies[0].velocity = {{-0.1, 0.0, 0.0}};
-    scene.hips = springs(stiffness_n_per_m, 0.0, 1);
+    scene.hands = springs(stiffness_n_per_m, 0.0, 1);
     const char* const name =
         offset_m == 0.0 ? "c1 bounce on a hand" : "c1 bounce on a hand, off-centre";
     Scenario scenario{with(name, turning), "analytic", {scene, 0.05, {}}, {}};
     scenario.course.hands = [offset_m, gap_m](std::uint32_t, double) {
-        return scene::HipInput{{{-reach - gap_m, offset_m, 0.0}}, {}};
+        return scene::HandInput{{{-reach - gap_m, offset_m, 0.0}}, {}};
     };
     scenario.measure = [offset_m](Engine& engine, const Course& course, double tick_s) {
         const scene::BodyDescription& body = course.scene.bodies[0];
@@ -73,11 +73,11 @@ Scenario steady_push(scene::Turning turning)
     scene::Description scene = lone_cube(turning);
     scene.gravity = {0.0, -9.81, 0.0};
     scene.planes = {platform()};
-    scene.hips = springs(stiffness, 2.0, 1);
+    scene.hands = springs(stiffness, 2.0, 1);
     Scenario scenario{with("c2 steady push", turning), "analytic", {scene, 3.5, {}}, {}};
     const auto hand_x = [](double time_s) { return -reach + speed * time_s; };
     scenario.course.hands = [hand_x](std::uint32_t, double time_s) {
-        return scene::HipInput{{{hand_x(time_s), 0.0, 0.0}}, {{speed, 0.0, 0.0}}};
+        return scene::HandInput{{{hand_x(time_s), 0.0, 0.0}}, {{speed, 0.0, 0.0}}};
     };
     scenario.measure = [hand_x](Engine& engine, const Course& course, double tick_s) {
         double low = 1e9, high = -1e9, error = 0.0, lag = 0.0;
@@ -103,20 +103,20 @@ Scenario symmetric_squeeze(scene::Turning turning)
     scene::Description scene = lone_cube(turning);
     scene.gravity = {0.0, -9.81, 0.0};
     scene.planes = {platform()};
-    scene.hips = springs(1000.0, 2.0, 2);
+    scene.hands = springs(1000.0, 2.0, 2);
     Scenario scenario{with("d1 symmetric squeeze 10 s", turning),
                       "itself",
                       {scene, 10.0, squeeze(1e-3, 1e-3)},
                       {}};
     scenario.measure = [](Engine& engine, const Course& course, double tick_s) {
-        double drift = 0.0, turned = 0.0;
+        double drift = 0.0, rotated = 0.0;
         run(engine, course, tick_s, [&](double) {
             const scene::BodyState state = engine.state(0);
             drift = std::max({drift, std::abs(state.position.x()), std::abs(state.position.z())});
-            turned = std::max(turned,
-                              angle_between(course.scene.bodies[0].orientation, state.orientation));
+            rotated = std::max(
+                rotated, angle_between(course.scene.bodies[0].orientation, state.orientation));
         });
-        return std::vector<Measure>{{"drift_m", drift, 0.0}, {"turned_rad", turned, 0.0}};
+        return std::vector<Measure>{{"drift_m", drift, 0.0}, {"turned_rad", rotated, 0.0}};
     };
     return scenario;
 }
@@ -126,7 +126,7 @@ Scenario squeezed_oscillation(scene::Turning turning)
     constexpr double stiffness = 1000.0, mass = 0.1, start_m = 2e-4, long_s = 10.0;
     scene::Description scene = lone_cube(turning);
     scene.bodies[0].position = {{start_m, 0.0, 0.0}};
-    scene.hips = springs(stiffness, 0.0, 2);
+    scene.hands = springs(stiffness, 0.0, 2);
     Scenario scenario{with("d2 squeezed oscillation", turning),
                       "analytic",
                       {scene, long_s, squeeze(1e-3, 1e-3)},
@@ -156,7 +156,7 @@ Scenario asymmetric_squeeze(scene::Turning turning)
 {
     constexpr double deep_m = 1.5e-3, shallow_m = 5e-4;
     scene::Description scene = lone_cube(turning);
-    scene.hips = springs(1000.0, 2.0, 2);
+    scene.hands = springs(1000.0, 2.0, 2);
     Scenario scenario{with("d3 asymmetric squeeze", turning),
                       "analytic",
                       {scene, 5.0, squeeze(deep_m, shallow_m)},
@@ -180,13 +180,13 @@ Course paper_course(scene::Turning turning)
         cube.drag_ns_per_m = 0.0;
         for (auto& body : course.scene.bodies) body.material.friction = 0.3;
         course.scene.planes[0].material.friction = 0.3;
-        course.scene.hips.stiffness_n_per_m = 1000.0;
+        course.scene.hands.stiffness_n_per_m = 1000.0;
     }
     course.hands = [](std::uint32_t hand, double time_s) {
         const double x = swing * std::sin(frequency * time_s);
         const double speed = swing * frequency * std::cos(frequency * time_s);
-        return scene::HipInput{{{x + sign_of(hand) * (reach - depth), 0.0, 0.0}},
-                               {{speed, 0.0, 0.0}}};
+        return scene::HandInput{{{x + sign_of(hand) * (reach - depth), 0.0, 0.0}},
+                                {{speed, 0.0, 0.0}}};
     };
     course.warm_up_s = 0.1;
     return course;

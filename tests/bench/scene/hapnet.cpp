@@ -14,9 +14,9 @@ class Hapnet final : public Engine {
 public:
     explicit Hapnet(scene::World world) : world_{std::move(world)} {}
 
-    void hip(std::uint32_t index, const scene::HipInput& input) override
+    void set_hand(std::uint32_t index, const scene::HandInput& input) override
     {
-        base::ensure(!world_.hip(index, input));
+        base::ensure(!world_.set_hand(index, input));
     }
     void step() override { world_.tick(); }
     [[nodiscard]] scene::BodyState state(scene::BodyId body) const override
@@ -37,7 +37,7 @@ private:
 std::unique_ptr<Engine> make_hapnet(const scene::Description& scene, const EngineOptions& options)
 {
     const scene::FreezeOptions freeze{base::Duration{std::llround(options.tick_s * 1e9)},
-                                      options.sleeping, options.profile};
+                                      options.sleeping, options.stepper};
     auto world = scene::World::freeze(scene, freeze);
     if (!world) return nullptr;
     return std::make_unique<Hapnet>(*std::move(world));

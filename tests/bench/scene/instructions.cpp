@@ -79,18 +79,18 @@ bool spin(const std::string& subject, bool is_locked, int steps)
     if (found == all.end()) return false;
     const Course course = course_of(is_locked);
     const EngineOptions options;
-    std::vector<scene::HipInput> inputs; // as many for few steps as for many: not counted
+    std::vector<scene::HandInput> inputs; // as many for few steps as for many: not counted
     for (int i = 0; i < many_steps; ++i) {
-        for (std::uint32_t hand = 0; hand < course.scene.hips.count; ++hand) {
+        for (std::uint32_t hand = 0; hand < course.scene.hands.count; ++hand) {
             inputs.push_back(course.hands(hand, options.tick_s * i));
         }
     }
     const auto engine = found->make(course.scene, options);
     if (!engine) return false;
-    const scene::HipInput* input = inputs.data();
+    const scene::HandInput* input = inputs.data();
     for (int i = 0; i < std::min(steps, many_steps); ++i) {
-        for (std::uint32_t hand = 0; hand < course.scene.hips.count; ++hand) {
-            engine->hip(hand, *input++);
+        for (std::uint32_t hand = 0; hand < course.scene.hands.count; ++hand) {
+            engine->set_hand(hand, *input++);
         }
         engine->step();
     }

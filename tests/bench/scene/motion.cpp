@@ -34,7 +34,7 @@ scene::Description lone_cube(scene::Turning turning)
     scene.bodies = {cube()};
     scene.bodies[0].turning = turning;
     scene.gravity = glm::dvec3{0.0};
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     return scene;
 }
 
@@ -70,10 +70,10 @@ Scenario slide(double degrees, scene::Turning turning)
         run(engine, course, tick_s);
         constexpr double distance = speed * speed / (2.0 * deceleration);
         const scene::BodyState end = engine.state(0);
-        const double turned = angle_between(course.scene.bodies[0].orientation, end.orientation);
+        const double rotated = angle_between(course.scene.bodies[0].orientation, end.orientation);
         return std::vector<Measure>{
             {"relative_distance_error", glm::length(end.position.value / distance - way), 1e-9},
-            {"turned_rad", turned, 1e-9}};
+            {"turned_rad", rotated, 1e-9}};
     };
     return scenario;
 }
@@ -112,11 +112,11 @@ Scenario off_centre_push()
 {
     scene::Description scene = lone_cube(scene::Turning::free);
     scene.bodies[0].velocity = {{-0.1, 0.0, 0.0}};
-    scene.hips = {
+    scene.hands = {
         .stiffness_n_per_m = 1000.0, .damping_ns_per_m = 0.0, .force_max_n = 1e6, .count = 1};
     Scenario scenario{"h off-centre push", "rk4", {scene, 0.05, {}}, {}};
     scenario.course.hands = [](std::uint32_t, double) {
-        return scene::HipInput{{{-0.0251, 0.006, 0.004}}, {}};
+        return scene::HandInput{{{-0.0251, 0.006, 0.004}}, {}};
     };
     scenario.measure = [reference = reference_end(scenario.course)](
                            Engine& engine, const Course& course, double tick_s) {

@@ -50,11 +50,11 @@ public:
         contacts_ = dJointGroupCreate(0);
         dWorldSetGravity(world_, scene.gravity.x, scene.gravity.y, scene.gravity.z);
         if (options.sleeping) set_sleeping();
-        skins_.reserve(scene.bodies.size() + scene.planes.size() + scene.hips.count);
+        skins_.reserve(scene.bodies.size() + scene.planes.size() + scene.hands.count);
         for (const auto& plane : scene.planes) add(plane);
         for (const auto& body : scene.bodies) add(body);
         if (options.hip_force == HipForce::native) {
-            for (std::uint32_t i = 0; i < scene.hips.count; ++i) add_hip();
+            for (std::uint32_t i = 0; i < scene.hands.count; ++i) add_hip();
         }
     }
 
@@ -65,7 +65,7 @@ public:
         dWorldDestroy(world_);
     }
 
-    void hip(std::uint32_t index, const scene::HipInput& input) override
+    void set_hand(std::uint32_t index, const scene::HandInput& input) override
     {
         hips_[index] = input;
         if (options_.hip_force == HipForce::native) {
@@ -77,7 +77,7 @@ public:
 
     void step() override
     {
-        for (std::uint32_t i = 0; i < scene_.hips.count; ++i) push(i);
+        for (std::uint32_t i = 0; i < scene_.hands.count; ++i) push(i);
         resist();
         dSpaceCollide(space_, this, &Ode::near);
         if (stepping_ == Stepping::quick) {
@@ -171,7 +171,7 @@ private:
 
     void add_hip()
     {
-        hip_geoms_.push_back(dCreateSphere(space_, scene_.hips.radius_m));
+        hip_geoms_.push_back(dCreateSphere(space_, scene_.hands.radius_m));
         give_skin(hip_geoms_.back(), {}, true);
     }
 
@@ -179,7 +179,7 @@ private:
     {
         forces_[index] = {};
         if (options_.hip_force == HipForce::native) return;
-        const Load load = penalty(state(0), scene_.bodies[0].half, hips_[index], scene_.hips);
+        const Load load = penalty(state(0), scene_.bodies[0].half, hips_[index], scene_.hands);
         if (load.force == glm::dvec3{0.0}) return;
         const auto& f = load.force;
         const auto& p = load.point;
@@ -255,10 +255,10 @@ private:
     /// The spring and damper as error reduction and constraint force mixing (ODE's manual, 3.8.2).
     [[nodiscard]] dSurfaceParameters hip_surface(const dContactGeom& contact, dGeomID hip) const
     {
-        const double h = options_.tick_s, k = scene_.hips.stiffness_n_per_m;
+        const double h = options_.tick_s, k = scene_.hands.stiffness_n_per_m;
         dSurfaceParameters surface{};
         surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM | dContactMotionN;
-        surface.soft_cfm = 1.0 / (h * k + scene_.hips.damping_ns_per_m);
+        surface.soft_cfm = 1.0 / (h * k + scene_.hands.damping_ns_per_m);
         surface.soft_erp = h * k * surface.soft_cfm;
         const double along =
             glm::dot(vector_of(contact.normal), hips_[index_of(hip)].velocity.value);
@@ -300,7 +300,7 @@ private:
     std::vector<std::size_t> held_; // bodies with locks or drag
     std::vector<dGeomID> hip_geoms_;
     Hips hips_ = absent_hips();
-    std::array<glm::dvec3, scene::hips_max> forces_{};
+    std::array<glm::dvec3, scene::hands_max> forces_{};
     std::array<dJointFeedback, 16> feedback_{};
     std::array<std::size_t, 16> watched_hips_{};
     std::size_t watched_ = 0;

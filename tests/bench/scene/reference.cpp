@@ -57,8 +57,8 @@ Motion rate_of(const Course& course, const Motion& motion, double time_s)
     rate.velocity = course.scene.gravity;
     const glm::dvec3& w = state.angular_velocity;
     rate.orientation = 0.5 * (glm::dquat{0.0, w.x, w.y, w.z} * motion.orientation);
-    for (std::uint32_t i = 0; course.hands && i < course.scene.hips.count; ++i) {
-        const Load load = penalty(state, body.half, course.hands(i, time_s), course.scene.hips);
+    for (std::uint32_t i = 0; course.hands && i < course.scene.hands.count; ++i) {
+        const Load load = penalty(state, body.half, course.hands(i, time_s), course.scene.hands);
         rate.velocity += load.force / body.mass_kg;
         rate.angular_momentum += glm::cross(load.point - motion.position, load.force);
     }

@@ -16,7 +16,7 @@ namespace {
 class Idle final : public Engine {
 public:
     explicit Idle(const scene::Description& scene) : scene_{scene} {}
-    void hip(std::uint32_t, const scene::HipInput&) override {}
+    void set_hand(std::uint32_t, const scene::HandInput&) override {}
     void step() override { ++steps; }
     [[nodiscard]] scene::BodyState state(scene::BodyId body) const override
     {

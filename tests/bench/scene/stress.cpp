@@ -149,8 +149,8 @@ double refused_share()
         if (is_refused && world->hash() == before) ++refused;
     };
     for (const double x : bad) {
-        note(world->hip(0, {{{x, 0.0, 0.0}}, {}}).has_value());
-        note(world->hip(0, {{}, {{x, 0.0, 0.0}}}).has_value());
+        note(world->set_hand(0, {{{x, 0.0, 0.0}}, {}}).has_value());
+        note(world->set_hand(0, {{}, {{x, 0.0, 0.0}}}).has_value());
         note(world->push(0, {{x, 0.0, 0.0}}).has_value());
         scene::BodyState state = world->body(0);
         state.velocity.value.y = x;

@@ -121,7 +121,7 @@ GovernorLimits strict_limits()
     can.workspace_max = {glm::dvec3{0.04}};
     can.speed_max_m_per_s = 1.0;
     can.axes_out = 2;
-    can.joints = JointLimits{skew_arm, glm::dvec3{0.2, 0.2, 0.2}};
+    can.joints = JointLimits{{"test", skew_arm}, glm::dvec3{0.2, 0.2, 0.2}};
     return limits_for(can, {});
 }
 
@@ -194,7 +194,7 @@ TEST(Governor, KeepsTheDirectionOfWhatItShortens)
 {
     const auto stream = base::Seed{8}.stream("direction");
     GovernorLimits limits = limits_for({.force_max_n = 3.3, .force_continuous_n = 0.88}, {});
-    limits.joints = JointLimits{skew_arm, glm::dvec3{0.2, 0.2, 0.2}};
+    limits.joints = JointLimits{{"test", skew_arm}, glm::dvec3{0.2, 0.2, 0.2}};
     Governor governor{limits};
     Sample sample;
     base::TimePoint now{1h};
@@ -221,7 +221,7 @@ TEST(Governor, GivesTheSameBitsWithEveryCompiler)
 {
     const auto stream = base::Seed{3}.stream("bits");
     Capabilities can{.force_max_n = 3.3, .force_continuous_n = 0.88};
-    can.joints = JointLimits{skew_arm, glm::dvec3{0.3}};
+    can.joints = JointLimits{{"test", skew_arm}, glm::dvec3{0.3}};
     Governor governor{limits_for(can, {})};
     Sample sample;
     base::TimePoint now{1h};

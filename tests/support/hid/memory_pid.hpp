@@ -4,7 +4,6 @@
 
 #include "device/hid/mailbox.hpp"
 #include "device/hid/pid_sender.hpp"
-#include "device/hid/pump.hpp"
 #include "device/hid/wire.hpp"
 #include "tests/support/hid/fake_pid.hpp"
 
@@ -30,7 +29,7 @@ class MemoryWire final : public device::hid::Wire {
 public:
     explicit MemoryWire(Line& line) : line_{line} {}
 
-    device::hid::Heard read(std::span<std::byte> into) override
+    device::hid::ReadResult read(std::span<std::byte> into) override
     {
         using device::hid::Moved;
         if (line_.is_gone) return {Moved::gone, 0};
@@ -43,20 +42,20 @@ public:
     }
     device::hid::Moved write(std::span<const std::byte> report) override
     {
-        if (!moves()) return trouble();
+        if (!moves()) return failure();
         line_.pid.on_output(report);
         return device::hid::Moved::yes;
     }
     device::hid::Moved set_feature(std::span<const std::byte> report) override
     {
-        if (!moves()) return trouble();
+        if (!moves()) return failure();
         line_.pid.on_feature(report);
         return device::hid::Moved::yes;
     }
     device::hid::Moved get_feature(std::span<std::byte> report) override
     {
         ++line_.questions;
-        if (!moves() || line_.is_mute) return trouble();
+        if (!moves() || line_.is_mute) return failure();
         const auto answer = line_.pid.feature(std::to_integer<std::uint8_t>(report[0]));
         if (!answer || answer->size() > report.size()) return device::hid::Moved::failed;
         std::copy(answer->begin(), answer->end(), report.begin());
@@ -65,7 +64,7 @@ public:
 
 private:
     [[nodiscard]] bool moves() const { return !line_.is_gone && !line_.refuses; }
-    [[nodiscard]] device::hid::Moved trouble() const
+    [[nodiscard]] device::hid::Moved failure() const
     {
         return line_.is_gone ? device::hid::Moved::gone : device::hid::Moved::failed;
     }
@@ -74,7 +73,7 @@ private:
 };
 
 /// Sends at once, unless the line is stuck.
-class MemoryOutbox final : public device::hid::Outbox {
+class MemoryOutbox final : public device::hid::ReportSender {
 public:
     MemoryOutbox(Line& line, device::hid::PidSender sender)
         : line_{line}, wire_{line}, sender_{std::move(sender)}
@@ -83,7 +82,7 @@ public:
     device::hid::Mailbox& mailbox() override { return mailbox_; }
     void wake() noexcept override
     {
-        while (!line_.is_stuck && device::hid::pump_one(mailbox_, sender_, wire_)) {}
+        while (!line_.is_stuck && device::hid::send_next(mailbox_, sender_, wire_)) {}
     }
 
 private:

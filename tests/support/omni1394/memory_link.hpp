@@ -47,7 +47,7 @@ public:
                                                     std::span<std::byte> bytes) override
     {
         const auto value = bus_.omni.read_register(address, bytes.size());
-        if (!value || bus_.refuses) return trouble(Fault::communication, "no such register");
+        if (!value || bus_.refuses) return device_error(Fault::communication, "no such register");
         std::copy(value->begin(), value->end(), bytes.begin());
         return value->size();
     }
@@ -55,7 +55,7 @@ public:
                                                      std::span<const std::byte> bytes) override
     {
         if (!bus_.omni.write_register(address, bytes)) {
-            return trouble(Fault::communication, "no such register");
+            return device_error(Fault::communication, "no such register");
         }
         return bytes.size();
     }

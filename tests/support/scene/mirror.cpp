@@ -34,9 +34,9 @@ RandomPlay mirrored(RandomPlay play)
         plane.normal = flipped(plane.normal);
     play.description.gravity = flipped(play.description.gravity);
     for (TickInputs& inputs : play.ticks) {
-        for (scene::HipInput& hip : inputs.hips) {
-            hip.position.value = flipped(hip.position.value);
-            hip.velocity.value = flipped(hip.velocity.value);
+        for (scene::HandInput& hand : inputs.hands) {
+            hand.position.value = flipped(hand.position.value);
+            hand.velocity.value = flipped(hand.velocity.value);
         }
         for (auto& [body, force] : inputs.pushes) force.value = flipped(force.value);
         for (auto& [body, state] : inputs.places) state = mirrored(state);

@@ -34,14 +34,14 @@ public:
         appear();
     }
 
-    scene::HipInput next()
+    scene::HandInput next()
     {
         if (dice_.one_in(40)) appear();
         if (left_ == 0) set_out();
         --left_;
         if (dice_.one_in(15)) now_.gripping = !now_.gripping;
         now_.present = !dice_.one_in(50);
-        const scene::HipInput given = now_;
+        const scene::HandInput given = now_;
         now_.position.value += tick_ * now_.velocity.value;
         return given;
     }
@@ -68,7 +68,7 @@ private:
     const Description& description_;
     double tick_;
     std::uint32_t left_ = 0;
-    scene::HipInput now_;
+    scene::HandInput now_;
 };
 
 scene::BodyState elsewhere(Dice& dice, const BodyDescription& body)
@@ -89,11 +89,11 @@ std::vector<TickInputs> random_inputs(std::uint64_t seed, const RandomPlay& play
     if (dice.one_in(4)) return inputs;
     const double tick = base::to_seconds(play.options.tick);
     std::vector<Hand> hands;
-    for (std::uint32_t i = 0; i < description.hips.count; ++i)
+    for (std::uint32_t i = 0; i < description.hands.count; ++i)
         hands.emplace_back(dice, description, tick);
     const bool meddles = dice.one_in(3);
     for (TickInputs& now : inputs) {
-        for (Hand& hand : hands) now.hips.push_back(hand.next());
+        for (Hand& hand : hands) now.hands.push_back(hand.next());
         if (!meddles || !dice.one_in(6)) continue;
         const auto body = static_cast<scene::BodyId>(dice.below(description.bodies.size()));
         const BodyDescription& form = description.bodies[body];

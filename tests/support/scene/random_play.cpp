@@ -144,23 +144,23 @@ void add_planes(Dice& dice, const Style& style, Description& drawn)
     }
 }
 
-scene::HipDescription random_hips(Dice& dice, const Style& style, double tick)
+scene::HandDescription random_hips(Dice& dice, const Style& style, double tick)
 {
-    scene::HipDescription hips;
-    hips.count = dice.one_in(5) ? static_cast<std::uint32_t>(dice.below(scene::hips_max + 1)) : 2;
-    hips.radius_m = style.size * dice.between(0.1, 0.5);
+    scene::HandDescription hands;
+    hands.count = dice.one_in(5) ? static_cast<std::uint32_t>(dice.below(scene::hands_max + 1)) : 2;
+    hands.radius_m = style.size * dice.between(0.1, 0.5);
     const double stiffness = dice.power(0.01, 1000.0) * style.mass / (tick * tick);
-    hips.stiffness_n_per_m = std::min(stiffness, scene::stiffness_max_n_per_m);
+    hands.stiffness_n_per_m = std::min(stiffness, scene::stiffness_max_n_per_m);
     if (!dice.one_in(3)) {
-        const double critical = 2.0 * std::sqrt(hips.stiffness_n_per_m * style.mass);
-        hips.damping_ns_per_m =
+        const double critical = 2.0 * std::sqrt(hands.stiffness_n_per_m * style.mass);
+        hands.damping_ns_per_m =
             std::min(dice.power(0.001, 2.0) * critical, scene::damping_max_ns_per_m);
     }
     const double weight = 10.0 * style.mass;
-    hips.force_max_n =
+    hands.force_max_n =
         dice.one_in(3) ? std::numeric_limits<double>::infinity() : weight * dice.power(0.1, 100.0);
-    hips.grip_reach_m = style.size * dice.share();
-    return hips;
+    hands.grip_reach_m = style.size * dice.share();
+    return hands;
 }
 
 Description random_description(Dice& dice, const PlayLimits& limits, double tick, bool& overlaps)
@@ -176,7 +176,7 @@ Description random_description(Dice& dice, const PlayLimits& limits, double tick
         if (style.aligned && dice.one_in(2)) drawn.bodies[0].turning = Turning::locked;
     }
     add_planes(dice, style, drawn);
-    drawn.hips = random_hips(dice, style, tick);
+    drawn.hands = random_hips(dice, style, tick);
     if (dice.one_in(4)) drawn.gravity = dice.one_in(2) ? glm::dvec3{0.0} : 20.0 * dice.vector();
     overlaps = style.layout == Layout::heap || !style.aligned;
     return drawn;
@@ -194,10 +194,10 @@ RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
     play.description =
         random_description(dice, limits, base::to_seconds(play.options.tick), play.overlaps);
     const auto needed =
-        scene::features_of(scene::needs_of(play.description, play.options.sleeping));
+        scene::required_features(scene::requirements_of(play.description, play.options.sleeping));
     if (dice.one_in(3)) { // any profile that will do
-        const auto any = static_cast<scene::Profile>(dice.below(scene::profiles));
-        if (scene::abilities(any).covers(needed)) play.options.profile = any;
+        const auto any = static_cast<scene::StepperKind>(dice.below(scene::stepper_kinds));
+        if (scene::abilities_of(any).covers(needed)) play.options.stepper = any;
     }
     const auto length = static_cast<std::uint32_t>(
         limits.ticks_min + dice.below(limits.ticks_max - limits.ticks_min + 1));
@@ -207,8 +207,8 @@ RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
 
 void feed(scene::World& world, const TickInputs& inputs)
 {
-    for (std::uint32_t i = 0; i < inputs.hips.size(); ++i)
-        base::ensure(!world.hip(i, inputs.hips[i]));
+    for (std::uint32_t i = 0; i < inputs.hands.size(); ++i)
+        base::ensure(!world.set_hand(i, inputs.hands[i]));
     for (const auto& [body, force] : inputs.pushes) base::ensure(!world.push(body, force));
     for (const auto& [body, state] : inputs.places) base::ensure(!world.place(body, state));
 }

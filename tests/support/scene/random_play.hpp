@@ -11,7 +11,7 @@ namespace hapnet::test {
 
 /// What is done to a world before one of its ticks.
 struct TickInputs {
-    std::vector<scene::HipInput> hips;
+    std::vector<scene::HandInput> hands;
     std::vector<std::pair<scene::BodyId, base::Force>> pushes;
     std::vector<std::pair<scene::BodyId, scene::BodyState>> places;
 };

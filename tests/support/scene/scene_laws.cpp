@@ -43,10 +43,10 @@ bool is_finite(const BodyState& state)
            base::is_finite(state.angular_velocity) && std::isfinite(q.w + q.x + q.y + q.z);
 }
 
-bool is_finite(const scene::HipTouch& touch)
+bool is_finite(const scene::HandTouch& touch)
 {
-    return base::is_finite(touch.on_body) && base::is_finite(touch.on_hip) &&
-           base::is_finite(touch.on_hip_at_start) && std::isfinite(touch.depth_m);
+    return base::is_finite(touch.on_body) && base::is_finite(touch.on_hand) &&
+           base::is_finite(touch.on_hand_at_start) && std::isfinite(touch.depth_m);
 }
 
 bool is_same(const BodyState& a, const BodyState& b)
@@ -89,7 +89,7 @@ double spinning_energy(const BodyDescription& form, const glm::dquat& orientatio
     }
     default: break;
     }
-    // About one axis of the world, which is the same axis of the body's: see BodyForm.
+    // About one axis of the world, which is the same axis of the body's: see BodyProperties.
     const int axis = static_cast<int>(form.turning) - static_cast<int>(Turning::about_x);
     return 0.5 * momentum[axis] * momentum[axis] / inertia[axis];
 }
@@ -98,16 +98,16 @@ double spinning_energy(const BodyDescription& form, const glm::dquat& orientatio
 /// and the work of its own motion; of one that holds, what its force can do.
 double most_from_hand(const World& world, std::uint32_t hand, double fastest)
 {
-    const scene::HipDescription& hips = world.frozen().hips;
-    const scene::HipTouch& touch = world.touch(hand);
+    const scene::HandDescription& hands = world.frozen().hands;
+    const scene::HandTouch& touch = world.touch(hand);
     const double impulse = world.frozen().tick * base::norm(touch.on_body);
     constexpr double within = 2.0; // the body may be faster within the tick than at its ends
     if (touch.holding) return within * impulse * fastest;
-    const double bend = hips.force_max_n / hips.stiffness_n_per_m;
+    const double bend = hands.force_max_n / hands.stiffness_n_per_m;
     const double stored = touch.depth_m < bend
-                              ? 0.5 * hips.stiffness_n_per_m * touch.depth_m * touch.depth_m
-                              : hips.force_max_n * (touch.depth_m - 0.5 * bend);
-    return std::max(stored, 0.0) + impulse * base::norm(world.stage().hips[hand].velocity);
+                              ? 0.5 * hands.stiffness_n_per_m * touch.depth_m * touch.depth_m
+                              : hands.force_max_n * (touch.depth_m - 0.5 * bend);
+    return std::max(stored, 0.0) + impulse * base::norm(world.state().hands[hand].velocity);
 }
 
 /// By how much the energy of turning with one angular momentum can differ with the orientation.
@@ -135,7 +135,7 @@ SceneLaws::SceneLaws(const RandomPlay& play) : play_{play}, moments_(play.descri
 
 SceneLaws::Moment SceneLaws::moment_of(const World& world, BodyId id) const
 {
-    const scene::Bodies& bodies = world.stage().bodies;
+    const scene::Bodies& bodies = world.state().bodies;
     return {world.body(id), bodies.angular_momentum.at(bodies.slot_of[id]), world.is_awake(id)};
 }
 
@@ -179,9 +179,9 @@ std::optional<std::string> SceneLaws::check_body(const World& world, BodyId id) 
 
 std::optional<std::string> SceneLaws::check_hands(const World& world)
 {
-    const double most = play_.description.hips.force_max_n;
-    for (std::uint32_t i = 0; i < play_.description.hips.count; ++i) {
-        const scene::HipTouch& touch = world.touch(i);
+    const double most = play_.description.hands.force_max_n;
+    for (std::uint32_t i = 0; i < play_.description.hands.count; ++i) {
+        const scene::HandTouch& touch = world.touch(i);
         if (!is_finite(touch)) return fmt::format("hand {}: what it feels is not finite", i);
         if (!(most > 0.0) || std::isinf(most)) continue;
         const double force = base::norm(touch.on_body);
@@ -235,11 +235,11 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     const double mass = form.mass_kg;
     const bool sleeps = !was.is_awake && !now.is_awake;
     const glm::dvec3 force = steady_force(world, id, sleeps);
-    const glm::dquat& turned = was.state.orientation;
+    const glm::dquat& rotated = was.state.orientation;
     balance.kinetic_before +=
-        0.5 * mass * glm::dot(v0, v0) + spinning_energy(form, turned, was.angular_momentum);
+        0.5 * mass * glm::dot(v0, v0) + spinning_energy(form, rotated, was.angular_momentum);
     balance.kinetic_after +=
-        0.5 * mass * glm::dot(v1, v1) + spinning_energy(form, turned, now.angular_momentum);
+        0.5 * mass * glm::dot(v1, v1) + spinning_energy(form, rotated, now.angular_momentum);
     balance.work += std::max(glm::dot(force, steady), glm::dot(force, moved));
     const double radius = length(form.half);
     const double spin =
@@ -271,7 +271,7 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
 std::optional<std::string> SceneLaws::check_energy(const World& world, const Balance& balance)
 {
     double hands = 0.0;
-    for (std::uint32_t i = 0; i < play_.description.hips.count; ++i)
+    for (std::uint32_t i = 0; i < play_.description.hands.count; ++i)
         hands += std::min(touched_max, movable_) * most_from_hand(world, i, balance.fastest);
     const double gained = balance.kinetic_after - balance.kinetic_before - balance.work - hands;
     const double there = balance.kinetic_before + balance.kinetic_after + std::abs(balance.work);
@@ -284,8 +284,8 @@ std::optional<std::string> SceneLaws::check_energy(const World& world, const Bal
 std::optional<std::string> SceneLaws::check_ways(const World& world, const Balance& balance) const
 {
     // What slides is put out of what it is in at once.
-    if (world.profile() <= scene::Profile::sliding_coulomb) return std::nullopt;
-    for (std::uint32_t i = 0; i < play_.description.hips.count; ++i) {
+    if (world.stepper_kind() <= scene::StepperKind::sliding_coulomb) return std::nullopt;
+    for (std::uint32_t i = 0; i < play_.description.hands.count; ++i) {
         if (world.touch(i).touching) return std::nullopt;
     }
     constexpr double cornerwise = 2.0;
@@ -300,8 +300,8 @@ std::optional<std::string> SceneLaws::check_momentum(const World& world, const B
     const double tick = world.frozen().tick;
     glm::dvec3 hands{0.0};
     bool any_hand = false;
-    for (std::uint32_t i = 0; i < play_.description.hips.count; ++i) {
-        hands -= tick * world.touch(i).on_hip.value;
+    for (std::uint32_t i = 0; i < play_.description.hands.count; ++i) {
+        hands -= tick * world.touch(i).on_hand.value;
         any_hand = any_hand || world.touch(i).touching;
     }
     const double miss = length(balance.linear_gain - hands);
@@ -314,13 +314,13 @@ std::optional<std::string> SceneLaws::check_momentum(const World& world, const B
         if (form.turning != Turning::free) return std::nullopt;
     }
     // Impulses act at points held for the tick, during which those that push each other pass.
-    const double turned = length(balance.angular_gain);
+    const double rotated = length(balance.angular_gain);
     const double allowed = momentum_tolerance * balance.angular + balance.astray +
                            tick * balance.jolt * balance.fastest;
     if (allowed > 0.0)
-        worst_.angular_momentum = std::max(worst_.angular_momentum, turned / allowed);
-    if (turned <= allowed) return std::nullopt;
-    return fmt::format("{} N m s came from nowhere; {} tolerated", turned, allowed);
+        worst_.angular_momentum = std::max(worst_.angular_momentum, rotated / allowed);
+    if (rotated <= allowed) return std::nullopt;
+    return fmt::format("{} N m s came from nowhere; {} tolerated", rotated, allowed);
 }
 
 PlayOutcome judge(const RandomPlay& play, std::uint64_t seed)

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double stop_x = 0.0747;
 constexpr double rounding = 1e-12;
-constexpr HipInput away{.present = false};
+constexpr HandInput away{.present = false};
 
 World paper_world() { return World::freeze(paper_scene()).value(); }
 
@@ -33,15 +33,15 @@ void place(World& world, const glm::dvec3& position, const glm::dvec3& velocity 
     world.place(0, state);
 }
 
-HipInput hand_at(const glm::dvec3& place, bool gripping = false)
+HandInput hand_at(const glm::dvec3& place, bool gripping = false)
 {
     return {.position = {place}, .velocity = {}, .gripping = gripping};
 }
-HipInput hand_at(double x, bool gripping = false) { return hand_at({x, 0.0, 0.0}, gripping); }
+HandInput hand_at(double x, bool gripping = false) { return hand_at({x, 0.0, 0.0}, gripping); }
 
-const HipTouch& feel(World& world, const HipInput& hand)
+const HandTouch& feel(World& world, const HandInput& hand)
 {
-    world.hip(0, hand);
+    world.set_hand(0, hand);
     world.tick();
     return world.touch(0);
 }
@@ -126,7 +126,7 @@ TEST(PaperCube, HasEnoughDragForSoftnessToGrowWithDelay)
 {
     const Description scene = paper_scene();
     EXPECT_GE(scene.bodies[0].drag_ns_per_m,
-              std::sqrt(2.0 * scene.hips.stiffness_n_per_m * scene.bodies[0].mass_kg) *
+              std::sqrt(2.0 * scene.hands.stiffness_n_per_m * scene.bodies[0].mass_kg) *
                   (1.0 - rounding));
 }
 
@@ -134,12 +134,12 @@ TEST(PaperHand, PushesTheCubeAndFeelsTheOppositeForce)
 {
     for (const double side : {-1.0, 1.0}) {
         World world = paper_world();
-        const HipTouch& touched = feel(world, hand_at(side * 0.023)); // 2 mm deep: 1 N
+        const HandTouch& touched = feel(world, hand_at(side * 0.023)); // 2 mm deep: 1 N
         EXPECT_TRUE(touched.touching);
         EXPECT_FALSE(touched.holding);
         EXPECT_NEAR(touched.depth_m, 0.002, rounding);
-        EXPECT_NEAR(touched.on_hip_at_start.x(), side * 1.0, rounding);
-        EXPECT_EQ(touched.on_hip, -touched.on_body);
+        EXPECT_NEAR(touched.on_hand_at_start.x(), side * 1.0, rounding);
+        EXPECT_EQ(touched.on_hand, -touched.on_body);
         EXPECT_GT(-side * touched.on_body.x(), 0.9); // the mean: the cube gives way
         EXPECT_LT(-side * touched.on_body.x(), 1.0);
     }
@@ -162,9 +162,9 @@ TEST(PaperHand, NeverPullsWhenItDoesNotGrip)
         for (int um = -30'000; um <= -1'000; um += 500) {
             World world = fresh;
             std::ignore = feel(world, hand_at(-0.0249)); // it came from the left
-            HipInput hand = hand_at(1e-6 * um);
+            HandInput hand = hand_at(1e-6 * um);
             hand.velocity = {{speed, 0.0, 0.0}};
-            const HipTouch& touched = feel(world, hand);
+            const HandTouch& touched = feel(world, hand);
             EXPECT_GE(touched.on_body.x(), 0.0) << um << " " << speed;
             EXPECT_LE(touched.on_body.x(), 3.3) << um << " " << speed;
             EXPECT_EQ(touched.touching, touched.on_body.x() > 0.0) << um << " " << speed;
@@ -175,11 +175,11 @@ TEST(PaperHand, NeverPullsWhenItDoesNotGrip)
 TEST(PaperHand, FeelsNothingInTheAir)
 {
     World world = paper_world();
-    for (const HipInput& hand : {hand_at(-0.030), hand_at({0.0, -0.022, -0.1}), away}) {
-        const HipTouch& touched = feel(world, hand); // not even of the platform
+    for (const HandInput& hand : {hand_at(-0.030), hand_at({0.0, -0.022, -0.1}), away}) {
+        const HandTouch& touched = feel(world, hand); // not even of the platform
         EXPECT_FALSE(touched.touching);
         EXPECT_EQ(touched.on_body, base::Force{});
-        EXPECT_EQ(touched.on_hip, base::Force{});
+        EXPECT_EQ(touched.on_hand, base::Force{});
     }
 }
 
@@ -188,9 +188,9 @@ TEST(PaperHand, DampsTheSpeedAtWhichHandAndCubeApproach)
     for (const double cube_speed : {0.2, 0.3}) {
         World world = paper_world();
         place(world, {}, {cube_speed, 0.0, 0.0});
-        HipInput hand = hand_at(-0.023);
+        HandInput hand = hand_at(-0.023);
         hand.velocity = {{0.3, 0.0, 0.0}};
-        EXPECT_NEAR(feel(world, hand).on_hip_at_start.x(), -1.0 - 2.0 * (0.3 - cube_speed),
+        EXPECT_NEAR(feel(world, hand).on_hand_at_start.x(), -1.0 - 2.0 * (0.3 - cube_speed),
                     rounding);
     }
 }
@@ -198,13 +198,13 @@ TEST(PaperHand, DampsTheSpeedAtWhichHandAndCubeApproach)
 TEST(PaperHand, AtAnEdgePushesFromTheEdgeToTheSphere)
 {
     World world = paper_world();
-    const HipTouch& touched = feel(world, hand_at({-0.023, 0.022, 0.010}));
+    const HandTouch& touched = feel(world, hand_at({-0.023, 0.022, 0.010}));
     const double gap = std::sqrt(9e-6 + 4e-6); // 3 mm and 2 mm past the faces
     const double force = 500.0 * (0.005 - gap);
     EXPECT_NEAR(touched.depth_m, 0.005 - gap, rounding);
-    EXPECT_NEAR(touched.on_hip_at_start.x(), -force * 0.003 / gap, rounding);
-    EXPECT_NEAR(touched.on_hip_at_start.y(), force * 0.002 / gap, rounding);
-    EXPECT_EQ(touched.on_hip_at_start.z(), 0.0);
+    EXPECT_NEAR(touched.on_hand_at_start.x(), -force * 0.003 / gap, rounding);
+    EXPECT_NEAR(touched.on_hand_at_start.y(), force * 0.002 / gap, rounding);
+    EXPECT_EQ(touched.on_hand_at_start.z(), 0.0);
     EXPECT_FALSE(feel(world, hand_at({-0.0241, 0.0231, 0.010})).touching); // more than 5 mm
 }
 
@@ -214,34 +214,34 @@ TEST(PaperHand, LeavesTheStaticCubeByTheFaceThroughWhichItWentIn)
     const glm::dvec3 centre = paper_scene().bodies[1].position.value;
     for (int um = 26'000; um >= -15'000; um -= 500) {
         const double out = 1e-6 * um;
-        const HipTouch& touched = feel(world, hand_at(centre + glm::dvec3{out, 0.004, -0.002}));
+        const HandTouch& touched = feel(world, hand_at(centre + glm::dvec3{out, 0.004, -0.002}));
         if (um >= 25'000) continue;
         EXPECT_NEAR(touched.depth_m, 0.025 - out, rounding) << um;
-        EXPECT_GT(touched.on_hip.x(), 0.0) << um;
-        EXPECT_EQ(touched.on_hip.y(), 0.0) << um;
+        EXPECT_GT(touched.on_hand.x(), 0.0) << um;
+        EXPECT_EQ(touched.on_hand.y(), 0.0) << um;
     }
     feel(world, hand_at(1.0)); // out of it
-    const HipTouch& suddenly = feel(world, hand_at(centre + glm::dvec3{0.001, 0.018, -0.002}));
+    const HandTouch& suddenly = feel(world, hand_at(centre + glm::dvec3{0.001, 0.018, -0.002}));
     EXPECT_NEAR(suddenly.depth_m, 0.005 + 0.002, rounding); // the nearest face
-    EXPECT_GT(suddenly.on_hip.y(), 0.0);
+    EXPECT_GT(suddenly.on_hand.y(), 0.0);
 }
 
 TEST(PaperHand, FeelsTheStaticCubeWithoutTouchingOrMovingAnything)
 {
     World world = paper_world();
     const glm::dvec3 centre = paper_scene().bodies[1].position.value;
-    const HipTouch& touched = feel(world, hand_at(centre + glm::dvec3{0.0, 0.0, 0.023}));
+    const HandTouch& touched = feel(world, hand_at(centre + glm::dvec3{0.0, 0.0, 0.023}));
     EXPECT_FALSE(touched.touching);
     EXPECT_EQ(touched.on_body, base::Force{});
-    EXPECT_NEAR(touched.on_hip.z(), 1.0, rounding);
-    EXPECT_EQ(touched.on_hip.x(), 0.0);
+    EXPECT_NEAR(touched.on_hand.z(), 1.0, rounding);
+    EXPECT_EQ(touched.on_hand.x(), 0.0);
     EXPECT_EQ(world.body(0).position, base::Position{});
 }
 
 TEST(PaperGrip, HoldsBothWaysWhereItTookHold)
 {
     World world = paper_world();
-    const HipTouch& touched = feel(world, hand_at(-0.028, true));
+    const HandTouch& touched = feel(world, hand_at(-0.028, true));
     EXPECT_TRUE(touched.holding);
     EXPECT_TRUE(touched.touching);
     EXPECT_EQ(touched.on_body, base::Force{});
@@ -249,7 +249,7 @@ TEST(PaperGrip, HoldsBothWaysWhereItTookHold)
         const BodyState cube = world.body(0);
         feel(world, hand_at(x, true));
         const double stretch = x - (cube.position.x() - 0.028);
-        EXPECT_NEAR(-touched.on_hip_at_start.x(), 500.0 * stretch - 2.0 * cube.velocity.x(),
+        EXPECT_NEAR(-touched.on_hand_at_start.x(), 500.0 * stretch - 2.0 * cube.velocity.x(),
                     rounding);
         EXPECT_EQ(touched.on_body.x() > 0.0, stretch > 0.0) << x;
     }
@@ -259,7 +259,7 @@ TEST(PaperGrip, PullsAtMostWithThePeakForceInItsOwnDirection)
 {
     World world = paper_world();
     feel(world, hand_at(-0.025, true));
-    const HipTouch& touched = feel(world, hand_at({-0.325, 0.4, 0.0}, true));
+    const HandTouch& touched = feel(world, hand_at({-0.325, 0.4, 0.0}, true));
     EXPECT_NEAR(base::norm(touched.on_body), 3.3, rounding);
     EXPECT_NEAR(touched.on_body.x(), -0.6 * 3.3, rounding);
     EXPECT_NEAR(touched.on_body.y(), 0.8 * 3.3, rounding);
@@ -275,11 +275,11 @@ TEST(PaperGrip, TakesHoldWithin10MmOfTheSurfaceOnlyAndKeepsIt)
 
 TEST(PaperGrip, EndsWhenTheHandOpensOrIsAway)
 {
-    for (const HipInput& end : {hand_at(-0.028), away}) {
+    for (const HandInput& end : {hand_at(-0.028), away}) {
         World world = paper_world();
         EXPECT_TRUE(feel(world, hand_at(-0.028, true)).holding);
         EXPECT_FALSE(feel(world, end).holding);
-        const HipTouch& anew = feel(world, hand_at(-0.027, true));
+        const HandTouch& anew = feel(world, hand_at(-0.027, true));
         EXPECT_TRUE(anew.holding);
         EXPECT_EQ(anew.on_body, base::Force{}); // a new hold, where it is now
     }

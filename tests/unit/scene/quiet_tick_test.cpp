@@ -32,9 +32,9 @@ void play(World& world, int ticks)
     for (int i = 0; i < ticks; ++i) {
         const double turn = base::two_pi * static_cast<double>(world.ticks()) / 600.0;
         const double x = 0.022 + 0.008 * base::sin(turn);
-        std::ignore = world.hip(0, {.position = {{-x, 0.0, 0.0}}});
-        std::ignore =
-            world.hip(1, {.position = {{x, 0.0, 0.0}}, .velocity = {}, .gripping = i % 500 > 400});
+        std::ignore = world.set_hand(0, {.position = {{-x, 0.0, 0.0}}});
+        std::ignore = world.set_hand(
+            1, {.position = {{x, 0.0, 0.0}}, .velocity = {}, .gripping = i % 500 > 400});
         if (i % 300 == 299) std::ignore = world.place(0, {.position = {{0.0, 0.01, 0.0}}});
         std::ignore = world.push(0, {{0.01, 0.0, 0.0}});
         world.tick();

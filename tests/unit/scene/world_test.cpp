@@ -31,7 +31,7 @@ Description row_of_cubes()
     return scene;
 }
 
-HipInput hand_at(double x, double speed = 0.0)
+HandInput hand_at(double x, double speed = 0.0)
 {
     return {.position = {{x, 0.0, 0.0}}, .velocity = {{speed, 0.0, 0.0}}};
 }
@@ -46,13 +46,13 @@ void expect_refused(World& world, Refusal why, const std::optional<Refusal>& ans
 TEST(World, RefusesAndCountsWhatIsNotFiniteOrOutOfRangeAndStaysAsItWas)
 {
     World world = paper_world();
-    ASSERT_FALSE(world.hip(0, hand_at(-0.0245)));
+    ASSERT_FALSE(world.set_hand(0, hand_at(-0.0245)));
     for (int i = 0; i < 10; ++i) world.tick();
     const auto before = world.hash();
     for (const double bad : {nan, infinity, -infinity, 1e30, -1e30}) {
         const Refusal why = std::abs(bad) == 1e30 ? Refusal::out_of_range : Refusal::not_finite;
-        expect_refused(world, why, world.hip(0, hand_at(bad)));
-        expect_refused(world, why, world.hip(0, hand_at(0.0, bad)));
+        expect_refused(world, why, world.set_hand(0, hand_at(bad)));
+        expect_refused(world, why, world.set_hand(0, hand_at(0.0, bad)));
         expect_refused(world, why, world.push(0, {{0.0, bad, 0.0}}));
         BodyState state = world.body(0);
         state.position.value.z = bad;
@@ -66,7 +66,7 @@ TEST(World, RefusesAndCountsWhatIsNotFiniteOrOutOfRangeAndStaysAsItWas)
     }
     EXPECT_EQ(world.hash(), before);
     World undisturbed = paper_world();
-    ASSERT_FALSE(undisturbed.hip(0, hand_at(-0.0245)));
+    ASSERT_FALSE(undisturbed.set_hand(0, hand_at(-0.0245)));
     for (int i = 0; i < 10; ++i) undisturbed.tick();
     world.tick();
     undisturbed.tick();
@@ -76,7 +76,7 @@ TEST(World, RefusesAndCountsWhatIsNotFiniteOrOutOfRangeAndStaysAsItWas)
 TEST(World, RefusesBodiesAndHandsThatAreNotThere)
 {
     World world = paper_world();
-    expect_refused(world, Refusal::no_such_hip, world.hip(2, hand_at(0.0)));
+    expect_refused(world, Refusal::no_such_hand, world.set_hand(2, hand_at(0.0)));
     expect_refused(world, Refusal::no_such_body, world.push(1, {})); // fixed
     expect_refused(world, Refusal::no_such_body, world.place(2, {}));
 }
@@ -100,9 +100,9 @@ TEST(World, PushesOfOneTickAddUpAndAreGoneInTheNext)
 TEST(World, ALockedBodyCannotBePlacedTurned)
 {
     World world = paper_world();
-    BodyState turned = world.body(0);
-    turned.orientation = {0.8, 0.0, 0.6, 0.0};
-    expect_refused(world, Refusal::out_of_range, world.place(0, turned));
+    BodyState rotated = world.body(0);
+    rotated.orientation = {0.8, 0.0, 0.6, 0.0};
+    expect_refused(world, Refusal::out_of_range, world.place(0, rotated));
 }
 
 TEST(World, ALockedCoordinateStaysWhereItIsWhereverTheBodyIsPut)
@@ -149,7 +149,7 @@ TEST(World, FreezeSaysWhatIsWrong)
     EXPECT_EQ(without_mass.error().message,
               "body 1 'cube': mass in kg is 0; it can be 1e-06 to 1000000");
     EXPECT_FALSE(World::freeze(paper_scene(), {.tick = 1us}));
-    const auto too_little = World::freeze(paper_scene(), {.profile = Profile::flight});
+    const auto too_little = World::freeze(paper_scene(), {.stepper = StepperKind::flight});
     ASSERT_FALSE(too_little);
     EXPECT_EQ(too_little.error().message,
               "the tick profile 'flight' cannot do what the scene needs; 'sliding' can");
@@ -161,18 +161,18 @@ void play(World& world, int ticks)
     for (int i = 0; i < ticks; ++i) {
         const double phase = 0.002 * static_cast<double>(world.ticks() % 3000);
         const double x = -0.027 + 0.012 * std::abs(phase - 3.0);
-        ASSERT_FALSE(world.hip(0, hand_at(x, phase < 3.0 ? -0.024 : 0.024)));
+        ASSERT_FALSE(world.set_hand(0, hand_at(x, phase < 3.0 ? -0.024 : 0.024)));
         world.tick();
     }
 }
 
-class EveryProfile : public testing::TestWithParam<Profile> {
+class EveryProfile : public testing::TestWithParam<StepperKind> {
 protected:
     [[nodiscard]] static World world()
     {
-        const bool slides = GetParam() <= Profile::lone;
+        const bool slides = GetParam() <= StepperKind::lone;
         FreezeOptions options;
-        options.profile = GetParam();
+        options.stepper = GetParam();
         return World::freeze(slides ? paper_scene() : row_of_cubes(), options).value();
     }
 };
@@ -207,8 +207,8 @@ TEST_P(EveryProfile, ACopyRunsOnItsOwn)
 }
 
 INSTANTIATE_TEST_SUITE_P(World, EveryProfile,
-                         testing::Values(Profile::sliding, Profile::sliding_coulomb, Profile::lone,
-                                         Profile::few, Profile::many),
+                         testing::Values(StepperKind::sliding, StepperKind::sliding_coulomb,
+                                         StepperKind::lone, StepperKind::few, StepperKind::many),
                          [](const auto& each) {
                              std::string name{name_of(each.param)};
                              std::erase(name, '-');

@@ -71,16 +71,16 @@ public:
     void help_calibrate() override { omni_->lead_to(inkwell); }
     void dock(bool in) override { omni_->lead_to(in ? inkwell : base::Position{}); }
     void press(bool down) override { omni_->press(down ? 1 : 0); }
-    void stall(bool on) override { happen(device::Mishap::Kind::stall, on); }
-    void garble(bool on) override { happen(device::Mishap::Kind::communication_error, on); }
-    void unplug() override { happen(device::Mishap::Kind::unplug, true); }
+    void stall(bool on) override { happen(device::InjectedFault::Kind::stall, on); }
+    void garble(bool on) override { happen(device::InjectedFault::Kind::communication_error, on); }
+    void unplug() override { happen(device::InjectedFault::Kind::unplug, true); }
 
 private:
-    void happen(device::Mishap::Kind kind, bool on)
+    void happen(device::InjectedFault::Kind kind, bool on)
     {
-        device::Mishaps mishaps;
-        if (on) mishaps.schedule.push_back({kind, 0ms, for_ever});
-        omni_->set_mishaps(mishaps);
+        device::InjectedFaults injected_faults;
+        if (on) injected_faults.schedule.push_back({kind, 0ms, for_ever});
+        omni_->set_injected_faults(injected_faults);
     }
 
     base::TimePoint now_{1000s};

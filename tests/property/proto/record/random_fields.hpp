@@ -23,7 +23,7 @@ public:
     void operator()(std::string_view, bool& value) { value = (bits() & 1) != 0; }
     void operator()(std::string_view, Phase& value)
     {
-        value = static_cast<Phase>(bits() % phase_names.size());
+        value = static_cast<Phase>(bits() % base::names_of_enum<Phase>.size());
     }
     void operator()(std::string_view, std::uint8_t& value)
     {

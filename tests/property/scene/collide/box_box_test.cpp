@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/collide/box_box.hpp"
 
-#include "scene/collide/features.hpp"
+#include "scene/collide/manifold.hpp"
 #include "tests/property/scene/collide/boxes.hpp"
 
 #include <glm/geometric.hpp>
@@ -135,7 +135,7 @@ TEST(BoxBox, TouchLikewiseWhenTheyAreExchanged)
         ++compared;
         const double tolerance = 2.0 * flush * drawn.unit;
         for (const ContactPoint& point : here.touching()) {
-            const ContactPoint* same = found(there, meeting_exchanged(point.feature));
+            const ContactPoint* same = found(there, swapped_feature_pair(point.feature));
             if (same == nullptr) continue; // where several points are as good
             ASSERT_NEAR(point.separation, same->separation, tolerance) << seed;
             ASSERT_LE(glm::distance(point.position, same->position), tolerance) << seed;
@@ -155,8 +155,8 @@ OrientedBox mirrored(const OrientedBox& box, int plane)
 
 std::uint32_t mirrored(std::uint32_t feature)
 {
-    constexpr std::uint32_t positive = meeting(face_bit(0, true), face_bit(0, true));
-    constexpr std::uint32_t negative = meeting(face_bit(0, false), face_bit(0, false));
+    constexpr std::uint32_t positive = feature_pair(face_bit(0, true), face_bit(0, true));
+    constexpr std::uint32_t negative = feature_pair(face_bit(0, false), face_bit(0, false));
     return (feature & ~(positive | negative)) | (feature & positive) >> 1U |
            (feature & negative) << 1U;
 }

@@ -62,7 +62,7 @@ struct Exhaustive {
     }
 };
 
-/// Boxes from a seed.
+/// SweptBoxes from a seed.
 class BoxesDrawn {
 public:
     explicit BoxesDrawn(const base::RandomStream& draw) : draw_{draw} {}
@@ -156,10 +156,10 @@ inline BoxPair near_pair(BoxesDrawn& drawn, double size_ratio, double gap)
     double low = 0.0;
     double high = 4.0 * (reach.x + reach.y + reach.z);
     for (int k = 0; k < 20; ++k) {
-        const double middle = 0.5 * (low + high);
-        pair.b.centre = pair.a.centre + middle * direction;
+        const double centre = 0.5 * (low + high);
+        pair.b.centre = pair.a.centre + centre * direction;
         const bool is_apart = Exhaustive::separation(pair.a, pair.b) > gap * pair.smallest_half();
-        (is_apart ? high : low) = middle;
+        (is_apart ? high : low) = centre;
     }
     return pair;
 }

@@ -50,7 +50,7 @@ TEST(SphereBox, ChangesItsDepthNoFasterThanTheSphereMovesOutside)
         const glm::dvec3 step = 1e-4 * drawn.direction();
         SphereBoxMemory memory;
         const auto depth = [&](const glm::dvec3& centre) {
-            const auto overlap = memory.find(box, centre, radius, seen_from(box, centre - step));
+            const auto overlap = memory.find(box, centre, radius, to_local(box, centre - step));
             return overlap ? overlap->depth : 0.0;
         };
         double last = depth(from);
@@ -78,12 +78,12 @@ TEST(SphereBox, GivesTheSameInAnyFrame)
         BoxesDrawn drawn{base::Seed{seed}.stream("frame")};
         const OrientedBox box = drawn.box(0.01, 3.0);
         const OrientedBox plain{.half = box.half};
-        SphereBoxMemory turned;
+        SphereBoxMemory rotated;
         SphereBoxMemory straight;
         glm::dvec3 before = drawn.within_cube(0.05);
         for (int k = 0; k < 10; ++k) {
             const glm::dvec3 place = drawn.within_cube(0.03);
-            const auto here = turned.find(box, box.centre + box.axes * place, 0.005, before);
+            const auto here = rotated.find(box, box.centre + box.axes * place, 0.005, before);
             const auto there = straight.find(plain, place, 0.005, before);
             ASSERT_EQ(here.has_value(), there.has_value()) << seed;
             before = place;

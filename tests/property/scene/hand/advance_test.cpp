@@ -39,7 +39,7 @@ Rig random_rig(Draw& draw)
     Rig rig;
     rig.mass = draw.between(0.01, 1.0);
     if (draw.between(0.0, 1.0) < 0.5) rig.half = {0.02, draw.between(0.01, 0.05), 0.015};
-    rig.body.orientation = turn_by(draw.vector(2.0));
+    rig.body.orientation = rotation_by(draw.vector(2.0));
     rig.body.velocity = draw.vector(0.5);
     rig.body.angular_momentum = box_inertia(rig.mass, rig.half) * draw.vector(10.0);
     const int hands = static_cast<int>(draw.between(1.0, 4.999));

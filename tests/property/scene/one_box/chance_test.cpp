@@ -41,10 +41,10 @@ public:
         Description scene = cube_on_platform(friction, drag);
         scene.bodies[0].mass_kg = scale(1e-4, 1e2);
         scene.bodies[0].material.restitution = once_in(2) ? 0.0 : between(0.0, 1.0);
-        scene.hips.stiffness_n_per_m = scale(1.0, 1e7);
-        scene.hips.damping_ns_per_m = once_in(3) ? 0.0 : scale(0.01, 1e3);
-        scene.hips.force_max_n = once_in(2) ? 1e9 : scale(0.1, 10.0);
-        scene.hips.count = 4;
+        scene.hands.stiffness_n_per_m = scale(1.0, 1e7);
+        scene.hands.damping_ns_per_m = once_in(3) ? 0.0 : scale(0.01, 1e3);
+        scene.hands.force_max_n = once_in(2) ? 1e9 : scale(0.1, 10.0);
+        scene.hands.count = 4;
         for (int i = 0; i < 3; ++i) {
             BodyDescription fixed{.name = "fixed", .movable = false};
             fixed.position = {vector(0.08)};
@@ -54,7 +54,7 @@ public:
         }
         return scene;
     }
-    HipInput hand()
+    HandInput hand()
     {
         return {{vector(0.04)}, {vector(once_in(10) ? 100.0 : 0.3)}, !once_in(10), once_in(4)};
     }
@@ -85,7 +85,7 @@ void live(std::uint64_t seed)
     rig.place({0.0, 0.2, 0.0}, chance.vector(1.0));
     for (int i = 0; i < 50; ++i) {
         for (std::uint32_t hand = 0; hand < 4; ++hand) {
-            if (chance.once_in(10)) rig.stage.hips[hand] = chance.hand();
+            if (chance.once_in(10)) rig.state.hands[hand] = chance.hand();
         }
         const glm::dvec3 there = chance.vector(0.08);
         const glm::dvec3 so_fast = chance.vector(1.0);
@@ -93,9 +93,9 @@ void live(std::uint64_t seed)
         rig.carry(1);
         ASSERT_TRUE(base::is_finite(rig.position())) << seed << ' ' << i;
         ASSERT_TRUE(base::is_finite(rig.velocity())) << seed << ' ' << i;
-        for (const HipTouch& touch : rig.stage.touches) {
-            ASSERT_TRUE(base::is_finite(touch.on_hip)) << seed << ' ' << i;
-            ASSERT_LE(base::norm(touch.on_body), scene.hips.force_max_n * 1.0000001) << seed;
+        for (const HandTouch& touch : rig.state.touches) {
+            ASSERT_TRUE(base::is_finite(touch.on_hand)) << seed << ' ' << i;
+            ASSERT_LE(base::norm(touch.on_body), scene.hands.force_max_n * 1.0000001) << seed;
         }
         ASSERT_FALSE(overlaps(scene, rig.position())) << seed << ' ' << i;
     }

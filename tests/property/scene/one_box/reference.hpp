@@ -87,9 +87,9 @@ private:
     }
     [[nodiscard]] double acceleration(const Modes& modes, double at_x, double at_v, double t) const
     {
-        const int rubbing = modes[hands.size()];
-        if (rubbing == 2) return 0.0;
-        double force = -drag * at_v - rubbing * friction;
+        const int dry_friction = modes[hands.size()];
+        if (dry_friction == 2) return 0.0;
+        double force = -drag * at_v - dry_friction * friction;
         for (std::size_t i = 0; i < hands.size(); ++i) {
             if (modes[i] == 2) force -= hands[i].sign * tension(hands[i], at_x, at_v, t);
             if (modes[i] == 3) force -= hands[i].sign * force_max;

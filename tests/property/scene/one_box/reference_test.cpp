@@ -42,9 +42,9 @@ template <bool coulomb>
 Rig<coulomb> rig_for(const Reference& reference)
 {
     Description scene = cube_on_platform(0.0, reference.drag);
-    scene.hips.stiffness_n_per_m = reference.stiffness;
-    scene.hips.damping_ns_per_m = reference.damping;
-    scene.hips.force_max_n = reference.force_max;
+    scene.hands.stiffness_n_per_m = reference.stiffness;
+    scene.hands.damping_ns_per_m = reference.damping;
+    scene.hands.force_max_n = reference.force_max;
     const double friction = reference.friction / (0.1 * 9.81);
     scene.bodies[0].material = {friction, reference.restitution};
     scene.planes[0].material.friction = friction;
@@ -57,7 +57,7 @@ Rig<coulomb> rig_for(const Reference& reference)
     rig.place({reference.x, 0.0, 0.0}, {reference.v, 0.0, 0.0});
     for (std::uint32_t i = 0; i < reference.hands.size(); ++i) {
         const auto& hand = reference.hands[i];
-        rig.hip(i, {hand.centre, 0.0, 0.0}, {hand.speed, 0.0, 0.0});
+        rig.set_hand(i, {hand.centre, 0.0, 0.0}, {hand.speed, 0.0, 0.0});
     }
     return rig;
 }
@@ -71,7 +71,7 @@ double disagreement(Reference reference)
     for (int i = 1; i <= 40; ++i) {
         rig.tick();
         for (std::uint32_t hand = 0; hand < reference.hands.size(); ++hand) {
-            rig.stage.hips[hand].position.value.x =
+            rig.state.hands[hand].position.value.x =
                 reference.hands[hand].centre + reference.hands[hand].speed * tick * i;
         }
         reference.run(tick * i, 1e-5);

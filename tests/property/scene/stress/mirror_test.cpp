@@ -11,7 +11,7 @@ namespace hapnet::test {
 namespace {
 
 using scene::BodyId;
-using scene::Profile;
+using scene::StepperKind;
 using scene::World;
 
 /// How far the mirrored world is from the mirrored state of the world at any tick, in metres.
@@ -40,9 +40,9 @@ TEST(Mirror, WhatFliesAndSlidesIsMirroredToTheBitAndMostOfTheRestToRounding)
         const RandomPlay mirror = mirrored(play);
         World world = World::freeze(play.description, play.options).value();
         World reflected = World::freeze(mirror.description, mirror.options).value();
-        ASSERT_EQ(world.profile(), reflected.profile());
+        ASSERT_EQ(world.stepper_kind(), reflected.stepper_kind());
         const double off = apart(world, reflected, play, mirror);
-        if (world.profile() <= Profile::sliding_coulomb) {
+        if (world.stepper_kind() <= StepperKind::sliding_coulomb) {
             EXPECT_EQ(off, 0.0) << "seed " << seed;
             continue;
         }
@@ -56,19 +56,20 @@ TEST(Mirror, WhatFliesAndSlidesIsMirroredToTheBitAndMostOfTheRestToRounding)
 
 TEST(Mirror, ASymmetricSqueezeStaysInTheMiddleExactly)
 {
-    for (const Profile profile : {Profile::sliding, Profile::lone, Profile::few, Profile::many}) {
+    for (const StepperKind kind :
+         {StepperKind::sliding, StepperKind::lone, StepperKind::few, StepperKind::many}) {
         scene::Description description = scene::paper_scene();
         description.bodies.resize(1);
         description.bodies[0].position = {};
         description.bodies[0].turning =
-            profile == Profile::sliding ? scene::Turning::locked : scene::Turning::free;
-        World world = World::freeze(description, {.profile = profile}).value();
+            kind == StepperKind::sliding ? scene::Turning::locked : scene::Turning::free;
+        World world = World::freeze(description, {.stepper = kind}).value();
         for (int i = 0; i < 500; ++i) {
             const double x = 0.027 - 1e-5 * (i % 300);
-            ASSERT_FALSE(world.hip(0, {.position = {{-x, 0.0, 0.0}}}));
-            ASSERT_FALSE(world.hip(1, {.position = {{x, 0.0, 0.0}}}));
+            ASSERT_FALSE(world.set_hand(0, {.position = {{-x, 0.0, 0.0}}}));
+            ASSERT_FALSE(world.set_hand(1, {.position = {{x, 0.0, 0.0}}}));
             world.tick();
-            ASSERT_EQ(world.body(0).position.x(), 0.0) << scene::name_of(profile) << ' ' << i;
+            ASSERT_EQ(world.body(0).position.x(), 0.0) << scene::name_of(kind) << ' ' << i;
         }
     }
 }

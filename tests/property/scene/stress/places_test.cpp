@@ -74,20 +74,20 @@ TEST(Overlap, ABodyAtTheVeryPlaceOfAnotherStaysFiniteAndSlow)
 TEST(Hands, AppearInsideAndAnywhereWithNoMoreThanTheirGreatestForce)
 {
     const Description scene = on_a_floor({cube(glm::dvec3{0.0}), cube({0.04, 0.0, 0.0})});
-    for (const Profile profile : {Profile::few, Profile::many}) {
-        World world = World::freeze(scene, {.profile = profile}).value();
+    for (const StepperKind kind : {StepperKind::few, StepperKind::many}) {
+        World world = World::freeze(scene, {.stepper = kind}).value();
         int place = 0;
         for (int i = 0; i < 500; ++i) {
             for (const std::uint32_t hand : {0U, 1U}) {
                 place = (place * 31 + 7) % 1000;
                 const double x = 0.08 * place / 1000.0 - 0.02;
                 const double y = 0.0001 * ((place * 17) % 400) - 0.02;
-                ASSERT_FALSE(world.hip(
+                ASSERT_FALSE(world.set_hand(
                     hand, {.position = {{x, y, 0.5 * y}}, .velocity = {}, .gripping = i % 7 == 0}));
             }
             world.tick();
             for (const std::uint32_t hand : {0U, 1U}) {
-                ASSERT_LE(base::norm(world.touch(hand).on_body), scene.hips.force_max_n + 1e-5);
+                ASSERT_LE(base::norm(world.touch(hand).on_body), scene.hands.force_max_n + 1e-5);
             }
             // Two hands' greatest force on a body of 100 g for half a second: far more than this.
             ASSERT_LE(fastest(world, 2), 20.0) << i;
@@ -101,17 +101,18 @@ TEST(Hands, GrazeFacesEdgesAndCornersWithoutAJerk)
     // than the hand's way in a tick explains.
     for (const double beside : {-1e-3, -1e-9, 0.0, 1e-9, 1e-3, 4.9e-3}) {
         Description scene = on_a_floor({cube(glm::dvec3{0.0})});
-        scene.hips.damping_ns_per_m = 0.0;
-        scene.hips.stiffness_n_per_m = 100.0;
+        scene.hands.damping_ns_per_m = 0.0;
+        scene.hands.stiffness_n_per_m = 100.0;
         World world = World::freeze(scene).value();
         const double speed = 0.1;
         double before = 0.0;
         for (int i = 0; i < 600; ++i) {
             const double x = -0.03 + 1e-3 * speed * i;
-            ASSERT_FALSE(world.hip(0, {.position = {{x, half_edge + 0.0049, half_edge + beside}},
-                                       .velocity = {{speed, 0.0, 0.0}}}));
+            ASSERT_FALSE(
+                world.set_hand(0, {.position = {{x, half_edge + 0.0049, half_edge + beside}},
+                                   .velocity = {{speed, 0.0, 0.0}}}));
             world.tick();
-            const double force = base::norm(world.touch(0).on_hip_at_start);
+            const double force = base::norm(world.touch(0).on_hand_at_start);
             ASSERT_LE(std::abs(force - before), 100.0 * 2.0 * 1e-3 * speed) << beside << ' ' << i;
             before = force;
         }
@@ -121,24 +122,24 @@ TEST(Hands, GrazeFacesEdgesAndCornersWithoutAJerk)
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-class AnyProfile : public testing::TestWithParam<Profile> {
+class AnyProfile : public testing::TestWithParam<StepperKind> {
 protected:
     [[nodiscard]] static World world()
     {
         Description scene = paper_scene();
-        if (GetParam() >= Profile::few) scene.bodies.push_back(cube({-0.1, 0.0, 0.0}));
-        if (GetParam() == Profile::flight) {
+        if (GetParam() >= StepperKind::few) scene.bodies.push_back(cube({-0.1, 0.0, 0.0}));
+        if (GetParam() == StepperKind::flight) {
             scene.bodies.erase(scene.bodies.begin() + 1);
             scene.planes.clear();
-            scene.hips.count = 0;
+            scene.hands.count = 0;
         }
-        return World::freeze(scene, {.profile = GetParam()}).value();
+        return World::freeze(scene, {.stepper = GetParam()}).value();
     }
     static void play(World& world, int ticks)
     {
         for (int i = 0; i < ticks; ++i) {
             const double x = -0.03 + 1e-5 * static_cast<double>(world.ticks());
-            std::ignore = world.hip(0, {.position = {{x, 0.0, 0.0}}});
+            std::ignore = world.set_hand(0, {.position = {{x, 0.0, 0.0}}});
             std::ignore = world.push(0, {{0.0, 0.0, 0.01}});
             world.tick();
         }
@@ -150,8 +151,9 @@ protected:
         for (const int axis : {0, 1, 2}) {
             glm::dvec3 v{0.0};
             v[axis] = bad;
-            taken += int{!world.hip(0, {.position = {v}})} + int{!world.hip(1, {.velocity = {v}})} +
-                     int{!world.push(0, {v})} + int{!world.place(0, {.position = {v}})} +
+            taken += int{!world.set_hand(0, {.position = {v}})} +
+                     int{!world.set_hand(1, {.velocity = {v}})} + int{!world.push(0, {v})} +
+                     int{!world.place(0, {.position = {v}})} +
                      int{!world.place(0, {.velocity = {v}})} +
                      int{!world.place(0, {.angular_velocity = v})} +
                      int{!world.place(0, {.orientation = {1.0, v.x, v.y, v.z}})};
@@ -162,23 +164,23 @@ protected:
 
 TEST_P(AnyProfile, RefusesWhatIsNoNumberInEveryInputAndGoesOnAsIfNothingHadBeen)
 {
-    World disturbed = world();
+    World on_body_placed = world();
     World calm = world();
-    play(disturbed, 100);
+    play(on_body_placed, 100);
     play(calm, 100);
     for (const double bad : {nan, -nan, infinity, -infinity, 1e30, -1e30, 1e308}) {
-        EXPECT_EQ(try_everywhere(disturbed, bad), 0) << bad;
-        EXPECT_EQ(disturbed.hash(), calm.hash());
-        play(disturbed, 5);
+        EXPECT_EQ(try_everywhere(on_body_placed, bad), 0) << bad;
+        EXPECT_EQ(on_body_placed.hash(), calm.hash());
+        play(on_body_placed, 5);
         play(calm, 5);
-        EXPECT_EQ(disturbed.hash(), calm.hash());
+        EXPECT_EQ(on_body_placed.hash(), calm.hash());
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Input, AnyProfile,
-                         testing::Values(Profile::flight, Profile::sliding,
-                                         Profile::sliding_coulomb, Profile::lone, Profile::few,
-                                         Profile::many),
+                         testing::Values(StepperKind::flight, StepperKind::sliding,
+                                         StepperKind::sliding_coulomb, StepperKind::lone,
+                                         StepperKind::few, StepperKind::many),
                          [](const auto& each) {
                              std::string name{name_of(each.param)};
                              std::erase(name, '-');
@@ -187,9 +189,9 @@ INSTANTIATE_TEST_SUITE_P(Input, AnyProfile,
 
 TEST(Sleepers, LieStillUntilWhatMovesTouchesThem)
 {
-    for (const Profile profile : {Profile::few, Profile::many}) {
+    for (const StepperKind kind : {StepperKind::few, StepperKind::many}) {
         const Description scene = on_a_floor({cube(glm::dvec3{0.0}), cube({0.1, 0.0, 0.0})});
-        World world = World::freeze(scene, {.profile = profile}).value();
+        World world = World::freeze(scene, {.stepper = kind}).value();
         for (int i = 0; i < 300; ++i) world.tick();
         ASSERT_FALSE(world.is_awake(0) || world.is_awake(1));
         EXPECT_EQ(fastest(world, 2), 0.0);
@@ -206,7 +208,7 @@ TEST(Sleepers, LieStillUntilWhatMovesTouchesThem)
                 EXPECT_EQ(world.body(1).position.x(), 0.1);
             }
         }
-        EXPECT_TRUE(was_touched) << name_of(profile);
+        EXPECT_TRUE(was_touched) << name_of(kind);
         for (int i = 0; i < 5; ++i) world.tick();
         EXPECT_GT(world.body(1).position.x(), 0.1);
     }

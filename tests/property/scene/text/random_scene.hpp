@@ -24,7 +24,7 @@ public:
         for (auto left = below(3); left > 0; --left) {
             drawn.planes.push_back({name(), unit(), within(reach_max_m), material()});
         }
-        drawn.hips = hips();
+        drawn.hands = hands();
         if (below(2) == 0) drawn.gravity = vector(gravity_max_m_per_s2);
         return drawn;
     }
@@ -95,16 +95,16 @@ private:
         return drawn;
     }
 
-    HipDescription hips()
+    HandDescription hands()
     {
-        HipDescription drawn;
+        HandDescription drawn;
         drawn.radius_m = between(size_min_m, size_max_m);
         drawn.stiffness_n_per_m = std::abs(within(stiffness_max_n_per_m));
         drawn.damping_ns_per_m = std::abs(within(damping_max_ns_per_m));
         drawn.force_max_n =
             below(3) == 0 ? std::numeric_limits<double>::infinity() : std::abs(within(force_max_n));
         drawn.grip_reach_m = std::abs(within(size_max_m));
-        drawn.count = static_cast<std::uint32_t>(below(hips_max + 1));
+        drawn.count = static_cast<std::uint32_t>(below(hands_max + 1));
         return drawn;
     }
 

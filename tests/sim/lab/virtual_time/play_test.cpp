@@ -63,12 +63,12 @@ TEST(Play, OfEqualPhasesGivesWhatBothSidesDidAtTheirTicks)
     sim::run_until_started(world);
     for (std::size_t i = 0; i < trace->sides[0].size(); ++i, world.step()) {
         for (const std::size_t side : {0U, 1U}) {
-            ASSERT_EQ(trace->sides[side][i].body, world.side(side).peer->body().position) << i;
-            ASSERT_EQ(trace->sides[side][i].on_hand, world.side(side).applied) << i;
+            ASSERT_EQ(trace->sides[side][i].body, world.side(side).peer().body().position) << i;
+            ASSERT_EQ(trace->sides[side][i].on_hand, world.side(side).told()) << i;
         }
     }
-    const bool both_run = world.side(0).last.phase == peer::Phase::running &&
-                          world.side(1).last.phase == peer::Phase::running;
+    const bool both_run = world.side(0).last().phase == peer::Phase::running &&
+                          world.side(1).last().phase == peer::Phase::running;
     EXPECT_FALSE(both_run) << "nothing is left out at the end";
     EXPECT_EQ(trace->task, Task::t3);
 }
@@ -82,7 +82,7 @@ TEST(Play, TakesTheRightSideAtTheLeftOnesTimes)
     ASSERT_TRUE(trace);
     VirtualWorld world{setting};
     sim::run_until_started(world); // R's tick at the start, and then L's first
-    ASSERT_EQ(world.now(), world.side(0).peer->session()->start + 250us);
+    ASSERT_EQ(world.now(), world.side(0).peer().session()->start + 250us);
     Sample before = world.side(1).sample();
     for (std::size_t i = 0; i < trace->sides[0].size(); ++i) {
         const Sample left = world.side(0).sample();

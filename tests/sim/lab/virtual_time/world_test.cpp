@@ -23,8 +23,8 @@ TEST(VirtualWorld, JumpsFromTickToTickOfEitherSide)
         world.step();
         EXPECT_EQ(world.now() - VirtualWorld::start, since_start);
     }
-    EXPECT_EQ(world.side(0).turned - VirtualWorld::start, 2300us);
-    EXPECT_EQ(world.side(1).turned - VirtualWorld::start, 2800us);
+    EXPECT_EQ(world.side(0).stepped_at - VirtualWorld::start, 2300us);
+    EXPECT_EQ(world.side(1).stepped_at - VirtualWorld::start, 2800us);
 }
 
 TEST(VirtualWorld, StampsADatagramWithTheTimeAtWhichItWasDueAndNotWithThatOfTheTick)
@@ -37,7 +37,7 @@ TEST(VirtualWorld, StampsADatagramWithTheTimeAtWhichItWasDueAndNotWithThatOfTheT
     sim::run_until_started(world);
     world.run_for(1s);
     for (const std::size_t side : {0U, 1U}) {
-        const auto clock = world.side(side).peer->clock();
+        const auto clock = world.side(side).peer().clock();
         ASSERT_TRUE(clock);
         EXPECT_EQ(clock->offset, side == 0 ? -5s : 5s);
         EXPECT_EQ(clock->uncertainty, 40'300us); // half the round trip, and no wait for a tick
@@ -49,10 +49,10 @@ TEST(VirtualWorld, LetsNothingBeSeenBeforeItsDelayHasPassed)
     Setting setting = under(Task::p1, {.delay = emulator::constant(25'600us)});
     setting.players[1].phase = 500us;
     VirtualWorld world{setting};
-    const auto touched = [&] { return world.side(0).last.touched.touching; };
+    const auto touched = [&] { return world.side(0).last().touched.touching; };
     while (!touched()) world.step();
     const base::TimePoint first = world.now();
-    while (!world.side(1).last.remote_touching) world.step();
+    while (!world.side(1).last().remote_touching) world.step();
     // Due 25.6 ms later, which is 0.1 ms after R's tick: seen at its next.
     EXPECT_EQ(world.now() - first, 26'500us);
 }
@@ -118,7 +118,7 @@ TEST(VirtualWorld, KeepsPairsFromEachOther)
     const std::array both{one, other};
     VirtualWorld together{both};
     EXPECT_EQ(hash_of_pair_0(together, nothing), expected);
-    EXPECT_EQ(together.side(3).last.phase, peer::Phase::running);
+    EXPECT_EQ(together.side(3).last().phase, peer::Phase::running);
 
     VirtualWorld troubled{both};
     const auto trouble = [](VirtualWorld& world) {
@@ -137,8 +137,8 @@ TEST(VirtualWorld, GivesEqualPairsEqualBits)
     sim::run_until_started(world);
     world.run_for(1s);
     for (const std::size_t side : {0U, 1U}) {
-        EXPECT_EQ(world.side(side).peer->position(), world.side(side + 2).peer->position());
-        EXPECT_EQ(world.side(side).applied, world.side(side + 2).applied);
+        EXPECT_EQ(world.side(side).peer().position(), world.side(side + 2).peer().position());
+        EXPECT_EQ(world.side(side).told(), world.side(side + 2).told());
     }
 }
 

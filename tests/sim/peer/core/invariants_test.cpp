@@ -90,13 +90,13 @@ void expect_invariants(const World& world)
                   link.delivered + link.dropped_total() + link.in_flight);
         ASSERT_LE(link.in_flight, 2000U); // 0.6 s at most, of a message or two each millisecond
         if (!world.is_alive(i)) continue;
-        const Side& side = world.side(i);
-        ASSERT_TRUE(base::is_finite(side.applied));
-        ASSERT_LE(base::norm(side.applied), 3.3 + 1e-12);
-        ASSERT_TRUE(base::is_finite(side.last.force));
-        ASSERT_TRUE(base::is_finite(side.peer->body().position));
-        ASSERT_LE(std::abs(side.peer->body().position.x()), 0.2);
-        const auto& counters = side.peer->counters();
+        const Player& side = world.side(i);
+        ASSERT_TRUE(base::is_finite(side.told()));
+        ASSERT_LE(base::norm(side.told()), 3.3 + 1e-12);
+        ASSERT_TRUE(base::is_finite(side.last().force));
+        ASSERT_TRUE(base::is_finite(side.peer().body().position));
+        ASSERT_LE(std::abs(side.peer().body().position.x()), 0.2);
+        const auto& counters = side.peer().counters();
         ASSERT_EQ(counters.malformed + counters.implausible + counters.unusable_hand, 0U);
     }
 }
@@ -114,17 +114,17 @@ TEST_P(Conditions, OfEveryKindLeaveForcesFiniteLinksAccountedForAndCopiesEqualIn
         return !testing::Test::HasFatalFailure();
     };
     // At 90 % loss in both directions the start takes about a second; 60 s is never reached.
-    for (int i = 0; i < 60'000 && !world.side(0).peer->session(); ++i) ASSERT_TRUE(step());
-    ASSERT_TRUE(world.side(0).peer->session());
-    const base::TimePoint start = world.side(0).peer->session()->start;
-    const base::Duration hands_on = world.side(0).peer->hands_on();
+    for (int i = 0; i < 60'000 && !world.side(0).peer().session(); ++i) ASSERT_TRUE(step());
+    ASSERT_TRUE(world.side(0).peer().session());
+    const base::TimePoint start = world.side(0).peer().session()->start;
+    const base::Duration hands_on = world.side(0).peer().hands_on();
     while (world.now() < start + hands_on + 2s)
         ASSERT_TRUE(step()) << world.now().time_since_epoch().count();
-    ASSERT_TRUE(world.side(1).peer->session());
+    ASSERT_TRUE(world.side(1).peer().session());
     EXPECT_LE(discrepancy_x(world), 0.1e-3);
     while (world.now() < start + length + 500ms) ASSERT_TRUE(step());
-    EXPECT_TRUE(world.side(0).peer->finished());
-    EXPECT_TRUE(world.side(1).peer->finished());
+    EXPECT_TRUE(world.side(0).peer().finished());
+    EXPECT_TRUE(world.side(1).peer().finished());
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, Conditions, testing::Range(std::uint64_t{0}, std::uint64_t{60}));
@@ -151,17 +151,17 @@ TEST_P(Deaths, OfEitherSideAtAnyTimeEndInOneSessionWithEqualCopies)
         world.revive(side);
     }
     const auto in_one_session = [&world] {
-        const auto& a = world.side(0).peer->session();
-        const auto& b = world.side(1).peer->session();
+        const auto& a = world.side(0).peer().session();
+        const auto& b = world.side(1).peer().session();
         return a && b && a->number == b->number;
     };
     world.run_for(10s);
     ASSERT_TRUE(in_one_session());
-    const base::TimePoint start = world.side(0).peer->session()->start;
-    while (world.now() < start + world.side(0).peer->hands_on() + 2s) world.step();
+    const base::TimePoint start = world.side(0).peer().session()->start;
+    while (world.now() < start + world.side(0).peer().hands_on() + 2s) world.step();
     expect_invariants(world);
     EXPECT_LE(discrepancy_x(world), 0.1e-3);
-    EXPECT_GT(world.side(0).last.freshness + world.side(1).last.freshness, 0.0);
+    EXPECT_GT(world.side(0).last().freshness + world.side(1).last().freshness, 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, Deaths, testing::Range(std::uint64_t{100}, std::uint64_t{140}));
@@ -173,14 +173,14 @@ TEST(Conditions, WhereOneOf100MessagesArrivesStillEndWithEqualCopies)
     setting.profile.path.up.loss = setting.profile.path.down.loss = {
         emulator::RandomLoss{base::Probability::from_fraction(0.99).value()}};
     World world{setting};
-    for (int ms = 0; ms < 120'000 && !world.side(1).peer->session(); ++ms) {
+    for (int ms = 0; ms < 120'000 && !world.side(1).peer().session(); ++ms) {
         world.step();
         expect_invariants(world);
     }
-    ASSERT_TRUE(world.side(1).peer->session());
-    const base::TimePoint start = world.side(0).peer->session()->start;
+    ASSERT_TRUE(world.side(1).peer().session());
+    const base::TimePoint start = world.side(0).peer().session()->start;
     ASSERT_LT(world.now(), start + 50s) << "the other side heard of the start too late to play";
-    while (world.now() < start + world.side(0).peer->hands_on() + 2s) world.step();
+    while (world.now() < start + world.side(0).peer().hands_on() + 2s) world.step();
     expect_invariants(world);
     EXPECT_LE(discrepancy_x(world), 0.1e-3);
 }

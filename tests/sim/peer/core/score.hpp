@@ -12,14 +12,14 @@
 namespace hapnet::sim {
 
 using World = lab::VirtualWorld;
-using Side = lab::VirtualPlayer;
+using Player = lab::VirtualPlayer;
 using lab::Setting;
 
 /// |x_A - x_B| of the cubes, metres.
 [[nodiscard]] inline double discrepancy_x(const World& world)
 {
-    return std::abs(world.side(0).peer->body().position.x() -
-                    world.side(1).peer->body().position.x());
+    return std::abs(world.side(0).peer().body().position.x() -
+                    world.side(1).peer().body().position.x());
 }
 
 /// Until both run, at most 10 s.
@@ -27,7 +27,7 @@ inline void run_until_started(World& world)
 {
     const auto end = world.now() + std::chrono::seconds{10};
     const auto runs = [&](std::size_t i) {
-        return world.side(i).last.phase == peer::Phase::running;
+        return world.side(i).last().phase == peer::Phase::running;
     };
     while (world.now() < end && !(runs(0) && runs(1))) world.step();
 }
@@ -69,10 +69,10 @@ struct Score {
 {
     Score score;
     run_until_started(world);
-    while (world.side(0).last.phase == peer::Phase::running) {
+    while (world.side(0).last().phase == peer::Phase::running) {
         score.discrepancy_mm.add(1e3 * discrepancy_x(world));
         for (const std::size_t i : {0U, 1U}) {
-            score.force_n.at(i).add(base::norm(world.side(i).applied));
+            score.force_n.at(i).add(base::norm(world.side(i).told()));
         }
         world.step();
     }
@@ -100,8 +100,8 @@ public:
     }
     void add(const World& world, std::size_t index)
     {
-        const Side& side = world.side(index);
-        for (const auto& v : {side.peer->body().position.value, side.applied.value}) {
+        const Player& side = world.side(index);
+        for (const auto& v : {side.peer().body().position.value, side.told().value}) {
             add(v.x);
             add(v.y);
             add(v.z);

@@ -50,8 +50,8 @@ TEST(Session, OfEveryTaskEndsWithEqualCopiesAndHandsOff)
         world.run_for(2s);
         EXPECT_LE(discrepancy_x(world), 0.1e-3) << device::name_of(task);
         for (const std::size_t i : {0U, 1U}) {
-            EXPECT_FALSE(world.side(i).last.touched.touching) << device::name_of(task);
-            EXPECT_EQ(world.side(i).applied, base::Force{}) << device::name_of(task);
+            EXPECT_FALSE(world.side(i).last().touched.touching) << device::name_of(task);
+            EXPECT_EQ(world.side(i).told(), base::Force{}) << device::name_of(task);
         }
     }
 }
@@ -83,7 +83,7 @@ TEST(Session, IsTheSameWhateverTheClocksOfItsSidesSay)
             hashes[i].add(world, 0);
             hashes[i].add(world, 1);
         }
-        EXPECT_EQ(world.side(1).peer->clock()->offset, -ahead[i]);
+        EXPECT_EQ(world.side(1).peer().clock()->offset, -ahead[i]);
     }
     EXPECT_EQ(hashes[0].value(), hashes[1].value());
     EXPECT_EQ(hashes[0].value(), hashes[2].value());

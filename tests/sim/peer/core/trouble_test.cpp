@@ -17,7 +17,7 @@ using peer::Phase;
 
 constexpr base::Duration delay = 40ms;
 
-bool told(const Side& side, Event event)
+bool told(const Player& side, Event event)
 {
     return std::find(side.events.begin(), side.events.end(), event) != side.events.end();
 }
@@ -29,7 +29,7 @@ World squeezing()
     run_until_started(world);
     world.run_for(3s);
     for (const std::size_t i : {0U, 1U}) {
-        EXPECT_GT(base::norm(world.side(i).applied), 0.1) << i;
+        EXPECT_GT(base::norm(world.side(i).told()), 0.1) << i;
     }
     return world;
 }
@@ -38,16 +38,16 @@ World squeezing()
 void expect_fade(World& world, std::size_t side)
 {
     world.run_for(delay + 250ms - 2ms);
-    EXPECT_TRUE(world.side(side).last.permitted);
+    EXPECT_TRUE(world.side(side).last().permitted);
     EXPECT_FALSE(told(world.side(side), Event::lost));
     world.run_for(50ms + 4ms);
-    EXPECT_EQ(world.side(side).applied, base::Force{});
+    EXPECT_EQ(world.side(side).told(), base::Force{});
     EXPECT_TRUE(told(world.side(side), Event::lost));
     for (int ms = 0; ms < 1000; ++ms) {
         world.step();
-        ASSERT_EQ(world.side(side).applied, base::Force{}) << ms;
+        ASSERT_EQ(world.side(side).told(), base::Force{}) << ms;
     }
-    EXPECT_EQ(world.side(side).last.phase, Phase::running); // and goes on
+    EXPECT_EQ(world.side(side).last().phase, Phase::running); // and goes on
 }
 
 class Death : public testing::TestWithParam<std::size_t> {};
@@ -66,11 +66,12 @@ TEST_P(Death, OfASideIsOverWhenItComesBackAndItTakesTheCubeOfTheOneThatStayed)
     World world = squeezing();
     world.kill(restarted);
     world.run_for(2s);
-    const base::TimePoint start = world.side(stayed).peer->session()->start;
-    const auto sequence = world.side(stayed).last.sequence;
+    const base::TimePoint start = world.side(stayed).peer().session()->start;
+    const auto sequence = world.side(stayed).last().sequence;
     world.revive(restarted);
     int ms = 0;
-    while (world.side(restarted).last.touched.touching || !world.side(restarted).last.permitted) {
+    while (world.side(restarted).last().touched.touching ||
+           !world.side(restarted).last().permitted) {
         world.step();
         // Until it has seen the cube it touches nothing; then it has it where the other has it,
         // up to what that one moved meanwhile.
@@ -80,16 +81,16 @@ TEST_P(Death, OfASideIsOverWhenItComesBackAndItTakesTheCubeOfTheOneThatStayed)
     world.run_for(3s);
     EXPECT_TRUE(told(world.side(restarted), Event::joined));
     EXPECT_TRUE(told(world.side(stayed), Event::restarted));
-    EXPECT_EQ(world.side(stayed).peer->session()->start, start);
-    EXPECT_EQ(world.side(restarted).peer->session()->start, start);
-    EXPECT_LT(world.side(stayed).last.sequence, sequence); // a new session, counted from 1
+    EXPECT_EQ(world.side(stayed).peer().session()->start, start);
+    EXPECT_EQ(world.side(restarted).peer().session()->start, start);
+    EXPECT_LT(world.side(stayed).last().sequence, sequence); // a new session, counted from 1
     for (const std::size_t i : {0U, 1U}) {
         // Both may feel again; whether they find the cube is another matter: hands that play a
         // script do not look for one that was dropped.
-        EXPECT_TRUE(world.side(i).last.permitted) << i;
-        EXPECT_EQ(world.side(i).last.phase, Phase::running) << i;
+        EXPECT_TRUE(world.side(i).last().permitted) << i;
+        EXPECT_EQ(world.side(i).last().phase, Phase::running) << i;
     }
-    while (world.side(0).last.phase == Phase::running) world.step();
+    while (world.side(0).last().phase == Phase::running) world.step();
     world.run_for(2s);
     EXPECT_LE(discrepancy_x(world), 0.1e-3);
 }
@@ -101,22 +102,22 @@ TEST(Cut, FadesBothForcesToZeroAndHeals)
     World world = squeezing();
     world.cut(true);
     expect_fade(world, 0);
-    EXPECT_EQ(world.side(1).applied, base::Force{});
+    EXPECT_EQ(world.side(1).told(), base::Force{});
     EXPECT_TRUE(told(world.side(1), Event::lost));
-    const auto session = world.side(0).peer->session()->number;
+    const auto session = world.side(0).peer().session()->number;
     world.cut(false);
     world.run_for(delay + 2ms);
     for (const std::size_t i : {0U, 1U}) {
         EXPECT_TRUE(told(world.side(i), Event::back)) << i;
         EXPECT_FALSE(told(world.side(i), Event::restarted)) << i;
-        EXPECT_LT(base::norm(world.side(i).applied), 0.1) << i; // ramps in, no kick
+        EXPECT_LT(base::norm(world.side(i).told()), 0.1) << i; // ramps in, no kick
     }
     world.run_for(1500ms);
     for (const std::size_t i : {0U, 1U}) {
-        EXPECT_GT(base::norm(world.side(i).applied), 0.1) << i;
-        EXPECT_EQ(world.side(i).peer->session()->number, session) << i;
+        EXPECT_GT(base::norm(world.side(i).told()), 0.1) << i;
+        EXPECT_EQ(world.side(i).peer().session()->number, session) << i;
     }
-    while (world.side(0).last.phase == Phase::running) world.step();
+    while (world.side(0).last().phase == Phase::running) world.step();
     world.run_for(2s);
     EXPECT_LE(discrepancy_x(world), 0.1e-3);
 }
@@ -126,22 +127,22 @@ TEST(Cut, BeforeTheStartOnlyDelaysIt)
     World world{under(Task::t3, {.delay = emulator::constant(delay)})};
     world.cut(true);
     world.run_for(5s);
-    EXPECT_EQ(world.side(0).last.phase, Phase::waiting);
+    EXPECT_EQ(world.side(0).last().phase, Phase::waiting);
     world.cut(false);
     world.run_for(2s);
-    EXPECT_EQ(world.side(0).last.phase, Phase::running);
-    EXPECT_EQ(world.side(1).last.phase, Phase::running);
+    EXPECT_EQ(world.side(0).last().phase, Phase::running);
+    EXPECT_EQ(world.side(1).last().phase, Phase::running);
 }
 
 TEST(Goodbye, FadesTheOthersForceWithin50MsOfItsArrival)
 {
     World world = squeezing();
-    world.side(0).peer->leave(wire::ByeReason::interrupted);
+    world.side(0).peer().leave(wire::ByeReason::interrupted);
     world.run_for(delay + 50ms + 4ms);
     EXPECT_TRUE(told(world.side(1), Event::left));
-    EXPECT_EQ(world.side(1).applied, base::Force{});
-    EXPECT_EQ(world.side(0).applied, base::Force{});
-    EXPECT_TRUE(world.side(0).peer->finished());
+    EXPECT_EQ(world.side(1).told(), base::Force{});
+    EXPECT_EQ(world.side(0).told(), base::Force{});
+    EXPECT_TRUE(world.side(0).peer().finished());
 }
 
 } // namespace

@@ -159,9 +159,9 @@ TEST(FalconStartup, SaysWhatIsMissingWhereThereIsNoFirmware)
         });
         const auto* refused = std::get_if<Refused>(&end);
         ASSERT_NE(refused, nullptr);
-        EXPECT_EQ(refused->trouble.fault, Fault::firmware_missing);
-        EXPECT_NE(refused->trouble.message.find("--falcon-firmware FILE"), std::string::npos);
-        EXPECT_NE(refused->trouble.message.find("Novint's"), std::string::npos);
+        EXPECT_EQ(refused->error.fault, Fault::firmware_missing);
+        EXPECT_NE(refused->error.message.find("--falcon-firmware FILE"), std::string::npos);
+        EXPECT_NE(refused->error.message.find("Novint's"), std::string::npos);
         EXPECT_EQ(conversation.said.size(), 10U);
     }
 }
@@ -192,7 +192,7 @@ TEST(FalconStartup, LoadsAgainWhenAnEchoIsWrongAndGivesUpAfterFiveTimes)
         } else {
             const auto* refused = std::get_if<Refused>(&end);
             ASSERT_NE(refused, nullptr);
-            EXPECT_EQ(refused->trouble.fault, Fault::communication);
+            EXPECT_EQ(refused->error.fault, Fault::communication);
             EXPECT_EQ(attempts, Startup::attempts_max);
         }
     }
@@ -221,7 +221,7 @@ TEST(FalconStartup, SaysSoWhenTheChipTakesNoRequest)
     startup.on_silence();
     const auto* refused = std::get_if<Refused>(&startup.step());
     ASSERT_NE(refused, nullptr);
-    EXPECT_EQ(refused->trouble.fault, Fault::communication);
+    EXPECT_EQ(refused->error.fault, Fault::communication);
 }
 
 } // namespace

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "device/governor/limits_text.hpp"
 
-#include "device/falcon/kinematics.hpp"
-#include "device/omni/geometry.hpp"
+#include "device/mechanisms.hpp"
 
 #include <gtest/gtest.h>
 
 namespace hapnet::device {
 namespace {
+
+base::Result<GovernorLimits> read_limits(std::string_view text)
+{
+    return parse_limits(text, "limits", known_mechanisms);
+}
 
 void expect_equal(const GovernorLimits& a, const GovernorLimits& b)
 {
@@ -24,13 +28,13 @@ void expect_equal(const GovernorLimits& a, const GovernorLimits& b)
     ASSERT_EQ(a.joints.has_value(), b.joints.has_value());
     if (a.joints) {
         EXPECT_EQ(a.joints->torque_max_nm, b.joints->torque_max_nm);
-        EXPECT_EQ(a.joints->jacobian, b.joints->jacobian);
+        EXPECT_EQ(a.joints->mechanism.jacobian, b.joints->mechanism.jacobian);
     }
 }
 
 TEST(LimitsText, ReadsBackToTheSameBitsWhetherThereAreLimitsOrNone)
 {
-    expect_equal(parse_limits(print_limits({}), "limits").value(), {});
+    expect_equal(read_limits(print_limits({})).value(), {});
     GovernorLimits all;
     all.force_max_n = 1.0 / 3.0;
     all.force_continuous_n = 0.1 + 0.2;
@@ -38,15 +42,15 @@ TEST(LimitsText, ReadsBackToTheSameBitsWhetherThereAreLimitsOrNone)
     all.axes_out = 2;
     all.workspace_min = {{-1.0 / 7.0, -0.06, 0.0}};
     all.workspace_max = {{1e-9 / 3.0, 0.06, 0.07}};
-    all.joints = JointLimits{omni::jacobian_at, omni::torque_max_nm};
-    expect_equal(parse_limits(print_limits(all), "limits").value(), all);
-    all.joints = JointLimits{falcon::jacobian, glm::dvec3{0.4096}};
-    expect_equal(parse_limits(print_limits(all), "limits").value(), all);
+    all.joints = JointLimits{omni::mechanism, omni::torque_max_nm};
+    expect_equal(read_limits(print_limits(all)).value(), all);
+    all.joints = JointLimits{falcon::mechanism, glm::dvec3{0.4096}};
+    expect_equal(read_limits(print_limits(all)).value(), all);
 }
 
 TEST(LimitsText, NamesTheLineOfWhatItDoesNotKnow)
 {
-    const auto read = parse_limits("force_max = \"3N\"\nforce_min = \"1N\"\n", "limits");
+    const auto read = read_limits("force_max = \"3N\"\nforce_min = \"1N\"\n");
     ASSERT_FALSE(read.has_value());
     EXPECT_TRUE(read.error().message.starts_with("limits:2:")) << read.error().message;
 }
@@ -54,7 +58,7 @@ TEST(LimitsText, NamesTheLineOfWhatItDoesNotKnow)
 /// What is said to a line besides limits that are good, or "" where it is taken.
 std::string refusal_of_limits(const std::string& line)
 {
-    const auto read = parse_limits("force_max = \"3N\"\n" + line + "\n", "limits");
+    const auto read = read_limits("force_max = \"3N\"\n" + line + "\n");
     return read ? "" : read.error().message;
 }
 
@@ -95,28 +99,31 @@ TEST(LimitsText, RefusesWhatWouldMakeARuleMeaninglessAndSaysWhatIsPossible)
 
 TEST(LimitsText, TakesNoForceAtAllAndAPeakBelowTheContinuousForce)
 {
-    EXPECT_TRUE(parse_limits("force_max = \"0N\"\nforce_continuous = \"0N\"\n", "l").has_value());
+    EXPECT_TRUE(read_limits("force_max = \"0N\"\nforce_continuous = \"0N\"\n").has_value());
     EXPECT_EQ(refusal_of_limits("force_continuous = \"4N\""), "");
     for (const char* peak : {"-1N", "41N", "infN", "nanN"}) {
-        EXPECT_FALSE(parse_limits(std::string{"force_max = \""} + peak + "\"\n", "l")) << peak;
+        EXPECT_FALSE(read_limits(std::string{"force_max = \""} + peak + "\"\n")) << peak;
     }
 }
 
 TEST(LimitsText, RefusesWhatContradictsItself)
 {
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"force_continuous = \"0N\"", "force_continuous is zero"},
-        {"tick = \"5ms\"\nstall_max = \"5ms\"", "stall_max has to be longer than tick"},
-        {"fault_after = \"19ms\"", "fault_after cannot be before stall_max"},
+        {"force_continuous = \"0N\"", "force_continuous is 0"},
+        {"tick = \"5ms\"\nstall_max = \"5ms\"", "stall_max must be longer than tick"},
+        {"fault_after = \"19ms\"", "fault_after must not be shorter than stall_max"},
         {"workspace_min.x = \"1mm\"\nworkspace_max.x = \"1mm\"", "workspace_min"},
         {"workspace_min.x = \"11m\"", "-10m to 10m"},
-        {"axes_out = 1.5", "axes_out is a whole number"},
+        {"axes_out = 1.5", "axes_out must be a whole number"},
         {"axes_out = 4.0", "3"},
         {"axes_out = -1.0", "3"},
         {"omni_torque_max.x = \"1N\"", "all of x, y and z"},
         {"falcon_torque_max.y = \"1N\"", "all of x, y and z"},
         {"omni_torque_max = { x = \"0N\", y = \"1N\", z = \"1N\" }", "100N"},
-        {"omni_torque_max.x = \"1N\"\nfalcon_torque_max.x = \"1N\"", "but one arm"}};
+        {"omni_torque_max = { x = \"1N\", y = \"1N\", z = \"1N\" }\n"
+         "falcon_torque_max = { x = \"1N\", y = \"1N\", z = \"1N\" }",
+         "only one arm"},
+        {"delta_torque_max.x = \"1N\"", "unknown key"}};
     for (const auto& [line, said] : cases) {
         const std::string refusal = refusal_of_limits(line);
         EXPECT_TRUE(refusal.starts_with("limits:")) << line << " -> " << refusal;
@@ -126,14 +133,14 @@ TEST(LimitsText, RefusesWhatContradictsItself)
 
 TEST(GovernorLimits, OfEveryKindOfDeviceAreWithoutContradiction)
 {
-    EXPECT_EQ(contradiction_in({}), "");
-    EXPECT_EQ(contradiction_in(limits_for({.axes_out = 0}, {})), "");
-    EXPECT_EQ(contradiction_in(limits_for({.force_max_n = 8.0}, {.force_max_n = 0.0})), "");
-    EXPECT_NE(contradiction_in({.force_max_n = -1.0}), "");
-    EXPECT_NE(contradiction_in({.fade_out = base::Duration{0}}), "");
-    EXPECT_NE(contradiction_in({.heat_time = base::Duration{0}}), "");
-    EXPECT_NE(contradiction_in({.slew_ramping_n_per_s = 0.0}), "");
-    EXPECT_NE(contradiction_in({.speed_max_m_per_s = 0.0}), "");
+    EXPECT_TRUE(validate(GovernorLimits{}));
+    EXPECT_TRUE(validate(limits_for({.axes_out = 0}, {})));
+    EXPECT_TRUE(validate(limits_for({.force_max_n = 8.0}, {.force_max_n = 0.0})));
+    EXPECT_FALSE(validate(GovernorLimits{.force_max_n = -1.0}));
+    EXPECT_FALSE(validate(GovernorLimits{.fade_out = base::Duration{0}}));
+    EXPECT_FALSE(validate(GovernorLimits{.heat_time = base::Duration{0}}));
+    EXPECT_FALSE(validate(GovernorLimits{.slew_ramping_n_per_s = 0.0}));
+    EXPECT_FALSE(validate(GovernorLimits{.speed_max_m_per_s = 0.0}));
 }
 
 } // namespace

@@ -3,7 +3,7 @@
 #include "device/hid/pid_opening.hpp"
 #include "device/hid/pid_reports.hpp"
 #include "device/hid/pid_sender.hpp"
-#include "device/hid/seen.hpp"
+#include "device/hid/recognise.hpp"
 #include "device/hid/usages.hpp"
 #include "tests/support/hid/memory_pid.hpp"
 
@@ -120,7 +120,8 @@ TEST(PidLayout, LeavesOutAnAxisYThatNoEffectPlaysOnAsThatOfAPedal)
     EXPECT_EQ(axes(with({0x09, 0x30, 0x09, 0x31, 0x15}, {0x09, 0x30, 0x09, 0x32, 0x15})), 1U);
 }
 
-TEST(Seen, AForceDeviceIsKnownByItsDescriptionAndASpaceMouseByItsIdentityAndNothingElseIs)
+TEST(RecognisedDevice,
+     AForceDeviceIsKnownByItsDescriptionAndASpaceMouseByItsIdentityAndNothingElseIs)
 {
     const auto seen = [](std::uint16_t vendor, std::uint16_t product, std::vector<std::byte> d) {
         return recognise({.path = "/dev/hidraw3",

@@ -22,7 +22,7 @@ struct Teller {
     const Sample& say(const Counts& counts, bool docked, std::uint32_t skipped = 0)
     {
         now += 1ms;
-        tracker.on_word({counts, docked, 0, skipped}, now);
+        tracker.on_report({counts, docked, 0, skipped}, now);
         return tracker.at(now);
     }
     void dock()

@@ -62,7 +62,7 @@ TEST(OmniProfile, NamesFileLineAndWhatWouldBeRight)
 TEST(OmniDrive, IsReadOnlyUntilSomeoneAsksForMore)
 {
     const Drive drive{Use::read_only, {}};
-    EXPECT_EQ(drive.words_for(omni::torque_max_nm), glm::ivec3{0});
+    EXPECT_EQ(drive.motor_words(omni::torque_max_nm), glm::ivec3{0});
     Capabilities can;
     drive.describe(can);
     EXPECT_EQ(can.axes_out, 0);
@@ -73,7 +73,7 @@ TEST(OmniDrive, IsReadOnlyUntilSomeoneAsksForMore)
 TEST(OmniDrive, UsesNoMoreThanAQuarterOfTheCountsUncalibrated)
 {
     const Drive drive{Use::uncalibrated, {}};
-    const glm::ivec3 words = drive.words_for({10.0, -4.0, 0.1});
+    const glm::ivec3 words = drive.motor_words({10.0, -4.0, 0.1});
     // The direction stays, by counts that are of another size at the waist.
     EXPECT_EQ(words, glm::ivec3(511, std::lround(-0.4 * 0.16835 / 0.13335 * 511), 6));
     Capabilities can;
@@ -81,14 +81,14 @@ TEST(OmniDrive, UsesNoMoreThanAQuarterOfTheCountsUncalibrated)
     EXPECT_NEAR(can.force_max_n, 3.3 / 4, 0.01);
     EXPECT_FALSE(can.force_is_calibrated);
     // 3.3 N on 0.133 m for 2047 counts.
-    EXPECT_EQ(drive.words_for({0.0, 3.3 * 0.13335 / 2047, 0.0}), glm::ivec3(0, 1, 0));
+    EXPECT_EQ(drive.motor_words({0.0, 3.3 * 0.13335 / 2047, 0.0}), glm::ivec3(0, 1, 0));
 }
 
 TEST(OmniDrive, UsesAllTheCountsByAMeasuredTable)
 {
     const Drive drive{Use::measured, *parse_profile(whole_profile, "omni.toml")};
-    EXPECT_EQ(drive.words_for({0.02, 0.01, -0.005}), glm::ivec3(100, -100, -50));
-    EXPECT_EQ(drive.words_for({2.0, 0.0, 0.0}), glm::ivec3(2047, 0, 0));
+    EXPECT_EQ(drive.motor_words({0.02, 0.01, -0.005}), glm::ivec3(100, -100, -50));
+    EXPECT_EQ(drive.motor_words({2.0, 0.0, 0.0}), glm::ivec3(2047, 0, 0));
     EXPECT_NEAR(drive.torque_max_nm().y, 0.2047, 1e-12);
     Capabilities can;
     drive.describe(can);
@@ -102,8 +102,8 @@ TEST(OmniDrive, SaysZeroForWhatIsNotFinite)
     const Drive drive{Use::uncalibrated, {}};
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(drive.words_for({nan, 0.1, 0.1}), glm::ivec3{0});
-    EXPECT_EQ(drive.words_for({0.1, -infinite, 0.1}), glm::ivec3{0});
+    EXPECT_EQ(drive.motor_words({nan, 0.1, 0.1}), glm::ivec3{0});
+    EXPECT_EQ(drive.motor_words({0.1, -infinite, 0.1}), glm::ivec3{0});
 }
 
 } // namespace

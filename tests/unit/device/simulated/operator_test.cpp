@@ -49,20 +49,19 @@ TEST(Operator, IsReadFromWhatDiffersFromAPreset)
     ASSERT_TRUE(person);
     EXPECT_EQ(person->name, "old hand");
     EXPECT_EQ(person->hand, (HandImpedance{0.25, 7.0, 500.0}));
-    EXPECT_EQ(person->tremor, (Unrest{2e-4, 8.0, 12.0}));
+    EXPECT_EQ(person->tremor, (InvoluntaryMotion{2e-4, 8.0, 12.0}));
     EXPECT_EQ(person->force_noise, 4_percent);
     EXPECT_EQ(person->reflex, (Reflex{0.25, 45ms}));
-    EXPECT_EQ(person->will, Operator{}.will);
+    EXPECT_EQ(person->intent, Operator{}.intent);
 }
 
 TEST(Operator, IsRefusedWithFileAndLine)
 {
     EXPECT_EQ(complaint("mass = \"200g\"\nstifness = \"2N/m\"\n"),
               "hand.toml:2:1: unknown key \"stifness\": did you mean 'stiffness'?");
-    EXPECT_EQ(complaint("mass = \"0g\""),
-              "hand.toml:1:8: \"0g\" is out of range: 20g to 10kg is possible here");
+    EXPECT_EQ(complaint("mass = \"0g\""), "hand.toml:1:8: \"0g\" is out of range: use 20g to 10kg");
     EXPECT_EQ(complaint("will.delay = \"2s\""),
-              "hand.toml:1:14: \"2s\" is out of range: 0ms to 1s is possible here");
+              "hand.toml:1:14: \"2s\" is out of range: use 0ms to 1s");
     EXPECT_EQ(complaint("preset = \"fierce\"").substr(0, 15), "hand.toml:1:10:");
 }
 
@@ -93,7 +92,7 @@ TEST(Operator, VariesEveryParameterEvenlyOverThirtyPercentOfItself)
     EXPECT_EQ(slices([](const Operator& o) { return o.hand.damping_ns_per_m; }), all);
     EXPECT_EQ(slices([](const Operator& o) { return o.hand.stiffness_n_per_m; }), all);
     EXPECT_EQ(slices([](const Operator& o) { return o.force_noise.fraction(); }), all);
-    EXPECT_EQ(slices([](const Operator& o) { return base::to_seconds(o.will.delay); }), all);
+    EXPECT_EQ(slices([](const Operator& o) { return base::to_seconds(o.intent.delay); }), all);
     EXPECT_EQ(varied(person, base::Seed{1}, 4, of), varied(person, base::Seed{1}, 4, of));
     EXPECT_EQ(varied({}, base::Seed{1}, 4, of).reflex.gain, 0.0);
 }
@@ -115,9 +114,9 @@ TEST(HandNoise, OfTheForceHasItsStandardDeviation)
     EXPECT_EQ(noise.at(1.0).away_m, (HandNoise{base::Seed{5}, 1, {}}.at(1.0).away_m));
 }
 
-TEST(DelayLine, SaysWhatWasSoLongAgoAndHoldsInBetween)
+TEST(SignalHistory, SaysWhatWasSoLongAgoAndHoldsInBetween)
 {
-    DelayLine line;
+    SignalHistory line;
     const base::TimePoint start{1h};
     EXPECT_EQ(line.at(start).x, 0.0);
     for (int ms = 0; ms < 3000; ++ms) {
@@ -173,7 +172,7 @@ TEST(TaskOptions, AreReadAndPrintedWithTheirUnits)
     EXPECT_EQ(read_task_options(*document, reading), options);
     const auto wrong = base::parse_document("pace = 5");
     EXPECT_FALSE(read_task_options(*wrong, reading));
-    EXPECT_EQ(*reading.complaint(), "task:1:8: 5 is out of range: 0.1 to 2 is possible here");
+    EXPECT_EQ(*reading.complaint(), "task:1:8: 5 is out of range: use 0.1 to 2");
 }
 
 } // namespace

@@ -129,7 +129,7 @@ TEST(Tasks, HaveNames)
     }
     const auto unknown = task_named("P2");
     ASSERT_FALSE(unknown);
-    EXPECT_EQ(unknown.error().message, "'P2' is not a task; known: P1, T1, T2, T3, T4, T5, T6");
+    EXPECT_EQ(unknown.error().message, "unknown task 'P2': use P1, T1, T2, T3, T4, T5, T6");
 }
 
 TEST(TaskP1, LetsTheLeftHandAloneHoldTheCubeWhileTheHandsAreOn)

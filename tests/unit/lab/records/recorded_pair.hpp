@@ -2,17 +2,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/governor.hpp"
 #include "device/governor/limits_text.hpp"
+#include "device/rig.hpp"
+#include "peer/core/side.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/record/reader.hpp"
 #include "scene/text/text.hpp"
+#include "tests/support/device/scripted_hand.hpp"
 #include "tests/unit/peer/core/pair.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <utility>
+#include <vector>
 
 namespace hapnet::lab {
 
@@ -54,68 +59,79 @@ public:
     {
         peer::Settings settings = peer::settings_of(0);
         settings.stiffness_max_n_per_m = stiffness_max_n_per_m;
-        pair_.start(0, settings);
+        players_[0].side = std::make_unique<peer::Side>(settings);
         record_.config["stiffness_max_n_per_m"] = stiffness_max_n_per_m;
     }
 
     record::Record play(int ticks)
     {
         for (int i = 0; i < ticks; ++i) {
-            const double sway = 0.004 * std::sin(0.01 * i);
-            const base::Velocity speed{{0.04 * std::cos(0.01 * i), 0.0, 0.0}};
-            device::Sample sample;
-            sample.hip = peer::pushing(0.003 + sway).hip;
-            sample.velocity = speed;
-            sample.sequence = static_cast<std::uint64_t>(i) + 1;
-            if (fate_) fate_(i, sample, governor_);
-            pair_.hands[0] = {sample.hip, sample.velocity, sample.gripping, is_in_hand(sample)};
-            pair_.hands[1] = {.hip = {{0.022 + sway, 0.0, 0.0}}, .velocity = speed};
-            note_messages(static_cast<std::uint64_t>(i));
-            pair_.step();
-            note_tick(static_cast<std::uint64_t>(i), sample);
+            now_ += std::chrono::milliseconds{1};
+            place_hands(i);
+            const auto number = static_cast<std::uint64_t>(i);
+            deliver(number);
+            for (const std::size_t side : {0U, 1U}) {
+                players_[side].side->step(now_, players_[side].rig);
+                while (const auto datagram = players_[side].side->poll()) {
+                    players_[1 - side].inbox.push_back(*datagram);
+                }
+            }
+            record_.ticks.push_back(players_[0].side->row(number, {.due = now_}));
         }
         return record_;
     }
 
 private:
-    void note_messages(std::uint64_t tick)
+    struct Player {
+        explicit Player(std::size_t number)
+            : side{std::make_unique<peer::Side>(peer::settings_of(number))}
+        {}
+
+        std::unique_ptr<peer::Side> side;
+        device::Rig rig{std::make_unique<device::ScriptedHand>(), limits_of_recorded_pair()};
+        std::vector<wire::Datagram> inbox{};
+    };
+
+    [[nodiscard]] device::Sample& sample(std::size_t side)
     {
-        for (const wire::Message& message : pair_.sent[1]) {
-            const auto datagram = wire::encode(message);
-            record::MessageRow row{.tick = tick,
-                                   .received_at = pair_.now + std::chrono::milliseconds{1},
-                                   .size = static_cast<std::uint16_t>(datagram.bytes().size())};
-            std::ranges::copy(datagram.bytes(), row.bytes.begin());
-            record_.messages.push_back(row);
+        return dynamic_cast<device::ScriptedHand&>(players_[side].rig.device()).sample;
+    }
+
+    void place_hands(int tick)
+    {
+        const double sway = 0.004 * std::sin(0.01 * tick);
+        for (const std::size_t side : {0U, 1U}) {
+            sample(side) = {};
+            sample(side).velocity = {{0.04 * std::cos(0.01 * tick), 0.0, 0.0}};
+            sample(side).sequence = static_cast<std::uint64_t>(tick) + 1;
+        }
+        sample(0).hip = peer::pushing(0.003 + sway).hip;
+        sample(1).hip = {{0.022 + sway, 0.0, 0.0}};
+        if (fate_) fate_(tick, sample(0), players_[0].rig.governor());
+    }
+
+    void deliver(std::uint64_t tick)
+    {
+        for (const std::size_t side : {0U, 1U}) {
+            for (const wire::Datagram& datagram : std::exchange(players_[side].inbox, {})) {
+                players_[side].side->on_datagram(datagram.bytes(), now_);
+                if (side == 0) note(datagram, tick);
+            }
         }
     }
 
-    void note_tick(std::uint64_t tick, const device::Sample& sample)
+    void note(const wire::Datagram& datagram, std::uint64_t tick)
     {
-        const peer::Tick& played = pair_.ticks[0];
-        record::TickRow row;
-        row.tick = tick;
-        row.due = pair_.now;
-        row.phase = played.phase == peer::Phase::running ? record::Phase::running
-                                                         : record::Phase::countdown;
-        row.hip = sample.hip;
-        row.hip_velocity = sample.velocity;
-        row.gripping = sample.gripping;
-        row.docked = sample.docked;
-        row.calibrated = sample.calibrated;
-        row.buttons = sample.buttons;
-        row.fault = static_cast<std::uint8_t>(sample.fault);
-        row.presses = sample.presses;
-        row.sample_sequence = static_cast<std::uint16_t>(sample.sequence);
-        row.contact = played.force;
-        row.device = governor_.govern({row.contact, played.permitted}, sample, pair_.now).force();
-        row.governor = static_cast<std::uint8_t>(governor_.state());
-        record_.ticks.push_back(row);
+        record::MessageRow row{.tick = tick,
+                               .received_at = now_,
+                               .size = static_cast<std::uint16_t>(datagram.bytes().size())};
+        std::ranges::copy(datagram.bytes(), row.bytes.begin());
+        record_.messages.push_back(row);
     }
 
     Fate fate_;
-    peer::Pair pair_;
-    device::Governor governor_{limits_of_recorded_pair()};
+    base::TimePoint now_{std::chrono::hours{1}};
+    std::array<Player, 2> players_{Player{0}, Player{1}};
     record::Record record_;
 };
 

@@ -73,7 +73,7 @@ TEST(TwinOf, NamesWhatAProgramDidNotSay)
     session = as_written();
     session.files.peer["grip_damping_ns_per_m"] = 2.0;
     EXPECT_EQ(twin_of(session, {}).error().message,
-              "virtual time knows no other grip damping than the default");
+              "virtual time supports only the default grip damping");
 }
 
 TEST(RealTime, IsComparedWithTheTwinAsItPlays)

@@ -19,9 +19,9 @@ bool says(const std::string& text, std::string_view words)
 TEST(Explain, ThePapersSceneSlidesAsItsCubeCannotTurn)
 {
     const auto explanation = explain(scene::paper_scene(), 1ms, true);
-    EXPECT_EQ(explanation.profile, scene::Profile::sliding);
+    EXPECT_EQ(explanation.profile, scene::StepperKind::sliding);
     ASSERT_EQ(explanation.cheaper.size(), 1U);
-    EXPECT_EQ(explanation.cheaper[0].profile, scene::Profile::flight);
+    EXPECT_EQ(explanation.cheaper[0].profile, scene::StepperKind::flight);
     EXPECT_DOUBLE_EQ(explanation.hand_factor.value(), 500.0 * 1e-6 / 0.1);
     const auto text = to_table(explanation);
     EXPECT_TRUE(says(text, "movable 1 (100g); fixed 1; planes 1")) << text;
@@ -40,7 +40,7 @@ TEST(Explain, EveryFeatureThatIsOnHasACheaperTickThatLacksIt)
     description.bodies[1].mass_kg = 100.0;
     description.bodies[1].movable = true;
     const auto explanation = explain(description, 4ms, true);
-    EXPECT_EQ(explanation.profile, scene::Profile::many);
+    EXPECT_EQ(explanation.profile, scene::StepperKind::many);
     EXPECT_EQ(explanation.cheaper.size(), 5U);
     for (const CheaperTick& tick : explanation.cheaper) EXPECT_FALSE(tick.lacks.empty());
     EXPECT_DOUBLE_EQ(explanation.hand_factor.value(), 500.0 * 16e-6 / 0.1);
@@ -50,8 +50,8 @@ TEST(Explain, EveryFeatureThatIsOnHasACheaperTickThatLacksIt)
 TEST(Explain, ASceneWithoutHandsHasNothingToSayOfThem)
 {
     scene::Description description;
-    description.hips.count = 0;
-    description.hips.force_max_n = std::numeric_limits<double>::infinity();
+    description.hands.count = 0;
+    description.hands.force_max_n = std::numeric_limits<double>::infinity();
     const auto explanation = explain(description, 1ms, true);
     EXPECT_TRUE(says(to_table(explanation), "hands   none"));
     const auto json = to_json(explanation);

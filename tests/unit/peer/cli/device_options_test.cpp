@@ -74,6 +74,24 @@ TEST(DeviceOptions, OfAnotherDeviceAreRefusedNamingBoth)
     }
 }
 
+TEST(DeviceOptions, AnUnknownDeviceIsRefusedWithThoseThatThereAre)
+{
+    const std::string refusal = refusal_of({"--device", "x"});
+    expect_said(refusal, {"--device: unknown device 'x': use one of sim, sim:joints, replay:FILE, ",
+                          "omni1394[:SERIAL]", "hapnet-peer list-devices"});
+    EXPECT_EQ(refusal.find(device::never_run), std::string::npos);
+}
+
+TEST(DeviceOptions, ADeviceByItsPopularNameIsRefusedWithItsBackend)
+{
+    EXPECT_EQ(refusal_of({"--device", "touch"}),
+              "--device: unknown device 'touch': a Touch is opened through its vendor's library: "
+              "use --device hdapi[:NAME]");
+    for (const char* name : {"omni", "phantom", "omni:1"}) {
+        expect_said(refusal_of({"--device", name}), {"use --device omni1394 for", "hdapi[:NAME]"});
+    }
+}
+
 TEST(DeviceOptions, ThatDoNothingForALookAroundAreNotOffered)
 {
     EXPECT_EQ(refusal_of({"list-devices", "--hid-force", "5N", "--hd-library", "libHD.so"}), "");

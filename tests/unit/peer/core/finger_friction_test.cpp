@@ -9,20 +9,20 @@
 namespace hapnet::peer {
 namespace {
 
-scene::HipDescription rough_hips()
+scene::HandDescription rough_hips()
 {
-    scene::HipDescription hips;
+    scene::HandDescription hips;
     hips.friction = 0.6;
     return hips;
 }
 
-scene::HipInput hand_at(glm::dvec3 position, glm::dvec3 velocity = glm::dvec3{0.0})
+scene::HandInput hand_at(glm::dvec3 position, glm::dvec3 velocity = glm::dvec3{0.0})
 {
     return {.position = {position}, .velocity = {velocity}};
 }
 
 /// Pressing toward +x with so much.
-scene::HipTouch pressing(double newtons)
+scene::HandTouch pressing(double newtons)
 {
     return {.touching = true, .on_body = {{newtons, 0.0, 0.0}}};
 }
@@ -73,7 +73,7 @@ TEST(FingerFriction, ForgetsAHandThatIsNotThere)
     FingerFriction friction{rough_hips()};
     friction.on_touch(pressing(1.0));
     std::ignore = friction.on_body(hand_at({0.0, 0.0, 0.0}), {});
-    scene::HipInput gone = hand_at({0.0, 0.5, 0.0});
+    scene::HandInput gone = hand_at({0.0, 0.5, 0.0});
     gone.present = false;
     EXPECT_EQ(friction.on_body(gone, {}), base::Force{});
     EXPECT_EQ(friction.on_body(hand_at({0.0, 0.001, 0.0}), {}), base::Force{});
@@ -84,7 +84,7 @@ TEST(FrictionOfHips, ChangesTheHashOfASceneOnlyWhereThereIsSome)
     scene::Description scene = scene::paper_scene();
     EXPECT_EQ(scene::hash(scene), 4717034690440187950U); // as before there was any
     const auto smooth = scene::hash(scene);
-    scene.hips.friction = 0.6;
+    scene.hands.friction = 0.6;
     EXPECT_NE(scene::hash(scene), smooth);
 }
 
@@ -92,11 +92,11 @@ TEST(FrictionOfHips, IsReadPrintedAndChecked)
 {
     const auto scene = scene::parse_scene("[hips]\nfriction = 0.6\n", "s.toml");
     ASSERT_TRUE(scene);
-    EXPECT_EQ(scene->hips.friction, 0.6);
+    EXPECT_EQ(scene->hands.friction, 0.6);
     EXPECT_EQ(scene::parse_scene(scene::to_text(*scene), "s.toml"), *scene);
     EXPECT_FALSE(scene::parse_scene("[hips]\nfriction = -0.1\n", "s.toml"));
     scene::Description wrong = scene::paper_scene();
-    wrong.hips.friction = 11.0;
+    wrong.hands.friction = 11.0;
     EXPECT_EQ(check(wrong).error().message, "hips: friction is 11; it can be 0 to 10");
 }
 
@@ -120,7 +120,7 @@ TEST(SceneLift, LetsTwoFingersLiftTheCubeOffThePlatformAndItComesBack)
                 const auto hand =
                     hand_at({x, finger_from + 1e-3 * ms * speed, 0.0}, {0.0, speed, 0.0});
                 world->push(0, friction[i].on_body(hand, world->body(0)));
-                world->hip(i, hand);
+                world->set_hand(i, hand);
             }
             world->tick();
             for (const std::uint32_t i : {0U, 1U}) friction[i].on_touch(world->touch(i));

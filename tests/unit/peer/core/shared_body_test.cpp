@@ -26,9 +26,9 @@ TEST(SharedBody, IsRefusedWhenThereAreMoreOrNone)
 {
     scene::Description scene = scene::paper_scene();
     scene.bodies.resize(4, scene.bodies[0]);
-    EXPECT_EQ(refusal_of(scene), "a session shares one movable body so far; this scene has 3");
+    EXPECT_EQ(refusal_of(scene), "a session needs exactly one movable body; this scene has 3");
     for (auto& body : scene.bodies) body.movable = false;
-    EXPECT_EQ(refusal_of(scene), "a session shares one movable body so far; this scene has none");
+    EXPECT_EQ(refusal_of(scene), "a session needs exactly one movable body; this scene has none");
     EXPECT_NE(refusal_of(scene::Description{}), "");
 }
 
@@ -44,9 +44,9 @@ TEST(SharedBody, IsRefusedWhenItCanTurn)
 TEST(SharedBody, NeedsAHandAndANumberThatAMessageCanTell)
 {
     scene::Description scene = scene::paper_scene();
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     EXPECT_NE(refusal_of(scene).find("hand"), std::string::npos);
-    scene.hips.count = 1;
+    scene.hands.count = 1;
     EXPECT_EQ(refusal_of(scene), "");
     scene.bodies.insert(scene.bodies.begin(), 65'535, scene.bodies[1]);
     EXPECT_EQ(shared_body(scene), 65'535U);
@@ -54,12 +54,12 @@ TEST(SharedBody, NeedsAHandAndANumberThatAMessageCanTell)
     EXPECT_NE(refusal_of(scene).find("65536"), std::string::npos);
 }
 
-TEST(SharedBody, KeepsItsOrientationWhenItIsPut)
+TEST(SharedBody, KeepsItsOrientationWhenItIsPlaced)
 {
     scene::Description scene = scene::paper_scene();
     scene.bodies[0].orientation = {0.8, 0.0, 0.6, 0.0};
     auto world = scene::World::freeze(scene).value();
-    put(world, 0, {{0.01, 0.02, 0.03}}, {{0.1, 0.0, 0.0}});
+    world.place(0, {{0.01, 0.02, 0.03}}, {{0.1, 0.0, 0.0}});
     EXPECT_EQ(world.body(0).position, (base::Position{{0.01, 0.02, 0.03}}));
     EXPECT_EQ(world.body(0).velocity, (base::Velocity{{0.1, 0.0, 0.0}}));
     EXPECT_EQ(world.body(0).orientation, (glm::dquat{0.8, 0.0, 0.6, 0.0}));

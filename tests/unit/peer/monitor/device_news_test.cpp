@@ -23,7 +23,7 @@ using device::Trip;
 constexpr base::TimePoint noon{12h};
 constexpr Latched cable{Fault::communication, Trip::device};
 
-constexpr WaysBack an_omni{.by_holder = true};
+constexpr Recovery an_omni{.by_holder = true};
 
 TEST(DeviceReporter, SaysNothingOfADeviceThatIsWell)
 {
@@ -38,14 +38,14 @@ TEST(DeviceReporter, TellsAFaultAtOnceAndOnceAndItsEnd)
     DeviceReporter reporter{an_omni};
     const auto fault = reporter.look(CalibrationStep::done, cable, noon);
     ASSERT_TRUE(fault);
-    EXPECT_EQ(words_for(*fault),
+    EXPECT_EQ(describe(*fault),
               "zero force (communication): the device was not understood: check its cable, and use "
               "no hub; to feel force again put the stylus into its holder, or hold it still for a "
               "second and press its button");
     EXPECT_FALSE(reporter.look(CalibrationStep::done, cable, noon + 5s));
     const auto end = reporter.look(CalibrationStep::done, {}, noon + 6s);
     ASSERT_TRUE(end);
-    EXPECT_EQ(words_for(*end), "the device is well again: force ramps in");
+    EXPECT_EQ(describe(*end), "the device is well again: force ramps in");
 }
 
 TEST(DeviceReporter, TellsNoMoreThanOnceASecondOfWhatComesAndGoesAndThenHowItIs)
@@ -70,11 +70,11 @@ TEST(DeviceReporter, TellsThePersonWhatACalibrationNeeds)
     DeviceReporter reporter{an_omni};
     const auto dock = reporter.look(CalibrationStep::dock_stylus, {}, noon);
     ASSERT_TRUE(dock);
-    EXPECT_EQ(words_for(*dock), device::words_for(CalibrationStep::dock_stylus));
+    EXPECT_EQ(describe(*dock), device::describe(CalibrationStep::dock_stylus));
     EXPECT_FALSE(reporter.look(CalibrationStep::done, {}, noon + 999ms));
     const auto done = reporter.look(CalibrationStep::done, {}, noon + 1s);
     ASSERT_TRUE(done);
-    EXPECT_EQ(words_for(*done), "the device is calibrated");
+    EXPECT_EQ(describe(*done), "the device is calibrated");
 }
 
 TEST(DeviceNews, TellOfEveryFaultWhatHelps)
@@ -94,7 +94,7 @@ TEST(DeviceNews, TellOfEveryFaultWhatHelps)
              {{Fault::not_calibrated, Trip::device}, "calibrate it again"},
              {{Fault::overheat, Trip::device}, "let it cool down"},
          }) {
-        const std::string said = words_for(DeviceNews{.fault = c.fault});
+        const std::string said = describe(DeviceNews{.fault = c.fault});
         EXPECT_NE(said.find(c.cure), std::string::npos) << said;
     }
     for (const auto& [fault, cure] : std::vector<std::pair<Fault, std::string_view>>{
@@ -104,7 +104,7 @@ TEST(DeviceNews, TellOfEveryFaultWhatHelps)
              {Fault::library_missing, "install it"},
              {Fault::not_found, "hapnet-peer list-devices"},
          }) {
-        EXPECT_NE(device::words_for(fault).find(cure), std::string_view::npos) << cure;
+        EXPECT_NE(device::describe(fault).find(cure), std::string_view::npos) << cure;
     }
 }
 
@@ -112,38 +112,38 @@ TEST(DeviceNews, PromiseNoWayBackWhereThereIsNone)
 {
     for (const Latched& fault : {Latched{Fault::disconnected, Trip::device},
                                  Latched{Fault::communication, Trip::nonsense}}) {
-        EXPECT_EQ(words_for(DeviceNews{.fault = fault}).find("button"), std::string::npos);
+        EXPECT_EQ(describe(DeviceNews{.fault = fault}).find("button"), std::string::npos);
     }
-    const auto trip = words_for(DeviceNews{.fault = {Fault::over_velocity, Trip::speed}});
+    const auto trip = describe(DeviceNews{.fault = {Fault::over_velocity, Trip::speed}});
     EXPECT_NE(trip.find("button"), std::string::npos);
 }
 
-TEST(WaysBack, AreThoseOfTheDevice)
+TEST(Recovery, AreThoseOfTheDevice)
 {
     const device::JointOmni omni{{}};
-    EXPECT_TRUE(ways_back_of(omni).by_holder);
-    EXPECT_TRUE(ways_back_of(omni).by_button);
-    EXPECT_TRUE(ways_back_of(omni).by_simulated_hand);
+    EXPECT_TRUE(recovery_of(omni).by_holder);
+    EXPECT_TRUE(recovery_of(omni).by_button);
+    EXPECT_TRUE(recovery_of(omni).by_simulated_hand);
     const device::Replay replay{{device::HandMoment{}}, "a file"};
-    EXPECT_FALSE(ways_back_of(replay).by_holder);
-    EXPECT_FALSE(ways_back_of(replay).by_simulated_hand);
+    EXPECT_FALSE(recovery_of(replay).by_holder);
+    EXPECT_FALSE(recovery_of(replay).by_simulated_hand);
 }
 
 TEST(DeviceNews, AskForNothingThatTheDeviceHasNot)
 {
-    const auto said = [](const WaysBack& ways_back) {
-        DeviceReporter reporter{ways_back};
-        return words_for(*reporter.look(CalibrationStep::done, cable, noon));
+    const auto said = [](const Recovery& recovery) {
+        DeviceReporter reporter{recovery};
+        return describe(*reporter.look(CalibrationStep::done, cable, noon));
     };
-    for (const auto& [ways_back, cure] :
-         {std::pair{WaysBack{}, "hold it still for a second, then press its primary button"},
-          std::pair{WaysBack{.by_button = false},
+    for (const auto& [recovery, cure] :
+         {std::pair{Recovery{}, "hold it still for a second, then press its primary button"},
+          std::pair{Recovery{.by_button = false},
                     "start this program again, as the device has no button"},
-          std::pair{WaysBack{.by_simulated_hand = true},
+          std::pair{Recovery{.by_simulated_hand = true},
                     "the simulated hand holds still for a second, then presses the button"}}) {
-        EXPECT_TRUE(said(ways_back).ends_with(cure)) << said(ways_back);
+        EXPECT_TRUE(said(recovery).ends_with(cure)) << said(recovery);
         for (const char* part : {"stylus", "holder"}) {
-            EXPECT_EQ(said(ways_back).find(part), std::string::npos) << said(ways_back);
+            EXPECT_EQ(said(recovery).find(part), std::string::npos) << said(recovery);
         }
     }
     for (const Fault fault : {Fault::over_velocity, Fault::timeout, Fault::overheat}) {

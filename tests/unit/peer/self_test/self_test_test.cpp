@@ -39,17 +39,17 @@ public:
                  .skip = all_but(step)}},
           step_{step}
     {
-        feeling.sample.sequence = 1;
+        input.sample.sequence = 1;
     }
 
     void play(base::Duration duration)
     {
-        for (base::Duration t{}; t < duration && !turn.is_done; t += 1ms) {
+        for (base::Duration t{}; t < duration && !request.is_done; t += 1ms) {
             now_ += 1ms;
-            if (!is_mute) ++feeling.sample.sequence;
-            turn = test_.on_tick(feeling, now_);
-            if (!ignores_forces) feeling.applied = turn.permitted ? turn.wanted : base::Force{};
-            most_n = std::max(most_n, base::norm(turn.wanted));
+            if (!is_mute) ++input.sample.sequence;
+            request = test_.on_tick(input, now_);
+            if (!ignores_forces) input.applied = request.permitted ? request.wanted : base::Force{};
+            most_n = std::max(most_n, base::norm(request.wanted));
         }
     }
     /// That of the step, after its end.
@@ -62,8 +62,8 @@ public:
         return {};
     }
 
-    Feeling feeling;
-    Turn turn;
+    StepInput input;
+    StepRequest request;
     double most_n = 0.0;
     bool is_mute = false;
     bool ignores_forces = false;
@@ -88,7 +88,7 @@ TEST(SelfTest, MeasuresTheRateAtWhichADeviceSpeaks)
 {
     Played read{"read"};
     read.play(2s);
-    EXPECT_TRUE(read.turn.is_done);
+    EXPECT_TRUE(read.request.is_done);
     EXPECT_EQ(read.most_n, 0.0);
     const Outcome outcome = read.outcome();
     EXPECT_EQ(outcome.verdict, Verdict::passed) << outcome.text;
@@ -115,7 +115,7 @@ TEST(SelfTest, PassesADeviceThatRestsWhileNothingMoves)
     read.play(200ms);
     read.is_mute = true;
     for (int i = 0; i < 101; ++i) {
-        ++read.feeling.sample.sequence;
+        ++read.input.sample.sequence;
         read.play(8ms);
     }
     EXPECT_EQ(read.outcome().verdict, Verdict::passed) << read.outcome().text;
@@ -131,16 +131,16 @@ TEST(SelfTest, FailsADeviceThatIsMuteOrSlowOrAtFault)
     Played slow{"read"};
     slow.is_mute = true;
     for (int i = 0; i < 400; ++i) {
-        ++slow.feeling.sample.sequence;
+        ++slow.input.sample.sequence;
         slow.play(3ms);
     }
     EXPECT_EQ(slow.outcome().verdict, Verdict::failed);
     EXPECT_NE(slow.outcome().text.find("1000 a second are nominal"), std::string::npos);
 
     Played faulty{"read"};
-    faulty.feeling.sample.fault = device::Fault::overheat;
+    faulty.input.sample.fault = device::Fault::overheat;
     faulty.play(1ms);
-    faulty.feeling.sample.fault = device::Fault::none;
+    faulty.input.sample.fault = device::Fault::none;
     faulty.play(2s);
     EXPECT_EQ(faulty.outcome().verdict, Verdict::failed);
 }
@@ -148,38 +148,38 @@ TEST(SelfTest, FailsADeviceThatIsMuteOrSlowOrAtFault)
 TEST(SelfTest, TellsAPersonStepByStepHowToCalibrate)
 {
     Played calibration{"calibrate"};
-    calibration.feeling.sample.calibrated = false;
-    calibration.feeling.calibration = device::CalibrationStep::dock_stylus;
+    calibration.input.sample.calibrated = false;
+    calibration.input.calibration = device::CalibrationStep::dock_stylus;
     calibration.play(10ms);
-    EXPECT_EQ(calibration.turn.prompt, Prompt::dock);
-    calibration.feeling.sample.calibrated = true;
-    calibration.feeling.sample.docked = true;
+    EXPECT_EQ(calibration.request.prompt, Prompt::dock);
+    calibration.input.sample.calibrated = true;
+    calibration.input.sample.docked = true;
     calibration.play(10ms);
-    EXPECT_EQ(calibration.turn.prompt, Prompt::undock);
-    EXPECT_FALSE(calibration.turn.is_done);
-    calibration.feeling.sample.docked = false;
+    EXPECT_EQ(calibration.request.prompt, Prompt::undock);
+    EXPECT_FALSE(calibration.request.is_done);
+    calibration.input.sample.docked = false;
     calibration.play(10ms);
-    EXPECT_TRUE(calibration.turn.is_done);
+    EXPECT_TRUE(calibration.request.is_done);
     EXPECT_EQ(calibration.outcome().verdict, Verdict::passed);
 }
 
 TEST(SelfTest, SaysWhatHelpsWhenTheDeviceSaysThatItsCalibrationFailed)
 {
     Played calibration{"calibrate"};
-    calibration.feeling.sample.calibrated = false;
-    calibration.feeling.calibration = device::CalibrationStep::failed;
+    calibration.input.sample.calibrated = false;
+    calibration.input.calibration = device::CalibrationStep::failed;
     calibration.play(10ms);
-    EXPECT_TRUE(calibration.turn.is_done);
+    EXPECT_TRUE(calibration.request.is_done);
     EXPECT_EQ(calibration.outcome().verdict, Verdict::failed);
-    EXPECT_EQ(calibration.outcome().text, device::words_for(device::CalibrationStep::failed));
+    EXPECT_EQ(calibration.outcome().text, device::describe(device::CalibrationStep::failed));
 }
 
 TEST(SelfTest, GivesUpACalibrationThatTakesAMinute)
 {
     Played calibration{"calibrate"};
-    calibration.feeling.sample.calibrated = false;
+    calibration.input.sample.calibrated = false;
     calibration.play(61s);
-    EXPECT_TRUE(calibration.turn.is_done);
+    EXPECT_TRUE(calibration.request.is_done);
     EXPECT_EQ(calibration.outcome().verdict, Verdict::failed);
 }
 
@@ -188,21 +188,21 @@ TEST(SelfTest, PushesOnlyWhileTheButtonIsHeldAndNeverWithMoreThanAFifthOfANewton
     Played force{"force"};
     force.play(1s);
     EXPECT_EQ(force.most_n, 0.0);
-    EXPECT_EQ(force.turn.prompt, Prompt::hold_button);
-    force.feeling.sample.gripping = true;
+    EXPECT_EQ(force.request.prompt, Prompt::hold_button);
+    force.input.sample.gripping = true;
     force.play(1s);
-    EXPECT_NEAR(force.turn.wanted.x(), 0.1, 1e-3);
-    force.feeling.sample.gripping = false;
+    EXPECT_NEAR(force.request.wanted.x(), 0.1, 1e-3);
+    force.input.sample.gripping = false;
     force.play(1ms);
-    EXPECT_EQ(force.turn.wanted, base::Force{});
-    EXPECT_FALSE(force.turn.permitted);
+    EXPECT_EQ(force.request.wanted, base::Force{});
+    EXPECT_FALSE(force.request.permitted);
     force.play(1s);
-    EXPECT_FALSE(force.turn.is_done);
-    force.feeling.sample.gripping = true; // from zero again
+    EXPECT_FALSE(force.request.is_done);
+    force.input.sample.gripping = true; // from zero again
     force.play(1ms);
-    EXPECT_LT(base::norm(force.turn.wanted), 1e-3);
+    EXPECT_LT(base::norm(force.request.wanted), 1e-3);
     force.play(10s);
-    EXPECT_TRUE(force.turn.is_done);
+    EXPECT_TRUE(force.request.is_done);
     EXPECT_DOUBLE_EQ(force.most_n, 0.2);
     EXPECT_EQ(force.outcome().verdict, Verdict::passed) << force.outcome().text;
 }
@@ -210,10 +210,10 @@ TEST(SelfTest, PushesOnlyWhileTheButtonIsHeldAndNeverWithMoreThanAFifthOfANewton
 TEST(SelfTest, NeverPushesWithAButtonThatWasNeverSeenUp)
 {
     Played force{"force"};
-    force.feeling.sample.gripping = true;
+    force.input.sample.gripping = true;
     force.play(30s);
-    EXPECT_EQ(force.turn.prompt, Prompt::release_button);
-    EXPECT_FALSE(force.turn.permitted);
+    EXPECT_EQ(force.request.prompt, Prompt::release_button);
+    EXPECT_FALSE(force.request.permitted);
     EXPECT_EQ(force.most_n, 0.0);
     force.play(31s);
     EXPECT_EQ(force.outcome().verdict, Verdict::failed);
@@ -224,12 +224,12 @@ TEST(SelfTest, FailsAForceThatOutlastsTheButton)
 {
     Played force{"force"};
     force.play(1ms);
-    force.feeling.sample.gripping = true;
+    force.input.sample.gripping = true;
     force.play(1s);
     force.ignores_forces = true; // it stays
-    force.feeling.sample.gripping = false;
+    force.input.sample.gripping = false;
     force.play(200ms);
-    force.feeling.sample.gripping = true;
+    force.input.sample.gripping = true;
     force.play(10s);
     EXPECT_EQ(force.outcome().verdict, Verdict::failed);
     EXPECT_NE(force.outcome().text.find("outlasted"), std::string::npos);
@@ -240,7 +240,7 @@ TEST(SelfTest, FailsAForceThatDoesNotCome)
     Played force{"force"};
     force.ignores_forces = true;
     force.play(1ms);
-    force.feeling.sample.gripping = true;
+    force.input.sample.gripping = true;
     force.play(10s);
     EXPECT_EQ(force.outcome().verdict, Verdict::failed);
 }
@@ -249,12 +249,12 @@ TEST(SelfTest, StopsPushingAtAFault)
 {
     Played force{"force"};
     force.play(1ms);
-    force.feeling.sample.gripping = true;
+    force.input.sample.gripping = true;
     force.play(2s);
-    force.feeling.sample.fault = device::Fault::timeout;
+    force.input.sample.fault = device::Fault::timeout;
     force.play(1ms);
-    EXPECT_TRUE(force.turn.is_done);
-    EXPECT_FALSE(force.turn.permitted);
+    EXPECT_TRUE(force.request.is_done);
+    EXPECT_FALSE(force.request.permitted);
     EXPECT_EQ(force.outcome().verdict, Verdict::failed);
 }
 
@@ -275,12 +275,12 @@ TEST(SelfTest, SeesACableBeingPulledAndHowLongThatTook)
 {
     Played cable{"cable"};
     cable.play(3s);
-    EXPECT_EQ(cable.turn.prompt, Prompt::pull_cable);
+    EXPECT_EQ(cable.request.prompt, Prompt::pull_cable);
     cable.is_mute = true;
     cable.play(21ms);
-    cable.feeling.sample.fault = device::Fault::timeout;
+    cable.input.sample.fault = device::Fault::timeout;
     cable.play(1ms);
-    EXPECT_TRUE(cable.turn.is_done);
+    EXPECT_TRUE(cable.request.is_done);
     EXPECT_EQ(cable.outcome().verdict, Verdict::passed);
     EXPECT_DOUBLE_EQ(figure(cable.outcome(), "noticed_after_ms"), 22.0);
 }
@@ -288,9 +288,9 @@ TEST(SelfTest, SeesACableBeingPulledAndHowLongThatTook)
 TEST(SelfTest, CallsNoCablePulledThatWasLostBefore)
 {
     Played cable{"cable"};
-    cable.feeling.sample.fault = device::Fault::timeout;
+    cable.input.sample.fault = device::Fault::timeout;
     cable.play(1ms);
-    EXPECT_TRUE(cable.turn.is_done);
+    EXPECT_TRUE(cable.request.is_done);
     EXPECT_EQ(cable.outcome().verdict, Verdict::failed) << cable.outcome().text;
 }
 
@@ -298,16 +298,16 @@ TEST(SelfTest, IsOverAndNotPassedWhenTheDeviceGoesInTheMiddle)
 {
     for (const base::Duration lost_after : {0ms, 500ms, 1500ms}) { // while it reads, and pushes
         SelfTest test{{.capabilities = an_omni(), .read_for = 1s, .skip = {"calibrate"}}};
-        Feeling feeling;
-        Turn turn;
+        StepInput input;
+        StepRequest request;
         base::Duration t{};
-        for (; t < 3s && !turn.is_done; t += 1ms) {
-            feeling.sample.sequence += 1;
-            if (t >= lost_after) feeling.sample.fault = device::Fault::disconnected;
-            turn = test.on_tick(feeling, start + t);
+        for (; t < 3s && !request.is_done; t += 1ms) {
+            input.sample.sequence += 1;
+            if (t >= lost_after) input.sample.fault = device::Fault::disconnected;
+            request = test.on_tick(input, start + t);
         }
         EXPECT_LE(t, lost_after + 1ms);
-        EXPECT_FALSE(turn.permitted);
+        EXPECT_FALSE(request.permitted);
         EXPECT_FALSE(test.is_finished());
         EXPECT_FALSE(has_passed(test));
         const std::size_t failed = lost_after < 1s ? 0 : 2;

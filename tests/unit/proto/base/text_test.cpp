@@ -33,6 +33,9 @@ TEST(Text, ReadsDurationsWithTheirUnit)
              Reading{"1000000s", 1'000'000s},
              Reading{"0.4ns", 0ns},
              Reading{"0.6ns", 1ns},
+             Reading{"100msec", 100ms},
+             Reading{"15usecs", 15us},
+             Reading{"2sec", 2s},
          }) {
         const auto read = parse_duration(text);
         ASSERT_TRUE(read) << text;
@@ -44,7 +47,7 @@ TEST(Text, RefusesWhatIsNotADurationAndSaysHowToWriteOne)
 {
     for (const std::string_view text :
          {"",     " ",    "5",      "-5ms",   "+5ms",   "1e3ms", "ms",   "5 ms", " 5ms",
-          "5ms ", "5Ms",  "5h",     "5msec",  "1.2.3s", ".s",    "..5s", "nan",  "nanms",
+          "5ms ", "5Ms",  "5h",     "5msek",  "1.2.3s", ".s",    "..5s", "nan",  "nanms",
           "inf",  "infs", "0x10ms", "5ms5ms", "1,5s",   "٣ms",   "0.1"}) {
         const auto read = parse_duration(text);
         ASSERT_FALSE(read) << text;
@@ -59,6 +62,31 @@ TEST(Text, RefusesADurationBeyondTheStatedRange)
         EXPECT_FALSE(parse_duration(text)) << text;
     }
     EXPECT_FALSE(parse_duration(std::string(400, '9') + "s")); // beyond a double
+}
+
+TEST(Text, SaysThatAnMMayBeMinutesOrMilliseconds)
+{
+    EXPECT_EQ(parse_duration("5m").error().message,
+              "'5m' may be minutes or milliseconds: write 5min or 5ms");
+}
+
+TEST(Text, ReadsRatesInTheSpellingsOfOtherTools)
+{
+    for (const std::string_view text : {"10Mbit/s", "10Mbit", "10mbit", "10Mbps", "10mbit/s",
+                                        "10000kbit", "10000Kbps", "0.01Gbps", "10Mbit/sec"}) {
+        EXPECT_EQ(parse_bit_rate(text), 10'000'000U) << text;
+    }
+    EXPECT_EQ(bit_rate_text(10'000'000), "10Mbit/s");
+    for (const std::string_view text : {"10", "10M", "10MB/s", "10mib", "Mbps"}) {
+        EXPECT_FALSE(parse_bit_rate(text)) << text;
+    }
+}
+
+TEST(Text, SaysThatBpsInSmallLettersMayBeBytes)
+{
+    EXPECT_EQ(parse_bit_rate("10mbps").error().message,
+              "'10mbps' is a number of bytes to tc and of bits to others: write 10Mbit/s for bits "
+              "a second");
 }
 
 TEST(Text, PrintsDurationsInTheLargestUnitThatNeedsNoFraction)

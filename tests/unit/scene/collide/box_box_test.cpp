@@ -3,7 +3,7 @@
 #include "scene/collide/box_box.hpp"
 
 #include "proto/base/random.hpp"
-#include "scene/collide/features.hpp"
+#include "scene/collide/manifold.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double margin = 1e-3;
 
-glm::dmat3 turned(int axis, double cosine, double sine)
+glm::dmat3 rotated(int axis, double cosine, double sine)
 {
     const int next = (axis + 1) % 3;
     const int last = (axis + 2) % 3;
@@ -78,7 +78,7 @@ TEST(BoxBox, ShiftedTouchWhereTheirFacesLieOnEachOther)
 TEST(BoxBox, OnASlabTouchWithTheSmallBoxesCornersWhicheverIsFirst)
 {
     const OrientedBox slab{.centre{0.0, -1.0, 0.0}, .half{5.0, 1.0, 5.0}};
-    const OrientedBox small = cube({1.0, 0.5, 2.0}, turned(1, 0.8, 0.6));
+    const OrientedBox small = cube({1.0, 0.5, 2.0}, rotated(1, 0.8, 0.6));
     const Manifold below = touch(slab, small);
     const Manifold above = touch(small, slab);
     EXPECT_EQ(below.normal, glm::dvec3(0.0, 1.0, 0.0));
@@ -88,7 +88,7 @@ TEST(BoxBox, OnASlabTouchWithTheSmallBoxesCornersWhicheverIsFirst)
     for (std::uint32_t k = 0; k < 4; ++k) {
         const std::uint32_t feature = below.points[k].feature;
         EXPECT_EQ(feature & 63U, face_bit(1, true));
-        EXPECT_EQ(above.points[k].feature, meeting_exchanged(feature));
+        EXPECT_EQ(above.points[k].feature, swapped_feature_pair(feature));
         EXPECT_EQ(above.points[k].position, below.points[k].position);
     }
 }
@@ -96,9 +96,9 @@ TEST(BoxBox, OnASlabTouchWithTheSmallBoxesCornersWhicheverIsFirst)
 // Half of the octagon's corners: every second, so that the base is as wide in all directions.
 TEST(BoxBox, TwistedOnEachOtherTouchWithFourOfEightCornersAroundTheMiddle)
 {
-    const double half_turn = std::sqrt(0.5);
+    const double half_angle = std::sqrt(0.5);
     const Manifold manifold =
-        touch(cube({0.0, 0.0, 0.0}), cube({0.0, 1.0, 0.0}, turned(1, half_turn, half_turn)));
+        touch(cube({0.0, 0.0, 0.0}), cube({0.0, 1.0, 0.0}, rotated(1, half_angle, half_angle)));
     ASSERT_EQ(manifold.count, 4U);
     glm::dvec3 sum{0.0};
     for (const ContactPoint& point : manifold.touching()) {
@@ -113,16 +113,16 @@ TEST(BoxBox, TwistedOnEachOtherTouchWithFourOfEightCornersAroundTheMiddle)
 
 TEST(BoxBox, WithCrossedEdgesTouchInOnePointBetweenThem)
 {
-    const double half_turn = std::sqrt(0.5);
-    const OrientedBox a = cube({0.0, 0.0, 0.0}, turned(0, half_turn, half_turn)); // edge along x
+    const double half_angle = std::sqrt(0.5);
+    const OrientedBox a = cube({0.0, 0.0, 0.0}, rotated(0, half_angle, half_angle)); // edge along x
     const OrientedBox b =
-        cube({0.125, 2.0 * half_turn - 0.01, 0.25}, turned(2, half_turn, half_turn)); // along z
+        cube({0.125, 2.0 * half_angle - 0.01, 0.25}, rotated(2, half_angle, half_angle)); // along z
     const Manifold manifold = touch(a, b);
     ASSERT_EQ(manifold.count, 1U);
     EXPECT_NEAR(manifold.normal.y, 1.0, 1e-12);
     EXPECT_NEAR(manifold.points[0].separation, -0.01, 1e-12);
     EXPECT_NEAR(manifold.points[0].position.x, 0.125, 1e-12);
-    EXPECT_NEAR(manifold.points[0].position.y, half_turn - 0.005, 1e-12);
+    EXPECT_NEAR(manifold.points[0].position.y, half_angle - 0.005, 1e-12);
     EXPECT_NEAR(manifold.points[0].position.z, 0.0, 1e-12);
 }
 
@@ -152,7 +152,7 @@ TEST(BoxBox, LyingFlushKeepTheirFeaturesUnderSmallTremors)
     const auto draw = base::Seed{1}.stream("tremor");
     for (std::uint64_t k = 0; k < 200; ++k) {
         const auto tremor = [&](std::uint32_t n) { return 2e-4 * (draw.uniform(k, n) - 0.5); };
-        glm::dmat3 axes = turned(1, 1.0, tremor(0)) * turned(0, 1.0, tremor(1)); // to 1e-8
+        glm::dmat3 axes = rotated(1, 1.0, tremor(0)) * rotated(0, 1.0, tremor(1)); // to 1e-8
         const OrientedBox above = cube({tremor(2), 1.0 + tremor(3), tremor(4)}, axes);
         EXPECT_EQ(features(collide(below, above, margin, memory)), first) << k;
     }

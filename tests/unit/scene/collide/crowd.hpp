@@ -3,7 +3,7 @@
 #pragma once
 
 #include "proto/base/random.hpp"
-#include "scene/collide/neighbours.hpp"
+#include "scene/collide/pair_finder.hpp"
 
 #include <utility>
 #include <vector>
@@ -11,12 +11,12 @@
 namespace hapnet::scene {
 
 /// Bodies and who is near whom, without a tick that moves them: tests do.
-template <Search search>
+template <BroadPhase broad_phase>
 struct Crowd {
     explicit Crowd(const Description& description)
-        : frozen{description.planes, description.hips, description.gravity},
+        : config{description.planes, description.hands, description.gravity},
           bodies{description},
-          neighbours{frozen, bodies}
+          pair_finder{config, bodies}
     {}
 
     /// Puts a body elsewhere.
@@ -28,33 +28,33 @@ struct Crowd {
     {
         const Slot from = bodies.slot_of[id];
         bodies.put_to_sleep(from);
-        neighbours.has_fallen_asleep(bodies, id, from);
-        neighbours.settle();
+        pair_finder.on_sleep(bodies, id, from);
+        pair_finder.settle();
     }
     void wake(BodyId id)
     {
         bodies.wake(bodies.slot_of[id]);
-        neighbours.has_woken(bodies, id);
-        neighbours.settle();
+        pair_finder.on_wake(bodies, id);
+        pair_finder.settle();
     }
     [[nodiscard]] std::vector<std::pair<BodyId, BodyId>> pairs()
     {
         std::vector<std::pair<BodyId, BodyId>> all;
-        for (const PairIndex i : neighbours.pairs())
-            all.emplace_back(neighbours.pair(i).a, neighbours.pair(i).b);
+        for (const PairIndex i : pair_finder.pairs())
+            all.emplace_back(pair_finder.pair(i).a, pair_finder.pair(i).b);
         return all;
     }
     [[nodiscard]] std::vector<std::pair<BodyId, BodyId>> plane_pairs()
     {
         std::vector<std::pair<BodyId, BodyId>> all;
-        for (const PairIndex i : neighbours.plane_pairs())
-            all.emplace_back(neighbours.plane_pair(i).a, neighbours.plane_pair(i).b);
+        for (const PairIndex i : pair_finder.plane_pairs())
+            all.emplace_back(pair_finder.plane_pair(i).a, pair_finder.plane_pair(i).b);
         return all;
     }
 
-    Frozen frozen;
+    WorldConfig config;
     Bodies bodies;
-    Neighbours<search> neighbours;
+    PairFinder<broad_phase> pair_finder;
 };
 
 /// Movable cubes with edges of 4 cm, in a row along x, so far from centre to centre.

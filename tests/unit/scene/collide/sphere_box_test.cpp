@@ -59,14 +59,14 @@ TEST(SphereBox, OverlapsAnEdgeAndACornerTowardsTheirNearestPoint)
 
 TEST(SphereBox, FollowsTheBoxWhenItTurns)
 {
-    OrientedBox turned = box;
-    turned.axes = {0.6, 0.8, 0.0, -0.8, 0.6, 0.0, 0.0, 0.0, 1.0};
+    OrientedBox rotated = box;
+    rotated.axes = {0.6, 0.8, 0.0, -0.8, 0.6, 0.0, 0.0, 0.0, 1.0};
     const auto overlap =
-        SphereBoxMemory{}.find(turned, turned.centre + 1.125 * turned.axes[0], radius);
+        SphereBoxMemory{}.find(rotated, rotated.centre + 1.125 * rotated.axes[0], radius);
     ASSERT_TRUE(overlap);
     EXPECT_NEAR(overlap->depth, 0.125, 1e-15);
-    EXPECT_NEAR(glm::distance(overlap->normal, turned.axes[0]), 0.0, 1e-15);
-    EXPECT_NEAR(distance(turned, turned.centre + 1.5 * turned.axes[0]), 0.5, 1e-15);
+    EXPECT_NEAR(glm::distance(overlap->normal, rotated.axes[0]), 0.0, 1e-15);
+    EXPECT_NEAR(distance(rotated, rotated.centre + 1.5 * rotated.axes[0]), 0.5, 1e-15);
 }
 
 TEST(SphereBox, StaysWithTheFaceWhereItWentIn)

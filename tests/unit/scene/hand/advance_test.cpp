@@ -190,16 +190,16 @@ TEST(Advance, ThreeHandsKeepTheEnergyByTheMidpointRule)
 TEST(Advance, ASpringThatHoldsPullsAsWellAndSwingsAsTheFormulaSays)
 {
     MovingBody body;
-    Answer answer;
-    answer.inverse_mass = glm::dvec3{10.0};
-    HipSpring spring;
+    BodyDynamics dynamics;
+    dynamics.inverse_mass = glm::dvec3{10.0};
+    HandSpring spring;
     spring.holds = true;
     spring.stiffness = 1000.0;
-    std::array<HipWork, 1> work;
+    std::array<SpringImpulse, 1> work;
     const glm::dvec3 hand{0.001, -0.002, 0.0005};
     for (int i = 0; i < 500; ++i) {
         spring.stretch = hand - body.position;
-        advance(body, answer, {&spring, 1}, work, 1e-4);
+        advance(body, dynamics, {&spring, 1}, work, 1e-4);
     }
     EXPECT_LE(distance(body.position, (1.0 - std::cos(100.0 * 0.05)) * hand), 1e-6);
 }

@@ -32,7 +32,7 @@ struct Rig {
     MovingBody body{};
     std::vector<Hand> hands{};
     glm::dvec3 acceleration{0.0};
-    std::array<HipWork, 8> work{};
+    std::array<SpringImpulse, 8> work{};
 
     [[nodiscard]] glm::dmat3 inverse_inertia(const MovingBody& of) const
     {
@@ -43,7 +43,7 @@ struct Rig {
         return scaled * glm::transpose(axes);
     }
 
-    [[nodiscard]] HipSpring touch(const MovingBody& of, const Hand& hand) const
+    [[nodiscard]] HandSpring touch(const MovingBody& of, const Hand& hand) const
     {
         const glm::dmat3 axes = axes_of(of.orientation);
         const glm::dvec3 centre = (hand.position - of.position) * axes;
@@ -62,7 +62,7 @@ struct Rig {
             nearest[axis] = normal[axis] * half[axis];
             distance = -depth[axis];
         }
-        HipSpring spring;
+        HandSpring spring;
         for (int axis = 0; axis < 3; ++axis) {
             const glm::dvec3 others = glm::abs(centre) * (1.0 - glm::abs(normal));
             if (std::abs(normal[axis]) == 1.0)
@@ -79,22 +79,22 @@ struct Rig {
         return spring;
     }
 
-    [[nodiscard]] Answer answer() const
+    [[nodiscard]] BodyDynamics dynamics() const
     {
-        Answer answer;
-        answer.half = half;
-        answer.inverse_mass = glm::dvec3{1.0 / mass};
-        answer.inverse_inertia = inverse_inertia(body);
-        answer.turns_evenly = half.x == half.y && half.y == half.z;
-        answer.acceleration = acceleration;
-        return answer;
+        BodyDynamics dynamics;
+        dynamics.half = half;
+        dynamics.inverse_mass = glm::dvec3{1.0 / mass};
+        dynamics.inverse_inertia = inverse_inertia(body);
+        dynamics.rotates_uniformly = half.x == half.y && half.y == half.z;
+        dynamics.acceleration = acceleration;
+        return dynamics;
     }
 
     void tick(double seconds)
     {
-        std::vector<HipSpring> springs;
+        std::vector<HandSpring> springs;
         for (const Hand& hand : hands) springs.push_back(touch(body, hand));
-        advance(body, answer(), springs, work, seconds);
+        advance(body, dynamics(), springs, work, seconds);
         for (Hand& hand : hands) hand.position += seconds * hand.velocity;
     }
 
@@ -152,7 +152,7 @@ private:
         body.position += step * rate.velocity;
         body.velocity += (step / rig_.mass) * rate.force;
         body.angular_momentum += step * rate.torque;
-        body.orientation = turned(body.orientation, step * rate.turning);
+        body.orientation = rotated(body.orientation, step * rate.turning);
         return body;
     }
 
@@ -164,7 +164,7 @@ private:
         rate.turning = rig_.inverse_inertia(body) * body.angular_momentum;
         for (Hand hand : rig_.hands) {
             hand.position += time * hand.velocity;
-            const HipSpring spring = rig_.touch(body, hand);
+            const HandSpring spring = rig_.touch(body, hand);
             if (spring.gap >= 0.0) continue;
             const double closing =
                 glm::dot(spring.normal,

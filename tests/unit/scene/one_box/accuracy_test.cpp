@@ -54,11 +54,11 @@ TEST(Sliding, ABounceOnAHandKeepsItsEnergyForEveryStiffnessAndTick)
     for (const double stiffness : {0.01, 0.1, 0.32, 1.0, 3.2, 10.0, 100.0, 1000.0}) {
         for (const double tick : {4e-3, 2e-3, 1e-3, 0.5e-3, 0.25e-3}) {
             Description scene = lone_cube();
-            scene.hips.stiffness_n_per_m = stiffness * mass / (tick * tick);
+            scene.hands.stiffness_n_per_m = stiffness * mass / (tick * tick);
             Rig<false> rig{scene, tick};
             const double speed = 0.1;
             rig.place({0.00123, 0.0, 0.0}, {-speed, 0.0, 0.0});
-            rig.hip(0, {-touching, 0.0, 0.0});
+            rig.set_hand(0, {-touching, 0.0, 0.0});
             const double contact = 3.15 / std::sqrt(stiffness) * tick;
             const int ticks = static_cast<int>((contact + 0.015) / tick) + 2;
             for (int i = 0; i < ticks; ++i) rig.tick();
@@ -71,16 +71,16 @@ TEST(Sliding, ABounceOnAHandKeepsItsEnergyForEveryStiffnessAndTick)
 TEST(Sliding, ASteadyPushAgainstDragHasNoLagAndNoRipple)
 {
     Description scene = cube_on_platform(0.0, 10.0);
-    scene.hips.damping_ns_per_m = 2.0;
+    scene.hands.damping_ns_per_m = 2.0;
     Rig<false> rig{scene};
     const double speed = 0.1;
     const double depth = 10.0 * speed / 500.0;
     rig.place({0.0, 0.0, 0.0}, {speed, 0.0, 0.0});
-    rig.hip(0, {-touching + depth, 0.0, 0.0}, {speed, 0.0, 0.0});
+    rig.set_hand(0, {-touching + depth, 0.0, 0.0}, {speed, 0.0, 0.0});
     for (int i = 0; i < 500; ++i) {
         rig.carry(1);
         EXPECT_NEAR(rig.touch(0).on_body.x(), 1.0, 1e-12);
-        EXPECT_NEAR(rig.position().x - rig.stage.hips[0].position.x(), touching - depth, 1e-15);
+        EXPECT_NEAR(rig.position().x - rig.state.hands[0].position.x(), touching - depth, 1e-15);
     }
 }
 
@@ -88,46 +88,46 @@ TEST(Sliding, ASteadyPushAgainstDryFrictionSettlesAtTheFrictionForce)
 {
     const double friction = 0.3;
     Description scene = cube_on_platform(friction);
-    scene.hips.damping_ns_per_m = 2.0;
+    scene.hands.damping_ns_per_m = 2.0;
     Rig<true> rig{scene};
     const double speed = 0.1;
     rig.place({0.0, 0.0, 0.0}, {});
-    rig.hip(0, {-touching, 0.0, 0.0}, {speed, 0.0, 0.0});
+    rig.set_hand(0, {-touching, 0.0, 0.0}, {speed, 0.0, 0.0});
     rig.carry(6000);
     const double force = friction * mass * 9.81;
     for (int i = 0; i < 100; ++i) {
         rig.carry(1);
         EXPECT_NEAR(rig.touch(0).on_body.x(), force, 1e-9);
-        EXPECT_NEAR(rig.position().x - rig.stage.hips[0].position.x(), touching - force / 500.0,
+        EXPECT_NEAR(rig.position().x - rig.state.hands[0].position.x(), touching - force / 500.0,
                     1e-9);
     }
-    EXPECT_EQ(rig.sliding.crowded_ticks(), 0U);
+    EXPECT_EQ(rig.stepper.crowded_ticks(), 0U);
 }
 
 TEST(Sliding, ASymmetricSqueezeDoesNotDriftAtAll)
 {
     Description scene = cube_on_platform(0.0, 10.0);
-    scene.hips.damping_ns_per_m = 2.0;
+    scene.hands.damping_ns_per_m = 2.0;
     Rig<false> rig{scene};
-    rig.hip(0, {-touching + 0.003, 0.0, 0.001});
-    rig.hip(1, {touching - 0.003, 0.0, 0.001});
+    rig.set_hand(0, {-touching + 0.003, 0.0, 0.001});
+    rig.set_hand(1, {touching - 0.003, 0.0, 0.001});
     rig.tick(10000);
     EXPECT_EQ(rig.position(), glm::dvec3{0.0});
     EXPECT_EQ(rig.velocity(), glm::dvec3{0.0});
-    EXPECT_NEAR(rig.touch(0).on_hip.x(), -1.5, 1e-12);
-    EXPECT_EQ(rig.touch(0).on_hip.x(), -rig.touch(1).on_hip.x());
+    EXPECT_NEAR(rig.touch(0).on_hand.x(), -1.5, 1e-12);
+    EXPECT_EQ(rig.touch(0).on_hand.x(), -rig.touch(1).on_hand.x());
 }
 
 TEST(Sliding, BetweenTwoHandsItOscillatesForTenSecondsWithoutLosingAnything)
 {
     for (const double tick : {4e-3, 1e-3, 0.25e-3}) {
         Description scene = lone_cube();
-        scene.hips.stiffness_n_per_m = 1000.0;
+        scene.hands.stiffness_n_per_m = 1000.0;
         Rig<false> rig{scene, tick};
         const double start = 0.001;
         rig.place({start, 0.0, 0.0}, {});
-        rig.hip(0, {-touching + 0.004, 0.0, 0.0});
-        rig.hip(1, {touching - 0.004, 0.0, 0.0});
+        rig.set_hand(0, {-touching + 0.004, 0.0, 0.0});
+        rig.set_hand(1, {touching - 0.004, 0.0, 0.0});
         const double frequency = std::sqrt(2.0 * 1000.0 / mass);
         const int ticks = static_cast<int>(10.0 / tick);
         for (int i = 1; i <= ticks; ++i) {

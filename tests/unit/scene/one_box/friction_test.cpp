@@ -17,10 +17,10 @@ TEST(SlidingFriction, HoldsABoxExactlyUntilTheForceExceedsIt)
     Rig<true> rig{cube_on_platform(friction)};
     const double limit = friction * mass * 9.81;
     const auto push = [&](double force) {
-        rig.stage.pushes[0] = {0.6 * force, 0.0, 0.8 * force};
-        rig.stage.pushed.add(0);
+        rig.state.pushes[0] = {0.6 * force, 0.0, 0.8 * force};
+        rig.state.pushed.add(0);
         rig.tick();
-        rig.stage.pushed.clear();
+        rig.state.pushed.clear();
     };
     for (int i = 0; i < 100; ++i) push((1.0 - 1e-12) * limit);
     EXPECT_EQ(rig.position(), glm::dvec3{0.0});
@@ -35,7 +35,7 @@ TEST(SlidingFriction, StartsWithinTheTickInWhichTheHandHasPressedEnough)
     Rig<true> rig{cube_on_platform(friction)};
     const double limit = friction * mass * 9.81;
     const double speed = 0.1;
-    rig.hip(0, {-touching, 0.0, 0.0}, {speed, 0.0, 0.0});
+    rig.set_hand(0, {-touching, 0.0, 0.0}, {speed, 0.0, 0.0});
     const double starts = limit / (500.0 * speed); // when the spring has reached the limit
     rig.carry(static_cast<int>(starts * 1000.0));
     EXPECT_EQ(rig.position(), glm::dvec3{0.0});
@@ -49,7 +49,7 @@ TEST(SlidingFriction, AHandFromAboveMakesItStopSooner)
 {
     Rig<true> rig{cube_on_platform(friction)};
     rig.place({0.0, 0.0, 0.0}, {0.2, 0.0, 0.0});
-    rig.hip(0, {0.0, touching - 0.002, 0.0}); // 1 N
+    rig.set_hand(0, {0.0, touching - 0.002, 0.0}); // 1 N
     rig.tick(200);
     const double deceleration = friction * (9.81 + 1.0 / mass);
     EXPECT_NEAR(rig.position().x, 0.2 * 0.2 / (2.0 * deceleration), 1e-15);
@@ -61,7 +61,7 @@ TEST(SlidingFriction, AHandThatComesDownMakesItGrowSteadily)
     Rig<true> rig{cube_on_platform(friction)};
     const double speed = 0.05;
     rig.place({0.0, 0.0, 0.0}, {0.3, 0.0, 0.0});
-    rig.hip(0, {0.0, touching, 0.0}, {0.0, -speed, 0.0});
+    rig.set_hand(0, {0.0, touching, 0.0}, {0.0, -speed, 0.0});
     rig.carry(50);
     const double t = 0.05;
     const double rise = friction * 500.0 * speed / mass;
@@ -77,9 +77,9 @@ glm::dvec3 turning(double tick)
     rig.place({0.0, 0.0, 0.0}, {0.3, 0.0, 0.0});
     const int ticks = static_cast<int>(0.064 / tick + 0.5);
     for (int i = 0; i < ticks; ++i) {
-        rig.stage.pushes[0] = {0.0, 0.0, 0.4};
-        rig.stage.pushed.clear();
-        rig.stage.pushed.add(0);
+        rig.state.pushes[0] = {0.0, 0.0, 0.4};
+        rig.state.pushed.clear();
+        rig.state.pushed.add(0);
         rig.tick();
     }
     return rig.position();
@@ -107,7 +107,7 @@ TEST(SlidingFriction, OfAWallCountsToo)
     scene.bodies.push_back(wall);
     Rig<true> rig{scene};
     rig.place({0.0, 0.0, 0.0}, {0.0, 0.3, 0.0});
-    rig.hip(0, {-touching + 0.002, 0.0, 0.0}); // 1 N against the wall
+    rig.set_hand(0, {-touching + 0.002, 0.0, 0.0}); // 1 N against the wall
     rig.tick(50);
     EXPECT_NEAR(rig.velocity().y, 0.3 - friction * 1.0 / mass * 0.05, 1e-14);
 }

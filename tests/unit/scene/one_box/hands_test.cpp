@@ -11,48 +11,48 @@ namespace {
 constexpr double mass = 0.1;
 constexpr double touching = 0.025;
 
-TEST(SlidingHands, GiveTheBoxExactlyTheImpulseThatTheyReport)
+TEST(BoxHands, GiveTheBoxExactlyTheImpulseThatTheyReport)
 {
     Description scene = lone_cube();
-    scene.hips.damping_ns_per_m = 2.0;
-    scene.hips.force_max_n = 1.0;
+    scene.hands.damping_ns_per_m = 2.0;
+    scene.hands.force_max_n = 1.0;
     Rig<false> rig{scene};
     rig.place({0.0, 0.0, 0.0}, {-0.1, 0.0, 0.0});
-    rig.hip(0, {-touching - 0.002, 0.0, 0.0}, {0.15, 0.0, 0.0});
+    rig.set_hand(0, {-touching - 0.002, 0.0, 0.0}, {0.15, 0.0, 0.0});
     for (int i = 0; i < 60; ++i) {
         const double before = rig.velocity().x;
         rig.carry(1);
         EXPECT_NEAR(mass * (rig.velocity().x - before), 1e-3 * rig.touch(0).on_body.x(), 1e-16);
-        EXPECT_EQ(rig.touch(0).on_body.x(), -rig.touch(0).on_hip.x());
+        EXPECT_EQ(rig.touch(0).on_body.x(), -rig.touch(0).on_hand.x());
     }
 }
 
-TEST(SlidingHands, KeepTheFaceThroughWhichTheyCame)
+TEST(BoxHands, KeepTheFaceThroughWhichTheyCame)
 {
     Rig<false> rig{lone_cube()};
-    rig.frozen.hips.force_max_n = 0.0; // so that the box stays where it is
-    rig.hip(0, {-0.024, 0.012, 0.0}, {2.0, 0.0, 0.0});
+    rig.config.hands.force_max_n = 0.0; // so that the box stays where it is
+    rig.set_hand(0, {-0.024, 0.012, 0.0}, {2.0, 0.0, 0.0});
     rig.carry(1);
     for (int i = 0; i < 10; ++i) rig.carry(1); // now the upper face is nearer
     EXPECT_NEAR(rig.touch(0).depth_m, touching - 0.024 + 0.020, 1e-15);
 }
 
-TEST(SlidingHands, AreFeltAtTheFaceTheyReachedWhenTheyPassRightThrough)
+TEST(BoxHands, AreFeltAtTheFaceTheyReachedWhenTheyPassRightThrough)
 {
     Description scene = lone_cube();
-    scene.hips.force_max_n = 3.3;
+    scene.hands.force_max_n = 3.3;
     Rig<false> rig{scene};
-    rig.hip(0, {-0.5, 0.001, 0.0}, {1000.0, 0.0, 0.0});
+    rig.set_hand(0, {-0.5, 0.001, 0.0}, {1000.0, 0.0, 0.0});
     rig.tick();
     EXPECT_GT(rig.touch(0).on_body.x(), 1.0);
     EXPECT_EQ(rig.touch(0).on_body.y(), 0.0);
 }
 
-TEST(SlidingHands, PushObliquelyAtAnEdgeWithoutMakingEnergy)
+TEST(BoxHands, PushObliquelyAtAnEdgeWithoutMakingEnergy)
 {
     Rig<false> rig{lone_cube()};
     rig.place({0.0, 0.0, 0.0}, {0.1, 0.1, 0.0});
-    rig.hip(0, {0.0241, 0.0241, 0.0});
+    rig.set_hand(0, {0.0241, 0.0241, 0.0});
     for (int i = 0; i < 60; ++i) rig.tick();
     EXPECT_LT(rig.velocity().x, 0.0);
     const double speed_squared =
@@ -61,12 +61,12 @@ TEST(SlidingHands, PushObliquelyAtAnEdgeWithoutMakingEnergy)
     EXPECT_NEAR(rig.velocity().x, rig.velocity().y, 1e-12);
 }
 
-TEST(SlidingHands, WhoHoldsTheBoxSwingsItAboutThePlaceWhereTheyTookIt)
+TEST(BoxHands, WhoHoldsTheBoxSwingsItAboutThePlaceWhereTheyTookIt)
 {
     Description scene = lone_cube();
     Rig<false> rig{scene};
-    rig.hip(0, {-0.027, 0.0, 0.003}); // not touching: within reach of the grip
-    rig.stage.hips[0].gripping = true;
+    rig.set_hand(0, {-0.027, 0.0, 0.003}); // not touching: within reach of the grip
+    rig.state.hands[0].gripping = true;
     rig.place({0.0, 0.0, 0.0}, {0.05, -0.03, 0.02});
     const double frequency = std::sqrt(500.0 / mass);
     for (int i = 1; i <= 200; ++i) {
@@ -77,61 +77,61 @@ TEST(SlidingHands, WhoHoldsTheBoxSwingsItAboutThePlaceWhereTheyTookIt)
         EXPECT_NEAR(rig.position().z, 0.02 * swing, 1e-15);
         EXPECT_TRUE(rig.touch(0).holding);
     }
-    rig.stage.hips[0].gripping = false;
+    rig.state.hands[0].gripping = false;
     rig.tick();
     EXPECT_FALSE(rig.touch(0).holding);
 }
 
-TEST(SlidingHands, CannotHoldWhatIsOutOfReach)
+TEST(BoxHands, CannotHoldWhatIsOutOfReach)
 {
     Rig<false> rig{lone_cube()};
-    rig.hip(0, {-0.0301, 0.0, 0.0});
-    rig.stage.hips[0].gripping = true;
+    rig.set_hand(0, {-0.0301, 0.0, 0.0});
+    rig.state.hands[0].gripping = true;
     rig.tick();
     EXPECT_FALSE(rig.touch(0).holding);
     EXPECT_FALSE(rig.touch(0).touching);
 }
 
-TEST(SlidingHands, HoldWithNoMoreThanTheGreatestForce)
+TEST(BoxHands, HoldWithNoMoreThanTheGreatestForce)
 {
     Description scene = lone_cube();
-    scene.hips.force_max_n = 0.5;
+    scene.hands.force_max_n = 0.5;
     Rig<false> rig{scene};
-    rig.hip(0, {-0.021, 0.0, 0.0});
-    rig.stage.hips[0].gripping = true;
+    rig.set_hand(0, {-0.021, 0.0, 0.0});
+    rig.state.hands[0].gripping = true;
     rig.tick();
-    rig.hip(0, {-0.021 - 0.03, 0.0, 0.04});
-    rig.stage.hips[0].gripping = true;
+    rig.set_hand(0, {-0.021 - 0.03, 0.0, 0.04});
+    rig.state.hands[0].gripping = true;
     rig.tick();
     EXPECT_NEAR(rig.touch(0).on_body.x(), -0.3, 1e-15);
     EXPECT_NEAR(rig.touch(0).on_body.z(), 0.4, 1e-15);
     EXPECT_NEAR(rig.velocity().z, 0.4 * 1e-3 / mass, 1e-15);
 }
 
-TEST(SlidingHands, FeelFixedBoxesByTheMeanForceButNotPlanes)
+TEST(BoxHands, FeelFixedBoxesByTheMeanForceButNotPlanes)
 {
     Description scene = cube_on_platform();
-    scene.hips.damping_ns_per_m = 2.0;
+    scene.hands.damping_ns_per_m = 2.0;
     BodyDescription fixed{.name = "fixed", .movable = false};
     fixed.position = {{0.2, 0.0, 0.0}};
     scene.bodies.push_back(fixed);
     Rig<false> rig{scene};
     const double speed = 0.1; // it touches in the middle of the tick
-    rig.hip(0, {0.2 - touching - 0.5e-3 * speed, 0.0, 0.0}, {speed, 0.0, 0.0});
-    rig.hip(1, {0.1, -0.03, 0.0}); // in the platform
+    rig.set_hand(0, {0.2 - touching - 0.5e-3 * speed, 0.0, 0.0}, {speed, 0.0, 0.0});
+    rig.set_hand(1, {0.1, -0.03, 0.0}); // in the platform
     rig.tick();
     const double impulse = 2.0 * speed * 0.5e-3 + 0.5 * 500.0 * speed * 0.25e-6;
-    EXPECT_NEAR(rig.touch(0).on_hip.x(), -impulse / 1e-3, 1e-10);
+    EXPECT_NEAR(rig.touch(0).on_hand.x(), -impulse / 1e-3, 1e-10);
     EXPECT_EQ(rig.touch(0).on_body, base::Force{});
     EXPECT_FALSE(rig.touch(0).touching);
-    EXPECT_EQ(rig.touch(1).on_hip, base::Force{});
+    EXPECT_EQ(rig.touch(1).on_hand, base::Force{});
 }
 
-TEST(SlidingHands, ThatAreAbsentLeaveTheBoxAlone)
+TEST(BoxHands, ThatAreAbsentLeaveTheBoxAlone)
 {
     Rig<false> rig{lone_cube()};
-    rig.hip(0, {-0.02, 0.0, 0.0});
-    rig.stage.hips[0].present = false;
+    rig.set_hand(0, {-0.02, 0.0, 0.0});
+    rig.state.hands[0].present = false;
     rig.tick();
     EXPECT_EQ(rig.velocity(), glm::dvec3{0.0});
 }

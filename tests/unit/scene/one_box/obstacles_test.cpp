@@ -34,7 +34,7 @@ TEST(SlidingObstacles, ABouncingBoxComesToRestExactlyOnThePlane)
     }
     EXPECT_EQ(rig.position().y, 0.0);
     EXPECT_EQ(rig.velocity().y, 0.0);
-    EXPECT_EQ(rig.sliding.crowded_ticks(), 0U);
+    EXPECT_EQ(rig.stepper.crowded_ticks(), 0U);
 }
 
 TEST(SlidingObstacles, AnElasticBoxBouncesToTheSameHeightForTenSeconds)
@@ -69,9 +69,9 @@ TEST(SlidingObstacles, ItSlidesOffTheEdgeOfABoxAndFalls)
     Rig<false> rig{scene};
     rig.place({0.0, 0.0, 0.0}, {0.3, 0.0, 0.0});
     rig.tick(200);
-    const double falling = 0.2 - 0.04 / 0.3;
+    const double gravity_on = 0.2 - 0.04 / 0.3;
     EXPECT_NEAR(rig.position().x, 0.06, 1e-15);
-    EXPECT_NEAR(rig.position().y, -0.5 * 9.81 * falling * falling, 1e-15);
+    EXPECT_NEAR(rig.position().y, -0.5 * 9.81 * gravity_on * gravity_on, 1e-15);
 }
 
 TEST(SlidingObstacles, ItCrossesTheSeamsOfATiledFloorWithoutNoticing)
@@ -115,10 +115,10 @@ TEST(SlidingObstacles, PressedIntoAWallByAHandItStaysAtTheWall)
     scene.bodies.push_back(fixed_at({0.05, 0.0, 0.0}));
     scene.bodies[0].material.restitution = 0.8;
     Rig<false> rig{scene};
-    rig.hip(0, {-0.03, 0.0, 0.0}, {0.1, 0.0, 0.0});
+    rig.set_hand(0, {-0.03, 0.0, 0.0}, {0.1, 0.0, 0.0});
     for (int i = 0; i < 500; ++i) {
         rig.carry(1);
-        if (i == 200) rig.stage.hips[0].velocity = {};
+        if (i == 200) rig.state.hands[0].velocity = {};
         EXPECT_LE(rig.position().x, 0.05 - 0.04);
     }
     EXPECT_EQ(rig.position().x, 0.05 - 0.04);

@@ -11,45 +11,45 @@ namespace hapnet::scene {
 /// A sliding tick on a stage of its own.
 template <bool coulomb>
 struct Rig {
-    Frozen frozen;
-    Stage stage;
-    SlidingTick<coulomb> sliding;
+    WorldConfig config;
+    WorldState state;
+    OneBoxStepper<coulomb> stepper;
 
     explicit Rig(const Description& scene, double tick = 1e-3)
-        : frozen{scene.planes, scene.hips, scene.gravity, tick, true},
-          stage{.bodies = Bodies{scene}},
-          sliding{scene, frozen, stage}
+        : config{scene.planes, scene.hands, scene.gravity, tick, true},
+          state{.bodies = Bodies{scene}},
+          stepper{scene, config, state}
     {
-        for (HipInput& hip : stage.hips) hip.present = false;
-        stage.pushes.resize(scene.bodies.size());
-        stage.pushed = Bounded<BodyId>{scene.bodies.size()};
+        for (HandInput& hand : state.hands) hand.present = false;
+        state.pushes.resize(scene.bodies.size());
+        state.pushed = Bounded<BodyId>{scene.bodies.size()};
     }
     void tick(int times = 1)
     {
-        for (int i = 0; i < times; ++i) sliding.tick(frozen, stage);
+        for (int i = 0; i < times; ++i) stepper.step(config, state);
     }
     /// Moves the hands on by their velocities before every tick but the first.
     void carry(int times)
     {
         for (int i = 0; i < times; ++i) {
             tick();
-            for (HipInput& hip : stage.hips) {
-                hip.position.value += frozen.tick * hip.velocity.value;
+            for (HandInput& hand : state.hands) {
+                hand.position.value += config.tick * hand.velocity.value;
             }
         }
     }
-    void hip(std::uint32_t index, const glm::dvec3& position, const glm::dvec3& velocity = {})
+    void set_hand(std::uint32_t index, const glm::dvec3& position, const glm::dvec3& velocity = {})
     {
-        stage.hips[index] = {{position}, {velocity}};
+        state.hands[index] = {{position}, {velocity}};
     }
     void place(const glm::dvec3& position, const glm::dvec3& velocity = {})
     {
-        stage.bodies.position.put(0, position);
-        stage.bodies.velocity.put(0, velocity);
+        state.bodies.position.put(0, position);
+        state.bodies.velocity.put(0, velocity);
     }
-    [[nodiscard]] glm::dvec3 position() const { return stage.bodies.position.at(0); }
-    [[nodiscard]] glm::dvec3 velocity() const { return stage.bodies.velocity.at(0); }
-    [[nodiscard]] const HipTouch& touch(std::uint32_t hip) const { return stage.touches[hip]; }
+    [[nodiscard]] glm::dvec3 position() const { return state.bodies.position.at(0); }
+    [[nodiscard]] glm::dvec3 velocity() const { return state.bodies.velocity.at(0); }
+    [[nodiscard]] const HandTouch& touch(std::uint32_t hand) const { return state.touches[hand]; }
 };
 
 /// A cube of 40 mm and 100 g in empty space without gravity.
@@ -59,8 +59,8 @@ inline Description lone_cube()
     scene.bodies.resize(1);
     scene.bodies[0].turning = Turning::locked;
     scene.gravity = glm::dvec3{0.0};
-    scene.hips.damping_ns_per_m = 0.0;
-    scene.hips.force_max_n = std::numeric_limits<double>::infinity();
+    scene.hands.damping_ns_per_m = 0.0;
+    scene.hands.force_max_n = std::numeric_limits<double>::infinity();
     return scene;
 }
 

@@ -20,7 +20,7 @@ BodyDescription flying(const glm::dvec3& place)
 Description all_kinds()
 {
     Description scene;
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     for (int i = 0; i < 4; ++i) scene.bodies.push_back(flying({1.0 * i, 0.0, 0.0}));
     scene.bodies[1].half = {0.01, 0.02, 0.03};
     scene.bodies[2].turning = Turning::about_y;

@@ -12,19 +12,19 @@ namespace {
 /// A flight of the bodies of a description under gravity.
 struct Flight {
     explicit Flight(const Description& description)
-        : stage{Bodies{description}}, flight{description, frozen, stage}
+        : state{Bodies{description}}, flight{description, config, state}
     {
-        stage.pushes.resize(description.bodies.size());
-        stage.pushed = Bounded<BodyId>{description.bodies.size()};
+        state.pushes.resize(description.bodies.size());
+        state.pushed = Bounded<BodyId>{description.bodies.size()};
     }
     void run(int ticks)
     {
-        for (int i = 0; i < ticks; ++i) flight.tick(frozen, stage);
+        for (int i = 0; i < ticks; ++i) flight.step(config, state);
     }
 
-    Frozen frozen{.gravity = {0.0, -9.81, 0.0}, .tick = 1e-3};
-    Stage stage;
-    FlightTick flight;
+    WorldConfig config{.gravity = {0.0, -9.81, 0.0}, .tick = 1e-3};
+    WorldState state;
+    FreeFlightStepper flight;
 };
 
 Description with(std::vector<BodyDescription> bodies)
@@ -53,17 +53,17 @@ TEST(Flight, IsAParabolaToThePicometreAfterASecond)
 {
     Flight flight{with({box(glm::dvec3{0.02}, {1.0, 2.0, 3.0})})};
     flight.run(1000);
-    EXPECT_LE(distance(flight.stage.bodies.position.at(0), {0.3, 1.0 - 0.5 * 9.81, -0.2}), 1e-12);
-    EXPECT_LE(distance(flight.stage.bodies.velocity.at(0), {0.3, 1.0 - 9.81, -0.2}), 1e-12);
+    EXPECT_LE(distance(flight.state.bodies.position.at(0), {0.3, 1.0 - 0.5 * 9.81, -0.2}), 1e-12);
+    EXPECT_LE(distance(flight.state.bodies.velocity.at(0), {0.3, 1.0 - 9.81, -0.2}), 1e-12);
 }
 
 TEST(Flight, APushAcceleratesTheBodyByItsMassForTheTick)
 {
     Flight flight{with({box(glm::dvec3{0.02}, {}), box(glm::dvec3{0.02}, {})})};
-    flight.stage.pushes[1] = {0.5, 0.0, -0.25};
-    flight.stage.pushed.add(1);
+    flight.state.pushes[1] = {0.5, 0.0, -0.25};
+    flight.state.pushed.add(1);
     flight.run(1);
-    const Bodies& bodies = flight.stage.bodies;
+    const Bodies& bodies = flight.state.bodies;
     const glm::dvec3 by = (bodies.velocity.at(1) - bodies.velocity.at(0));
     EXPECT_LE(distance(by, {5e-3, 0.0, -2.5e-3}), 1e-15);
     EXPECT_LE(distance(bodies.position.at(1) - bodies.position.at(0), 0.5e-3 * by), 1e-15);
@@ -74,11 +74,11 @@ TEST(Flight, ALockedAxisDoesNotFall)
     BodyDescription hovering = box(glm::dvec3{0.02}, {});
     hovering.locked_y = true;
     Flight flight{with({hovering})};
-    flight.stage.pushes[0] = {0.0, 1.0, 0.0};
-    flight.stage.pushed.add(0);
+    flight.state.pushes[0] = {0.0, 1.0, 0.0};
+    flight.state.pushed.add(0);
     flight.run(100);
-    EXPECT_EQ(flight.stage.bodies.position.y[0], 0.0);
-    EXPECT_NEAR(flight.stage.bodies.position.x[0], 0.03, 1e-15);
+    EXPECT_EQ(flight.state.bodies.position.y[0], 0.0);
+    EXPECT_NEAR(flight.state.bodies.position.x[0], 0.03, 1e-15);
 }
 
 TEST(Flight, ACubeTurnsAboutItsAxisExactly)
@@ -86,8 +86,8 @@ TEST(Flight, ACubeTurnsAboutItsAxisExactly)
     const glm::dvec3 spin{3.0, -2.0, 6.0};
     Flight flight{with({box(glm::dvec3{0.02}, spin)})};
     flight.run(1000);
-    const glm::dquat expected = turn_by(spin);
-    const glm::dquat found = flight.stage.bodies.orientation.at(0);
+    const glm::dquat expected = rotation_by(spin);
+    const glm::dquat found = flight.state.bodies.orientation.at(0);
     EXPECT_NEAR(found.w, expected.w, 1e-13);
     EXPECT_NEAR(found.x, expected.x, 1e-13);
     EXPECT_NEAR(found.y, expected.y, 1e-13);
@@ -98,29 +98,29 @@ TEST(Flight, ACubeMayTurnManyTimesInATick)
 {
     Flight flight{with({box(glm::dvec3{0.02}, {0.0, 1e4, 0.0}), box(glm::dvec3{0.02}, {})})};
     flight.run(10);
-    EXPECT_NEAR(flight.stage.bodies.orientation.y[0], std::sin(50.0), 1e-12);
-    EXPECT_EQ(flight.stage.bodies.orientation.w[1], 1.0);
+    EXPECT_NEAR(flight.state.bodies.orientation.y[0], std::sin(50.0), 1e-12);
+    EXPECT_EQ(flight.state.bodies.orientation.w[1], 1.0);
 }
 
 TEST(Flight, ATiltedBoxTurnsExactlyAboutTheOnlyAxisThatIsFree)
 {
     BodyDescription tilted = box({0.01, 0.02, 0.03}, {9.0, 2.0, 9.0});
-    tilted.orientation = turn_by({0.4, 0.0, 0.3});
+    tilted.orientation = rotation_by({0.4, 0.0, 0.3});
     tilted.turning = Turning::about_y;
     Flight flight{with({tilted})};
     flight.run(500);
-    const glm::dquat expected = turn_by({0.0, 1.0, 0.0}) * tilted.orientation;
-    EXPECT_NEAR(flight.stage.bodies.orientation.w[0], expected.w, 1e-13);
-    EXPECT_NEAR(flight.stage.bodies.orientation.y[0], expected.y, 1e-13);
+    const glm::dquat expected = rotation_by({0.0, 1.0, 0.0}) * tilted.orientation;
+    EXPECT_NEAR(flight.state.bodies.orientation.w[0], expected.w, 1e-13);
+    EXPECT_NEAR(flight.state.bodies.orientation.y[0], expected.y, 1e-13);
 }
 
 TEST(Flight, AngularMomentumStaysToTheLastBitAndOrientationsStayUnit)
 {
     Flight flight{with({box({0.01, 0.02, 0.03}, {0.01, 10.0, 0.01})})};
-    const glm::dvec3 before = flight.stage.bodies.angular_momentum.at(0);
+    const glm::dvec3 before = flight.state.bodies.angular_momentum.at(0);
     flight.run(20000);
-    EXPECT_EQ(flight.stage.bodies.angular_momentum.at(0), before);
-    const glm::dquat q = flight.stage.bodies.orientation.at(0);
+    EXPECT_EQ(flight.state.bodies.angular_momentum.at(0), before);
+    const glm::dquat q = flight.state.bodies.orientation.at(0);
     EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1.0, 1e-15);
 }
 
@@ -140,14 +140,14 @@ TEST(Flight, BodiesOfEveryKindMoveSideBySideAsEachAlone)
         Flight alone{with({all[i]})};
         alone.run(5);
         const Slot slot = static_cast<Slot>(i);
-        EXPECT_EQ(together.stage.bodies.orientation.at(slot), alone.stage.bodies.orientation.at(0));
-        EXPECT_EQ(together.stage.bodies.position.at(slot), alone.stage.bodies.position.at(0));
-        Bodies& bodies = alone.stage.bodies;
+        EXPECT_EQ(together.state.bodies.orientation.at(slot), alone.state.bodies.orientation.at(0));
+        EXPECT_EQ(together.state.bodies.position.at(slot), alone.state.bodies.position.at(0));
+        Bodies& bodies = alone.state.bodies;
         const glm::dquat before = bodies.orientation.at(0);
         alone.run(1);
         const glm::dquat lanes = bodies.orientation.at(0);
         bodies.orientation.put(0, before);
-        turn_freely(bodies, 0, 1e-3);
+        rotate_freely(bodies, 0, 1e-3);
         EXPECT_NEAR(bodies.orientation.at(0).w, lanes.w, 4e-16) << i;
         EXPECT_NEAR(bodies.orientation.at(0).z, lanes.z, 4e-16) << i;
     }

@@ -11,12 +11,12 @@ namespace {
 Description with_hands()
 {
     Description scene = platform();
-    scene.hips.count = 2;
+    scene.hands.count = 2;
     scene.bodies.push_back(cube_at({0.0, half, 0.0}));
     return scene;
 }
 
-HipInput hand_at(double x, double speed = 0.0)
+HandInput hand_at(double x, double speed = 0.0)
 {
     return {.position = {{x, half, 0.0}}, .velocity = {{speed, 0.0, 0.0}}};
 }
@@ -26,34 +26,34 @@ TEST(RigidHands, ASqueezedCubeDoesNotMoveByABit)
     World world = world_of(with_hands());
     const double place = half + 0.005 - 0.001;
     for (int i = 0; i < 500; ++i) {
-        std::ignore = world.hip(0, hand_at(-place));
-        std::ignore = world.hip(1, hand_at(place));
+        std::ignore = world.set_hand(0, hand_at(-place));
+        std::ignore = world.set_hand(1, hand_at(place));
         world.tick();
     }
     EXPECT_EQ(world.body(0).position.value, glm::dvec3(0.0, half, 0.0));
-    EXPECT_EQ(turned(world.body(0)), 0.0);
+    EXPECT_EQ(rotated(world.body(0)), 0.0);
     EXPECT_NEAR(world.touch(0).on_body.x(), 0.5, 1e-12);
-    EXPECT_EQ(world.touch(0).on_hip.x(), world.touch(1).on_body.x());
+    EXPECT_EQ(world.touch(0).on_hand.x(), world.touch(1).on_body.x());
     EXPECT_NEAR(world.touch(1).depth_m, 0.001, 1e-15);
 }
 
 TEST(RigidHands, ASteadilyPushedCubeFeelsTheFrictionAndNoLag)
 {
     Description scene = with_hands();
-    scene.hips.damping_ns_per_m = 10.0;
+    scene.hands.damping_ns_per_m = 10.0;
     World world = world_of(scene);
     constexpr double speed = 0.1;
     const double force = friction * 0.1 * gravity;
     double x = -half - 0.005 - 0.0001;
     for (int i = 0; i < 1500; ++i) {
-        std::ignore = world.hip(0, hand_at(x, speed));
+        std::ignore = world.set_hand(0, hand_at(x, speed));
         world.tick();
         x += speed * 1e-3;
     }
     EXPECT_NEAR(world.touch(0).on_body.x(), force, 1e-6);
     EXPECT_NEAR(world.body(0).velocity.x(), speed, 1e-6);
     EXPECT_NEAR(world.body(0).position.y(), half, 1e-9);
-    EXPECT_LT(turned(world.body(0)), 1e-6);
+    EXPECT_LT(rotated(world.body(0)), 1e-6);
     // Where spring and hand have it, at the end of the tick: no k v h.
     EXPECT_NEAR(x + 0.005 - (world.body(0).position.x() - half), force / 500.0, 1e-8);
 }
@@ -61,21 +61,21 @@ TEST(RigidHands, ASteadilyPushedCubeFeelsTheFrictionAndNoLag)
 TEST(RigidHands, AHeldCubeIsLiftedAndLetGo)
 {
     Description scene = with_hands();
-    scene.hips.stiffness_n_per_m = 2000.0;
-    scene.hips.damping_ns_per_m = 20.0;
+    scene.hands.stiffness_n_per_m = 2000.0;
+    scene.hands.damping_ns_per_m = 20.0;
     World world = world_of(scene);
-    HipInput hand{.position = {{0.0, 2.0 * half, 0.0}}, .gripping = true};
+    HandInput hand{.position = {{0.0, 2.0 * half, 0.0}}, .gripping = true};
     for (int i = 0; i < 1000; ++i) {
         hand.position.value.y += 1e-4;
         hand.velocity = {{0.0, 0.1, 0.0}};
-        std::ignore = world.hip(0, hand);
+        std::ignore = world.set_hand(0, hand);
         world.tick();
     }
     EXPECT_TRUE(world.touch(0).holding);
     EXPECT_NEAR(world.body(0).position.y(), half + 0.1, 2e-3);
     hand.gripping = false;
     hand.present = false;
-    std::ignore = world.hip(0, hand);
+    std::ignore = world.set_hand(0, hand);
     run(world, 1000);
     EXPECT_FALSE(world.touch(0).holding);
     EXPECT_LT(world.body(0).position.y(), half * 1.8);
@@ -88,12 +88,12 @@ TEST(RigidHands, AFixedBoxIsFeltAndThePlatformIsNot)
     post.movable = false;
     scene.bodies.push_back(post);
     World world = world_of(scene);
-    std::ignore = world.hip(0, hand_at(0.5 - half - 0.005 + 0.001));
-    std::ignore = world.hip(1, {.position = {{0.2, -0.1, 0.0}}});
+    std::ignore = world.set_hand(0, hand_at(0.5 - half - 0.005 + 0.001));
+    std::ignore = world.set_hand(1, {.position = {{0.2, -0.1, 0.0}}});
     world.tick();
-    EXPECT_NEAR(world.touch(0).on_hip.x(), -0.5, 1e-12);
+    EXPECT_NEAR(world.touch(0).on_hand.x(), -0.5, 1e-12);
     EXPECT_FALSE(world.touch(0).touching);
-    EXPECT_EQ(world.touch(1).on_hip, base::Force{});
+    EXPECT_EQ(world.touch(1).on_hand, base::Force{});
 }
 
 } // namespace

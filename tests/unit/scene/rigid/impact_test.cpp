@@ -31,7 +31,7 @@ TEST(RigidImpact, AFlatHitOnAWallBouncesByItsRestitutionAtItsMoment)
         EXPECT_NEAR(world.body(0).velocity.x(), -restitution * speed, 1e-11);
         EXPECT_NEAR(world.body(0).position.x(), 0.2 - half - restitution * speed * after, 1e-11);
         EXPECT_LE(deepest, 1e-14);
-        EXPECT_LT(turned(world.body(0)), 1e-11);
+        EXPECT_LT(rotated(world.body(0)), 1e-11);
     }
 }
 
@@ -51,7 +51,7 @@ TEST(RigidImpact, NothingPassesAThinWallAtAThousandMetresPerSecond)
     for (const double restitution : {0.0, 1.0}) {
         for (const double speed : {3.0, 30.0, 1000.0}) {
             Description scene;
-            scene.hips.count = 0;
+            scene.hands.count = 0;
             scene.gravity = glm::dvec3{0.0};
             BodyDescription wall = cube_at({5.0, 0.0, 0.0});
             wall.movable = false;
@@ -73,7 +73,7 @@ TEST(RigidImpact, OfTwoCubesThatMeetTheMomentumStays)
 {
     for (const double speed : {1.0, 1000.0}) {
         Description scene;
-        scene.hips.count = 0;
+        scene.hands.count = 0;
         scene.gravity = glm::dvec3{0.0};
         scene.bodies.push_back(cube_at({2.0, 0.0, 0.0}, 0.1));
         scene.bodies.push_back(cube_at({0.0, 0.0, 0.0}, 0.3));

@@ -17,7 +17,7 @@ TEST(RigidRest, ACubeOnThePlatformDoesNotMoveByABit)
     World world = world_of(scene);
     run(world, 1000);
     EXPECT_EQ(world.body(0).position.value, glm::dvec3(0.0, half, 0.0));
-    EXPECT_EQ(turned(world.body(0)), 0.0);
+    EXPECT_EQ(rotated(world.body(0)), 0.0);
 }
 
 TEST(RigidRest, AStackOfTenDriftsLessThanAMicrometreInTwoSeconds)

@@ -27,7 +27,7 @@ inline BodyDescription cube_at(const glm::dvec3& place, double mass_kg = 0.1)
 inline Description platform()
 {
     Description scene;
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     scene.planes.push_back({.name = "platform", .material = {.friction = friction}});
     return scene;
 }
@@ -47,7 +47,7 @@ inline void run(World& world, std::uint64_t ticks)
 inline double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 /// How far it is turned from where it began upright, radians (small ones).
-inline double turned(const BodyState& state)
+inline double rotated(const BodyState& state)
 {
     const glm::dquat& q = state.orientation;
     return 2.0 * std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
@@ -55,13 +55,14 @@ inline double turned(const BodyState& state)
 
 inline double energy(const World& world)
 {
-    const Bodies& bodies = world.stage().bodies;
+    const Bodies& bodies = world.state().bodies;
     double sum = 0.0;
     for (Slot slot = 0; slot < bodies.movable; ++slot) {
         const glm::dvec3 v = bodies.velocity.at(slot);
-        sum += 0.5 * bodies.form[slot].mass * glm::dot(v, v);
+        sum += 0.5 * bodies.properties[slot].mass * glm::dot(v, v);
         sum += 0.5 * glm::dot(bodies.angular_velocity(slot), bodies.angular_momentum.at(slot));
-        sum -= bodies.form[slot].mass * glm::dot(world.frozen().gravity, bodies.position.at(slot));
+        sum -= bodies.properties[slot].mass *
+               glm::dot(world.frozen().gravity, bodies.position.at(slot));
     }
     return sum;
 }

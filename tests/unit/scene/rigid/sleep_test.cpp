@@ -11,10 +11,10 @@ namespace {
 constexpr int rest_ticks = 100; // a tenth of a second
 
 /// A crowd that sleeps and wakes, and whose contacts a test makes.
-template <Search search>
-struct Sleepers : Crowd<search> {
+template <BroadPhase broad_phase>
+struct Sleepers : Crowd<broad_phase> {
     explicit Sleepers(const Description& description)
-        : Crowd<search>{description}, sleep{this->frozen, this->bodies}
+        : Crowd<broad_phase>{description}, sleep{this->config, this->bodies}
     {
         for (BodyId id = 0; id < this->bodies.movable; ++id) speed(id, 1.0);
     }
@@ -25,16 +25,16 @@ struct Sleepers : Crowd<search> {
     void still(BodyId id) { speed(id, 0.0); }
     void touch(BodyId a, BodyId b, double impulse)
     {
-        for (const PairIndex i : this->neighbours.pairs()) {
-            Pair& pair = this->neighbours.pair(i);
+        for (const PairIndex i : this->pair_finder.pairs()) {
+            Pair& pair = this->pair_finder.pair(i);
             if (pair.a != a || pair.b != b) continue;
             pair.memory.count = 1;
             pair.memory.normal_impulse[0] = impulse;
         }
     }
-    void rest(int count)
+    void update(int count)
     {
-        for (int i = 0; i < count; ++i) sleep.rest(this->bodies, this->neighbours, ++ticks);
+        for (int i = 0; i < count; ++i) sleep.update(this->bodies, this->pair_finder, ++ticks);
     }
     [[nodiscard]] bool is_awake(BodyId id) const
     {
@@ -56,8 +56,8 @@ class SleepOf : public testing::Test {
 protected:
     using Subject = Sleepers<Kind::value>;
 };
-using Kinds = testing::Types<std::integral_constant<Search, Search::scan>,
-                             std::integral_constant<Search, Search::grid>>;
+using Kinds = testing::Types<std::integral_constant<BroadPhase, BroadPhase::all_pairs>,
+                             std::integral_constant<BroadPhase, BroadPhase::grid>>;
 TYPED_TEST_SUITE(SleepOf, Kinds);
 
 TYPED_TEST(SleepOf, ABodyComesAfterATenthOfASecondAtRestAndNotBefore)
@@ -76,7 +76,7 @@ TYPED_TEST(SleepOf, WhatCreepsBelowTheLimitStopsExactlyAndWhatIsFasterDoesNot)
     crowd.speed(0, 1e-3); // limit: 0.1 * 9.81e-3 + 1e-3 * sqrt(9.81 * 0.04) = 1.61e-3
     crowd.speed(1, 2e-3);
     crowd.still(2);
-    crowd.bodies.spin(2, {0.0, 0.1, 0.0}); // corners at 3.5e-3
+    crowd.bodies.set_angular_velocity(2, {0.0, 0.1, 0.0}); // corners at 3.5e-3
     crowd.rest(rest_ticks);
     EXPECT_EQ(crowd.awake(), "saa");
     EXPECT_EQ(crowd.bodies.velocity.at(crowd.bodies.slot_of[0]), glm::dvec3{0.0});
@@ -94,7 +94,7 @@ TYPED_TEST(SleepOf, AnIslandWaitsForTheLastOfItsBodies)
     crowd.still(2);
     crowd.rest(rest_ticks);
     EXPECT_EQ(crowd.awake(), "ssss");
-    EXPECT_TRUE(crowd.neighbours.pairs().empty());
+    EXPECT_TRUE(crowd.pair_finder.pairs().empty());
 }
 
 TYPED_TEST(SleepOf, FixedBodiesConnectNothing)
@@ -118,11 +118,11 @@ TYPED_TEST(SleepOf, WakingOneWakesWhatItTouchesAndNobodyElseAndContactsKeepTheir
     for (BodyId id = 0; id < 5; ++id) crowd.still(id);
     crowd.rest(rest_ticks);
     ASSERT_EQ(crowd.awake(), "sssss");
-    crowd.sleep.wake(2, crowd.bodies, crowd.neighbours);
+    crowd.sleep.wake(2, crowd.bodies, crowd.pair_finder);
     EXPECT_EQ(crowd.awake(), "aaaas");
-    ASSERT_EQ(crowd.neighbours.pairs().size(), 4U);
+    ASSERT_EQ(crowd.pair_finder.pairs().size(), 4U);
     for (BodyId id = 0; id < 3; ++id) {
-        const Pair& pair = crowd.neighbours.pair(crowd.neighbours.pairs()[id]);
+        const Pair& pair = crowd.pair_finder.pair(crowd.pair_finder.pairs()[id]);
         EXPECT_EQ(pair.memory.normal_impulse[0], 1e-3 * (id + 1));
     }
 }
@@ -134,17 +134,17 @@ TYPED_TEST(SleepOf, EndsForWhatAMovingBodyTouchesAndNotForWhatOneAtRestDoes)
     for (BodyId id = 0; id < 4; ++id) crowd.still(id);
     crowd.rest(rest_ticks);
     ASSERT_EQ(crowd.awake(), "ssss");
-    crowd.sleep.wake(2, crowd.bodies, crowd.neighbours);
-    const auto touching = [&](PairIndex index) { return crowd.neighbours.pair(index).a != 2; };
+    crowd.sleep.wake(2, crowd.bodies, crowd.pair_finder);
+    const auto touching = [&](PairIndex index) { return crowd.pair_finder.pair(index).a != 2; };
     crowd.still(2);
     crowd.rest(1);
-    EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.neighbours, touching));
+    EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
     crowd.speed(2, 0.1);
     crowd.rest(1);
-    EXPECT_TRUE(crowd.sleep.wake_touched(crowd.bodies, crowd.neighbours, touching));
+    EXPECT_TRUE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
     EXPECT_EQ(crowd.awake(), "aaas");
-    EXPECT_FALSE(crowd.neighbours.pairs_added().empty());
-    EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.neighbours, touching));
+    EXPECT_FALSE(crowd.pair_finder.pairs_added().empty());
+    EXPECT_FALSE(crowd.sleep.wake_touched(crowd.bodies, crowd.pair_finder, touching));
 }
 
 TYPED_TEST(SleepOf, DoesNotComeToABodyThatIsKeptAwake)
@@ -161,8 +161,8 @@ TYPED_TEST(SleepOf, DoesNotComeToABodyThatIsKeptAwake)
 TYPED_TEST(SleepOf, IsNotWhenItIsOff)
 {
     typename TestFixture::Subject crowd{row_of_cubes(2, 1.0)};
-    crowd.frozen.sleeping = false;
-    crowd.sleep = Sleep{crowd.frozen, crowd.bodies};
+    crowd.config.sleeping = false;
+    crowd.sleep = Sleep{crowd.config, crowd.bodies};
     for (BodyId id : {0U, 1U}) crowd.still(id);
     crowd.rest(3 * rest_ticks);
     EXPECT_EQ(crowd.awake(), "aa");

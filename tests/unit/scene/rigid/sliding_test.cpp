@@ -25,7 +25,7 @@ TEST(RigidFriction, ASlidingCubeStopsWhereCoulombSaysWhateverTheDirectionAndTheT
             const double distance = speed * speed / (2.0 * friction * gravity);
             const glm::dvec3 went = state.position.value - glm::dvec3{0.0, half, 0.0};
             EXPECT_LT(length(went - distance * want), 1e-11 * distance);
-            EXPECT_LT(turned(state), 1e-12);
+            EXPECT_LT(rotated(state), 1e-12);
             EXPECT_LT(length(state.velocity.value), 1e-10);
         }
     }

@@ -8,13 +8,13 @@
 namespace hapnet::scene {
 namespace {
 
-TEST(RigidTick, ACubeThatTipsOverAnEdgeThatSticksKeepsTheEdgeWhereItIs)
+TEST(RigidStepper, ACubeThatTipsOverAnEdgeThatSticksKeepsTheEdgeWhereItIs)
 {
     const double radius = 0.02 * std::sqrt(2.0); // from the edge to the centre, right above it
-    constexpr double turned = 0.7853981633974483;
+    constexpr double rotated = 0.7853981633974483;
     constexpr double speed = 0.5;
     BodyDescription cube;
-    cube.orientation = {std::cos(turned / 2.0), 0.0, 0.0, std::sin(turned / 2.0)};
+    cube.orientation = {std::cos(rotated / 2.0), 0.0, 0.0, std::sin(rotated / 2.0)};
     cube.position = {{0.0, radius, 0.0}};
     cube.velocity = {{speed * radius, 0.0, 0.0}};
     cube.angular_velocity = {0.0, 0.0, -speed};
@@ -22,22 +22,22 @@ TEST(RigidTick, ACubeThatTipsOverAnEdgeThatSticksKeepsTheEdgeWhereItIs)
     Description scene;
     scene.bodies = {cube};
     scene.planes = {{.name = "floor", .material = {.friction = 2.0}}};
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     World world = World::freeze(scene).value();
     for (int i = 0; i < 64; ++i) world.tick();
     const BodyState state = world.body(0);
-    const double tipped = turned - 2.0 * std::atan2(state.orientation.z, state.orientation.w);
+    const double tipped = rotated - 2.0 * std::atan2(state.orientation.z, state.orientation.w);
     EXPECT_GT(tipped, 0.03);
     EXPECT_NEAR(state.position.x() - radius * std::sin(tipped), 0.0, 1e-8);
 }
 
-TEST(RigidTick, DragActsFromTheFirstTickOnWhatIsPutOnAPlane)
+TEST(RigidStepper, DragActsFromTheFirstTickOnWhatIsPutOnAPlane)
 {
     Description scene = paper_scene();
     scene.bodies.resize(1);
     scene.bodies[0].turning = Turning::free;
     scene.bodies[0].velocity = {{0.2, 0.0, 0.0}};
-    scene.hips.count = 0;
+    scene.hands.count = 0;
     World world = World::freeze(scene).value();
     for (int i = 0; i < 500; ++i) world.tick(); // 50 time constants of 0.1 kg / (10 N s/m)
     EXPECT_NEAR(world.body(0).position.x(), 0.2 * 0.01, 1e-14);

@@ -37,7 +37,7 @@ TEST(ContactSolver, CarriesAThousandfoldMassInAFewSweeps)
     const double fall = 9.81e-3;
     for (SolverIndex i = 1; i <= 2; ++i) {
         solver.response(i).inverse_mass = glm::dvec3{1.0 / mass[i - 1]};
-        solver.ending(i) = {{0.0, -fall, 0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};
+        solver.end_motion(i) = {{0.0, -fall, 0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};
         Manifold manifold;
         manifold.count = 1;
         manifold.points[0] = {};
@@ -46,10 +46,10 @@ TEST(ContactSolver, CarriesAThousandfoldMassInAFewSweeps)
         block.a = i - 1;
         block.b = i;
         block.friction = 0.0;
-        block.bend = {};
-        block.least = {};
+        block.centripetal_velocity = {};
+        block.speed_min = {};
     }
-    const SolverOutcome outcome = solver.solve({1e-12, 1e-9, 60});
+    const SolverOutcome outcome = solver.solve_velocities({1e-12, 1e-9, 60});
     EXPECT_LE(outcome.sweeps, 11U);
     EXPECT_NEAR(solver.blocks()[0].normal_sum(), 100.1 * fall, 1e-9);
     EXPECT_NEAR(solver.blocks()[1].normal_sum(), 100.0 * fall, 1e-9);

@@ -76,11 +76,11 @@ TEST(SceneText, ReadsHandsPlanesAndGravity)
         friction = 0.5
     )");
     EXPECT_EQ(scene.gravity, (glm::dvec3{0.0, -1.62, 0.0}));
-    EXPECT_EQ(scene.hips.count, 1U);
-    EXPECT_EQ(scene.hips.stiffness_n_per_m, 1e6);
-    EXPECT_EQ(scene.hips.damping_ns_per_m, 0.0);
-    EXPECT_EQ(scene.hips.force_max_n, std::numeric_limits<double>::infinity());
-    EXPECT_EQ(scene.hips.grip_reach_m, HipDescription{}.grip_reach_m);
+    EXPECT_EQ(scene.hands.count, 1U);
+    EXPECT_EQ(scene.hands.stiffness_n_per_m, 1e6);
+    EXPECT_EQ(scene.hands.damping_ns_per_m, 0.0);
+    EXPECT_EQ(scene.hands.force_max_n, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(scene.hands.grip_reach_m, HandDescription{}.grip_reach_m);
     EXPECT_EQ(scene.planes.at(0).normal, (glm::dvec3{0.6, 0.8, 0.0}));
     EXPECT_EQ(scene.planes.at(0).offset_m, -0.02);
 }

@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr base::TimePoint start{1h};
-constexpr scene::HipInput away{.present = false};
+constexpr scene::HandInput away{.present = false};
 
 wire::State heard(bool touching, double force_x, double body_x, double body_speed)
 {
@@ -30,7 +30,7 @@ wire::State heard(bool touching, double force_x, double body_x, double body_spee
 scene::World paper_world() { return scene::World::freeze(scene::paper_scene()).value(); }
 
 /// A hand from the left, so deep in the cube at the origin: 2 mm are 1 N.
-scene::HipInput pushing(double depth, double speed = 0.0)
+scene::HandInput pushing(double depth, double speed = 0.0)
 {
     return {.position = {{-0.025 + depth, 0.0, 0.0}}, .velocity = {{speed, 0.0, 0.0}}};
 }
@@ -40,9 +40,9 @@ class Copy {
 public:
     void hear(const wire::State& state) { remote_.update(state, now); }
 
-    scene::HipTouch tick(const scene::HipInput& hand, double freshness = 1.0, bool yields = true)
+    scene::HandTouch tick(const scene::HandInput& hand, double freshness = 1.0, bool yields = true)
     {
-        world.hip(own_hand, hand);
+        world.set_hand(own_hand, hand);
         const Situation situation{
             .now = now, .remote = remote_, .freshness = freshness, .yields = yields};
         const Outcome outcome = algorithm_.tick(world, situation);
@@ -61,9 +61,9 @@ private:
 };
 
 /// What happens without the other side, but for a push along x.
-void tick(scene::World& world, const scene::HipInput& hand, double push_x = 0.0)
+void tick(scene::World& world, const scene::HandInput& hand, double push_x = 0.0)
 {
-    world.hip(own_hand, hand);
+    world.set_hand(own_hand, hand);
     world.push(0, {{push_x, 0.0, 0.0}});
     world.tick();
 }
@@ -74,7 +74,7 @@ TEST(BaseAlgorithm, MovesABodyThatBothPushByTheSumOfTheForces)
     scene::World expected = paper_world();
     copy.hear(heard(true, -0.5, 0.05, 0.3)); // where it is over there does not matter now
     for (int ms = 0; ms < 100; ++ms) {
-        const scene::HipTouch touched = copy.tick(pushing(0.004));
+        const scene::HandTouch touched = copy.tick(pushing(0.004));
         tick(expected, pushing(0.004), -0.5);
         ASSERT_EQ(copy.world.hash(), expected.hash()) << ms;
         ASSERT_TRUE(touched.touching);
@@ -117,7 +117,7 @@ TEST(BaseAlgorithm, LetsATouchThatBeginsWithinATickCountInIt)
     Copy copy;
     scene::World expected = paper_world();
     copy.hear(heard(true, -0.5, 0.05, 0.3));
-    const scene::HipInput coming = pushing(-0.0001, 0.3); // 0.3 mm of way, 0.1 mm away
+    const scene::HandInput coming = pushing(-0.0001, 0.3); // 0.3 mm of way, 0.1 mm away
     EXPECT_TRUE(copy.tick(coming).touching);
     tick(expected, coming, -0.5);
     EXPECT_EQ(copy.world.hash(), expected.hash());
@@ -192,8 +192,8 @@ TEST(BaseAlgorithm, BreaksABlendOffWhenAHandTouchesAndWaitsAnewAfterwards)
 {
     Copy copy;
     copy.hear(heard(false, 0.0, 0.010, 0.0));
-    for (int ms = 0; ms < 250; ++ms) std::ignore = copy.tick(away);                   // halfway
-    const scene::HipInput from_the_right{.position = {{copy.x() + 0.023, 0.0, 0.0}}}; // 1 N
+    for (int ms = 0; ms < 250; ++ms) std::ignore = copy.tick(away);                    // halfway
+    const scene::HandInput from_the_right{.position = {{copy.x() + 0.023, 0.0, 0.0}}}; // 1 N
     EXPECT_TRUE(copy.tick(from_the_right).touching);
     const double left_at = copy.x();
     EXPECT_NEAR(left_at, 0.005, 0.0005);
@@ -207,7 +207,7 @@ TEST(Algorithms, HaveNames)
     const auto unknown = algorithm_named("best");
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().message,
-              "'best' is not an algorithm; known: base, dead-reckoning, sep");
+              "unknown algorithm \"best\": use one of base, dead-reckoning, sep");
 }
 
 } // namespace

@@ -96,7 +96,7 @@ TEST(BaseOptions, ARemoteForceOnTheHandTooIsFeltTwice)
     const Outcome outcome = copy.tick(0.0, pushing_hip(0.004));
     tick(expected, pushing_hip(0.004), -0.5);
     EXPECT_EQ(copy.world.hash(), expected.hash());
-    EXPECT_EQ(outcome.on_hand.x(), expected.touch(own_hand).on_hip.x() - 0.5);
+    EXPECT_EQ(outcome.on_hand.x(), expected.touch(own_hand).on_hand.x() - 0.5);
     EXPECT_EQ(copy.tick(1.0, away).on_hand, base::Force{}); // a hand off the body feels nothing
 }
 

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 inline constexpr base::TimePoint start{1h};
 inline constexpr double force_max = 3.3;
-inline constexpr scene::HipInput away{.present = false};
+inline constexpr scene::HandInput away{.present = false};
 
 [[nodiscard]] inline scene::World paper_world()
 {
@@ -21,7 +21,7 @@ inline constexpr scene::HipInput away{.present = false};
 }
 
 /// A hand from the left, so deep in the cube at the origin: 2 mm are 1 N.
-[[nodiscard]] inline scene::HipInput pushing_hip(double depth)
+[[nodiscard]] inline scene::HandInput pushing_hip(double depth)
 {
     return {.position = {{-0.025 + depth, 0.0, 0.0}}};
 }
@@ -72,9 +72,9 @@ public:
                         .force_max_n = force_max});
     }
 
-    Outcome tick(double now_ms, const scene::HipInput& hand = away, double freshness = 1.0)
+    Outcome tick(double now_ms, const scene::HandInput& hand = away, double freshness = 1.0)
     {
-        world.hip(own_hand, hand);
+        world.set_hand(own_hand, hand);
         return algorithm.tick(world, {.now = at_ms(now_ms),
                                       .remote = remote,
                                       .freshness = freshness,
@@ -93,9 +93,9 @@ public:
 };
 
 /// What happens without the other side, but for a push along x.
-inline void tick(scene::World& world, const scene::HipInput& hand, double push_x = 0.0)
+inline void tick(scene::World& world, const scene::HandInput& hand, double push_x = 0.0)
 {
-    world.hip(own_hand, hand);
+    world.set_hand(own_hand, hand);
     world.push(0, {{push_x, 0.0, 0.0}});
     world.tick();
 }

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ctl/options.hpp"
+#include "proto/base/result.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace hapnet::ctl {
+
+/// What is asked of the program behind the socket. Reads the profile that the options name.
+[[nodiscard]] base::Result<nlohmann::ordered_json> make_request(const Options& options);
+
+} // namespace hapnet::ctl

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/hdapi/device_cycle.hpp"
+#include "device/hdapi/triple_buffer.hpp"
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+
+namespace hapnet::device::hdapi {
+
+/// One device in the scheduler: shared by the scheduler's callback and the device's own thread. The
+/// loop runs on the device's own thread, never inside the callback: there it could hang, and with
+/// it the only way to zero force.
+class SchedulerClient {
+public:
+    explicit SchedulerClient(const DeviceCycle& cycle) : cycle_{cycle} {}
+
+    /// While the scheduler is stopped: ends the silence.
+    void on_start();
+
+    // The scheduler's thread.
+    void serve();
+    void note(unsigned int error) { cycle_.note(error); }
+
+    // The device's thread.
+    /// The newest report.
+    [[nodiscard]] const Report& report();
+    void command(const Command& command);
+    /// As Device::pace(); the beats come on the calling thread.
+    void pace(const std::function<bool()>& beat);
+    [[nodiscard]] Handle handle() const { return cycle_.handle(); }
+
+    // Any thread.
+    /// Zero force from the next cycle of the library on.
+    void halt() noexcept { halted_.store(true, std::memory_order_release); }
+    /// Zero force until the scheduler starts again, whatever is commanded.
+    void begin_silence() { hushed_.store(true, std::memory_order_release); }
+    /// After begin_silence(): returns when at least three frames have carried it, or no cycle came
+    /// for 100 ms.
+    void await_silence();
+
+private:
+    enum class Beat : std::uint8_t {
+        none,
+        awaited, // the next cycle calls for one
+        due,     // called for, and not over
+    };
+
+    void call_for_a_beat();
+    [[nodiscard]] bool is_called();
+
+    DeviceCycle cycle_;
+    TripleBuffer<Report> reports_;
+    TripleBuffer<Command> commands_;
+    std::atomic<bool> halted_{false};
+    std::atomic<bool> hushed_{false};
+    std::atomic<std::uint64_t> cycles_{0};
+    std::mutex mutex_; // of the two below
+    Beat beat_ = Beat::none;
+    bool is_silent_ = false;
+    std::condition_variable changed_;
+};
+
+} // namespace hapnet::device::hdapi

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/capabilities.hpp"
+#include "device/fault.hpp"
+#include "device/hid/options.hpp"
+#include "device/hid/pid_layout.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hapnet::device::hid {
+
+/// A HID device as the system shows it.
+struct HidNode {
+    std::string path{}; // such as "/dev/hidraw0"
+    std::uint16_t vendor = 0;
+    std::uint16_t product = 0;
+    std::string serial{};
+    std::string name{};
+    std::optional<std::vector<std::byte>> descriptor{};
+};
+
+/// ... and as a device of this software.
+struct RecognisedDevice {
+    std::string path{};
+    std::string node{};   // "hidraw0"
+    std::string serial{}; // ... which stands in for a missing serial number
+    std::string name{};
+    bool is_spacemouse = false;
+    std::optional<InputLayout> input{}; // of a PID device
+    std::optional<ForceLayout> force{};
+    std::string no_force_because{};
+    std::optional<DeviceError> unusable{};
+};
+
+/// nullopt: neither a force-feedback device nor a SpaceMouse.
+[[nodiscard]] std::optional<RecognisedDevice> recognise(const HidNode& shown);
+
+/// Its name and note for the user.
+[[nodiscard]] Identity identity_of(const RecognisedDevice& seen, const Options& options);
+
+} // namespace hapnet::device::hid

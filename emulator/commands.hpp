@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/options.hpp"
+#include "proto/base/result.hpp"
+
+namespace hapnet::emulator {
+
+// What the program does. Each gives its exit code; the error is one of bad input.
+
+/// Relays until it is told to stop.
+[[nodiscard]] base::Result<int> run(const Options& options);
+/// Prints the profile in canonical form, each stage in words, and warnings.
+[[nodiscard]] base::Result<int> run(const CheckOptions& options);
+/// Prints what the profile will do to a stream.
+[[nodiscard]] base::Result<int> run(const PredictOptions& options);
+/// Tests whether the fates of a run are those that its profile promises; 1 when a test fails.
+[[nodiscard]] base::Result<int> run(const VerifyOptions& options);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/setting_hints.hpp"
+
+#include "proto/base/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::emulator {
+
+namespace {
+
+/// How a law is written. `setting` is "loss", or "delay" for delay and jitter.
+struct LawExample {
+    std::string_view setting;
+    std::string_view law;
+    std::string_view text;
+};
+
+constexpr std::string_view gilbert_elliott =
+    R"({ law = "gilbert-elliott", good_to_bad = "1%", bad_to_good = "25%" })";
+constexpr std::string_view normal = R"({ law = "normal", sd = "5ms" })";
+
+constexpr std::array examples{
+    LawExample{"loss", "random", R"({ law = "random", share = "2%" })"},
+    LawExample{"loss", "k-of-n", R"({ law = "k-of-n", lost = 5, of = 100 })"},
+    LawExample{"loss", "every", R"({ law = "every", every = 100 })"},
+    LawExample{"loss", "burst", R"({ law = "burst", lost = 40, of = 100 })"},
+    LawExample{"loss", "timed-burst", R"({ law = "timed-burst", lost = "50ms", every = "1s" })"},
+    LawExample{"loss", "gilbert", R"({ law = "gilbert", share = "2%", mean_burst = 5.0 })"},
+    LawExample{"loss", "gilbert-elliott", gilbert_elliott},
+    LawExample{"loss", "gemodel", gilbert_elliott}, // tc-netem
+    LawExample{"loss", "timed-gilbert-elliott",
+               R"({ law = "timed-gilbert-elliott", mean_good = "10s", mean_bad = "200ms" })"},
+    LawExample{
+        "loss", "four-state",
+        R"({ law = "four-state", share = "2%", burst = 8.0, density = "80%", isolated = "0.1%" })"},
+    LawExample{"loss", "list", R"({ law = "list", numbers = [3, 17] })"},
+    LawExample{"loss", "pattern", R"({ law = "pattern", pattern = "0001" })"},
+    LawExample{"loss", "trace", R"({ law = "trace", file = "losses.csv" })"},
+    LawExample{"loss", "outage", R"({ law = "outage", windows = [["10s", "2s"]] })"},
+    LawExample{"delay", "constant", R"({ law = "constant", value = "80ms" })"},
+    LawExample{"delay", "uniform", R"({ law = "uniform", half_width = "5ms" })"},
+    LawExample{"delay", "normal", normal},
+    LawExample{"delay", "gaussian", normal},
+    LawExample{"delay", "log-normal", R"({ law = "log-normal", mean = "10ms", sd = "5ms" })"},
+    LawExample{"delay", "exponential", R"({ law = "exponential", mean = "5ms" })"},
+    LawExample{"delay", "pareto", R"({ law = "pareto", mean = "5ms" })"},
+    LawExample{"delay", "gamma", R"({ law = "gamma", mean = "10ms", sd = "5ms" })"},
+    LawExample{"delay", "table",
+               R"({ law = "table", file = "table.txt", mean = "10ms", sd = "5ms" })"},
+    LawExample{"delay", "trace", R"({ law = "trace", file = "delays.csv" })"},
+};
+
+/// Without its direction.
+std::string_view setting_name(std::string_view key)
+{
+    const auto dot = key.rfind('.');
+    return dot == std::string_view::npos ? key : key.substr(dot + 1);
+}
+
+/// The first example that a word of the value calls for.
+std::string_view example_for(std::string_view name, std::string_view value)
+{
+    while (!value.empty()) {
+        const auto end = std::min(value.find(' '), value.size());
+        if (const auto example = law_example(name, value.substr(0, end)); !example.empty()) {
+            return example;
+        }
+        value.remove_prefix(std::min(end + 1, value.size()));
+    }
+    return "";
+}
+
+} // namespace
+
+std::string_view law_example(std::string_view name, std::string_view law)
+{
+    const std::string_view setting = name == "jitter" ? "delay" : name;
+    for (const LawExample& example : examples) {
+        if (example.setting == setting && example.law == law) return example.text;
+    }
+    return "";
+}
+
+std::string understood(std::string_view key, const std::string& value)
+{
+    const bool is_number =
+        !value.empty() && value.find_first_not_of("0123456789") == std::string::npos;
+    return setting_name(key) == "mtu" && is_number ? value + "B" : value;
+}
+
+std::string explained(std::string_view key, const std::string& value, const std::string& why)
+{
+    const std::string_view name = setting_name(key);
+    if (value.starts_with('{') || value.starts_with('[')) {
+        return fmt::format("'{}': {}", value, why);
+    }
+    if (name == "reorder" && base::parse_probability(value)) {
+        return fmt::format("'{0}': say also by how many places: '{{ share = \"{0}\", displacement "
+                           "= 3 }}'",
+                           value);
+    }
+    if (const auto example = example_for(name, value); !example.empty()) {
+        return fmt::format("'{}': a law is written as a table: '{}'", value, example);
+    }
+    const bool is_netem = value.find(' ') != std::string::npos &&
+                          (name == "delay" || name == "loss" || name == "duplicate" ||
+                           name == "corrupt" || name == "reorder");
+    if (is_netem) {
+        return fmt::format("'{0}': a sentence of tc-netem goes to --netem \"{1} {0}\"", value,
+                           name);
+    }
+    if (why.find(value) != std::string::npos) return why;
+    return fmt::format("'{}': {}", value, why);
+}
+
+} // namespace hapnet::emulator

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.hpp"
+#include "device/governor.hpp"
+#include "peer/core/peer.hpp"
+#include "peer/core/timer.hpp"
+#include "proto/record/rows.hpp"
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace hapnet::peer {
+
+/// A device behind its governor, in the scene's frame. device::Rig is one. A loop with a watchdog
+/// and the replay of a record have rigs of their own.
+template <typename R>
+concept RigLike = requires(R rig, base::Force wanted, base::TimePoint now, device::Cue cue)
+{
+    {
+        rig.read(now)
+        } -> std::convertible_to<const device::Sample&>;
+    {
+        rig.apply(wanted, true, now)
+        } -> std::same_as<base::Force>;
+    {
+        rig.governor_state()
+        } -> std::same_as<device::GovernorState>;
+    rig.on_cue(cue);
+};
+
+/// One side of a session: its device, its copy of the scene and the session, without clock, socket
+/// or thread. The daemon's loop, the players in virtual time, the replay of records and the tests
+/// all play through it. Feed it with on_datagram(), call step() once per tick, then drain poll()
+/// and event().
+class Side {
+public:
+    /// The scene must be one that shared_body() and World::freeze() accept.
+    explicit Side(const Settings& settings) : peer_{settings}, id_{settings.introduction.id} {}
+
+    void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived)
+    {
+        peer_.on_datagram(datagram, arrived);
+    }
+
+    /// One tick, in this order: reads the device, moves session and scene on, has the force
+    /// governed and applied, and tells the device of a new start.
+    template <RigLike Rig>
+    const Tick& step(base::TimePoint now, Rig& rig)
+    {
+        sample_ = rig.read(now);
+        tick_ =
+            peer_.tick(now, {sample_.hip, sample_.velocity, sample_.gripping, is_in_hand(sample_)});
+        told_ = rig.apply(tick_.force, tick_.permitted, now);
+        governor_state_ = rig.governor_state();
+        if (is_cue_due()) rig.on_cue(take_cue());
+        return tick_;
+    }
+
+    /// The next datagram for the other side.
+    [[nodiscard]] std::optional<wire::Datagram> poll() { return peer_.poll(); }
+    [[nodiscard]] std::optional<Event> event() { return peer_.event(); }
+
+    [[nodiscard]] Peer& peer() { return peer_; }
+    [[nodiscard]] const Peer& peer() const { return peer_; }
+
+    // Of the last step.
+    [[nodiscard]] const device::Sample& sample() const { return sample_; }
+    [[nodiscard]] const Tick& tick() const { return tick_; }
+    /// The force that the device was told, at the hand, after the governor.
+    [[nodiscard]] base::Force told() const { return told_; }
+    /// All of it for a record; its number and time are the loop's to know.
+    [[nodiscard]] record::TickRow row(std::uint64_t number, const TickTime& time) const;
+
+private:
+    [[nodiscard]] bool is_cue_due() const
+    {
+        const auto& session = peer_.session();
+        return session && cued_ != session->start;
+    }
+    [[nodiscard]] device::Cue take_cue();
+
+    Peer peer_;
+    std::uint16_t id_;
+    device::Sample sample_;
+    Tick tick_;
+    base::Force told_;
+    device::GovernorState governor_state_ = device::GovernorState::off;
+    std::optional<base::TimePoint> cued_; // the start that the device was told
+};
+
+/// The sample that Side::row() wrote: the other way round.
+[[nodiscard]] device::Sample sample_of(const record::TickRow& row);
+
+} // namespace hapnet::peer

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/rig.hpp"
+#include "peer/core/peer.hpp"
+#include "proto/base/histogram.hpp"
+#include "proto/net/real_time.hpp"
+#include "proto/record/rows.hpp"
+
+#include <optional>
+
+namespace hapnet::peer {
+
+/// How punctual the loop was, and what its socket met.
+struct LoopCounters {
+    std::uint64_t ticks = 0;
+    std::uint64_t missed = 0; // ticks skipped because the one before ended too late
+    base::DurationHistogram late;
+    std::uint64_t strangers = 0;     // datagrams from other addresses than the remote
+    std::uint64_t send_failures = 0; // not fatal: the remote's host may be down
+};
+
+/// The status of a peer after one of its ticks; statistics are made from it. 19 KiB.
+struct ServoStatus {
+    base::TimePoint at;
+    base::Duration elapsed{}; // since the first tick
+    record::Phase phase = record::Phase::waiting;
+    bool is_remote_heard = false; // recently
+    base::Force force;            // that the device was told, at the hand
+    LoopCounters loop;
+    Counters messages;
+    std::optional<Session> session;
+    std::optional<ClockOffset::Estimate> clock;
+    std::optional<wire::ByeReason> refusal;
+    device::CalibrationStep calibration = device::CalibrationStep::done;
+    device::GovernorState governor_state = device::GovernorState::off;
+    device::Latched fault{};
+    device::GovernorCounters governor;
+    double force_limit_n = 0.0;
+    double motor_heat = 0.0;
+    device::RigCounters device;
+    std::uint64_t watchdog_halts = 0;
+    std::uint64_t overflowed = 0; // datagrams that the socket had no room for
+    net::RealTime real_time;
+};
+
+} // namespace hapnet::peer

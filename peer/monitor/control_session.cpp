@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/monitor/control_session.hpp"
+
+#include "peer/control/answer.hpp"
+#include "peer/monitor/report.hpp"
+
+#include <utility>
+
+namespace hapnet::peer {
+
+namespace {
+
+constexpr base::Duration request_every{std::chrono::milliseconds{50}};
+
+} // namespace
+
+ControlSession::ControlSession(Parts parts) : parts_{std::move(parts)}, subject_{subject()} {}
+
+control::Subject ControlSession::subject()
+{
+    const auto run = [this] {
+        return Run{parts_.options, *status_, parts_.journal, parts_.device,
+                   !parts_.monitor.record_failure()};
+    };
+    return subject_of({.show = [this, run] { return show_json(run(), parts_.recovery); },
+                       .statistics =
+                           [this, run] {
+                               nlohmann::ordered_json json = statistics_json(run());
+                               json["elapsed_s"] = base::to_seconds(status_->elapsed);
+                               return json;
+                           },
+                       .stop = [this] { parts_.servo.stop(); }});
+}
+
+void ControlSession::serve(base::TimePoint now)
+{
+    if (ServoStatus newer; parts_.servo.take_status(newer)) status_ = newer;
+    if (!next_request_ || base::is_due(next_request_, now)) {
+        parts_.servo.request_status();
+        next_request_ = now + request_every;
+    }
+    if (status_) parts_.server.serve(subject_, now, std::nullopt);
+}
+
+} // namespace hapnet::peer

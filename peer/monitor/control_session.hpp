@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "peer/cli/options.hpp"
+#include "peer/loop/servo.hpp"
+#include "peer/monitor/device_news.hpp"
+#include "peer/monitor/monitor.hpp"
+#include "proto/control/server.hpp"
+
+#include <optional>
+#include <string>
+
+namespace hapnet::peer {
+
+/// Answers the clients of the control socket. The loop does the same with and without clients: it
+/// fills in its status every 50 ms, and the monitoring thread does everything else here.
+class ControlSession {
+public:
+    /// All outlive it.
+    struct Parts {
+        control::Server& server;
+        Servo& servo;
+        const Options& options;
+        const Journal& journal;
+        const Monitor& monitor;
+        std::string device; // its description
+        Recovery recovery{};
+    };
+
+    explicit ControlSession(Parts parts);
+    ~ControlSession() = default;
+    ControlSession(const ControlSession&) = delete;
+    ControlSession& operator=(const ControlSession&) = delete;
+
+    /// Call it this often. Clients are not served in between, so that none can keep the thread
+    /// busy: at most 800 requests a second are answered.
+    void serve(base::TimePoint now);
+    static constexpr base::Duration every{std::chrono::milliseconds{10}};
+    /// Ample for every request.
+    static constexpr control::Server::Limits limits{.line_bytes = std::size_t{16} << 10,
+                                                    .answers = 8};
+
+private:
+    [[nodiscard]] control::Subject subject();
+
+    Parts parts_;
+    control::Subject subject_;
+    std::optional<ServoStatus> status_; // the newest
+    std::optional<base::TimePoint> next_request_;
+};
+
+} // namespace hapnet::peer

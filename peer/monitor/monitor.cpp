@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/monitor/monitor.hpp"
+
+#include "proto/net/program.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+#include <utility>
+
+namespace hapnet::peer {
+
+namespace {
+
+constexpr base::Duration on_terminal_every{std::chrono::milliseconds{200}};
+constexpr base::Duration elsewhere_every{std::chrono::seconds{5}};
+
+std::string line_of(const StatusLine& status, const StatusLine& before)
+{
+    const record::TickRow& tick = *status.tick;
+    if (!status.session) {
+        return "waiting for the other peer; is it running, and is the emulator between the two?";
+    }
+    const double at = base::to_seconds(tick.due - status.session->start);
+    // Per 1000 ticks of the session, which are a second of it.
+    const auto ticks = status.ticks_in_session - before.ticks_in_session;
+    const auto messages = status.messages - before.messages;
+    const double rate =
+        ticks == 0 ? 0.0 : 1000.0 * static_cast<double>(messages) / static_cast<double>(ticks);
+    return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube {:+6.1f} mm  force {:4.2f} N  "
+                       "received {:4.0f}/s  round trip {:5.1f} ms  missed ticks {}",
+                       at, base::to_seconds(status.session->length), record::name_of(tick.phase),
+                       tick.cube.x() * 1e3, base::norm(tick.device), rate,
+                       base::to_seconds(status.session->offset_uncertainty) * 2e3, status.missed);
+}
+
+} // namespace
+
+std::string_view describe(Event event)
+{
+    switch (event) {
+    case Event::met: return "the other peer answers";
+    case Event::agreed: return "session agreed; it starts within a second";
+    case Event::started: return "session started";
+    case Event::joined: return "joined the session under way; the cube is where the other has it";
+    case Event::lost:
+        return "the other peer has been silent for 300 ms: force faded to zero; waiting for it "
+               "(is it running, and is the emulator between the two?)";
+    case Event::back: return "the other peer is heard again: force ramps in";
+    case Event::restarted: return "the other peer was restarted: it joins the session";
+    case Event::left: return "the other peer said goodbye: going on alone, with zero force";
+    case Event::refused: return "the other peer cannot play with this one";
+    case Event::hands_off: return "hands off";
+    case Event::ended: return "session ended";
+    case Event::stopped: return "stopped before a session began";
+    }
+    return "";
+}
+
+Monitor::Monitor(Journal& journal, std::optional<record::Writer> writer, std::uint16_t peer_id)
+    : journal_{journal},
+      writer_{std::move(writer)},
+      peer_id_{peer_id},
+      is_terminal_{isatty(STDERR_FILENO) != 0}
+{}
+
+void Monitor::drain()
+{
+    while (const auto entry = journal_.take()) {
+        if (const auto* row = std::get_if<record::Row>(&*entry)) {
+            take(*row);
+        } else if (const auto* event = std::get_if<TimedEvent>(&*entry)) {
+            tell(event->at, describe(event->event));
+        } else {
+            const auto& [news, at] = std::get<TimedDeviceNews>(*entry);
+            tell(at, describe(news));
+        }
+    }
+}
+
+void Monitor::take(const record::Row& row)
+{
+    try {
+        if (writer_) writer_->write(row);
+    } catch (const std::system_error& error) {
+        give_up_record(error);
+    }
+    if (const auto* tick = std::get_if<record::TickRow>(&row)) {
+        status_.tick = *tick;
+        if (tick->sent_sequence > 0) ++status_.ticks_in_session;
+        status_.missed += tick->missed_before;
+    } else if (const auto* session = std::get_if<record::SessionRow>(&row)) {
+        status_.session = *session;
+    } else {
+        ++status_.messages;
+    }
+}
+
+void Monitor::give_up_record(const std::system_error& error)
+{
+    record_failure_ = std::current_exception();
+    writer_.reset();
+    say(fmt::format("{}: the record ends here, and the session goes on without it", error.what()));
+}
+
+void Monitor::tell(base::TimePoint at, std::string_view words)
+{
+    const bool in_session = status_.session && at >= status_.session->start;
+    if (in_session) {
+        say(fmt::format("{:.1f} s: {}", base::to_seconds(at - status_.session->start), words));
+    } else {
+        say(words);
+    }
+}
+
+void Monitor::say(std::string_view text)
+{
+    if (line_open_) net::tell("\r\x1b[K");
+    line_open_ = false;
+    net::tell(fmt::format("hapnet-peer {}: {}\n", peer_id_, text));
+}
+
+void Monitor::show(base::TimePoint now)
+{
+    if (!status_.tick) return;
+    if (next_show_ && !base::is_due(next_show_, now)) return;
+    const base::Duration every = is_terminal_ ? on_terminal_every : elsewhere_every;
+    if (next_show_ || is_terminal_) {
+        const std::string line = line_of(status_, shown_);
+        if (is_terminal_) {
+            net::tell(fmt::format("\r\x1b[Khapnet-peer {}: {}", peer_id_, line));
+            line_open_ = true;
+        } else {
+            say(line);
+        }
+    }
+    shown_ = status_;
+    next_show_ = now + every;
+}
+
+void Monitor::finish()
+{
+    drain();
+    try {
+        if (writer_) writer_->flush();
+    } catch (const std::system_error& error) {
+        give_up_record(error);
+    }
+    if (line_open_) net::tell("\n");
+    line_open_ = false;
+}
+
+} // namespace hapnet::peer

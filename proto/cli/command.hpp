@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/cli/option.hpp"
+
+#include <list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::cli {
+
+/// A program's command line, or one of its commands: options that are bound to the places that
+/// their values go to. Looks nothing up and opens nothing, except what its parsers do.
+///
+/// Understood everywhere, and in no need of being added: -h, --help, `help`, `help COMMAND`, -V and
+/// --version. An option or command that does not exist is answered with the one that was probably
+/// meant.
+class Command {
+public:
+    /// `name` as it is typed: "hapnet-lab", and in it "run". The summary stands in the program's
+    /// --help beside the name.
+    explicit Command(std::string name, std::string summary = "");
+
+    /// What its own --help says besides, above and below the options. Lines are filled up to the
+    /// width of the terminal; those that begin with a space stay as they are.
+    void describe(std::string text) { description_ = std::move(text); }
+    void add_footer(std::string text) { footer_ = std::move(text); }
+    /// A line each, "  0  done". Those of the program hold for commands that have none of their
+    /// own.
+    void add_exit_codes(std::string text) { exit_codes_ = std::move(text); }
+
+    Option& option(std::string names, std::string value, std::string help, Take take);
+    Option& flag(std::string names, std::string help, bool& target);
+    /// Arguments are taken in their order. One that is repeated comes last.
+    Option& positional(std::string name, std::string help, Take take);
+
+    Command& command(std::string name, std::string summary);
+    /// Without one of its commands the program does nothing, and its own options belong to all of
+    /// them. Otherwise they belong to what it does without a command.
+    void require_command() { needs_command_ = true; }
+    /// Another spelling of a command, which --help does not show.
+    void add_alias(std::string alias) { aliases_.push_back(std::move(alias)); }
+
+    /// Reads a program's words; words[0] is its name. A text is to be printed instead of running:
+    /// that of --help or --version. nullopt: everything has been taken.
+    [[nodiscard]] base::Result<std::optional<std::string>> parse(std::span<char*> words);
+
+    /// After parse(): whether this command was asked for, and this option given.
+    [[nodiscard]] bool is_chosen() const { return is_chosen_; }
+    [[nodiscard]] bool is_given(std::string_view option_name) const;
+
+    // What --help is made of.
+
+    /// As it is typed in full: "hapnet-lab run".
+    [[nodiscard]] std::string path() const;
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const std::string& summary() const { return summary_; }
+    [[nodiscard]] const std::string& description() const { return description_; }
+    [[nodiscard]] const std::string& footer() const { return footer_; }
+    [[nodiscard]] const std::string& exit_codes() const
+    {
+        return exit_codes_.empty() && parent_ != nullptr ? parent_->exit_codes() : exit_codes_;
+    }
+    [[nodiscard]] bool needs_command() const { return needs_command_; }
+    [[nodiscard]] const Command* parent() const { return parent_; }
+    [[nodiscard]] const std::vector<std::string>& aliases() const { return aliases_; }
+    [[nodiscard]] const std::list<Option>& options() const { return options_; }
+    [[nodiscard]] const std::list<Command>& commands() const { return commands_; }
+    [[nodiscard]] const Command* find_command(std::string_view name) const;
+
+private:
+    friend class Syntax;
+
+    std::string name_;
+    std::string summary_;
+    std::string description_;
+    std::string footer_;
+    std::string exit_codes_;
+    bool needs_command_ = false;
+    bool is_chosen_ = false;
+    const Command* parent_ = nullptr;
+    std::vector<std::string> aliases_;
+    std::list<Option> options_; // addresses stay
+    std::list<Command> commands_;
+};
+
+} // namespace hapnet::cli

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/cli/command.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace hapnet::cli {
+
+/// How wide --help is: the terminal on stdout, or 80 columns where there is none.
+[[nodiscard]] std::size_t help_columns();
+
+/// What `--help` of a command prints.
+[[nodiscard]] std::string help_text(const Command& command, std::size_t columns);
+
+/// "hapnet-lab run EXPERIMENT --out DIR [OPTIONS]": can be pasted and filled in.
+[[nodiscard]] std::string usage(const Command& command);
+
+/// Fills the lines of a text up to `columns`, each behind `indent` spaces. Lines that begin with a
+/// space stay as they are, but for those of a list ("  name   what it is"), which are folded under
+/// their second column.
+[[nodiscard]] std::string filled(std::string_view text, std::size_t indent, std::size_t columns);
+
+} // namespace hapnet::cli

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace hapnet::cli {
+
+/// Takes what stands behind an option. The error says what is wrong with the text and what would be
+/// right; the option's name is put before it.
+using Take = std::function<base::Result<void>(const std::string& text)>;
+
+/// Puts into `target` what `parse` makes of the text. `parse` gives a base::Result.
+template <typename Target, typename Parse>
+[[nodiscard]] Take into(Target& target, Parse parse)
+{
+    return [&target, parse](const std::string& text) -> base::Result<void> {
+        auto value = parse(text);
+        if (!value) return tl::unexpected{value.error()};
+        target = static_cast<Target>(*std::move(value));
+        return {};
+    };
+}
+
+/// Puts the text itself into `target`.
+template <typename Target>
+[[nodiscard]] Take into(Target& target)
+{
+    return into(target, [](const std::string& text) -> base::Result<std::string> { return text; });
+}
+
+/// Adds the text to `target`: for options that may be given several times.
+[[nodiscard]] inline Take onto(std::vector<std::string>& target)
+{
+    return [&target](const std::string& text) -> base::Result<void> {
+        target.push_back(text);
+        return {};
+    };
+}
+
+/// An option, a flag, or a positional argument of a command.
+struct Option {
+    std::string names; // "-s,--socket"; of a positional its name in usage lines: "PROFILE"
+    std::string value; // what follows it: "TIME"; of a flag ""
+    std::string help;
+    Take take;
+    std::string group = "Options"; // its heading in --help
+    std::string example{};         // of a required option: a value that could be given
+    bool is_repeated = false;
+    bool is_instead = false; // something is printed instead of running: nothing else is required
+    bool is_hidden = false;  // left out of --help, which says in its group's heading how it is made
+    bool is_given = false;   // after parse()
+
+    Option& required(std::string value_to_show)
+    {
+        example = std::move(value_to_show);
+        return *this;
+    }
+    Option& repeated()
+    {
+        is_repeated = true;
+        return *this;
+    }
+    Option& instead()
+    {
+        is_instead = true;
+        return *this;
+    }
+    Option& under(std::string heading)
+    {
+        group = std::move(heading);
+        return *this;
+    }
+    Option& hidden()
+    {
+        is_hidden = true;
+        return *this;
+    }
+
+    [[nodiscard]] bool is_positional() const { return !names.starts_with('-'); }
+    [[nodiscard]] bool is_flag() const { return value.empty() && !is_positional(); }
+    [[nodiscard]] bool is_required() const { return !example.empty(); }
+    /// The long one: "--socket".
+    [[nodiscard]] std::string name() const { return names.substr(names.rfind(',') + 1); }
+};
+
+} // namespace hapnet::cli

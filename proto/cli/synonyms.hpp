@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/cli/command.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hapnet::cli {
+
+// Near misses: words of other tools (tc-netem, toxiproxy, clumsy, iperf), other spellings, slips of
+// the finger. Each is answered with what it is called here.
+
+/// What is wrong with an option that the command does not have: "unknown option --bandwidth: did
+/// you mean --rate?".
+[[nodiscard]] std::string unknown_option(const Command& command, std::string_view word);
+
+/// The command that a word was probably meant to be, as it is typed in full; "" where none comes
+/// close.
+[[nodiscard]] std::string command_meant(const Command& program, std::string_view word);
+
+/// What is wrong with a word that is none of the program's commands.
+[[nodiscard]] std::string unknown_command(const Command& program, std::string_view word);
+
+/// What a value of an option is called here; the value itself where it is no near miss. The error:
+/// there is nothing of that name here, and what comes closest. `option` is "--task".
+[[nodiscard]] base::Result<std::string> meant_value(std::string_view option,
+                                                    const std::string& value);
+
+} // namespace hapnet::cli

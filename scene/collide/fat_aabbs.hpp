@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/bounded.hpp"
+#include "scene/collide/aabb.hpp"
+#include "scene/state.hpp"
+
+#include <array>
+#include <vector>
+
+namespace hapnet::scene {
+
+/// Two bodies that come nearer than this times their smallest half edges, each its own, are pairs
+/// in any case: what the solver looks ahead for must be less.
+inline constexpr double pair_margin = 0.05;
+
+/// Tells which awake bodies have left the box they were given, and gives them another. A box holds
+/// the body wherever its centre stays in a region around the path that it is on, and as long as it
+/// turns little; a body that spins fast has a box for every orientation. So a tick compares a
+/// centre with a region, and not a box with a box.
+class FatAabbs {
+public:
+    FatAabbs(const WorldConfig& config, const Bodies& bodies);
+
+    /// Adds the slots of the awake bodies that leave their boxes within this tick, or have.
+    void find_moved_out(const Bodies& bodies, Bounded<Slot>& moved_out) const;
+    /// A new box around a body and where it is going.
+    [[nodiscard]] Aabb renew(const Bodies& bodies, Slot slot);
+    /// Says that another body lies in an awake slot.
+    void update_slot(const Bodies& bodies, Slot slot);
+
+private:
+    /// How far a body may go without leaving its box: its centre, with what it moves in a tick,
+    /// no farther than `room` from `centre` along each axis.
+    struct Bounds {
+        glm::dvec3 centre{0.0};
+        glm::dvec3 room{0.0};
+        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+        double similarity_min = -1.0;   // of the squared scalar product of orientations
+        double angular_momentum2 = 0.0; // at most, squared
+    };
+    /// What a body's size makes of the margins, metres.
+    struct Size {
+        double nearby = 0.0; // nearby_margin, in metres
+        double stray = 0.0;  // what it may stray from its path
+        double radius = 0.0; // of its corners
+        double ease = 0.0;   // an upper bound of its inverse moments of inertia, 1/(kg m^2)
+    };
+
+    [[nodiscard]] bool has_moved_out(const Bodies& bodies, Slot slot) const;
+    [[nodiscard]] Size size_of(const BodyProperties& properties) const;
+    [[nodiscard]] Aabb path(const Bodies& bodies, Slot slot, double stray) const;
+
+    double tick_;
+    glm::dvec3 gravity_;
+    std::vector<Bounds> bounds_; // by id
+    // By slot, in the order of Bounds: middle, room, orientation w x y z, likeness, momentum.
+    static constexpr std::size_t lanes = 12;
+    std::array<std::vector<double>, lanes> lanes_;
+};
+
+} // namespace hapnet::scene

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/collide/pair_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapnet::scene {
+
+namespace {
+
+// Cubes of one size that are heaped up without order have about 20 others in reach of their fat
+// boxes: ten pairs each. Three times that, on average.
+constexpr std::uint64_t pairs_per_body_max = 32;
+// Planes that a body lies near at the same time: the corners of a room, and some more.
+constexpr std::uint64_t planes_per_body_max = 8;
+// Ticks for which a hand that keeps its velocity stays in its box.
+constexpr double hand_look_ahead_ticks = 32.0;
+// ... which reaches no farther ahead than this times its radius, unless it is faster.
+constexpr double hand_stretch_max = 16.0;
+
+PairSet::Room room_for_bodies(const Bodies& bodies)
+{
+    const std::uint64_t movable = bodies.movable;
+    const std::uint64_t fixed = bodies.size() - bodies.movable;
+    const std::uint64_t all =
+        movable * (movable - std::min<std::uint64_t>(movable, 1)) / 2 + movable * fixed;
+    const std::uint64_t bound = std::min(all, movable * pairs_per_body_max);
+    return {bodies.size(), bodies.size(), static_cast<std::uint32_t>(bound)};
+}
+
+PairSet::Room room_for_planes(const Bodies& bodies, std::size_t planes)
+{
+    const std::uint64_t each = std::min<std::uint64_t>(planes, planes_per_body_max);
+    return {bodies.size(), static_cast<std::uint32_t>(planes),
+            static_cast<std::uint32_t>(bodies.movable * each)};
+}
+
+std::vector<Aabb> first_boxes(FatAabbs& fat, const Bodies& bodies)
+{
+    std::vector<Aabb> boxes(bodies.size());
+    for (Slot slot = 0; slot < bodies.size(); ++slot)
+        boxes[bodies.properties[slot].id] = fat.renew(bodies, slot);
+    return boxes;
+}
+
+/// The lowest corner of a box above a plane is not above it.
+bool reaches(const Aabb& box, const PlaneDescription& plane)
+{
+    const glm::dvec3 half = 0.5 * box.size();
+    const double radius = glm::dot(glm::abs(plane.normal), half);
+    return glm::dot(plane.normal, box.centre()) - plane.offset_m <= radius;
+}
+
+} // namespace
+
+template <BroadPhase broad_phase>
+PairFinder<broad_phase>::PairFinder(const WorldConfig& config, const Bodies& bodies)
+    : planes_of_scene_{config.planes},
+      fat_boxes_{config, bodies},
+      boxes_{first_boxes(fat_boxes_, bodies)},
+      pairs_{room_for_bodies(bodies)},
+      plane_pairs_{room_for_planes(bodies, config.planes.size())},
+      moved_out_{bodies.movable},
+      stamps_(bodies.size(), 0)
+{
+    for (std::uint32_t hand = 0; hand < config.hands.count; ++hand)
+        hands_.push_back({Aabb{glm::dvec3{1.0}, glm::dvec3{-1.0}}, Bounded<BodyId>{bodies.size()}});
+    for (Slot slot = 0; slot < bodies.movable; ++slot)
+        update_pairs(bodies, bodies.properties[slot].id);
+    settle();
+}
+
+template <BroadPhase broad_phase>
+void PairFinder<broad_phase>::update(const Bodies& bodies)
+{
+    if (has_left_out_) {
+        has_left_out_ = false;
+        for (Slot slot = 0; slot < bodies.awake; ++slot)
+            update_pairs(bodies, bodies.properties[slot].id);
+    }
+    moved_out_.clear();
+    fat_boxes_.find_moved_out(bodies, moved_out_);
+    for (const Slot slot : moved_out_) {
+        const BodyId id = bodies.properties[slot].id;
+        boxes_.move(id, fat_boxes_.renew(bodies, slot));
+        update_pairs(bodies, id);
+        for (Hand& hand : hands_) update_hand(hand, id);
+    }
+    renewed_ += moved_out_.size();
+    settle();
+}
+
+/// Renews the pairs of a body after its box.
+template <BroadPhase broad_phase>
+void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, BodyId id)
+{
+    const Aabb box = boxes_.box(id);
+    const bool is_awake = bodies.slot_of[id] < bodies.awake;
+    ++stamp_;
+    const auto keep_if_near = [&](PairIndex index, BodyId other) {
+        if (overlap(box, boxes_.box(other)))
+            stamps_[other] = stamp_;
+        else
+            pairs_.remove(index);
+    };
+    pairs_.for_first(id, [&](PairIndex index) { keep_if_near(index, pairs_[index].b); });
+    pairs_.for_second(id, [&](PairIndex index) { keep_if_near(index, pairs_[index].a); });
+    boxes_.for_overlapping(id, [&](BodyId other) {
+        if (other == id || stamps_[other] == stamp_) return;
+        const bool is_active = is_awake || bodies.slot_of[other] < bodies.awake;
+        if (!pairs_.add(std::min(id, other), std::max(id, other), is_active)) has_left_out_ = true;
+    });
+    update_plane_pairs(box, id, is_awake);
+}
+
+template <BroadPhase broad_phase>
+void PairFinder<broad_phase>::update_plane_pairs(const Aabb& box, BodyId id, bool is_awake)
+{
+    std::uint64_t known = 0;
+    plane_pairs_.for_first(id, [&](PairIndex index) {
+        const std::uint32_t plane = plane_pairs_[index].b;
+        if (reaches(box, planes_of_scene_[plane]))
+            known |= std::uint64_t{1} << plane;
+        else
+            plane_pairs_.remove(index);
+    });
+    for (std::uint32_t plane = 0; plane < planes_of_scene_.size(); ++plane)
+        if ((known >> plane & 1U) == 0 && reaches(box, planes_of_scene_[plane]))
+            if (!plane_pairs_.add(id, plane, is_awake)) has_left_out_ = true;
+}
+
+/// Adds a body to those in a hand's box, or takes it away.
+template <BroadPhase broad_phase>
+void PairFinder<broad_phase>::update_hand(Hand& hand, BodyId id)
+{
+    Bounded<BodyId>& bodies = hand.bodies;
+    BodyId* const place = std::lower_bound(bodies.begin(), bodies.end(), id);
+    const bool is_there = place != bodies.end() && *place == id;
+    const bool belongs = overlap(hand.box, boxes_.box(id));
+    if (is_there == belongs) return;
+    if (is_there) {
+        std::copy(place + 1, bodies.end(), place);
+        bodies.resize(bodies.size() - 1);
+    } else {
+        bodies.add(id); // its room is for all: `place` stays
+        std::rotate(place, bodies.end() - 1, bodies.end());
+    }
+}
+
+template <BroadPhase broad_phase>
+std::span<const BodyId> PairFinder<broad_phase>::near_hand(std::uint32_t hand, const HandPath& path)
+{
+    Hand& known = hands_[hand];
+    const Aabb needed = grown(hull(path.from, path.to), glm::dvec3{path.radius});
+    if (!contains(known.box, needed)) {
+        ++hands_renewed_;
+        glm::dvec3 ahead = (path.to - path.from) * hand_look_ahead_ticks;
+        const glm::dvec3 size = glm::abs(ahead);
+        const double length = std::max({size.x, size.y, size.z});
+        if (length > hand_stretch_max * path.radius)
+            ahead *= hand_stretch_max * path.radius / length;
+        const Aabb along = hull(glm::dvec3{0.0}, ahead);
+        known.box =
+            grown({needed.low + along.low, needed.high + along.high}, glm::dvec3{path.radius});
+        known.bodies.clear();
+        boxes_.for_overlapping(known.box, [&](BodyId id) { known.bodies.add(id); });
+        std::sort(known.bodies.begin(), known.bodies.end());
+    }
+    return known.bodies.all();
+}
+
+template <BroadPhase broad_phase>
+void PairFinder<broad_phase>::on_wake(const Bodies& bodies, BodyId body)
+{
+    fat_boxes_.update_slot(bodies, bodies.slot_of[body]);
+    if (counts().pairs_left_out != 0) has_left_out_ = true; // perhaps its own, while it slept
+    const auto activate = [this](PairIndex index) { pairs_.set_active(index, true); };
+    pairs_.for_first(body, activate);
+    pairs_.for_second(body, activate);
+    plane_pairs_.for_first(body, [this](PairIndex index) { plane_pairs_.set_active(index, true); });
+}
+
+template <BroadPhase broad_phase>
+void PairFinder<broad_phase>::on_sleep(const Bodies& bodies, BodyId body, Slot was_in)
+{
+    if (was_in < bodies.awake) fat_boxes_.update_slot(bodies, was_in);
+    const auto park = [&](PairIndex index, BodyId other) {
+        if (bodies.slot_of[other] >= bodies.awake) pairs_.set_active(index, false);
+    };
+    pairs_.for_first(body, [&](PairIndex index) { park(index, pairs_[index].b); });
+    pairs_.for_second(body, [&](PairIndex index) { park(index, pairs_[index].a); });
+    plane_pairs_.for_first(body,
+                           [this](PairIndex index) { plane_pairs_.set_active(index, false); });
+}
+
+template <BroadPhase broad_phase>
+void PairFinder<broad_phase>::settle()
+{
+    pairs_.settle();
+    plane_pairs_.settle();
+}
+
+template <BroadPhase broad_phase>
+void PairFinder<broad_phase>::forget(BodyId body)
+{
+    const auto forget_it = [this](PairIndex index) { pairs_[index].memory = {}; };
+    pairs_.for_first(body, forget_it);
+    pairs_.for_second(body, forget_it);
+    plane_pairs_.for_first(body, [this](PairIndex index) { plane_pairs_[index].memory = {}; });
+}
+
+template <BroadPhase broad_phase>
+typename PairFinder<broad_phase>::Counts PairFinder<broad_phase>::counts() const
+{
+    return {renewed_, hands_renewed_, pairs_.left_out() + plane_pairs_.left_out()};
+}
+
+template class PairFinder<BroadPhase::all_pairs>;
+template class PairFinder<BroadPhase::grid>;
+
+} // namespace hapnet::scene

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/collide/aabb.hpp"
+#include "scene/collide/fat_aabbs.hpp"
+#include "scene/collide/grid.hpp"
+#include "scene/collide/pairs.hpp"
+#include "scene/state.hpp"
+
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace hapnet::scene {
+
+/// How the movable bodies of a scene find each other.
+enum class BroadPhase : std::uint8_t {
+    none,      // there is only one
+    all_pairs, // each is compared with each
+    grid,
+};
+
+/// Where a hand's sphere goes within a tick.
+struct HandPath {
+    glm::dvec3 from{0.0};
+    glm::dvec3 to{0.0};
+    double radius = 0.0;
+};
+
+/// Who may touch whom. Every body lies in a fat box; only when it leaves that (which few compares
+/// per awake body tell) are its neighbours looked for again. What sleeps or is fixed costs nothing.
+///
+/// Bodies that come nearer to each other than nearby_margin times their smallest half edges (each
+/// its own) within the tick are a pair: within the tick means on the straight line of their
+/// velocities, or one tick of gravity off it. Bodies up to the fat boxes' extent farther apart may
+/// be pairs too.
+template <BroadPhase broad_phase>
+class PairFinder {
+public:
+    PairFinder(const WorldConfig& config, const Bodies& bodies);
+
+    /// Looks at the awake bodies' positions, orientations and velocities, at the start of a tick
+    /// and after anything put a body elsewhere. Afterwards the lists of pairs are up to date.
+    void update(const Bodies& bodies);
+
+    /// Pairs of bodies, at least one of them movable and awake, by their ids. An index is good
+    /// until the next update(); so is the list, but for activate().
+    [[nodiscard]] std::span<const PairIndex> pairs() const { return pairs_.active(); }
+    [[nodiscard]] Pair& pair(PairIndex index) { return pairs_[index]; }
+    /// Awake bodies (`a`) near planes (`b`, an index into WorldConfig::planes).
+    [[nodiscard]] std::span<const PairIndex> plane_pairs() const { return plane_pairs_.active(); }
+    [[nodiscard]] Pair& plane_pair(PairIndex index) { return plane_pairs_[index]; }
+
+    /// The bodies, movable or fixed, asleep or awake, that a hand may reach within the tick, by
+    /// their ids. To be asked after update(). Far from everything it costs a few compares.
+    [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path);
+
+    /// To be said after the body was moved over the border between awake and asleep: its pairs
+    /// come to the lists or leave them. Sleep says it.
+    void on_wake(const Bodies& bodies, BodyId body);
+    void on_sleep(const Bodies& bodies, BodyId body, Slot was_in);
+    /// Brings the lists up to date after that. Which pairs it added: for who has to look at them
+    /// in the tick that has begun.
+    void settle();
+    [[nodiscard]] std::span<const PairIndex> pairs_added() const { return pairs_.added(); }
+    [[nodiscard]] std::span<const PairIndex> plane_pairs_added() const
+    {
+        return plane_pairs_.added();
+    }
+
+    /// Forgets a body's contacts: it was put elsewhere.
+    void forget(BodyId body);
+
+    [[nodiscard]] const PairSet& all_pairs() const { return pairs_; }
+
+    /// What was done, for tests and measurements.
+    struct Counts {
+        std::uint64_t renewed = 0;       // bodies that left their fat boxes
+        std::uint64_t hands_renewed = 0; // hands that did
+        // For which there was no room (32 for every movable body, 8 with planes), counted anew in
+        // every tick; 0 unless very many bodies overlap. They are looked for until there is room.
+        std::uint64_t pairs_left_out = 0;
+    };
+    [[nodiscard]] Counts counts() const;
+
+private:
+    /// A hand's fat box and who lies in it, by their ids.
+    struct Hand {
+        Aabb box;
+        Bounded<BodyId> bodies;
+    };
+    using Finder = std::conditional_t<broad_phase == BroadPhase::all_pairs, AabbScan, Grid>;
+
+    void update_pairs(const Bodies& bodies, BodyId id);
+    void update_plane_pairs(const Aabb& box, BodyId id, bool is_awake);
+    void update_hand(Hand& hand, BodyId id);
+
+    std::vector<PlaneDescription> planes_of_scene_;
+    FatAabbs fat_boxes_;
+    Finder boxes_;
+    PairSet pairs_;
+    PairSet plane_pairs_;
+    std::vector<Hand> hands_;
+    Bounded<Slot> moved_out_;
+    bool has_left_out_ = false;         // somebody for whose pairs there was no room
+    std::vector<std::uint64_t> stamps_; // by id: who is a pair already with the one that renews
+    std::uint64_t stamp_ = 0;
+    std::uint64_t renewed_ = 0;
+    std::uint64_t hands_renewed_ = 0;
+};
+
+extern template class PairFinder<BroadPhase::all_pairs>;
+extern template class PairFinder<BroadPhase::grid>;
+
+} // namespace hapnet::scene

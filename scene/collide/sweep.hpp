@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/bodies.hpp"
+#include "scene/collide/box_box.hpp"
+#include "scene/collide/pairs.hpp"
+#include "scene/state.hpp"
+
+#include <vector>
+
+namespace hapnet::scene {
+
+[[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
+
+/// How far any part of an awake body may come in the tick, and a little more, metres.
+[[nodiscard]] double reach_of(const Bodies& bodies, Slot slot, const Scales& scales);
+
+/// A box and where it is going.
+struct BoxSweep {
+    const OrientedBox& box;
+    glm::dvec3 velocity{0.0};
+    double reach = 0.0;
+    double radius = 0.0; // of the corners
+};
+
+/// Where two boxes touch, and their centres then.
+struct SweptContact {
+    Manifold manifold;
+    ContactPlaces centres;
+};
+
+/// Where two boxes touch, or will within the tick. Of boxes that come far in it, where they will
+/// when they meet, with the way that they have until then as the separation: they cannot pass
+/// through each other.
+[[nodiscard]] SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick,
+                                         BoxBoxMemory& memory);
+
+/// Where a body's box is, and how far it comes.
+struct SweptBox {
+    OrientedBox box;
+    double radius = 0.0; // of the corners, m
+    double reach = 0.0;  // see reach_of(); of what is asleep, when it were awake
+};
+
+/// The bodies' boxes at the start of a tick: found when they are asked for, and only of what has
+/// moved since. Nobody asks for a body that flies alone.
+class SweptBoxes {
+public:
+    SweptBoxes(const Bodies& bodies, const Scales& scales);
+
+    void begin_tick() { ++now_; }
+    /// The reference is good until the next tick.
+    [[nodiscard]] const SweptBox& at(const Bodies& bodies, BodyId body)
+    {
+        Entry& entry = entries_[body];
+        if (entry.seen != now_) renew(bodies, body, entry);
+        return entry.now;
+    }
+
+private:
+    struct Entry {
+        SweptBox now;
+        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+        std::uint64_t seen = 0;
+    };
+
+    void renew(const Bodies& bodies, BodyId body, Entry& entry) const;
+
+    Scales scales_;
+    std::vector<Entry> entries_; // by id
+    std::uint64_t now_ = 0;
+};
+
+} // namespace hapnet::scene

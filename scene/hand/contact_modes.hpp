@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/maths/first_root.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace hapnet::scene {
+
+/// What a unilateral spring with a damper is doing.
+enum class ContactPhase : std::uint8_t {
+    apart,    // no force: no overlap, or it opens faster than the damper lets the spring follow
+    pressing, // stiffness * depth + damping * closing
+    limited,  // its greatest force
+};
+
+/// One spring on a body along its held normal.
+struct SpringContact {
+    double stiffness = 0.0;
+    double damping = 0.0;
+    double force_max = 0.0;
+    double depth = 0.0;        // > 0: overlap
+    double closing = 0.0;      // by how much the depth grows per second
+    double acceleration = 0.0; // of the depth, by everything but the springs
+    ContactPhase phase = ContactPhase::apart;
+
+    [[nodiscard]] double unlimited_force() const { return stiffness * depth + damping * closing; }
+    [[nodiscard]] double force() const;
+    /// The phase that depth and closing speed call for.
+    [[nodiscard]] ContactPhase phase_due() const;
+};
+
+/// By how much the depths of up to two springs answer to their forces: 1/kg.
+struct Coupling {
+    std::array<double, 2> own{};
+    double mutual = 0.0;
+};
+
+/// What the springs did in a time.
+template <std::size_t count>
+struct PhaseImpulses {
+    double time = 0.0;
+    std::array<double, count> impulse{}; // of the force, N s
+    std::array<double, count> moment{};  // the integral of the impulse, N s^2
+};
+
+/// One or two springs on one body with held normals and arms: everything until one of them begins
+/// or ceases to act, or reaches its greatest force, is in closed form. One spring is an oscillator
+/// with the mass that the body has for it; two are two oscillators (the modes of their stiffness),
+/// provided that damping over stiffness is the same for both.
+template <std::size_t count>
+class ContactModes {
+public:
+    /// `time` is how long at most.
+    ContactModes(std::array<SpringContact, count>& contacts, const Coupling& coupling, double time);
+    ContactModes(const ContactModes&) = delete; // the courses point to the kernels
+    ContactModes& operator=(const ContactModes&) = delete;
+    ~ContactModes() = default;
+
+    /// Whether there is a closed form.
+    [[nodiscard]] bool is_solved() const { return is_solved_; }
+    /// Goes on to the first moment at which a phase ends, or for the whole time: depths, speeds and
+    /// phases, too.
+    [[nodiscard]] PhaseImpulses<count> advance();
+
+private:
+    /// The end of a phase.
+    struct End {
+        double time = 0.0;
+        std::size_t contact = count; // none
+        ContactPhase then = ContactPhase::apart;
+    };
+
+    void solve_parabolas();
+    void solve_one(std::size_t pressing);
+    void solve_both();
+    [[nodiscard]] WatchedQuantity watch(std::size_t i, double level,
+                                        const std::array<double, 2>& weights);
+    /// Whether a bound of how fast the force changes rules out that the phase ends.
+    [[nodiscard]] bool keeps_phase(std::size_t i) const;
+    void find_end(End& end, std::size_t i);
+    void add_work(PhaseImpulses<count>& impulses) const;
+
+    std::array<SpringContact, count>& contacts_;
+    Coupling coupling_;
+    double time_;
+    bool is_solved_ = true;
+
+    // Each depth is its start plus the sum of two courses, weighted.
+    std::array<Propagator, count> propagators_;
+    Trajectories trajectories_;
+    std::array<std::array<double, count>, count> share_{}; // of depth i in course j
+    // Of the springs that press, in the courses that are theirs: one alone, or the two modes.
+    std::size_t modes_ = 0;
+    std::array<double, count> start_{};                     // depth of the mode
+    std::array<std::array<double, count>, count> weight_{}; // of force i in mode j
+    double lag_ = 0.0;                                      // damping over stiffness
+};
+
+extern template class ContactModes<1>;
+extern template class ContactModes<2>;
+
+} // namespace hapnet::scene

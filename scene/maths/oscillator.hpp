@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hapnet::scene {
+
+/// What pulls a coordinate back: x'' = A + R t - damping x' - stiffness x, per unit of mass. Both
+/// may be 0: a parabola; without stiffness: an exponential; otherwise an oscillator, under-,
+/// critically or over-damped.
+struct Oscillator {
+    double damping = 0.0;   // 1/s, >= 0
+    double stiffness = 0.0; // 1/s^2, >= 0
+};
+
+/// How a coordinate that rests at 0 answers under a law, at one moment t: `step` is where it is
+/// after a kick of speed 1, S(t); `rate` is S'; `push` the integral of S, the answer to a steady
+/// acceleration of 1; `ramp` the integral of that, the answer to one that grows by 1 per second.
+/// Everything linear follows by adding: no equilibrium is subtracted, so nothing is lost where
+/// stiffness or damping is small.
+struct StepResponse {
+    double rate = 1.0;
+    double step = 0.0;
+    double push = 0.0;
+    double ramp = 0.0;
+};
+
+/// The response after `time` >= 0 seconds. Within 2e-14 of the true values, relative to those of a
+/// free body (1, t, t^2/2, t^3/6), for stiffness time^2 up to 1e5; beyond that the phase itself is
+/// only known to its rounding, 1e-16 of the angle.
+[[nodiscard]] StepResponse step_response(const Oscillator& oscillator, double time);
+
+/// A law with what is derived from it, and its response at the end of a tick: what most ticks need.
+struct Propagator {
+    Oscillator oscillator;
+    double frequency = 0.0; // of the undamped oscillator, 1/s
+    double period = 0.0;    // 1/frequency; infinity without stiffness
+    double tick = 0.0;      // seconds
+    StepResponse at_tick;
+
+    Propagator() = default;
+    Propagator(const Oscillator& of, double tick_s)
+        : oscillator{of},
+          frequency{std::sqrt(of.stiffness)},
+          period{of.stiffness > 0.0 ? 1.0 / frequency : std::numeric_limits<double>::infinity()},
+          tick{tick_s},
+          at_tick{step_response(of, tick_s)}
+    {}
+    [[nodiscard]] StepResponse after(double time) const
+    {
+        return time == tick ? at_tick : step_response(oscillator, time);
+    }
+};
+
+/// How far a coordinate has come, and how fast it is.
+struct TrajectoryPoint {
+    double displacement = 0.0;
+    double speed = 0.0;
+};
+
+/// A coordinate's motion in closed form from a moment on: way'' = push + ramp t - damping way' -
+/// stiffness way. A course without a kernel stays where it is.
+struct Trajectory {
+    const Propagator* propagator;
+    double speed; // at the start
+    double push;  // acceleration at the start, but for the damping
+    double ramp;  // by which `push` grows, m/s^3
+
+    [[nodiscard]] bool moves() const { return propagator != nullptr; }
+    /// Whether it stays where it is under any kernel.
+    [[nodiscard]] bool is_idle() const { return speed == 0.0 && push == 0.0 && ramp == 0.0; }
+    [[nodiscard]] TrajectoryPoint at(const StepResponse& r) const
+    {
+        return {speed * r.step + push * r.push + ramp * r.ramp,
+                speed * r.rate + push * r.step + ramp * r.push};
+    }
+    [[nodiscard]] TrajectoryPoint after(double time) const
+    {
+        return moves() ? at(propagator->after(time)) : TrajectoryPoint{};
+    }
+    [[nodiscard]] double acceleration(double time, const TrajectoryPoint& motion) const
+    {
+        if (!moves()) return 0.0;
+        return push + ramp * time - propagator->oscillator.damping * motion.speed -
+               propagator->oscillator.stiffness * motion.displacement;
+    }
+    [[nodiscard]] double jerk(double acceleration, double speed_then) const
+    {
+        if (!moves()) return 0.0;
+        return ramp - propagator->oscillator.damping * acceleration -
+               propagator->oscillator.stiffness * speed_then;
+    }
+};
+
+/// What acceleration and its rate cannot exceed from a moment on for `time` seconds. Acceleration
+/// a obeys the law without forces, a'' + damping a' + stiffness a = 0, whose energy a'^2 +
+/// stiffness a^2 never grows.
+struct Bounds {
+    double acceleration;
+    double jerk;
+};
+
+[[nodiscard]] inline Bounds bounds(const Propagator& propagator, double acceleration, double jerk,
+                                   double time)
+{
+    const double most = std::abs(jerk) + propagator.frequency * std::abs(acceleration);
+    return {std::abs(acceleration) + most * std::min(time, propagator.period), most};
+}
+
+} // namespace hapnet::scene

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/one_box/events.hpp"
+
+namespace hapnet::scene {
+
+// Coulomb's law with a circular cone. While the box slides straight on, friction is a steady force
+// (or grows steadily with the load on the support), and the trajectories are exact. Where other
+// forces bend its path, the direction in the middle of the interval is taken: second order.
+
+/// Changes the trajectories of the interval by the dry friction of what supports the box.
+void add_friction(BoxMotion& box);
+
+/// The stop of a box that slides, or the slip of one that sticks, if it comes before `first`.
+void find_friction_event(const BoxMotion& box, Event& first);
+
+} // namespace hapnet::scene

@@ -1,0 +1,474 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/solver/block_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapnet::scene {
+
+namespace {
+
+Ldl<5> factors_of(const ContactBlock& block, const PointSet& set)
+{
+    const auto& m = block.matrix;
+    Square<5> part{};
+    for (std::size_t i = 0; i < set.count; ++i) {
+        const double u = block.along_1[set.at[i]];
+        const double v = block.along_2[set.at[i]];
+        ContactVector answer;
+        for (std::size_t k = 0; k < 6; ++k) answer[k] = m[k][0] + v * m[k][1] - u * m[k][2];
+        for (std::size_t j = 0; j <= i; ++j) part[i][j] = block.normal_speed(answer, set.at[j]);
+        for (std::size_t k = 0; k < 3; ++k) part[set.count + k][i] = answer[3 + k];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) part[set.count + i][set.count + j] = m[3 + i][3 + j];
+    }
+    return Ldl<5>{part};
+}
+
+/// Whether another set of so many points was met last.
+bool is_new(BlockFactors& factors, const PointSet& set)
+{
+    std::uint32_t& known = factors.sets[set.count - 1];
+    const bool is_new = known != set.bits();
+    known = set.bits();
+    return is_new;
+}
+
+// What solving a block takes, worked out once and kept in it: they need its matrix.
+
+/// Of one or two points' normal speeds, then of friction's: from impulses there to velocities.
+const Ldl<5>& few_factors(ContactBlock& block, const PointSet& set)
+{
+    Ldl<5>& few = block.factors.few[set.count - 1];
+    if (is_new(block.factors, set)) few = factors_of(block, set);
+    return few;
+}
+
+/// Of the whole matrix.
+const Ldl<6>& whole_factors(ContactBlock& block)
+{
+    BlockFactors& factors = block.factors;
+    if (!factors.has_whole) factors.whole = Ldl<6>{block.matrix};
+    factors.has_whole = true;
+    return factors.whole;
+}
+
+/// Of three or four points.
+const PlaneFit& fit_of(ContactBlock& block, const PointSet& set)
+{
+    PlaneFit& fit = block.factors.fits[set.count - 3];
+    if (is_new(block.factors, set)) fit = PlaneFit{block.along_1, block.along_2, set};
+    return fit;
+}
+
+/// Of points on a line the outermost two, which say everything.
+PointSet outermost(const ContactBlock& block, const PlaneFit& fit)
+{
+    const auto& along = fit.is_along_1() ? block.along_1 : block.along_2;
+    const PointSet& set = fit.set();
+    std::uint32_t low = set.at[0];
+    std::uint32_t high = set.at[0];
+    for (std::uint32_t i = 1; i < set.count; ++i) {
+        if (along[set.at[i]] < along[low]) low = set.at[i];
+        if (along[set.at[i]] > along[high]) high = set.at[i];
+    }
+    PointSet two;
+    two.add(std::min(low, high));
+    two.add(std::max(low, high));
+    return two;
+}
+
+/// The largest response of the slip to friction: no step of one over it overshoots.
+double slip_response(const ContactBlock& block)
+{
+    const double arm = block.torsion_arm;
+    const auto& m = block.matrix;
+    const double coupled_1 = std::abs(m[5][3]) * arm;
+    const double coupled_2 = std::abs(m[5][4]) * arm;
+    const double across = std::abs(m[4][3]);
+    return std::max({m[3][3] + across + coupled_1, m[4][4] + across + coupled_2,
+                     m[5][5] * arm * arm + coupled_1 + coupled_2});
+}
+
+using Friction = std::array<double, 3>; // along the tangents, and torsion over its arm
+
+ContactVector minus(ContactVector a, const ContactVector& b)
+{
+    for (std::size_t i = 0; i < 6; ++i) a[i] -= b[i];
+    return a;
+}
+
+/// One contact with the velocities that it would have without its own impulses.
+class Trial {
+public:
+    Trial(ContactBlock& block, const ContactVector& velocity)
+        : block_{block},
+          modal_{contact_vector(block, block.impulse)},
+          free_{minus(velocity, times(block.matrix, modal_))},
+          now_{velocity},
+          answer_{block.impulse}
+    {}
+
+    /// Whether slip() has found the answer.
+    [[nodiscard]] bool has_settled() const { return has_settled_; }
+    [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
+    [[nodiscard]] const ContactVector& impulse() const { return modal_; }
+
+    /// Sticking contact. False when something would pull or friction would pass its limit.
+    bool stick(double tolerance);
+    /// Slipping or frictionless contact: the normal impulses for the friction as it is.
+    void push(double tolerance);
+    /// Slipping contact, in so many rounds at most. False when friction does not reach its limit.
+    bool slip(double tolerance, int rounds_max);
+
+private:
+    [[nodiscard]] PointSet pushing(double tolerance) const;
+    [[nodiscard]] PointSet without_pulling(const PointSet& set) const;
+    template <bool sticks>
+    void hold_points(const PointSet& set);
+    template <bool sticks>
+    void hold_all(const PlaneFit& fit);
+    template <bool sticks>
+    void hold_few(const PointSet& set);
+    template <std::size_t points, std::size_t frictions>
+    void hold_exactly(const PointSet& set);
+    /// The first velocities without the normal impulses.
+    [[nodiscard]] ContactVector given() const
+    {
+        const auto& m = block_.matrix;
+        ContactVector velocity{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            velocity[i] =
+                free_[i] + (m[i][3] * modal_[3] + m[i][4] * modal_[4] + m[i][5] * modal_[5]);
+        }
+        return velocity;
+    }
+    void set_normals(const PointSet& set);
+    void set_friction(double tangent_1, double tangent_2, double torsion)
+    {
+        answer_.tangent_1 = modal_[3] = tangent_1;
+        answer_.tangent_2 = modal_[4] = tangent_2;
+        answer_.torsion = modal_[5] = torsion;
+    }
+    void move_normals();
+    void move_tangents();
+    [[nodiscard]] Friction scaled_friction() const
+    {
+        return {answer_.tangent_1, answer_.tangent_2,
+                block_.torsion_arm > 0.0 ? answer_.torsion / block_.torsion_arm : 0.0};
+    }
+    [[nodiscard]] double normal_sum() const
+    {
+        return answer_.normal[0] + answer_.normal[1] + answer_.normal[2] + answer_.normal[3];
+    }
+    double slip_once(double step);
+
+    ContactBlock& block_;
+    ContactVector modal_; // the answer
+    ContactVector free_;
+    ContactVector now_; // with the answer
+    ContactImpulse answer_;
+    bool is_at_limit_ = false;
+    bool has_settled_ = false;
+};
+
+PointSet Trial::pushing(double tolerance) const
+{
+    PointSet set;
+    for (std::uint32_t i = 0; i < block_.count; ++i) {
+        const double speed = block_.normal_speed(now_, i) - block_.speed_min[i];
+        if (answer_.normal[i] > 0.0 || speed < -tolerance) set.add(i);
+    }
+    return set;
+}
+
+PointSet Trial::without_pulling(const PointSet& set) const
+{
+    PointSet rest;
+    for (std::uint32_t i = 0; i < set.count; ++i) {
+        if (answer_.normal[set.at[i]] > 0.0) rest.add(set.at[i]);
+    }
+    return rest;
+}
+
+void Trial::set_normals(const PointSet& set)
+{
+    modal_[0] = modal_[1] = modal_[2] = 0.0;
+    for (std::uint32_t i = 0; i < set.count; ++i) {
+        const std::size_t at = set.at[i];
+        modal_[0] += answer_.normal[at];
+        modal_[1] += block_.along_2[at] * answer_.normal[at];
+        modal_[2] -= block_.along_1[at] * answer_.normal[at];
+    }
+}
+
+void Trial::move_normals()
+{
+    const ContactVector before = given();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& row = block_.matrix[i];
+        now_[i] = before[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2]);
+    }
+}
+
+void Trial::move_tangents()
+{
+    for (std::size_t i = 3; i < 6; ++i) {
+        const auto& row = block_.matrix[i];
+        now_[i] = free_[i] + (row[0] * modal_[0] + row[1] * modal_[1] + row[2] * modal_[2] +
+                              row[3] * modal_[3] + row[4] * modal_[4] + row[5] * modal_[5]);
+    }
+}
+
+template <std::size_t points, std::size_t frictions>
+void Trial::hold_exactly(const PointSet& set)
+{
+    const ContactVector before = frictions > 0 ? free_ : given();
+    std::array<double, points + frictions> wanted{};
+    for (std::size_t i = 0; i < points; ++i) {
+        wanted[i] = block_.speed_min[set.at[i]] - block_.normal_speed(before, set.at[i]);
+    }
+    for (std::size_t i = 0; i < frictions; ++i) wanted[points + i] = -before[3 + i];
+    const auto unknown = few_factors(block_, set).solve(wanted);
+    answer_.normal = {};
+    for (std::size_t i = 0; i < points; ++i) answer_.normal[set.at[i]] = unknown[i];
+    if constexpr (frictions > 0) {
+        set_friction(unknown[points], unknown[points + 1],
+                     frictions > 2 ? unknown[points + frictions - 1] : 0.0);
+    }
+    set_normals(set);
+}
+
+template <bool sticks>
+void Trial::hold_few(const PointSet& set)
+{
+    if constexpr (!sticks) {
+        return set.count == 1 ? hold_exactly<1, 0>(set) : hold_exactly<2, 0>(set);
+    } else {
+        if (set.count == 1) return hold_exactly<1, 2>(set);
+        return block_.torsion_arm == 0.0 ? hold_exactly<2, 2>(set) : hold_exactly<2, 3>(set);
+    }
+}
+
+template <bool sticks>
+void Trial::hold_all(const PlaneFit& fit)
+{
+    const std::array<double, 3> least = fit.modal_least(block_.speed_min);
+    const Ldl<6>& factors = whole_factors(block_);
+    const ContactVector before = sticks ? free_ : given();
+    const std::array<double, 3> wanted{least[0] - before[0], least[1] - before[1],
+                                       least[2] - before[2]};
+    answer_.normal = {};
+    if constexpr (sticks) {
+        const auto unknown = factors.solve(
+            ContactVector{wanted[0], wanted[1], wanted[2], -before[3], -before[4], -before[5]});
+        fit.spread({unknown[0], unknown[1], unknown[2]}, answer_.normal);
+        set_friction(unknown[3], unknown[4], unknown[5]);
+    } else {
+        fit.spread(factors.solve(wanted), answer_.normal);
+    }
+    set_normals(fit.set());
+}
+
+template <bool sticks>
+void Trial::hold_points(const PointSet& set)
+{
+    if (set.count == 0) {
+        answer_ = {};
+        modal_ = {};
+    } else if (set.count <= 2) {
+        hold_few<sticks>(set);
+    } else if (const PlaneFit& fit = fit_of(block_, set); fit.is_flat()) {
+        hold_few<sticks>(outermost(block_, fit));
+    } else {
+        hold_all<sticks>(fit);
+    }
+}
+
+bool Trial::stick(double tolerance)
+{
+    PointSet set = pushing(tolerance);
+    for (std::uint32_t round = 0; round < manifold_points_max; ++round) {
+        hold_points<true>(set);
+        if (set.count == 0) return true;
+        const PointSet rest = without_pulling(set);
+        if (rest.count == set.count) break;
+        set = rest;
+    }
+    const Friction f = scaled_friction();
+    const double limit = block_.friction * normal_sum();
+    if (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] > limit * limit) return false;
+    move_normals();
+    for (std::uint32_t i = 0; i < block_.count; ++i) {
+        if (block_.normal_speed(now_, i) - block_.speed_min[i] < -tolerance) return false;
+    }
+    return true;
+}
+
+void Trial::push(double tolerance)
+{
+    PointSet set = pushing(tolerance);
+    for (std::uint32_t round = 0; round < 2 * manifold_points_max; ++round) {
+        hold_points<false>(set);
+        const PointSet rest = without_pulling(set);
+        if (rest.count < set.count) {
+            set = rest;
+            continue;
+        }
+        move_normals();
+        if (set.count == 0) return;
+        const PointSet more = pushing(tolerance);
+        if (more.count == set.count) return;
+        set = more;
+    }
+    for (double& impulse : answer_.normal) impulse = std::max(impulse, 0.0);
+    modal_ = contact_vector(block_, answer_);
+    move_normals();
+}
+
+/// Moves friction toward the direction against the slip; returns by how much.
+double Trial::slip_once(double step)
+{
+    const double arm = block_.torsion_arm;
+    const Friction was = scaled_friction();
+    move_tangents();
+    Friction f{was[0] - step * now_[3], was[1] - step * now_[4], was[2] - step * now_[5] * arm};
+    const double limit = block_.friction * normal_sum();
+    const double size = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+    is_at_limit_ = size > limit;
+    if (is_at_limit_) {
+        const double share = limit / size;
+        for (double& part : f) part *= share;
+    }
+    set_friction(f[0], f[1], f[2] * arm);
+    move_normals();
+    return std::max({std::abs(f[0] - was[0]), std::abs(f[1] - was[1]), std::abs(f[2] - was[2])});
+}
+
+bool Trial::slip(double tolerance, int rounds_max)
+{
+    const double most = slip_response(block_);
+    const double step = most > 0.0 ? 1.0 / most : 0.0;
+    constexpr double settled = 1e-14; // of the impulses: rounding
+    push(tolerance);
+    bool reached = false;
+    for (int round = 0; round < rounds_max; ++round) {
+        const double change = slip_once(step);
+        reached = is_at_limit_;
+        push(tolerance);
+        has_settled_ = change <= settled * normal_sum();
+        if (has_settled_) return reached;
+    }
+    slip_once(0.0); // within the limit
+    return reached;
+}
+
+/// What of such speeds may be rounding, m/s.
+double rounding_of(const ContactBlock& block, const ContactVector& velocity)
+{
+    constexpr double share = 1e-13;
+    return share * (std::abs(velocity[0]) + std::abs(velocity[3]) + std::abs(velocity[4]) +
+                    block.torsion_arm *
+                        (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
+}
+
+ContactVector finish(ContactBlock& block, const Trial& trial, const Trial& start)
+{
+    block.impulse = trial.answer();
+    return minus(trial.impulse(), start.impulse());
+}
+
+} // namespace
+
+bool normals_are_solved(const ContactBlock& block, const ContactVector& velocity, double tolerance)
+{
+    for (std::size_t i = 0; i < block.count; ++i) {
+        const double excess = block.normal_speed(velocity, i) - block.speed_min[i];
+        if (excess < -tolerance || (excess > tolerance && block.impulse.normal[i] > 0.0))
+            return false;
+        if (block.impulse.normal[i] < 0.0) return false;
+    }
+    return true;
+}
+
+bool is_solved(const ContactBlock& block, const ContactVector& velocity, double tolerance)
+{
+    if (!normals_are_solved(block, velocity, tolerance)) return false;
+    if (block.friction == 0.0) return true;
+    const double arm = block.torsion_arm;
+    const double limit = block.friction * block.normal_sum();
+    const Friction slip{velocity[3], velocity[4], velocity[5] * arm};
+    const Friction held{block.impulse.tangent_1, block.impulse.tangent_2,
+                        arm > 0.0 ? block.impulse.torsion / arm : 0.0};
+    const double speed2 = slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2];
+    const double held2 = held[0] * held[0] + held[1] * held[1] + held[2] * held[2];
+    constexpr double rounding = 1e-12;
+    if (held2 > limit * limit * (1.0 + rounding)) return false;
+    if (speed2 <= tolerance * tolerance) return true;
+    const double speed = std::sqrt(speed2);
+    double miss2 = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double miss = held[i] * speed + limit * slip[i];
+        miss2 += miss * miss;
+    }
+    return miss2 <= rounding * rounding * limit * limit * speed2;
+}
+
+bool is_slipping(const ContactBlock& block, const ContactVector& velocity, double tolerance)
+{
+    const ContactImpulse& held = block.impulse;
+    const double along = held.tangent_1 * velocity[3] + held.tangent_2 * velocity[4];
+    const double size2 = held.tangent_1 * held.tangent_1 + held.tangent_2 * held.tangent_2;
+    const double limit = block.friction * block.normal_sum();
+    constexpr double nearly = 0.99;
+    return size2 >= nearly * limit * limit && size2 > 0.0 && along < 0.0 &&
+           along * along > tolerance * tolerance * size2;
+}
+
+ContactVector solve(ContactBlock& block, const ContactVector& velocity, double tolerance)
+{
+    if (block.friction == 0.0) return solve_normals(block, velocity, tolerance);
+    const double still = std::max(tolerance, rounding_of(block, velocity));
+    const Trial start{block, velocity};
+    constexpr int rounds = 8;
+    // What slipped at the end of the last tick mostly slips on.
+    const bool slips = is_slipping(block, velocity, still);
+    Trial slipping = start;
+    if (slips && slipping.slip(still, rounds) && slipping.has_settled())
+        return finish(block, slipping, start);
+    Trial sticking = start;
+    if (sticking.stick(still)) return finish(block, sticking, start);
+    if (!slips) slipping.slip(still, rounds);
+    return finish(block, slipping, start);
+}
+
+ContactVector iterate(ContactBlock& block, const ContactVector& velocity, double tolerance)
+{
+    if (block.friction == 0.0) return solve_normals(block, velocity, tolerance);
+    const double still = std::max(tolerance, rounding_of(block, velocity));
+    const Trial start{block, velocity};
+    Trial slipping = start;
+    // What slipped slips.
+    bool& slipped = block.factors.slipped;
+    if (slipped && slipping.slip(still, 1)) return finish(block, slipping, start);
+    Trial sticking = start;
+    if (sticking.stick(still)) {
+        slipped = false;
+        return finish(block, sticking, start);
+    }
+    if (!slipped) slipping.slip(still, 1);
+    slipped = true;
+    return finish(block, slipping, start);
+}
+
+ContactVector solve_normals(ContactBlock& block, const ContactVector& velocity, double tolerance)
+{
+    const Trial start{block, velocity};
+    Trial trial = start;
+    trial.push(std::max(tolerance, rounding_of(block, velocity)));
+    return finish(block, trial, start);
+}
+
+} // namespace hapnet::scene

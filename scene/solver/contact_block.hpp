@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/collide/manifold.hpp"
+#include "scene/collide/pairs.hpp"
+#include "scene/solver/ldl.hpp"
+#include "scene/solver/plane_fit.hpp"
+
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace hapnet::scene {
+
+/// How a body answers to impulses; nothing moves what is fixed, a plane, or asleep.
+struct BodyResponse {
+    glm::dvec3 inverse_mass{0.0};
+    glm::dmat3 inverse_inertia{0.0}; // world's frame
+};
+
+/// Linear and angular velocity, in the world's frame.
+struct BodyMotion {
+    glm::dvec3 velocity{0.0};
+    glm::dvec3 spin{0.0};
+    glm::dvec3 angular_impulse{0.0}; // about the centre, of all that changed `spin`: N m s
+};
+
+/// Where the solver keeps a body; 0 stands for everything that does not move.
+using SolverIndex = std::uint32_t;
+
+/// Six numbers of a contact in its own frame, about its anchor: along the normal, about the first
+/// and the second tangent; along the first and the second tangent, about the normal. The first
+/// three are what points that only push can do, the others are friction.
+using ContactVector = std::array<double, 6>;
+
+/// The impulses of a contact, N s and N m s.
+struct ContactImpulse {
+    std::array<double, manifold_points_max> normal{};
+    double tangent_1 = 0.0;
+    double tangent_2 = 0.0;
+    double torsion = 0.0;
+};
+
+/// What was worked out for a block and may be needed again: valid as long as its matrix is.
+struct BlockFactors {
+    Ldl<6> whole{}; // of the matrix: three or four points, and friction
+    // For sets of one, of two, of three, of four points, the one that was met last: which, in bits,
+    // or 0 for none; factors for it and friction, or its plane.
+    std::array<std::uint32_t, manifold_points_max> sets{};
+    std::array<Ldl<5>, 2> few{};
+    std::array<PlaneFit, 2> fits{};
+    bool has_whole = false;
+    bool slipped = false; // when last looked at
+};
+
+/// One manifold to be solved as a whole: up to four points that push, and friction as one vector
+/// and a torsion at the anchor, which is where the pressure's centre was last tick.
+struct ContactBlock {
+    SolverIndex a = 0;
+    SolverIndex b = 0;
+    std::uint32_t count = 0;
+    double friction = 0.0;
+    double torsion_arm = 0.0; // metres: the torsion's limit over the friction's
+    glm::dvec3 normal{0.0}, tangent_1{0.0}, tangent_2{0.0};
+    glm::dvec3 anchor{0.0};
+    glm::dvec3 arm_a{0.0}, arm_b{0.0};                            // from the centres to the anchor
+    std::array<double, manifold_points_max> along_1{}, along_2{}; // the points from the anchor
+    std::array<double, manifold_points_max> separation{};
+    std::array<double, manifold_points_max> speed_min{}; // the least normal speed of each point
+    std::array<std::uint32_t, manifold_points_max> feature{};
+    ContactImpulse impulse;
+    std::array<double, manifold_points_max>
+        start_impulse{}; // the normal impulses that it started from
+    double restitution = 0.0;
+    ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
+    ContactVector
+        centripetal_velocity{}; // m/s, what turning adds to its velocity by the end of the tick
+    double change = 0.0;        // m/s, what the last sweep changed in its speeds
+
+    bool has_matrix = false;
+    Square<6> matrix{}; // from modal impulses to modal velocities
+    BlockFactors factors{};
+
+    [[nodiscard]] double normal_speed(const ContactVector& velocity, std::size_t point) const
+    {
+        return velocity[0] + along_2[point] * velocity[1] - along_1[point] * velocity[2];
+    }
+    [[nodiscard]] double normal_sum() const
+    {
+        return impulse.normal[0] + impulse.normal[1] + impulse.normal[2] + impulse.normal[3];
+    }
+};
+
+/// Sets the geometry, and starts from last tick's impulses.
+void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
+             const ContactMemory& memory);
+/// Keeps the impulses for the next tick, to start from: not those of a hit, which will not come
+/// again. So they at most double from tick to tick, but for `weight` (N s), about what carrying the
+/// two bodies takes.
+void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory);
+
+[[nodiscard]] ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a,
+                                        const BodyMotion& b);
+/// While a body turns, the points of it that touch go around its centre: what that adds to their
+/// velocity within a tick. Without it, a box that tips over an edge would gain energy. Second
+/// order; left out for what turns farther than a tenth of a radian. Lowers the least speeds to
+/// what is met by standing still.
+void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
+                              const glm::dvec3& spin_b, double tick);
+
+[[nodiscard]] ContactVector contact_vector(const ContactBlock& block,
+                                           const ContactImpulse& impulse);
+
+/// An impulse in the world's frame, about the anchor.
+struct Wrench {
+    glm::dvec3 impulse{0.0};
+    glm::dvec3 angular{0.0};
+};
+[[nodiscard]] Wrench wrench(const ContactBlock& block, const ContactVector& impulse);
+/// On one body: `arm` from its centre to the anchor.
+void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
+           BodyMotion& motion);
+
+void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b);
+
+[[nodiscard]] inline ContactVector times(const Square<6>& matrix, const ContactVector& impulse)
+{
+    ContactVector velocity;
+    for (std::size_t i = 0; i < 6; ++i) {
+        const auto& row = matrix[i];
+        velocity[i] = row[0] * impulse[0] + row[1] * impulse[1] + row[2] * impulse[2] +
+                      row[3] * impulse[3] + row[4] * impulse[4] + row[5] * impulse[5];
+    }
+    return velocity;
+}
+
+} // namespace hapnet::scene

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/collide/time_of_impact.hpp"
+#include "tests/property/scene/collide/boxes.hpp"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace hapnet::scene {
+namespace {
+
+constexpr std::uint64_t pairs = 200;
+
+struct Flight {
+    OrientedBox a;
+    OrientedBox b;
+    glm::dvec3 velocity{0.0};
+
+    [[nodiscard]] OrientedBox b_at(long double time) const
+    {
+        // Rounded once to double: that is the finest that can be told apart.
+        OrientedBox box = b;
+        for (const int k : {0, 1, 2})
+            box.centre[k] = static_cast<double>(b.centre[k] + time * velocity[k]);
+        return box;
+    }
+
+    [[nodiscard]] long double separation_at(long double time) const
+    {
+        return Exhaustive::separation(a, b_at(time));
+    }
+};
+
+/// Aimed at somewhere near the other; a second away at most.
+Flight draw(std::uint64_t seed)
+{
+    BoxesDrawn drawn{base::Seed{seed}.stream("flight")};
+    Flight flight{.a = drawn.box(1.0, 10.0), .b = drawn.box(seed % 2 == 0 ? 1.0 : 0.1, 10.0)};
+    flight.b.centre = flight.a.centre + 40.0 * drawn.direction();
+    if (drawn.one_in(4)) flight.b.axes = flight.a.axes;
+    const glm::dvec3 target = flight.a.centre + drawn.within_cube(8.0);
+    flight.velocity = (target - flight.b.centre) * drawn.uniform(1.0, 20.0);
+    return flight;
+}
+
+/// When the separation becomes negative, between a time when it is not and one when it is.
+long double bisected(const Flight& flight, long double apart, long double overlapping)
+{
+    for (int k = 0; k < 60; ++k) {
+        const long double centre = 0.5L * (apart + overlapping);
+        (flight.separation_at(centre) > 0.0L ? apart : overlapping) = centre;
+    }
+    return 0.5L * (apart + overlapping);
+}
+
+TEST(FirstTouch, IsWhereBisectionFindsIt)
+{
+    std::uint64_t touched = 0;
+    for (std::uint64_t seed = 0; seed < pairs; ++seed) {
+        const Flight flight = draw(seed);
+        const auto impact = time_of_impact(flight.a, flight.b, flight.velocity, 2.0);
+        if (!impact) continue;
+        ++touched;
+        const long double deeper = impact->time * (1.0L + 1e-6L);
+        if (flight.separation_at(deeper) >= 0.0L) continue; // only grazes
+        const auto time = static_cast<double>(bisected(flight, 0.0L, deeper));
+        ASSERT_NEAR(impact->time, time, 1e-12 * time) << seed;
+        ASSERT_LT(glm::dot(impact->normal, flight.velocity), 0.0) << seed;
+        ASSERT_NEAR(glm::dot(impact->normal, impact->normal), 1.0, 1e-12) << seed;
+        // At that moment the normal is the axis along which nothing is left between them.
+        const auto gap = static_cast<double>(Exhaustive::along(flight.a, flight.b_at(impact->time),
+                                                               Exhaustive::vector(impact->normal)));
+        ASSERT_NEAR(gap, 0.0, 1e-11) << seed;
+    }
+    EXPECT_GT(touched, pairs / 4);
+}
+
+TEST(FirstTouch, IsNotMissed)
+{
+    for (std::uint64_t seed = 0; seed < pairs; ++seed) {
+        const Flight flight = draw(seed);
+        if (time_of_impact(flight.a, flight.b, flight.velocity, 2.0)) continue;
+        for (int k = 0; k <= 50; ++k) ASSERT_GE(flight.separation_at(0.04L * k), -1e-12L) << seed;
+    }
+}
+
+} // namespace
+} // namespace hapnet::scene

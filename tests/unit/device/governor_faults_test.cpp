@@ -1,0 +1,400 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// When the governor stops at once, what it latches, and how an operator gets it going again.
+#include "tests/support/device/governed.hpp"
+
+#include <chrono>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace hapnet::device {
+namespace {
+
+using namespace std::chrono_literals;
+using test::along_x;
+using Governance = test::Governed;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// With a hand that is pushed with 1 N and moves at 1 m/s at most.
+Governance pushing()
+{
+    Governance governed = Governance::ramped_in({.speed_max_m_per_s = 1.0});
+    governed.play(10, along_x(1.0));
+    EXPECT_EQ(governed.given.force(), along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::active);
+    return governed;
+}
+
+/// Zero at this very tick, motors off, and it stays so.
+void expect_latched(Governance& governed, const Latched& cause)
+{
+    EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_FALSE(governed.given.motors_on());
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    EXPECT_EQ(governed.governor.fault(), cause);
+    EXPECT_EQ(governed.play(3000, along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+}
+
+TEST(GovernorStates, FollowTheDevicesLife)
+{
+    Governance governed;
+    governed.speaks = false;
+    governed.sample.calibrated = false;
+    governed.play(200, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::off); // for as long as it takes
+    governed.speaks = true;
+    governed(along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::calibrating);
+    EXPECT_EQ(governed.given.force(), base::Force{});
+    governed.sample.calibrated = true;
+    governed(along_x(1.0), false);
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    EXPECT_FALSE(governed.given.motors_on());
+    governed(along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::ramping);
+    EXPECT_TRUE(governed.given.motors_on());
+    governed.play(1001, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::active);
+    governed.sample.fault = Fault::overheat;
+    governed(along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+}
+
+TEST(GovernorStops, AtOnceWhenTheStylusIsDockedOrLosesItsCalibrationAndRampsInAfterwards)
+{
+    Governance governed = pushing();
+    governed.sample.docked = true;
+    EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    governed.sample.docked = false;
+    EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
+    governed.sample.calibrated = false;
+    EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::calibrating);
+    governed.sample.calibrated = true;
+    EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
+    EXPECT_EQ(governed.governor.counters().docked, 1U);
+    EXPECT_EQ(governed.governor.counters().uncalibrated, 1U);
+}
+
+TEST(GovernorStops, WhenADeviceRepeatsItselfForTwentyMillisecondsAndGoesOnWhenItSpeaksAgain)
+{
+    Governance governed = pushing();
+    governed.speaks = false;
+    EXPECT_EQ(governed.play(19, along_x(1.0)), along_x(1.0));
+    EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    EXPECT_EQ(governed.play(79, along_x(1.0)), base::Force{}); // 99 ms
+    EXPECT_EQ(governed.governor.counters().silent, 80U);
+    governed.speaks = true;
+    EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
+    EXPECT_EQ(governed.governor.counters().silence_faults, 0U);
+}
+
+TEST(GovernorLatches, ATimeoutWhenADeviceRepeatsItselfForAHundredMilliseconds)
+{
+    Governance governed = pushing();
+    governed.speaks = false;
+    governed.play(99, along_x(1.0));
+    expect_latched(governed, {Fault::timeout, Trip::silence});
+    governed.speaks = true;
+    EXPECT_EQ(governed.play(3000, along_x(1.0)), base::Force{}); // it does not go on by itself
+    EXPECT_EQ(governed.governor.counters().silence_faults, 1U);
+}
+
+TEST(GovernorStops, WhenADeviceSaysItHeardNothingAndLatchesThatAfterAHundredMilliseconds)
+{
+    Governance governed = pushing();
+    governed.sample.fault = Fault::timeout;
+    EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.play(50, along_x(1.0)), base::Force{});
+    governed.sample.fault = Fault::none; // a hiccup
+    EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
+    governed.sample.fault = Fault::timeout;
+    governed.play(99, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    expect_latched(governed, {Fault::timeout, Trip::silence});
+}
+
+TEST(GovernorLatches, NothingWhenTheLoopStoodStillWithoutForce)
+{
+    Governance governed = pushing();
+    governed.play(100, along_x(1.0), false);
+    EXPECT_EQ(governed.after(10s, along_x(1.0), false), base::Force{});
+    governed.governor.latch({Fault::timeout, Trip::loop});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
+}
+
+TEST(GovernorLatches, NothingForTheSilenceOfADeviceWithoutMotors)
+{
+    Governance governed{{.axes_out = 0}};
+    governed(along_x(1.0));
+    governed.speaks = false;
+    EXPECT_EQ(governed.play(500, along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    EXPECT_EQ(governed.governor.counters().silent, 0U);
+}
+
+TEST(GovernorLatches, EveryFaultThatADeviceReports)
+{
+    for (const Fault fault : {Fault::communication, Fault::overheat, Fault::over_force,
+                              Fault::disconnected, Fault::internal}) {
+        Governance governed = pushing();
+        governed.sample.fault = fault;
+        expect_latched(governed, {fault, Trip::device});
+        governed.sample.fault = Fault::none;
+        EXPECT_EQ(governed.play(3000, along_x(1.0)), base::Force{});
+        EXPECT_EQ(governed.governor.fault().fault, fault) << name_of(fault);
+        EXPECT_EQ(governed.governor.counters().device_faults, 1U);
+    }
+}
+
+TEST(GovernorLatches, OverVelocityAboveTheSpeedLimitAndNotAtIt)
+{
+    Governance governed = pushing();
+    governed.sample.velocity = {{0.6, 0.8, 0.0}};
+    EXPECT_EQ(governed.play(5, along_x(1.0)), along_x(1.0));
+    governed.sample.velocity = {{0.6, 0.8001, 0.0}};
+    expect_latched(governed, {Fault::over_velocity, Trip::speed});
+    EXPECT_EQ(governed.governor.counters().speed_trips, 1U);
+}
+
+TEST(GovernorLatches, NothingForSpeedWhileNoForceCanBeFeltButWaits)
+{
+    Governance governed{{.speed_max_m_per_s = 1.0}};
+    governed.sample.velocity = {{2.0, 0.0, 0.0}};
+    EXPECT_EQ(governed.play(100, along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    EXPECT_EQ(governed.governor.counters().too_fast, 100U);
+    governed.sample.velocity = {};
+    EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 1e-9);
+}
+
+TEST(GovernorLatches, OverVelocityOnAJumpWhateverVelocityTheDeviceReports)
+{
+    Governance governed = pushing();
+    governed.sample.hip = {{0.0049, 0.0, 0.0}}; // in 1 ms, and 4 ms of grace
+    EXPECT_EQ(governed.play(5, along_x(1.0)), along_x(1.0));
+    governed.sample.hip = {{0.0049, 0.0051, 0.0}};
+    expect_latched(governed, {Fault::over_velocity, Trip::jump});
+    EXPECT_EQ(governed.governor.counters().jump_trips, 1U);
+}
+
+TEST(GovernorLatches, NothingWhenALateSampleHasMovedOn)
+{
+    Governance governed = pushing();
+    governed.speaks = false;
+    governed.play(15, along_x(1.0));
+    governed.speaks = true;
+    governed.sample.hip = {{0.015, 0.0, 0.0}}; // 16 ms at less than a metre a second
+    EXPECT_EQ(governed(along_x(1.0)), along_x(1.0));
+}
+
+TEST(GovernorLatches, NothingForTheNoiseOfAnEncoder)
+{
+    Governance governed = pushing();
+    for (int i = 0; i < 1000; ++i) {
+        const double off = i % 2 == 0 ? 0.000055 : 0.0; // a count to and fro, unfiltered
+        governed.sample.hip = {{off, off, off}};
+        governed.sample.velocity = {{off / 0.001, off / 0.001, off / 0.001}};
+        ASSERT_EQ(governed(along_x(1.0)), along_x(1.0));
+    }
+}
+
+TEST(GovernorLatches, CommunicationWhenAPlaceOrVelocityIsNoNumber)
+{
+    for (const bool place : {true, false}) {
+        Governance governed = pushing();
+        (place ? governed.sample.hip.value : governed.sample.velocity.value).y = not_a_number;
+        expect_latched(governed, {Fault::communication, Trip::nonsense});
+        EXPECT_EQ(governed.governor.counters().nonsense_trips, 1U);
+    }
+}
+
+TEST(GovernorLatches, ATimeoutWhenTheLoopStoodStillForMoreThanAHundredMilliseconds)
+{
+    Governance governed = pushing();
+    EXPECT_EQ(governed.after(100ms, along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.fault(), Latched{});
+    governed.play(1100, along_x(1.0));
+    EXPECT_EQ(governed.after(100ms + 1ns, along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.fault(), (Latched{Fault::timeout, Trip::loop}));
+    EXPECT_EQ(governed.governor.counters().loop_faults, 1U);
+    EXPECT_EQ(governed.governor.counters().stalled, 2U);
+}
+
+TEST(GovernorLatches, WhatAWatchdogSaysAndKeepsTheFirstCause)
+{
+    Governance governed = pushing();
+    governed.governor.latch({Fault::timeout, Trip::loop});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    governed.sample.fault = Fault::disconnected;
+    expect_latched(governed, {Fault::timeout, Trip::loop});
+}
+
+/// A fault that is over, but latched.
+Governance latched()
+{
+    Governance governed = pushing();
+    governed.sample.fault = Fault::communication;
+    governed(along_x(1.0));
+    governed.sample.fault = Fault::none;
+    governed(along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    return governed;
+}
+
+void expect_ramps_in(Governance& governed)
+{
+    EXPECT_NE(governed.governor.state(), GovernorState::fault);
+    EXPECT_EQ(governed.governor.counters().resets, 1U);
+    EXPECT_NEAR(governed.play(500, along_x(1.0)).x(), 0.5, 2e-3);
+    governed.play(600, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::active);
+}
+
+TEST(GovernorRecovers, WhenTheStylusIsPutIntoItsHolder)
+{
+    Governance governed = latched();
+    governed.sample.docked = true;
+    EXPECT_EQ(governed.play(49, along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    governed.sample.docked = false;
+    expect_ramps_in(governed);
+}
+
+TEST(GovernorRecovers, NotByAHoldersSwitchThatFlickers)
+{
+    Governance governed = latched();
+    for (int i = 0; i < 400; ++i) {
+        governed.sample.docked = i % 40 != 0;
+        governed(along_x(1.0));
+    }
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+}
+
+TEST(GovernorRecovers, WhenTheStylusWasPutIntoItsHolderWhileTheDeviceWasStillAtFault)
+{
+    Governance governed = pushing();
+    governed.sample.fault = Fault::not_calibrated;
+    governed.play(100, along_x(1.0));
+    governed.sample.docked = true; // what this fault asks for
+    governed.play(50, along_x(1.0));
+    governed.sample.fault = Fault::none;
+    governed.play(51, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    governed.sample.docked = false;
+    expect_ramps_in(governed);
+}
+
+TEST(GovernorRecovers, NotByAStylusThatLayInItsHolderAllTheTime)
+{
+    Governance governed = pushing();
+    governed.sample.docked = true;
+    governed.sample.fault = Fault::communication;
+    governed(along_x(1.0));
+    governed.sample.fault = Fault::none;
+    governed.play(100, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    governed.sample.docked = false;
+    governed.play(100, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    governed.sample.docked = true;
+    governed.play(50, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+}
+
+TEST(GovernorRecovers, WhenTheButtonIsPressedAfterASecondAtRest)
+{
+    for (const bool counted : {true, false}) {
+        Governance governed = latched();
+        EXPECT_EQ(governed.play(1001, along_x(1.0)), base::Force{});
+        if (counted) {
+            ++governed.sample.presses; // and released, between two samples
+        } else {
+            governed.sample.buttons = 1;
+        }
+        EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+        expect_ramps_in(governed);
+    }
+}
+
+TEST(GovernorRecovers, NotByAButtonWhileTheStylusMovesOrJustDid)
+{
+    Governance governed = latched();
+    governed.sample.velocity = {{0.06, 0.0, 0.0}};
+    governed.play(2000, {});
+    ++governed.sample.presses;
+    governed({});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    governed.sample.velocity = {};
+    governed.play(900, {});
+    ++governed.sample.presses;
+    governed({});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    governed.play(200, {});
+    ++governed.sample.presses;
+    governed({});
+    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+}
+
+TEST(GovernorRecovers, NotByAButtonThatIsHeldDownOrWasPressedBefore)
+{
+    Governance governed = pushing();
+    governed.sample.buttons = 1;
+    governed.sample.presses = 7;
+    governed.sample.fault = Fault::communication;
+    governed({});
+    governed.sample.fault = Fault::none;
+    governed.play(3000, {});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    governed.sample.buttons = 0;
+    governed.play(3000, {});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+}
+
+TEST(GovernorRecovers, NotWhileTheDeviceIsStillAtFaultOrSilent)
+{
+    Governance governed = latched();
+    governed.sample.fault = Fault::overheat;
+    governed.play(2000, {});
+    ++governed.sample.presses;
+    governed.sample.docked = true;
+    governed({});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    governed.sample.fault = Fault::none;
+    governed.speaks = false;
+    governed.play(2000, {});
+    ++governed.sample.presses;
+    governed({});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+}
+
+TEST(GovernorRecovers, ByAnOperatorsWordUntilTheNextTickFindsTheFaultAgain)
+{
+    Governance governed = latched();
+    governed.governor.reset();
+    expect_ramps_in(governed);
+    governed.sample.fault = Fault::overheat;
+    governed({});
+    governed.governor.reset();
+    EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+}
+
+TEST(Trips, HaveNamesAndWordsOfTheirOwn)
+{
+    EXPECT_EQ(name_of(Trip::jump), "jump");
+    EXPECT_EQ(what_happened({}), "");
+    EXPECT_EQ(what_happened({Fault::overheat, Trip::device}), describe(Fault::overheat));
+    EXPECT_NE(what_happened({Fault::timeout, Trip::loop}), describe(Fault::timeout));
+    EXPECT_EQ(what_happened({Fault::timeout, Trip::silence}), describe(Fault::timeout));
+}
+
+} // namespace
+} // namespace hapnet::device

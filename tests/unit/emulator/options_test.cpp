@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "emulator/options.hpp"
+
+#include "emulator/scenario.hpp"
+#include "emulator/setting_hints.hpp"
+#include "tests/support/cli/help_faults.hpp"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace hapnet::emulator {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace base::literals;
+
+/// What is said to these options of a run; "" where they are taken, as far as can be told without
+/// a network.
+std::string refusal(std::vector<std::string> words)
+{
+    words.insert(words.begin(), {"--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0"});
+    cli::Typed typed{"hapnet-emulator", std::move(words)};
+    const auto line = parse_command_line(typed.words());
+    if (!line) return line.error().message;
+    const auto scenario = scenario_of(std::get<Options>(std::get<AnyOptions>(*line)));
+    return scenario ? "" : scenario.error().message;
+}
+
+std::string refusal_alone(std::vector<std::string> words)
+{
+    return cli::refusal_of(parse_command_line, "hapnet-emulator", std::move(words));
+}
+
+template <typename T>
+T options_of(std::vector<std::string> words)
+{
+    cli::Typed typed{"hapnet-emulator", std::move(words)};
+    return std::get<T>(std::get<AnyOptions>(parse_command_line(typed.words()).value()));
+}
+
+template <typename T>
+base::Result<Profile> profile_of(std::vector<std::string> words)
+{
+    std::vector<std::string> warnings;
+    return profile_for(options_of<T>(std::move(words)).conditions, warnings);
+}
+
+void expect_said(const std::string& refusal, const std::string& words)
+{
+    EXPECT_NE(refusal.find(words), std::string::npos) << words << " is not in: " << refusal;
+}
+
+TEST(EmulatorOptions, HaveACompleteHelp)
+{
+    const auto prints = cli::prints_of("hapnet-emulator", parse_command_line);
+    EXPECT_EQ(cli::help_faults("hapnet-emulator", prints), std::vector<std::string>{});
+    EXPECT_EQ(cli::listed_commands(prints({"--help"}).value()),
+              (std::vector<std::string>{"check", "predict", "verify"}));
+    EXPECT_EQ(prints({"--help"})
+                  ->rfind("Usage: hapnet-emulator --listen-a ADDRESS --listen-b "
+                          "ADDRESS [OPTIONS]\n",
+                          0),
+              0U);
+}
+
+TEST(EmulatorOptions, AnswerTheWordsOfOtherTools)
+{
+    for (const auto& [typed, meant] : {std::pair{"--bandwidth", "--rate"},
+                                       {"--latency", "--delay"},
+                                       {"--up.latency", "--up.delay"},
+                                       {"--preset", "--profile"},
+                                       {"--listen", "--listen-a"},
+                                       {"--drop", "--loss"},
+                                       {"--dry-run", "hapnet-emulator check"},
+                                       {"--dealy", "--delay"}}) {
+        EXPECT_EQ(refusal({typed, "10ms"}),
+                  std::string{"unknown option "} + typed + ": did you mean " + meant + "?");
+    }
+    EXPECT_EQ(refusal_alone({"start"}),
+              "unknown command 'start': did you mean hapnet-emulator --listen-a ADDRESS "
+              "--listen-b ADDRESS?");
+}
+
+TEST(EmulatorOptions, SayHowALawIsWritten)
+{
+    EXPECT_EQ(refusal({"--reorder", "5%"}),
+              "--reorder: '5%': say also by how many places: '{ share = \"5%\", displacement = 3 "
+              "}'");
+    EXPECT_EQ(refusal({"--loss", "gilbert"}),
+              "--loss: 'gilbert': a law is written as a table: '{ law = \"gilbert\", share = "
+              "\"2%\", mean_burst = 5.0 }'");
+    expect_said(refusal({"--up.jitter", "20ms normal"}), "'{ law = \"normal\", sd = \"5ms\" }'");
+    expect_said(refusal({"--delay", "80ms 5ms"}), "--netem \"delay 80ms 5ms\"");
+    EXPECT_EQ(refusal({"--reorder", "{ share = \"5%\", displacement = 3 }"}), "");
+    EXPECT_EQ(refusal({"--netem", "delay 80ms 5ms"}), "");
+}
+
+TEST(EmulatorOptions, ProposeOnlyLawsThatCanBeTyped)
+{
+    // Those that name a file need it to be there.
+    for (const std::string law :
+         {"random", "k-of-n", "every", "burst", "timed-burst", "gilbert", "gilbert-elliott",
+          "gemodel", "timed-gilbert-elliott", "four-state", "list", "pattern", "outage"}) {
+        const std::string example{law_example("loss", law)};
+        EXPECT_EQ(refusal({"--loss", example}), "") << example;
+    }
+    for (const std::string law : {"constant", "uniform", "normal", "gaussian", "log-normal",
+                                  "exponential", "pareto", "gamma"}) {
+        const std::string example{law_example("delay", law)};
+        EXPECT_EQ(refusal({"--delay", example}), "") << example;
+    }
+    for (const auto& [setting, law] :
+         {std::pair{"loss", "trace"}, {"delay", "trace"}, {"jitter", "table"}}) {
+        const std::string example{law_example(setting, law)};
+        expect_said(refusal({std::string{"--"} + setting, example}), "No such file");
+    }
+}
+
+TEST(EmulatorOptions, TakeUnitsInTheSpellingsOfOtherTools)
+{
+    EXPECT_EQ(refusal({"--rate", "10mbit"}), "");
+    EXPECT_EQ(refusal({"--rate", "10Mbps"}), "");
+    EXPECT_EQ(refusal({"--delay", "100msec"}), "");
+    expect_said(refusal({"--delay", "1m"}), "write 1min or 1ms");
+    expect_said(refusal({"--delay", "160"}), "'160'");
+    EXPECT_EQ(profile_of<CheckOptions>({"check", "--mtu", "1500"})->path.up.mtu,
+              profile_of<CheckOptions>({"check", "--mtu", "1500B"})->path.up.mtu);
+}
+
+TEST(EmulatorOptions, ListenOnLoopbackWhereOnlyAPortIsGiven)
+{
+    const auto options =
+        options_of<Options>({"--listen-a", ":7001", "--listen-b", "7002", "--duration", "1s"});
+    EXPECT_EQ(options.listen_a.host, "127.0.0.1");
+    EXPECT_EQ(options.listen_a.port, 7001);
+    EXPECT_EQ(options.listen_b.host, "127.0.0.1");
+    EXPECT_EQ(options.listen_b.port, 7002);
+    EXPECT_EQ(options.duration, 1s);
+}
+
+TEST(EmulatorOptions, SayThatBothSidesHaveTheSameAddress)
+{
+    EXPECT_EQ(refusal_alone({"--listen-a", ":7001", "--listen-b", "127.0.0.1:7001"}),
+              "--listen-a and --listen-b are the same address, 127.0.0.1:7001: give each side its "
+              "own port");
+    EXPECT_EQ(refusal({}), "") << "port 0 is another one each time";
+}
+
+TEST(EmulatorOptions, TakeThePresetAndTheTimingInCapitalLetters)
+{
+    EXPECT_EQ(refusal({"--profile", "LTE", "--timing", "ECO"}), "");
+    expect_said(refusal({"--profile", "ltee"}), "did you mean 'lte'?");
+    expect_said(refusal({"--timing", "now"}), "write eco, precise, spin");
+}
+
+TEST(EmulatorOptions, GiveDryRunsTheConditionsOfARun)
+{
+    EXPECT_EQ(profile_of<PredictOptions>({"predict", "--jitter", "15ms"})->path.up.jitter,
+              profile_of<Options>({"--listen-a", ":0", "--listen-b", ":0", "--jitter", "15ms"})
+                  ->path.up.jitter);
+    EXPECT_EQ(profile_of<CheckOptions>({"check", "--netem", "loss 1%"})->path.up.loss.size(), 1U);
+    const auto lte = profile_of<PredictOptions>({"predict", "lte", "--down.delay", "5ms"});
+    EXPECT_EQ(lte->name, profile_of<PredictOptions>({"predict", "lte"})->name);
+    EXPECT_NE(lte->path, profile_of<PredictOptions>({"predict", "lte"})->path);
+    expect_said(refusal_alone({"check"}), "conditions are required");
+    std::vector<std::string> warnings;
+    EXPECT_FALSE(profile_for(
+        options_of<CheckOptions>({"check", "lte", "--netem", "loss 1%"}).conditions, warnings));
+}
+
+TEST(EmulatorOptions, TellARateOfDatagramsFromABitRate)
+{
+    const auto options =
+        options_of<PredictOptions>({"predict", "--rate", "500/s", "--rate", "10Mbit/s"});
+    EXPECT_EQ(options.stream.spacing, 2ms);
+    ASSERT_EQ(options.conditions.settings.size(), 1U);
+    EXPECT_EQ(options.conditions.settings[0].key, "rate");
+    EXPECT_EQ(options_of<CheckOptions>({"check", "lte", "--rate", "1000"}).stream.spacing, 1ms);
+    expect_said(refusal_alone({"predict", "lte", "--rate", "x"}), "--rate: 'x' is not a rate");
+    expect_said(refusal_alone({"predict", "lte", "--packets", "0"}), "write 1 to");
+}
+
+TEST(EmulatorOptions, ListThePresets)
+{
+    const auto prints = cli::prints_of("hapnet-emulator", parse_command_line);
+    const std::string list = prints({"check", "--list"}).value();
+    expect_said(list, "lte\n");
+    EXPECT_EQ(prints({"predict", "--list"}), list);
+}
+
+TEST(EmulatorOptions, OfARunAreNotThoseOfACommand)
+{
+    EXPECT_EQ(refusal_alone({"--listen-a", ":7001", "check", "lte"}).rfind("unknown option", 0),
+              0U);
+    EXPECT_EQ(refusal_alone({"verify"}), "RUN is required: hapnet-emulator verify run.json");
+    EXPECT_EQ(options_of<VerifyOptions>({"verify", "run.json", "--rate", "1000"}).spacing, 1ms);
+    expect_said(refusal_alone({"verify", "run.json", "--rate", "0"}), "write 1 to 1000000000");
+}
+
+} // namespace
+} // namespace hapnet::emulator

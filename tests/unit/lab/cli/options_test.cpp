@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/cli/options.hpp"
+
+#include "tests/support/cli/help_faults.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hapnet::lab {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string refusal_to(std::vector<std::string> words)
+{
+    return cli::refusal_of(parse_command_line, "hapnet-lab", std::move(words));
+}
+
+template <typename T>
+T command_of(std::vector<std::string> words)
+{
+    cli::Typed typed{"hapnet-lab", std::move(words)};
+    return std::get<T>(std::get<Command>(parse_command_line(typed.words()).value()));
+}
+
+TEST(LabOptions, HaveACompleteHelp)
+{
+    const auto prints = cli::prints_of("hapnet-lab", parse_command_line);
+    EXPECT_EQ(cli::help_faults("hapnet-lab", prints), std::vector<std::string>{});
+    EXPECT_EQ(prints({"report", "--help"})
+                  ->rfind("Usage: hapnet-lab report DIR|RECORD_A [RECORD_B]\n", 0),
+              0U);
+    EXPECT_EQ(
+        prints({"help", "run"})->rfind("Usage: hapnet-lab run EXPERIMENT --out DIR [OPTIONS]\n", 0),
+        0U);
+}
+
+TEST(LabOptions, HoldWhatWasTyped)
+{
+    const auto run = command_of<RunCommand>(
+        {"run", "fig6a", "--set", "a=1", "--set", "b=2", "--seeds", "10", "--out", "dir"});
+    EXPECT_EQ(run.experiment, "fig6a");
+    EXPECT_EQ(run.settings, (std::vector<std::string>{"a=1", "b=2"}));
+    EXPECT_EQ(run.seeds, 10U);
+    EXPECT_EQ(run.out, "dir");
+    EXPECT_EQ(run.command, "hapnet-lab run fig6a --set a=1 --set b=2 --seeds 10 --out dir");
+    const auto explain = command_of<ExplainCommand>({"explain", "paper", "--no-sleeping"});
+    EXPECT_FALSE(explain.sleeping);
+    EXPECT_EQ(explain.tick, 1ms);
+    EXPECT_EQ(command_of<ExportCommand>({"export", "a.rec", "--csv", "--rows", "messages"}).rows,
+              ExportRows::messages);
+    EXPECT_EQ(command_of<ReplayCommand>({"replay", "a.rec", "--algorithm", "dr"}).algorithm,
+              "dead-reckoning");
+}
+
+TEST(LabOptions, UnderstandTheOtherSpellingOfAnalyse)
+{
+    EXPECT_EQ(command_of<AnalyseCommand>({"analyze", "a", "b"}).record_b, "b");
+}
+
+TEST(LabOptions, ReportAFolderOrTwoRecords)
+{
+    EXPECT_EQ(command_of<ReportCommand>({"report", "results"}).record_b, "");
+    const auto report = command_of<ReportCommand>({"report", "a.rec", "b.rec"});
+    EXPECT_EQ(report.path, "a.rec");
+    EXPECT_EQ(report.record_b, "b.rec");
+}
+
+TEST(LabOptions, ListTheExperiments)
+{
+    const auto prints = cli::prints_of("hapnet-lab", parse_command_line);
+    EXPECT_NE(prints({"run", "--list"})->find("fig6a\n"), std::string::npos);
+}
+
+TEST(LabOptions, SayWhatIsMissingOrMistyped)
+{
+    EXPECT_EQ(refusal_to({"analyse", "a.rec"}),
+              "RECORD_B is required: hapnet-lab analyse a.rec b.rec");
+    EXPECT_EQ(refusal_to({"run", "fig6a"}), "--out is required: --out results/mine");
+    EXPECT_EQ(refusal_to({"run", "fig6a", "--output", "x"}),
+              "unknown option --output: did you mean --out?");
+    EXPECT_EQ(refusal_to({"repotr", "x"}),
+              "unknown command 'repotr': did you mean hapnet-lab report?");
+    EXPECT_EQ(refusal_to({"compare", "a", "b"}),
+              "unknown command 'compare': did you mean hapnet-lab analyse?");
+    EXPECT_EQ(refusal_to({"explain", "paper", "--tick", "1s"}),
+              "--tick: '1s' is out of range: write 10us to 100ms");
+    EXPECT_EQ(refusal_to({"replay", "a", "--json", "--csv"}),
+              "--json and --csv exclude each other: give one of them");
+    EXPECT_EQ(refusal_to({}).rfind("a command is required: hapnet-lab COMMAND", 0), 0U);
+}
+
+} // namespace
+} // namespace hapnet::lab

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/control/answer.hpp"
+
+#include "tests/unit/peer/control/fake_peer_control.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace hapnet::peer {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+const base::TimePoint opening{100s};
+
+struct TalkWithAPeer : testing::Test {
+    std::string said(base::TimePoint now)
+    {
+        std::string said{conversation.output()};
+        conversation.on_written(said.size(), now);
+        return said;
+    }
+
+    std::string said_to(std::string_view text, base::TimePoint now = opening)
+    {
+        conversation.on_bytes(text);
+        while (conversation.advance(fake.subject, now)) {}
+        return said(now);
+    }
+
+    json ask(const json& request)
+    {
+        const auto line = said_to(request.dump() + "\n");
+        EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+        return json::parse(line, nullptr, false);
+    }
+
+    std::string refused(const json& request)
+    {
+        const auto reply = ask(request);
+        EXPECT_EQ(reply["ok"], false) << reply;
+        return reply["error"];
+    }
+
+    static constexpr std::size_t line_max = 1000;
+    FakePeerControl fake;
+    control::Conversation conversation{line_max};
+};
+
+TEST_F(TalkWithAPeer, ShowsAndGivesStatisticsAsTheyAre)
+{
+    EXPECT_EQ(ask({{"command", "show"}}),
+              (json{{"ok", true}, {"program", "hapnet-peer"}, {"state", "running"}}));
+    json expected = fake.statistics;
+    expected["ok"] = true;
+    EXPECT_EQ(ask({{"command", "stats"}}), expected);
+}
+
+TEST_F(TalkWithAPeer, StopsOnceAskedToAndAnswersFirst)
+{
+    EXPECT_EQ(ask({{"command", "stop"}}), (json{{"ok", true}, {"stopping", true}}));
+    EXPECT_EQ(fake.stops, 1);
+    EXPECT_NE(refused({{"command", "stop"}, {"for", "1s"}}).find("\"for\""), std::string::npos);
+    EXPECT_EQ(fake.stops, 1) << "a request that is refused does nothing";
+}
+
+TEST_F(TalkWithAPeer, RefusesWhatWouldChangeItSayingWhatThereIs)
+{
+    for (const char* command : {"set", "apply", "diff", "reset"}) {
+        const auto error = refused({{"command", command}, {"profile", ""}, {"settings", 1}});
+        EXPECT_NE(error.find("cannot be changed"), std::string::npos) << error;
+        EXPECT_NE(error.find(command), std::string::npos) << error;
+        EXPECT_NE(error.find("show, stats, watch, wait or stop"), std::string::npos) << error;
+    }
+    EXPECT_NE(refused({{"command", "shwo"}}).find("must be one of show"), std::string::npos);
+    EXPECT_EQ(fake.stops, 0);
+}
+
+TEST_F(TalkWithAPeer, WaitsForItsStatistics)
+{
+    EXPECT_EQ(said_to("{\"command\":\"wait\",\"until\":\"tick.count>5\"}\n"), "");
+    fake.statistics["tick"]["count"] = 6;
+    const auto look = conversation.next_deadline();
+    ASSERT_TRUE(look);
+    EXPECT_TRUE(conversation.advance(fake.subject, *look));
+    EXPECT_EQ(json::parse(said(*look)),
+              (json{{"ok", true}, {"until", "tick.count>5"}, {"met", true}, {"elapsed_s", 2.5}}));
+    EXPECT_NE(refused({{"command", "wait"}, {"until", "tick.cuont>5"}}).find("count"),
+              std::string::npos);
+    EXPECT_NE(refused({{"command", "wait"}}).find("\"until\" is missing"), std::string::npos);
+}
+
+TEST_F(TalkWithAPeer, WatchesUntilTheNextRequest)
+{
+    const auto first = said_to("{\"command\":\"watch\",\"every\":\"50ms\"}\n");
+    EXPECT_EQ(json::parse(first)["tick"]["count"], 5);
+    EXPECT_EQ(conversation.next_deadline(), opening + 50ms);
+    EXPECT_EQ(ask({{"command", "show"}})["state"], "running");
+    EXPECT_EQ(conversation.next_deadline(), std::nullopt);
+}
+
+TEST_F(TalkWithAPeer, RefusesGarbageAndGoesOn)
+{
+    const std::string deep(900, '[');
+    for (const std::string& line :
+         {std::string{""}, std::string{"{"}, std::string{"null"}, std::string{"\xff\xfe"}, deep,
+          std::string{R"({"command":"stop","command":"show"})"}, std::string{R"({"command":1})"}}) {
+        EXPECT_EQ(json::parse(said_to(line + "\n"))["ok"], false) << line;
+    }
+    EXPECT_EQ(fake.stops, 0);
+    EXPECT_EQ(said_to("{\"command\":"), "") << "half a line is no request";
+    EXPECT_EQ(json::parse(said_to("\"show\"}\n"))["ok"], true);
+}
+
+TEST_F(TalkWithAPeer, HearsNoMoreOfAClientWhoseLineIsLongerThanItsBound)
+{
+    EXPECT_EQ(conversation.room(), line_max + 1);
+    EXPECT_EQ(json::parse(said_to(std::string(line_max + 1, ' ')))["ok"], false);
+    EXPECT_TRUE(conversation.is_over());
+    EXPECT_EQ(conversation.room(), 0U);
+}
+
+} // namespace
+} // namespace hapnet::peer

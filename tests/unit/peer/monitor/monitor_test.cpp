@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/monitor/monitor.hpp"
+
+#include <csignal>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+namespace hapnet::peer {
+namespace {
+
+/// No file of this process may grow beyond that, as on a full disk.
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(rlim_t bytes)
+    {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit narrow{bytes, before_.rlim_max};
+        is_in_force_ = setrlimit(RLIMIT_FSIZE, &narrow) == 0;
+    }
+    ~FileSizeLimit()
+    {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+    [[nodiscard]] bool is_in_force() const { return is_in_force_; }
+
+private:
+    rlimit before_{};
+    bool is_in_force_ = false;
+    void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
+
+std::size_t count_of(std::string_view word, const std::string& text)
+{
+    std::size_t count = 0;
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+    return count;
+}
+
+TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
+{
+    const std::string path = testing::TempDir() + "hapnet-monitor-full.rec";
+    testing::internal::CaptureStderr(); // a file: before the limit
+    std::exception_ptr failure;
+    bool was_whole_at_first = false;
+    {
+        Journal journal;
+        Monitor monitor{journal, record::Writer{path, nlohmann::json::object()}, 1};
+        was_whole_at_first = monitor.record_failure() == nullptr;
+        const FileSizeLimit limit{16'384};
+        ASSERT_TRUE(limit.is_in_force());
+        for (int round = 0; round < 3; ++round) {
+            for (int i = 0; i < 1000; ++i) journal.put(record::Row{record::TickRow{}});
+            monitor.drain();
+        }
+        monitor.finish();
+        failure = monitor.record_failure();
+        EXPECT_FALSE(journal.take());
+    }
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_TRUE(was_whole_at_first);
+    EXPECT_THROW(std::rethrow_exception(failure), std::system_error);
+    EXPECT_EQ(count_of("goes on without it", said), 1U) << said;
+    EXPECT_EQ(count_of(path, said), 1U) << said;
+    EXPECT_LE(std::filesystem::file_size(path), 16'384U);
+    std::filesystem::remove(path);
+}
+
+} // namespace
+} // namespace hapnet::peer

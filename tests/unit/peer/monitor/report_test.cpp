@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/monitor/report.hpp"
+
+#include <gtest/gtest.h>
+#include <string>
+
+namespace hapnet::peer {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Shown : testing::Test {
+    [[nodiscard]] nlohmann::ordered_json show() const
+    {
+        return show_json({options, status, journal, "a device"}, {});
+    }
+    [[nodiscard]] std::string says() const { return show()["says"]; }
+
+    Options options;
+    ServoStatus status;
+    Journal journal;
+};
+
+TEST_F(Shown, SaysThatItWaitsForTheOther)
+{
+    EXPECT_EQ(show()["state"], "waiting");
+    EXPECT_NE(says().find("waiting for the other peer"), std::string::npos);
+    EXPECT_EQ(show()["session"], nullptr);
+    EXPECT_EQ(show()["device"], "a device");
+}
+
+TEST_F(Shown, SaysWhereInTheSessionItIs)
+{
+    status.session = Session{.number = 7, .start = base::TimePoint{10s}, .is_left = true};
+    status.at = base::TimePoint{12s};
+    status.phase = record::Phase::running;
+    status.is_remote_heard = true;
+    EXPECT_EQ(show()["state"], "running");
+    EXPECT_EQ(show()["session"]["at_s"], 2.0);
+    EXPECT_EQ(says(), "in session");
+    status.is_remote_heard = false;
+    EXPECT_EQ(says(), "in session, but the other peer is silent: zero force");
+}
+
+TEST_F(Shown, SaysWhatTheCalibrationNeedsBeforeAnythingOfTheSession)
+{
+    status.calibration = device::CalibrationStep::dock_stylus;
+    EXPECT_EQ(show()["state"], "calibrating");
+    EXPECT_EQ(says(), device::describe(device::CalibrationStep::dock_stylus));
+}
+
+TEST_F(Shown, SaysAFaultAndItsCureBeforeAllElse)
+{
+    status.calibration = device::CalibrationStep::failed;
+    status.fault = {device::Fault::disconnected, device::Trip::device};
+    EXPECT_EQ(show()["state"], "fault");
+    EXPECT_EQ(show()["fault"]["fault"], "disconnected");
+    EXPECT_EQ(show()["fault"]["tripped_by"], "device");
+    EXPECT_NE(says().find("zero force (disconnected): the device has gone: plug it in"),
+              std::string::npos)
+        << says();
+}
+
+} // namespace
+} // namespace hapnet::peer

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/cli/command.hpp"
+
+#include "proto/base/text.hpp"
+#include "proto/cli/parsers.hpp"
+#include "tests/support/cli/typed.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hapnet::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A program that does something by itself, and has two commands.
+struct Relay {
+    Command program{"relay", "Relays"};
+    base::Duration delay{};
+    std::optional<std::string> stats;
+    std::string place;
+    bool is_loud = false;
+    std::vector<std::string> settings;
+    std::vector<std::string> files;
+    Command* play = nullptr;
+    Command* list = nullptr;
+
+    Relay()
+    {
+        program.option("--place", "ADDRESS", "Where", into(place)).required("here");
+        program.option("--delay", "TIME", "How long", into(delay, base::parse_duration));
+        program.option("--stats", "FILE", "Where to", into(stats));
+        program.flag("--loud", "Say more", is_loud);
+        play = &program.command("play", "Plays files");
+        play->add_alias("perform");
+        play->positional("FILE", "What to play", onto(files)).repeated().required("a.wav");
+        play->option("--set", "KEY=VALUE", "A setting", onto(settings)).repeated();
+        list = &program.command("list", "Lists files");
+    }
+
+    base::Result<std::optional<std::string>> parse(std::vector<std::string> words)
+    {
+        Typed typed{"relay", std::move(words)};
+        return program.parse(typed.words());
+    }
+
+    std::string refusal(std::vector<std::string> words)
+    {
+        const auto parsed = parse(std::move(words));
+        return parsed ? "taken" : parsed.error().message;
+    }
+
+    std::string printed(std::vector<std::string> words)
+    {
+        return parse(std::move(words)).value().value_or("");
+    }
+};
+
+/// One whose first word is an argument, and that does nothing without a command.
+struct Control {
+    Command program{"control", "Controls"};
+    std::string socket;
+    bool as_json = false;
+    std::vector<std::string> settings;
+    Command* set = nullptr;
+    Command* show = nullptr;
+
+    Control()
+    {
+        program.require_command();
+        program.positional("SOCKET", "Whom", into(socket));
+        program.flag("--json", "As JSON", as_json);
+        set = &program.command("set", "Sets");
+        set->positional("KEY", "What", onto(settings)).repeated();
+        show = &program.command("show", "Shows");
+    }
+
+    base::Result<std::optional<std::string>> parse(std::vector<std::string> words)
+    {
+        Typed typed{"control", std::move(words)};
+        return program.parse(typed.words());
+    }
+
+    std::string refusal(std::vector<std::string> words)
+    {
+        const auto parsed = parse(std::move(words));
+        return parsed ? "taken" : parsed.error().message;
+    }
+};
+
+TEST(Command, PutsParsedValuesWhereTheyAreBoundTo)
+{
+    Relay relay;
+    ASSERT_EQ(relay.refusal({"--place", "there", "--delay=10ms", "--stats", "-", "--loud"}),
+              "taken");
+    EXPECT_EQ(relay.place, "there");
+    EXPECT_EQ(relay.delay, 10ms);
+    EXPECT_EQ(relay.stats, "-");
+    EXPECT_TRUE(relay.is_loud);
+    EXPECT_TRUE(relay.program.is_given("--delay"));
+    EXPECT_FALSE(relay.play->is_chosen());
+}
+
+TEST(Command, NamesTheOptionInWhatItsParserSays)
+{
+    Relay relay;
+    EXPECT_EQ(relay.refusal({"--place", "x", "--delay", "10"}).rfind("--delay: '10' is not", 0),
+              0U);
+}
+
+TEST(Command, RequiresWhatIsRequiredWithAnExample)
+{
+    EXPECT_EQ(Relay{}.refusal({}), "--place is required: --place here");
+    EXPECT_EQ(Relay{}.refusal({"play"}), "FILE is required: relay play a.wav");
+}
+
+TEST(Command, SaysThatAValueIsMissingOrGivenTwice)
+{
+    EXPECT_EQ(Relay{}.refusal({"--delay"}), "--delay needs a value: --delay TIME");
+    EXPECT_EQ(Relay{}.refusal({"--delay", "1ms", "--delay", "2ms"}),
+              "--delay is given 2 times: give it once");
+}
+
+TEST(Command, TakesRepeatedOptionsAndArgumentsInTheirOrder)
+{
+    Relay relay;
+    ASSERT_EQ(relay.refusal({"play", "a", "--set", "x=1", "b", "--set", "y=2"}), "taken");
+    EXPECT_TRUE(relay.play->is_chosen());
+    EXPECT_EQ(relay.files, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(relay.settings, (std::vector<std::string>{"x=1", "y=2"}));
+}
+
+TEST(Command, KeepsAListInBracketsInOnePiece)
+{
+    Relay relay;
+    ASSERT_EQ(relay.refusal({"play", "[1, 2]", "--set", "[3,4]"}), "taken");
+    EXPECT_EQ(relay.files, std::vector<std::string>{"[1, 2]"});
+    EXPECT_EQ(relay.settings, std::vector<std::string>{"[3,4]"});
+}
+
+TEST(Command, KnowsACommandByItsAlias)
+{
+    Relay relay;
+    ASSERT_EQ(relay.refusal({"perform", "a"}), "taken");
+    EXPECT_TRUE(relay.play->is_chosen());
+}
+
+TEST(Command, SpeaksOfAMistypedOptionBeforeAWrongValueAndAMissingOption)
+{
+    EXPECT_EQ(Relay{}.refusal({"--delay", "10", "--lod"}),
+              "unknown option --lod: did you mean --loud?");
+}
+
+TEST(Command, RefusesAnOptionThatIsNotOfTheChosenCommand)
+{
+    EXPECT_EQ(Relay{}.refusal({"play", "a", "--delay", "1ms"}).rfind("unknown option --delay", 0),
+              0U);
+    EXPECT_EQ(Relay{}.refusal({"--delay", "1ms", "play", "a"}).rfind("unknown option --delay", 0),
+              0U);
+}
+
+TEST(Command, RefusesAWordThatIsNotACommand)
+{
+    EXPECT_EQ(Relay{}.refusal({"lst"}), "unknown command 'lst': did you mean relay list?");
+    EXPECT_EQ(Relay{}.refusal({"--place", "x", "stray"}),
+              "unknown command 'stray': commands are play, list");
+    EXPECT_EQ(Relay{}.refusal({"list", "stray"}), "unexpected 'stray': relay list");
+}
+
+TEST(Command, PrintsItsHelpWhereverItIsAskedFor)
+{
+    const std::string help = Relay{}.printed({"--help"});
+    EXPECT_EQ(help.rfind("Usage: relay --place ADDRESS [OPTIONS]\n", 0), 0U) << help;
+    EXPECT_EQ(Relay{}.printed({"-h"}), help);
+    EXPECT_EQ(Relay{}.printed({"help"}), help);
+    EXPECT_EQ(Relay{}.printed({"--delay", "10", "--nonsense", "--help"}), help);
+    const std::string of_play = Relay{}.printed({"play", "--help"});
+    EXPECT_EQ(of_play.rfind("Usage: relay play FILE ... [--set KEY=VALUE]\n", 0), 0U) << of_play;
+    EXPECT_EQ(Relay{}.printed({"help", "play"}), of_play);
+    EXPECT_EQ(Relay{}.printed({"--help", "play"}), of_play);
+    EXPECT_EQ(Relay{}.printed({"perform", "-h"}), of_play);
+}
+
+TEST(Command, PrintsItsVersion)
+{
+    EXPECT_EQ(Relay{}.printed({"--version"}).rfind("relay ", 0), 0U);
+    EXPECT_EQ(Relay{}.printed({"-V"}), Relay{}.printed({"--version"}));
+}
+
+TEST(Command, TakesOptionsOfTheProgramBehindACommandThatItNeeds)
+{
+    Control control;
+    ASSERT_EQ(control.refusal({"a.sock", "set", "both.delay", "-5ms", "--json"}), "taken");
+    EXPECT_EQ(control.socket, "a.sock");
+    EXPECT_TRUE(control.set->is_chosen());
+    EXPECT_TRUE(control.as_json);
+    EXPECT_EQ(control.settings, (std::vector<std::string>{"both.delay", "-5ms"}));
+}
+
+TEST(Command, TakesACommandWithoutTheArgumentInFrontOfIt)
+{
+    Control control;
+    ASSERT_EQ(control.refusal({"set", "both.delay", "1ms"}), "taken");
+    EXPECT_EQ(control.socket, "");
+    EXPECT_EQ(control.settings.size(), 2U);
+}
+
+TEST(Command, PrintsHelpOfACommandWithAndWithoutTheArgumentInFrontOfIt)
+{
+    const std::string help = Control{}.parse({"set", "--help"}).value().value_or("");
+    EXPECT_EQ(help.rfind("Usage: control SOCKET set [KEY ...]\n", 0), 0U) << help;
+    EXPECT_EQ(Control{}.parse({"a.sock", "set", "--help"}).value(), help);
+    EXPECT_EQ(Control{}.parse({"a.sock", "help", "set"}).value(), help);
+}
+
+TEST(Command, SaysThatACommandIsMissing)
+{
+    EXPECT_EQ(Control{}.refusal({"a.sock"}),
+              "a command is required: control [SOCKET] COMMAND ..., with one of set, show");
+    EXPECT_EQ(Control{}.refusal({"shwo"}),
+              "unknown command 'shwo': did you mean control SOCKET show?");
+    EXPECT_EQ(Control{}.refusal({"a.sock", "shwo"}),
+              "unknown command 'shwo': did you mean control SOCKET show?");
+}
+
+TEST(Parsers, SayTheRangeOfWhatIsOutOfIt)
+{
+    EXPECT_EQ(whole_number(1, 9)("9").value(), 9U);
+    EXPECT_EQ(whole_number(1, 9)("10").error().message, "'10' is out of range: write 1 to 9");
+    EXPECT_EQ(whole_number(1, 9)("x").error().message, "'x' is not a whole number: write 1 to 9");
+    EXPECT_EQ(number(0.5, 2.0)("3").error().message, "'3' is out of range: write 0.5 to 2");
+    EXPECT_EQ(number(0.5, 2.0)("1.5").value(), 1.5);
+    EXPECT_FALSE(number(0.5, 2.0)("nan"));
+    EXPECT_EQ(duration(1s)("10ms").error().message, "'10ms' is out of range: write at least 1s");
+    EXPECT_EQ(duration(1ms, 1s)("2s").error().message, "'2s' is out of range: write 1ms to 1s");
+    EXPECT_EQ(quantity(base::force_kind, 0.0, 40.0)("41N").error().message,
+              "'41N' is out of range: write 0N to 40N");
+}
+
+TEST(Parsers, TakeAWordInSmallAndCapitalLetters)
+{
+    EXPECT_EQ(one_of({"eco", "spin"})("ECO").value(), "eco");
+    EXPECT_EQ(one_of({"eco", "spin"})("now").error().message,
+              "'now' is not known here: write eco, spin");
+}
+
+} // namespace
+} // namespace hapnet::cli
