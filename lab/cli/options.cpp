@@ -86,7 +86,7 @@ void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
 void add_circumstances(cli::Command& command, auto& run)
 {
     constexpr double seconds_max = 1e9;
-    command.option("--command", "TEXT", "The command line, for the manifest",
+    command.option("--command", "LINE", "The command line, for the manifest",
                    cli::into(run.command));
     command.option("--start", "TIME", "When it began (ISO 8601), for the manifest",
                    cli::into(run.start));
