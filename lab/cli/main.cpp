@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "lab/cli/demo_command.hpp"
+#include "lab/cli/files.hpp"
 #include "lab/cli/options.hpp"
 #include "lab/cli/real_time_command.hpp"
 #include "lab/cli/report_command.hpp"
@@ -9,11 +10,10 @@
 #include "lab/records/analysis_report.hpp"
 #include "lab/records/csv.hpp"
 #include "lab/records/replay.hpp"
-#include "lab/report/explain.hpp"
 #include "lab/runner/freed_memory.hpp"
+#include "lab/scenes/explain.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/net/text_file.hpp"
-#include "proto/record/reader.hpp"
 #include "scene/text/text.hpp"
 
 #include <cerrno>
@@ -33,16 +33,6 @@ void print(const std::string& text)
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
         throw std::system_error{errno, std::generic_category(), "cannot write the result"};
     }
-}
-
-base::Result<record::Record> read_record(const std::string& path)
-{
-    auto record = record::read(path);
-    if (record && record->cut_off) {
-        net::say(program, path + " ends inside a row, which is left out: its writer was killed or "
-                                 "its disk was full");
-    }
-    return record;
 }
 
 base::Result<int> run(const AnalyseCommand& command)

@@ -29,6 +29,7 @@ constexpr const char* footer =
   hapnet-lab run table1 --out results/table1
   hapnet-lab run fig6a --quick --out results/fig6a
   hapnet-lab report results
+  hapnet-lab report a.rec b.rec
   hapnet-lab analyse a.rec b.rec --json
   hapnet-lab export a.rec > a.csv
   hapnet-lab replay a.rec --algorithm dead-reckoning
@@ -104,12 +105,17 @@ void add_demo_report(cli::Command& command, DemoReportCommand& demo)
 
 void add_report(cli::Command& command, ReportCommand& report)
 {
-    command.describe("Writes report.html, one self-contained page with the results of a folder's "
-                     "experiments beside the paper; also figures/*.svg and gnuplot/*.");
+    command.describe(
+        "Writes report.html, one self-contained page; also figures/*.svg. Of a folder: "
+        "the results of its experiments beside the paper, of the demo, or of a "
+        "recorded session. Of two records: their session; the page is written beside "
+        "the first.");
     command
-        .positional("DIR", "A folder with the files of an experiment, or with such folders",
-                    cli::into(report.folder))
+        .positional("DIR|RECORD_A",
+                    "A folder of results or of such folders; or the record of one peer",
+                    cli::into(report.path))
         .required("results");
+    command.positional("RECORD_B", "The record of the other peer", cli::into(report.record_b));
 }
 
 void add_replay(cli::Command& command, ReplayCommand& replay)
@@ -217,7 +223,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     auto& run_command = program.command("run", "Runs an experiment in virtual time");
     add_run(run_command, run, is_list);
     ReportCommand report;
-    auto& report_command = program.command("report", "Writes a page with the results of a folder");
+    auto& report_command =
+        program.command("report", "Writes a page with the results of a folder or session");
     add_report(report_command, report);
     AnalyseCommand analyse;
     auto& analyse_command =

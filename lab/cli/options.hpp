@@ -62,9 +62,10 @@ struct ReplayCommand {
     bool csv = false;
 };
 
-/// `hapnet-lab report DIR`
+/// `hapnet-lab report DIR`, `hapnet-lab report RECORD_A RECORD_B`
 struct ReportCommand {
-    std::string folder;
+    std::string path;     // a folder, or the record of one peer
+    std::string record_b; // of the other; empty: path is a folder
 };
 
 /// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/real_time_command.hpp"
 
+#include "lab/cli/files.hpp"
 #include "lab/cli/host.hpp"
-#include "lab/cli/json_file.hpp"
-#include "lab/report/real_time.hpp"
+#include "lab/results/real_time.hpp"
 #include "lab/virtual_time/play.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -20,19 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-base::Result<RealTimeSession> read_session(const fs::path& folder, const std::string& where)
-{
-    RealTimeSession session{.where = where};
-    for (auto [part, name] : {std::pair{&session.analysis, "analysis.json"},
-                              {&session.emulator, "emulator.json"},
-                              {&session.peer, "peer-1.json"}}) {
-        auto json = read_json((folder / name).string());
-        if (!json) return tl::unexpected{json.error()};
-        *part = *std::move(json);
-    }
-    return session;
-}
 
 /// Where sessions were played, and the folders of those, by name.
 std::vector<fs::path> session_folders(const fs::path& place)
@@ -48,16 +34,17 @@ std::vector<fs::path> session_folders(const fs::path& place)
 
 base::Result<RealTimeResult> result_in(const fs::path& folder, const std::string& where)
 {
-    const auto session = read_session(folder, where);
-    if (!session) return tl::unexpected{session.error()};
-    const auto setting = twin_of(*session, net::text_of_file);
+    auto files = read_session_files(folder.string());
+    if (!files) return tl::unexpected{files.error()};
+    const RealTimeSession session{where, *std::move(files)};
+    const auto setting = twin_of(session, net::text_of_file);
     if (!setting) return base::fail(folder.string() + ": " + setting.error().message);
     const auto twin = play(*setting);
     if (!twin) return base::fail(folder.string() + ": " + twin.error().message);
-    return result_of(*session, *twin);
+    return result_of(session, *twin);
 }
 
-/// The manifest that is there already says this, too; or there is none, and this is all.
+/// Adds to the manifest that is there; without one, writes a manifest of its own.
 base::Result<void> note_in_manifest(const fs::path& folder, Json real_time)
 {
     const auto path = (folder / "manifest.json").string();
@@ -99,8 +86,7 @@ base::Result<std::string> conclude_real_time(const RealTimeCommand& command)
                           " holds no sessions: let scripts/real-time.sh play some");
     }
     net::ResultFile{(folder / "real_time.csv").string()}.commit(real_time_csv(results));
-    const RealTimeCircumstances circumstances{command.command, command.start, command.wall_time_s,
-                                              host()};
+    const Circumstances circumstances{command.command, command.start, command.wall_time_s, host()};
     const auto noted = note_in_manifest(folder, real_time_manifest(results, circumstances));
     if (!noted) return tl::unexpected{noted.error()};
     return real_time_table(results);

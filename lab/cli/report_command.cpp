@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/report_command.hpp"
 
+#include "lab/cli/files.hpp"
 #include "lab/report/report.hpp"
-#include "lab/report/results.hpp"
+#include "lab/results/results.hpp"
+#include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
 #include "proto/net/text_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace hapnet::lab {
@@ -17,7 +21,6 @@ namespace hapnet::lab {
 namespace {
 
 namespace fs = std::filesystem;
-using report::File;
 
 /// The result files in one folder and in its replay/.
 void collect(const fs::path& folder, std::vector<std::string>& paths)
@@ -26,50 +29,155 @@ void collect(const fs::path& folder, std::vector<std::string>& paths)
         if (!fs::is_directory(place)) continue;
         for (const auto& entry : fs::directory_iterator{place}) {
             const auto path = entry.path().generic_string();
-            if (entry.is_regular_file() && report::is_result_file(path)) paths.push_back(path);
+            if (entry.is_regular_file() && is_result_file(path)) paths.push_back(path);
         }
     }
 }
 
-base::Result<std::vector<File>> read_files(const fs::path& root)
+/// The folder itself and those in it, by name.
+std::vector<fs::path> places_in(const fs::path& root)
 {
-    std::vector<std::string> paths;
-    collect(root, paths);
+    std::vector<fs::path> places;
     for (const auto& entry : fs::directory_iterator{root}) {
         if (entry.is_directory() && entry.path().filename() != "replay") {
-            collect(entry.path(), paths);
+            places.push_back(entry.path());
         }
     }
+    std::ranges::sort(places);
+    places.insert(places.begin(), root);
+    return places;
+}
+
+base::Result<std::vector<File>> read_files(const std::vector<fs::path>& places)
+{
+    std::vector<std::string> paths;
+    for (const fs::path& place : places) collect(place, paths);
     std::vector<File> files;
     for (const std::string& path : paths) {
         auto text = net::text_of_file(path);
         if (!text) return tl::unexpected{text.error()};
         files.push_back({path, *std::move(text)});
     }
-    if (files.empty()) {
+    return files;
+}
+
+std::vector<std::string> records_in(const fs::path& folder)
+{
+    std::vector<std::string> records;
+    for (const auto& entry : fs::directory_iterator{folder}) {
+        const bool is_record = entry.is_regular_file() && entry.path().extension() == ".rec";
+        if (is_record) records.push_back(entry.path().generic_string());
+    }
+    std::ranges::sort(records);
+    return records;
+}
+
+/// `name` tells the session from others; empty: that of its task.
+base::Result<void> add_records(Results& results, const std::string& name, const std::string& path_a,
+                               const std::string& path_b)
+{
+    auto a = read_record(path_a);
+    if (!a) return tl::unexpected{a.error()};
+    auto b = read_record(path_b);
+    if (!b) return tl::unexpected{b.error()};
+    const auto added = add_session(results, name, *a, *b);
+    if (added) return {};
+    return base::fail("cannot compare " + path_a + " (A) with " + path_b +
+                      " (B): " + added.error().message);
+}
+
+/// The demo is known by the files of its two tasks.
+base::Result<void> add_demo(Results& results, const fs::path& root)
+{
+    const auto p1 = (root / "p1").string(), t3 = (root / "t3").string();
+    if (!fs::exists(p1 + "/analysis.json") || !fs::exists(t3 + "/analysis.json")) return {};
+    auto files_p1 = read_session_files(p1);
+    if (!files_p1) return tl::unexpected{files_p1.error()};
+    auto files_t3 = read_session_files(t3);
+    if (!files_t3) return tl::unexpected{files_t3.error()};
+    results.demo = DemoRun{*std::move(files_p1), *std::move(files_t3)};
+    return {};
+}
+
+base::Result<Results> results_in(const fs::path& root)
+{
+    const auto places = places_in(root);
+    const auto files = read_files(places);
+    if (!files) return tl::unexpected{files.error()};
+    auto results = read_results(*files);
+    if (!results) return results;
+    for (const fs::path& place : places) {
+        const auto records = records_in(place);
+        if (records.size() != 2) continue; // which two of more belong together is not known
+        const auto name = place == root ? "" : place.filename().string();
+        const auto added = add_records(*results, name, records[0], records[1]);
+        if (!added) return tl::unexpected{added.error()};
+    }
+    const auto added = add_demo(*results, root);
+    if (!added) return tl::unexpected{added.error()};
+    if (files->empty() && results->sessions.empty()) {
         return base::fail(root.generic_string() +
                           " holds no results: expected manifest.json, table1.csv, limits.csv or "
-                          "the like, there or one folder below");
+                          "the like, or the two records of a session, there or one folder below");
     }
-    return files;
+    return results;
+}
+
+/// What the arguments name, and the folder for the page.
+struct Source {
+    Results results;
+    fs::path folder;
+};
+
+base::Result<Source> read_source(const ReportCommand& command)
+{
+    const fs::path first{command.path};
+    if (command.record_b.empty()) {
+        if (fs::is_regular_file(first) && first.extension() == ".rec") {
+            return base::fail("a session has two records: name those of both peers");
+        }
+        if (!fs::is_directory(first)) return base::fail(first.string() + " is not a folder");
+        return results_in(first).map([&](Results results) {
+            return Source{std::move(results), first};
+        });
+    }
+    for (const std::string& path : {command.path, command.record_b}) {
+        if (!fs::is_directory(path)) continue;
+        return base::fail(path +
+                          " is a folder: report one folder, or the two records of a session");
+    }
+    Source source{{}, first.has_parent_path() ? first.parent_path() : fs::path{"."}};
+    const auto added = add_records(source.results, "", command.path, command.record_b);
+    if (!added) return tl::unexpected{added.error()};
+    return source;
+}
+
+void say_what_is_replaced(const fs::path& path, std::string_view page)
+{
+    if (!fs::exists(path)) return;
+    const auto there = net::text_of_file(path.string());
+    const auto before = there ? report::page_subject(*there) : "";
+    const auto now = report::page_subject(page);
+    if (before == now) return;
+    net::say("hapnet-lab",
+             fmt::format("{} is replaced: it was {}", path.string(),
+                         before.empty() ? "a page about an unknown subject"
+                                        : fmt::format("a page about {}, not {}", before, now)));
 }
 
 } // namespace
 
 base::Result<std::string> write_report(const ReportCommand& command)
 {
-    const fs::path root{command.folder};
-    if (!fs::is_directory(root)) return base::fail(command.folder + " is not a folder");
-    const auto files = read_files(root);
-    if (!files) return tl::unexpected{files.error()};
-    const auto results = report::read_results(*files);
-    if (!results) return tl::unexpected{results.error()};
-    for (const File& file : report::report_of(*results, command.folder)) {
-        const fs::path path = root / file.path;
-        fs::create_directories(path.parent_path());
+    const auto source = read_source(command);
+    if (!source) return tl::unexpected{source.error()};
+    for (const File& file : report::report_of(source->results, source->folder.string())) {
+        const fs::path path = source->folder / file.path;
+        create_folder(path.parent_path().string());
+        if (file.path == "report.html") say_what_is_replaced(path, file.text);
         net::ResultFile{path.string()}.commit(file.text);
     }
-    return (root / "report.html").string();
+    return (source->folder / "report.html").string();
 }
 
 } // namespace hapnet::lab

@@ -9,9 +9,9 @@
 
 namespace hapnet::lab {
 
-/// Reads the result files of a folder and of its subfolders and writes report.html, figures/ and
-/// gnuplot/ there. Gives the path of the page. Throws std::system_error when something cannot be
-/// written.
+/// Writes report.html and figures/: of a folder into it, of two records beside the first.
+/// Says so on standard error when it replaces a page about something else. Gives the path of the
+/// page. Throws std::system_error when something cannot be written.
 [[nodiscard]] base::Result<std::string> write_report(const ReportCommand& command);
 
 } // namespace hapnet::lab

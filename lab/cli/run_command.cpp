@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/run_command.hpp"
 
+#include "lab/cli/files.hpp"
 #include "lab/cli/host.hpp"
 #include "lab/experiment/criteria_text.hpp"
 #include "lab/experiment/text.hpp"
-#include "lab/results/cells.hpp"
+#include "lab/records/text_table.hpp"
 #include "lab/results/manifest.hpp"
-#include "lab/results/results.hpp"
+#include "lab/results/result_files.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/runner.hpp"
 #include "proto/base/version.hpp"
@@ -40,16 +41,15 @@ std::string program_identity()
 
 base::Result<Experiment> load(const RunCommand& command)
 {
-    Adjustments adjustments{command.quick, command.settings};
-    if (command.seeds) adjustments.settings.push_back(fmt::format("seeds={}", *command.seeds));
-    return load_experiment(command.experiment, net::text_of_file, adjustments);
+    Overrides overrides{command.quick, command.settings};
+    if (command.seeds) overrides.settings.push_back(fmt::format("seeds={}", *command.seeds));
+    return load_experiment(command.experiment, net::text_of_file, overrides);
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text)
 {
-    std::filesystem::create_directories(path.parent_path());
-    net::ResultFile file{path.string()};
-    file.commit(text);
+    create_folder(path.parent_path().string());
+    net::ResultFile{path.string()}.commit(text);
 }
 
 /// A manifest without sessions beside it was written by something else.
@@ -79,7 +79,7 @@ public:
         net::StopSignal stop;
         auto foreign = refuse_foreign(out_);
         if (!foreign) return tl::unexpected{std::move(foreign).error()};
-        std::filesystem::create_directories(out_);
+        create_folder(out_.string());
         const FolderIdentity identity{std::string{name_of(experiment_.kind)}, experiment_.title};
         const auto store =
             SessionStore::open((out_ / "sessions.jsonl").string(), identity, program_identity());
@@ -89,21 +89,21 @@ public:
                      fmt::format("{} lines of {} are damaged and left out",
                                  (*store)->damaged_lines(), (out_ / "sessions.jsonl").string()));
         }
-        return carry_out_with(**store, stop);
+        return run_with(**store, stop);
     }
 
 private:
-    base::Result<int> carry_out_with(SessionStore& store, net::StopSignal& stop)
+    base::Result<int> run_with(SessionStore& store, net::StopSignal& stop)
     {
         ProgressLine line{start_};
-        const Runner runner{store, play_in_virtual_time, jobs(), [&](const RunProgress& progress) {
-                                line.show(progress, net::monotonic_now());
-                            }};
-        const auto findings = carry_out_all(experiment_, criteria_, runner, stop);
+        const Runner runner{
+            store, play_in_virtual_time, thread_count(),
+            [&](const RunProgress& progress) { line.show(progress, net::monotonic_now()); }};
+        const auto results = run_all(experiment_, criteria_, runner, stop);
         line.finish();
-        if (!findings) throw std::runtime_error{findings.error().message};
+        if (!results) throw std::runtime_error{results.error().message};
         const auto counts = store.counts();
-        if (!*findings) {
+        if (!*results) {
             write_manifest(counts, {"stopped before its end"});
             net::say(program_name,
                      fmt::format("stopped; {} sessions are kept in {}: the same command goes on "
@@ -111,44 +111,41 @@ private:
                                  counts.played + counts.reused, out_.string()));
             return net::exit_failed;
         }
-        write_results(**findings);
+        write_results(**results);
         write_manifest(counts, {});
         fmt::print("{}: {} sessions played, {} reused; results in {}\n", experiment_.title,
                    counts.played, counts.reused, out_.string());
         return 0;
     }
 
-    void write_results(std::span<const Finding> findings) const
+    void write_results(std::span<const JobResult> results) const
     {
-        const auto files = results_of(experiment_, criteria_, findings);
+        const auto files = make_result_files(experiment_, criteria_, results);
         if (!files) throw std::runtime_error{files.error().message};
-        for (const ResultText& file : *files) {
-            write_text(out_ / file.name, file.text);
-            if (file.name == "table1.csv" || file.name == "limits.csv") {
+        for (const File& file : *files) {
+            write_text(out_ / file.path, file.text);
+            if (file.path == "table1.csv" || file.path == "limits.csv") {
                 fmt::print("{}\n", aligned(file.text));
-            } else if (file.name == "criteria.toml") {
+            } else if (file.path == "criteria.toml") {
                 fmt::print("{}\n", file.text);
             }
         }
     }
 
-    [[nodiscard]] unsigned jobs() const
+    [[nodiscard]] unsigned thread_count() const
     {
         return command_.jobs.value_or(std::max(std::thread::hardware_concurrency(), 1U));
     }
 
     void write_manifest(const SessionStore::Counts& counts, std::vector<std::string> invalid) const
     {
-        const Circumstances circumstances{command_.command,
-                                          print_criteria(criteria_),
-                                          base::version_line(program_name),
-                                          host(),
-                                          start_s_,
-                                          base::to_seconds(net::monotonic_now() - start_),
-                                          counts.played,
-                                          counts.reused,
-                                          std::move(invalid)};
-        write_text(out_ / "manifest.json", manifest_of(experiment_, circumstances).dump(2) + '\n');
+        const Circumstances circumstances{command_.command, utc_text(start_s_),
+                                          base::to_seconds(net::monotonic_now() - start_), host(),
+                                          base::version_line(program_name)};
+        const RunOutcome outcome{print_criteria(criteria_), counts.played, counts.reused,
+                                 std::move(invalid)};
+        write_text(out_ / "manifest.json",
+                   make_manifest(experiment_, circumstances, outcome).dump(2) + '\n');
     }
 
     const RunCommand& command_;

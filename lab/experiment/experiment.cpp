@@ -10,7 +10,7 @@ struct KindName {
     std::string_view operator()(const Table1&) const { return "table1"; }
     std::string_view operator()(const Limits&) const { return "limits"; }
     std::string_view operator()(const Trajectories&) const { return "trajectories"; }
-    std::string_view operator()(const Plane&) const { return "plane"; }
+    std::string_view operator()(const ImpairmentGrid&) const { return "plane"; }
     std::string_view operator()(const Calibration&) const { return "calibration"; }
 };
 

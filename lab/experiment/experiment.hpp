@@ -5,7 +5,7 @@
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
 #include "emulator/core/conditions.hpp"
-#include "lab/experiment/level.hpp"
+#include "lab/experiment/impairment.hpp"
 #include "lab/metrics/criteria.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/time.hpp"
@@ -38,34 +38,28 @@ struct Hands {
 /// "nominal", or "relaxed/firm" when they differ.
 [[nodiscard]] std::string name_of(const Hands& hands);
 
-/// The orders as numbers, in the order of FilterOrder.
-inline constexpr std::array<std::uint32_t, 3> filter_order_counts{1, 2, 4};
-[[nodiscard]] constexpr std::uint32_t count_of(FilterOrder order)
-{
-    return filter_order_counts[static_cast<std::size_t>(order)];
-}
-
 /// How far an impairment is searched: upward from `from` in steps to `to` or the first failure,
 /// then by bisection to `resolution`.
 struct SearchRange {
     Impairment impairment{};
-    Level from{};
-    Level to{};
-    Level step{};
-    Level resolution{};
+    ImpairmentLevel from{};
+    ImpairmentLevel to{};
+    ImpairmentLevel step{};
+    ImpairmentLevel resolution{};
 
     friend bool operator==(const SearchRange&, const SearchRange&) = default;
 };
 
-/// By which conventions else the limits are to be looked for: how far they can be trusted.
-struct Convention {
+/// How sensitive the limits are to the way of measuring: with which filters and hands they are to
+/// be searched again. In a text [convention].
+struct Sensitivity {
     std::vector<FilterOrder> filter_orders{FilterOrder::first, FilterOrder::second,
                                            FilterOrder::fourth};
     std::vector<Hands> hands{};
     std::vector<device::Task> tasks{};
     std::uint32_t seeds = 1;
 
-    friend bool operator==(const Convention&, const Convention&) = default;
+    friend bool operator==(const Sensitivity&, const Sensitivity&) = default;
 };
 
 // The kinds of experiment.
@@ -80,7 +74,7 @@ struct Table1 {
 /// Fig. 6: up to which level of each impairment a task can be done.
 struct Limits {
     std::vector<SearchRange> ranges{};
-    std::optional<Convention> convention{};
+    std::optional<Sensitivity> sensitivity{};
 
     friend bool operator==(const Limits&, const Limits&) = default;
 };
@@ -93,23 +87,23 @@ struct Trajectories {
 };
 
 /// Quality of service: every delay with every jitter and every loss.
-struct Plane {
-    std::vector<Level> delays{};
-    std::vector<Level> jitters{};
-    std::vector<Level> losses{};
+struct ImpairmentGrid {
+    std::vector<ImpairmentLevel> delays{};
+    std::vector<ImpairmentLevel> jitters{};
+    std::vector<ImpairmentLevel> losses{};
 
-    friend bool operator==(const Plane&, const Plane&) = default;
+    friend bool operator==(const ImpairmentGrid&, const ImpairmentGrid&) = default;
 };
 
 /// The two numbers of the paper that the criteria are fixed by, with the first algorithm.
 struct Calibration {
-    Level delay{};
-    Level random_loss{};
+    ImpairmentLevel delay{};
+    ImpairmentLevel random_loss{};
 
     friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
-using Kind = std::variant<Table1, Limits, Trajectories, Plane, Calibration>;
+using Kind = std::variant<Table1, Limits, Trajectories, ImpairmentGrid, Calibration>;
 
 /// "table1", "limits", "trajectories", "plane", "calibration"
 [[nodiscard]] std::string_view name_of(const Kind& kind);

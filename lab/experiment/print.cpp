@@ -52,9 +52,9 @@ std::string tasks_text(const std::vector<device::Task>& tasks)
     return toml_list(tasks, [](device::Task task) { return base::quoted(name_of(task)); });
 }
 
-std::string levels_text(const std::vector<Level>& levels, Impairment impairment)
+std::string levels_text(const std::vector<ImpairmentLevel>& levels, Impairment impairment)
 {
-    return toml_list(levels, [&](Level level) { return level_text(level, impairment); });
+    return toml_list(levels, [&](ImpairmentLevel level) { return level_text(level, impairment); });
 }
 
 struct KindText {
@@ -67,7 +67,7 @@ struct KindText {
         return fmt::format("rows_per_second = {}\n", trajectories.rows_per_s);
     }
     std::string operator()(const Limits&) const { return ""; }
-    std::string operator()(const Plane&) const { return ""; }
+    std::string operator()(const ImpairmentGrid&) const { return ""; }
     std::string operator()(const Calibration&) const { return ""; }
 };
 
@@ -79,23 +79,25 @@ struct KindTables {
     {
         std::string out;
         for (const SearchRange& range : limits.ranges) {
-            const auto level = [&](Level value) { return level_text(value, range.impairment); };
+            const auto level = [&](ImpairmentLevel value) {
+                return level_text(value, range.impairment);
+            };
             out += fmt::format("\n[limit.{}]\nfrom = {}\nto = {}\nstep = {}\nresolution = {}\n",
                                name_of(range.impairment), level(range.from), level(range.to),
                                level(range.step), level(range.resolution));
         }
-        if (!limits.convention) return out;
-        const Convention& convention = *limits.convention;
+        if (!limits.sensitivity) return out;
+        const Sensitivity& sensitivity = *limits.sensitivity;
         out += fmt::format("\n[convention]\nfilter_orders = {}\n",
-                           toml_list(convention.filter_orders, [](FilterOrder order) {
+                           toml_list(sensitivity.filter_orders, [](FilterOrder order) {
                                return fmt::format("{}", count_of(order));
                            }));
-        out += fmt::format("hands = {}\n", toml_list(convention.hands, hands_text));
-        out +=
-            fmt::format("tasks = {}\nseeds = {}\n", tasks_text(convention.tasks), convention.seeds);
+        out += fmt::format("hands = {}\n", toml_list(sensitivity.hands, hands_text));
+        out += fmt::format("tasks = {}\nseeds = {}\n", tasks_text(sensitivity.tasks),
+                           sensitivity.seeds);
         return out;
     }
-    std::string operator()(const Plane& plane) const
+    std::string operator()(const ImpairmentGrid& plane) const
     {
         return fmt::format("\n[plane]\ndelay = {}\njitter = {}\nloss = {}\n",
                            levels_text(plane.delays, Impairment::delay),

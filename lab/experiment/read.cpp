@@ -5,6 +5,7 @@
 #include "lab/experiment/read_kind.hpp"
 #include "lab/experiment/text.hpp"
 #include "peer/core/sync/text.hpp"
+#include "proto/base/built_in.hpp"
 
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
@@ -148,10 +149,10 @@ base::Result<Experiment> read_tree(const Node& document, Reading reading)
 }
 
 /// The first setting with which the text is no experiment any more is the one to complain of.
-base::Result<Experiment> complain_of_settings(Node document, const Adjustments& adjustments,
+base::Result<Experiment> complain_of_settings(Node document, const Overrides& overrides,
                                               base::Result<Experiment> experiment)
 {
-    for (const std::string& setting : adjustments.settings) {
+    for (const std::string& setting : overrides.settings) {
         overlay(document, *setting_table(setting));
         auto adjusted = read_tree(document, Reading{"--set " + setting, {}, false});
         if (!adjusted) return adjusted;
@@ -162,7 +163,7 @@ base::Result<Experiment> complain_of_settings(Node document, const Adjustments& 
 } // namespace
 
 base::Result<Experiment> parse_experiment(std::string_view text, const std::string& source,
-                                          const Adjustments& adjustments)
+                                          const Overrides& overrides)
 {
     auto parsed = base::parse_document(text);
     if (!parsed) {
@@ -180,9 +181,9 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
     Node quick_document = document;
     overlay(quick_document, quick);
     if (auto read = read_tree(quick_document, Reading{source}); !read) return read;
-    if (adjustments.quick) document = std::move(quick_document);
+    if (overrides.quick) document = std::move(quick_document);
     Node adjusted = document;
-    for (const std::string& setting : adjustments.settings) {
+    for (const std::string& setting : overrides.settings) {
         const auto table = setting_table(setting);
         if (!table) {
             return base::fail(fmt::format("--set {}: {}", setting, table.error().message));
@@ -190,32 +191,18 @@ base::Result<Experiment> parse_experiment(std::string_view text, const std::stri
         overlay(adjusted, *table);
     }
     auto experiment = read_tree(adjusted, Reading{source});
-    if (experiment || adjustments.settings.empty()) return experiment;
+    if (experiment || overrides.settings.empty()) return experiment;
     auto plain = read_tree(document, Reading{source});
     if (!plain) return plain;
-    return complain_of_settings(std::move(document), adjustments, std::move(experiment));
+    return complain_of_settings(std::move(document), overrides, std::move(experiment));
 }
 
 base::Result<Experiment> load_experiment(const std::string& file_or_name,
-                                         const base::OpenFile& open, const Adjustments& adjustments)
+                                         const base::OpenFile& open, const Overrides& overrides)
 {
-    std::vector<std::string_view> names;
-    for (const BuiltInExperiment& built_in : built_in_experiments()) {
-        if (built_in.name == file_or_name) {
-            return parse_experiment(built_in.text, fmt::format("{}.toml", built_in.name),
-                                    adjustments);
-        }
-        names.push_back(built_in.name);
-    }
-    const bool is_file =
-        file_or_name.find('/') != std::string::npos || file_or_name.ends_with(".toml");
-    const auto text = open(file_or_name);
-    if (!text && is_file) return tl::unexpected{text.error()};
-    if (!text) {
-        return base::fail(fmt::format("there is neither a file nor an experiment '{}': {}",
-                                      file_or_name, base::suggestion(file_or_name, names)));
-    }
-    return parse_experiment(*text, file_or_name, adjustments);
+    const auto found = base::find_text(file_or_name, built_in_experiments(), "an experiment", open);
+    if (!found) return tl::unexpected{found.error()};
+    return parse_experiment(found->text, found->source, overrides);
 }
 
 } // namespace hapnet::lab

@@ -65,7 +65,7 @@ SearchRange read_range(const Node& node, Impairment impairment, Reading& reading
     SearchRange range;
     range.impairment = impairment;
     read_table_of_kind(node, reading, [&](TableReader& table) {
-        const auto read = [&](const Node* value, Level& target) {
+        const auto read = [&](const Node* value, ImpairmentLevel& target) {
             if (value != nullptr) read_level(*value, impairment, target, reading);
         };
         read(table.find("from"), range.from);
@@ -77,17 +77,17 @@ SearchRange read_range(const Node& node, Impairment impairment, Reading& reading
     return range;
 }
 
-Convention read_convention(const Node& node, Reading& reading)
+Sensitivity read_sensitivity(const Node& node, Reading& reading)
 {
-    Convention convention;
+    Sensitivity sensitivity;
     read_table_of_kind(node, reading, [&](TableReader& table) {
         if (const Node* orders = table.find("filter_orders")) {
-            read_filter_orders(*orders, convention.filter_orders, reading);
+            read_filter_orders(*orders, sensitivity.filter_orders, reading);
         }
         if (const Node* tasks = table.require("tasks")) {
-            convention.tasks = read_tasks(*tasks, reading);
+            sensitivity.tasks = read_tasks(*tasks, reading);
         }
-        read_positive(table.require("seeds"), convention.seeds, seeds_max, reading);
+        read_positive(table.require("seeds"), sensitivity.seeds, seeds_max, reading);
         const Node* hands = table.require("hands");
         if (hands == nullptr) return;
         const auto* list = std::get_if<Node::List>(&hands->value);
@@ -95,11 +95,11 @@ Convention read_convention(const Node& node, Reading& reading)
             return base::complain_of(*hands, "a list such as [\"relaxed\", \"firm\"]", reading);
         }
         for (const Node& element : *list) {
-            convention.hands.emplace_back();
-            read_hands(element, convention.hands.back(), reading);
+            sensitivity.hands.emplace_back();
+            read_hands(element, sensitivity.hands.back(), reading);
         }
     });
-    return convention;
+    return sensitivity;
 }
 
 Limits read_limits(TableReader& table)
@@ -120,14 +120,14 @@ Limits read_limits(TableReader& table)
         }
     }
     if (const Node* convention = table.find("convention")) {
-        limits.convention = read_convention(*convention, reading);
+        limits.sensitivity = read_sensitivity(*convention, reading);
     }
     return limits;
 }
 
-std::vector<Level> read_levels(const Node* node, Impairment impairment, Reading& reading)
+std::vector<ImpairmentLevel> read_levels(const Node* node, Impairment impairment, Reading& reading)
 {
-    std::vector<Level> levels;
+    std::vector<ImpairmentLevel> levels;
     if (node == nullptr) return levels;
     const auto* list = std::get_if<Node::List>(&node->value);
     if (list == nullptr || list->empty()) {
@@ -141,9 +141,9 @@ std::vector<Level> read_levels(const Node* node, Impairment impairment, Reading&
     return levels;
 }
 
-Plane read_plane(TableReader& table)
+ImpairmentGrid read_plane(TableReader& table)
 {
-    Plane plane;
+    ImpairmentGrid plane;
     const Node* node = table.require("plane");
     if (node == nullptr) return plane;
     Reading& reading = table.reading();
@@ -162,7 +162,8 @@ Calibration read_calibration(TableReader& table)
     if (node == nullptr) return calibration;
     Reading& reading = table.reading();
     read_table_of_kind(*node, reading, [&](TableReader& numbers) {
-        const auto read = [&](std::string_view key, Impairment impairment, Level& target) {
+        const auto read = [&](std::string_view key, Impairment impairment,
+                              ImpairmentLevel& target) {
             const Node* value = numbers.require(key);
             if (value != nullptr) read_level(*value, impairment, target, reading);
         };

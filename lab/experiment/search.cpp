@@ -11,11 +11,11 @@ namespace {
 
 /// What a scan ended with: the last level that passed, if any, and the first that failed, if any.
 struct Scan {
-    std::optional<Level> passed{};
-    std::optional<Level> failed{};
+    std::optional<ImpairmentLevel> passed{};
+    std::optional<ImpairmentLevel> failed{};
 };
 
-Level above(Level level, const SearchRange& range)
+ImpairmentLevel above(ImpairmentLevel level, const SearchRange& range)
 {
     return {std::min(level.thousandths + range.step.thousandths, range.to.thousandths)};
 }
@@ -23,7 +23,7 @@ Level above(Level level, const SearchRange& range)
 base::Result<Scan> scan_up(const SearchRange& range, const Passes& passes)
 {
     Scan scan;
-    for (Level level = range.from;; level = above(level, range)) {
+    for (ImpairmentLevel level = range.from;; level = above(level, range)) {
         const auto passed = passes(level);
         if (!passed) return tl::unexpected{passed.error()};
         if (!*passed) {
@@ -38,7 +38,7 @@ base::Result<Scan> scan_up(const SearchRange& range, const Passes& passes)
 /// What lies below a `from` that failed.
 base::Result<Scan> scan_below(const SearchRange& range, const Passes& passes)
 {
-    if (range.from == Level{}) return Scan{std::nullopt, range.from};
+    if (range.from == ImpairmentLevel{}) return Scan{std::nullopt, range.from};
     SearchRange below = range;
     below.from = {};
     below.to = {(range.from.thousandths - 1) / range.step.thousandths * range.step.thousandths};
@@ -47,13 +47,14 @@ base::Result<Scan> scan_below(const SearchRange& range, const Passes& passes)
     return scan;
 }
 
-base::Result<Level> halve(Level passed, Level failed, const SearchRange& range,
-                          const Passes& passes)
+base::Result<ImpairmentLevel> halve(ImpairmentLevel passed, ImpairmentLevel failed,
+                                    const SearchRange& range, const Passes& passes)
 {
     const std::int64_t resolution = range.resolution.thousandths;
     while (failed.thousandths - passed.thousandths > resolution) {
         const std::int64_t steps = (failed.thousandths - passed.thousandths) / resolution;
-        const Level middle{passed.thousandths + std::max<std::int64_t>(steps / 2, 1) * resolution};
+        const ImpairmentLevel middle{passed.thousandths +
+                                     std::max<std::int64_t>(steps / 2, 1) * resolution};
         const auto is_passed = passes(middle);
         if (!is_passed) return tl::unexpected{is_passed.error()};
         (*is_passed ? passed : failed) = middle;
@@ -69,8 +70,8 @@ base::Result<Limit> find_limit(const SearchRange& range, const Passes& passes)
     if (scan && !scan->passed) scan = scan_below(range, passes);
     if (!scan) return tl::unexpected{scan.error()};
     if (!scan->failed) return Limit{*scan->passed, false};
-    if (!scan->passed) return Limit{Level{}, true};
-    return halve(*scan->passed, *scan->failed, range, passes).map([](Level level) {
+    if (!scan->passed) return Limit{ImpairmentLevel{}, true};
+    return halve(*scan->passed, *scan->failed, range, passes).map([](ImpairmentLevel level) {
         return Limit{level, true};
     });
 }

@@ -11,14 +11,14 @@ namespace hapnet::lab {
 
 /// The last level that passed before the first that failed.
 struct Limit {
-    Level level{}; // 0 also when nothing passed
+    ImpairmentLevel level{}; // 0 also when nothing passed
     bool ever_failed = true;
 
     friend bool operator==(const Limit&, const Limit&) = default;
 };
 
 /// Whether a task can be done at a level; an error ends the search.
-using Passes = std::function<base::Result<bool>(Level)>;
+using Passes = std::function<base::Result<bool>(ImpairmentLevel)>;
 
 /// Scans upward from `from` in steps to the first level that fails, then halves the gap below it
 /// until it is no more than the resolution. What passes again beyond is not looked for. When

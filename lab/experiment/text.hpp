@@ -15,17 +15,16 @@ namespace hapnet::lab {
 
 // Experiments as people write them, in TOML: docs/use/experiments.md.
 
-/// What somebody wants otherwise than the text says.
-struct Adjustments {
+/// Values of the command line that replace those of the text.
+struct Overrides {
     bool quick = false;                // what the text says under [quick] counts
     std::vector<std::string> settings; // "limit.delay.to=200ms": the last word
 };
 
 /// Reads an experiment. Errors begin with "SOURCE:LINE:COLUMN: ", or with "--set KEY=VALUE: " when
 /// it is a setting that the text does not bear, and say what would be right.
-[[nodiscard]] base::Result<Experiment> parse_experiment(std::string_view text,
-                                                        const std::string& source,
-                                                        const Adjustments& adjustments = {});
+[[nodiscard]] base::Result<Experiment>
+parse_experiment(std::string_view text, const std::string& source, const Overrides& overrides = {});
 
 /// The experiment as TOML with every parameter of its algorithms: it reads back as the same
 /// experiment.
@@ -44,6 +43,6 @@ struct BuiltInExperiment {
 /// what holds a '/' or ends in ".toml" is a file.
 [[nodiscard]] base::Result<Experiment> load_experiment(const std::string& file_or_name,
                                                        const base::OpenFile& open,
-                                                       const Adjustments& adjustments);
+                                                       const Overrides& overrides);
 
 } // namespace hapnet::lab

@@ -69,10 +69,11 @@ base::Result<Criteria> calibrated(const CalibrationSessions& sessions, const Cri
         return base::fail(fmt::format("at the delay no stiffness is left: {:.3f}", *stiffness));
     }
     Criteria criteria = rest;
-    criteria.vibration_max_m = {.first = vibration_limit(vibration->first),
-                                .second = vibration_limit(vibration->second),
-                                .fourth = vibration_limit(vibration->fourth)};
-    criteria.stiffness_ratio_min = std::floor(*stiffness * stiffness_steps) / stiffness_steps;
+    criteria.usable.vibration_max_m = {.first = vibration_limit(vibration->first),
+                                       .second = vibration_limit(vibration->second),
+                                       .fourth = vibration_limit(vibration->fourth)};
+    criteria.usable.stiffness_ratio_min =
+        std::floor(*stiffness * stiffness_steps) / stiffness_steps;
     for (const auto& played : {sessions.at_delay, sessions.at_random_loss}) {
         const auto objection = objection_to(played, criteria);
         if (objection) {

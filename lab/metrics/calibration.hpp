@@ -10,7 +10,7 @@
 
 namespace hapnet::lab {
 
-/// The sessions of `base` that the paper found just bearable: of every task and seed that a limit
+/// The sessions of `base` that the paper found just tolerable: of every task and seed that a limit
 /// is to hold for.
 struct CalibrationSessions {
     std::span<const Scores> at_delay;       // one-way delay of 160 ms

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "lab/metrics/high_pass.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/result.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -13,30 +15,107 @@ namespace hapnet::lab {
 
 enum class FilterOrder : std::uint8_t { first, second, fourth };
 
+/// The orders as numbers, in the order of FilterOrder.
+inline constexpr std::array<std::uint32_t, 3> filter_order_counts{1, 2, 4};
+[[nodiscard]] constexpr std::uint32_t count_of(FilterOrder order)
+{
+    return filter_order_counts[static_cast<std::size_t>(order)];
+}
+
+/// The order of a filter as a text has it: 1, 2 or 4.
+struct FilterOrderFormat {
+    void read(const base::Node& node, FilterOrder& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(FilterOrder order) const;
+    [[nodiscard]] std::string describe() const { return "the filter order 1, 2 or 4"; }
+};
+
 [[nodiscard]] double at_order(const ByOrder& values, FilterOrder order);
 
-/// The two-tier convention: what a session must keep to be usable, and what besides to be good.
-/// A convention and not a finding about people; print_criteria() says where each number comes
-/// from. SI units, ratios and shares as fractions.
-struct Criteria {
-    /// Of the high-pass by which vibration is judged.
-    FilterOrder filter_order = FilterOrder::first;
-    /// A, for each order of the filter: calibrated.
+/// What a session must keep to be usable.
+struct UsableCriteria {
     ByOrder vibration_max_m{.first = 1.05e-3, .second = 1.01e-3, .fourth = 1.0e-3};
-    /// B at 1 Hz: calibrated.
     double stiffness_ratio_min = 0.049;
-    /// E, in excess of the perfect network's: a tap on a rigid cube alone has more than 0.1 N.
+    /// In excess of the perfect network's: a tap on a rigid cube alone has more than 0.1 N.
     double force_vibration_max_n = 0.1;
-    /// Of the time that both sides run on a perfect network, what they must run.
     double scored_share_min = 0.95;
 
-    double good_stiffness_ratio_min = 0.77;  // B
-    double good_force_discrepancy_max = 0.1; // C
-    double good_contact_lost_max = 0.05;     // F
-    double good_drag_max_n = 0.3;            // I
+    friend bool operator==(const UsableCriteria&, const UsableCriteria&) = default;
+};
+
+/// What it must keep besides to be good.
+struct GoodCriteria {
+    double stiffness_ratio_min = 0.77;
+    double force_discrepancy_max = 0.1;
+    double contact_lost_max = 0.05;
+    double drag_max_n = 0.3;
+
+    friend bool operator==(const GoodCriteria&, const GoodCriteria&) = default;
+};
+
+/// The two-tier convention. A convention and not a finding about people: the descriptions of the
+/// fields below say where each number comes from. SI units, ratios and shares as fractions.
+struct Criteria {
+    FilterOrder filter_order = FilterOrder::first; // of the high-pass by which vibration is judged
+    UsableCriteria usable{};
+    GoodCriteria good{};
 
     friend bool operator==(const Criteria&, const Criteria&) = default;
 };
+
+inline constexpr base::Number ratio_format{0.0, 1.0};
+inline constexpr base::Quantity vibration_format{base::length_kind, 0.0};
+inline constexpr base::Quantity newton_format{base::force_kind, 0.0};
+
+/// By the order of the filter, as lengths.
+constexpr auto fields_of(base::Tag<ByOrder>)
+{
+    return base::fields("by order", base::field("first", &ByOrder::first, vibration_format),
+                        base::field("second", &ByOrder::second, vibration_format),
+                        base::field("fourth", &ByOrder::fourth, vibration_format));
+}
+
+constexpr auto fields_of(base::Tag<UsableCriteria>)
+{
+    using Usable = UsableCriteria;
+    return base::fields(
+        "usable",
+        base::field("vibration_max", &Usable::vibration_max_m, base::Table{},
+                    "A. Calibrated: base is to be usable up to 93 % random loss and no further."),
+        base::field("stiffness_ratio_min", &Usable::stiffness_ratio_min, ratio_format,
+                    "B at 1 Hz. Calibrated: base is to be usable up to 160 ms of delay and no "
+                    "further."),
+        base::field("force_vibration_max", &Usable::force_vibration_max_n, newton_format,
+                    "E, what the network adds of it. A working limit, from no source."),
+        base::field("scored_share_min", &Usable::scored_share_min, ratio_format,
+                    "Of the time that both sides would run: a session that hardly took place is "
+                    "none."));
+}
+
+constexpr auto fields_of(base::Tag<GoodCriteria>)
+{
+    using Good = GoodCriteria;
+    return base::fields(
+        "good",
+        base::field("stiffness_ratio_min", &Good::stiffness_ratio_min, ratio_format,
+                    "B at 1 Hz. The just noticeable difference of stiffness, 23 % (Jones and "
+                    "Hunter)."),
+        base::field("force_discrepancy_max", &Good::force_discrepancy_max, ratio_format,
+                    "C. The just noticeable difference of force, 7 to 10 % (Pang, Tan and "
+                    "Durlach)."),
+        base::field("contact_lost_max", &Good::contact_lost_max, ratio_format,
+                    "F and I. Working limits, from no source."),
+        base::field("drag_max", &Good::drag_max_n, newton_format));
+}
+
+constexpr auto fields_of(base::Tag<Criteria>)
+{
+    return base::fields(
+        "criteria",
+        base::field("filter_order", &Criteria::filter_order, FilterOrderFormat{},
+                    "Of the 20 Hz high-pass that vibration is judged by: 1, 2 or 4. The first\n"
+                    "estimates used 1."),
+        base::field("usable", &Criteria::usable), base::field("good", &Criteria::good));
+}
 
 /// `source` names the text in errors, which say line and column. What is left out has its default.
 [[nodiscard]] base::Result<Criteria> parse_criteria(std::string_view text,

@@ -2,169 +2,80 @@
 // SPDX-License-Identifier: MIT
 #include "lab/metrics/json.hpp"
 
-#include <cstddef>
+#include "lab/metrics/criteria.hpp"
+#include "proto/base/fields_json.hpp"
+
 #include <string>
 
 namespace hapnet::lab {
 
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;
-using PlainJson = nlohmann::json;
-
-// The members of the structures, named once for writing and reading.
-
-template <typename Visit>
-void each_member(auto& of, const Visit& visit) requires requires
-{
-    of.fourth;
-}
-{
-    visit("first", of.first);
-    visit("second", of.second);
-    visit("fourth", of.fourth);
-}
-
-template <typename Visit>
-void each_member(auto& of, const Visit& visit) requires requires
-{
-    of.std;
-}
-{
-    visit("mean", of.mean);
-    visit("min", of.min);
-    visit("max", of.max);
-    visit("std", of.std);
-}
-
-template <typename Visit>
-void each_member(auto& of, const Visit& visit) requires requires
-{
-    of.reversals;
-}
-{
-    visit("largest_n", of.largest_n);
-    visit("reversals", of.reversals);
-}
-
-template <typename Visit>
-void each_member(auto& of, const Visit& visit) requires requires
-{
-    of.lag_s;
-}
-{
-    visit("share", of.share);
-    visit("lag_s", of.lag_s);
-}
-
-template <typename Visit>
-void each_member(auto& of, const Visit& visit) requires requires
-{
-    of.scored_s;
-}
-{
-    visit("task", of.task);
-    visit("scored_s", of.scored_s);
-    visit("body_vibration_m", of.body_vibration_m);
-    visit("stiffness_n_per_m", of.stiffness_n_per_m);
-    visit("force_discrepancy", of.force_discrepancy);
-    visit("discrepancy_m", of.discrepancy_m);
-    visit("force_vibration_n", of.force_vibration_n);
-    visit("felt_vibration_n", of.felt_vibration_n);
-    visit("contact_lost", of.contact_lost);
-    visit("force_steps", of.force_steps);
-    visit("energy_taken_j", of.energy_taken_j);
-    visit("drag_n", of.drag_n);
-    visit("path_rms_m", of.path_rms_m);
-    visit("drops", of.drops);
-    visit("overshoot_m", of.overshoot_m);
-    visit("response_s", of.response_s);
-    visit("similarity", of.similarity);
-}
-
-OrderedJson written(double value) { return value; }
-OrderedJson written(device::Task task) { return std::string{device::name_of(task)}; }
-
-template <typename Value>
-OrderedJson written(const Value& value);
-
-template <typename Value>
-OrderedJson written(const std::optional<Value>& value)
-{
-    return value ? written(*value) : OrderedJson();
-}
-
-template <typename Value, std::size_t count>
-OrderedJson written(const std::array<Value, count>& values)
-{
-    OrderedJson list = OrderedJson::array();
-    for (const Value& value : values) list.push_back(written(value));
-    return list;
-}
-
-template <typename Value>
-OrderedJson written(const Value& value)
-{
-    OrderedJson object = OrderedJson::object();
-    each_member(value, [&](const char* key, const auto& member) { object[key] = written(member); });
-    return object;
-}
-
-bool read_into(const PlainJson& json, double& value)
-{
-    if (!json.is_number()) return false;
-    value = json.get<double>();
-    return true;
-}
-
-bool read_into(const PlainJson& json, device::Task& task)
-{
-    if (!json.is_string()) return false;
-    const auto named = device::task_named(json.get_ref<const std::string&>());
-    if (named) task = *named;
-    return named.has_value();
-}
-
-template <typename Value>
-bool read_into(const PlainJson& json, Value& value);
-
-template <typename Value>
-bool read_into(const PlainJson& json, std::optional<Value>& value)
-{
-    value.reset();
-    return json.is_null() || read_into(json, value.emplace());
-}
-
-template <typename Value, std::size_t count>
-bool read_into(const PlainJson& json, std::array<Value, count>& values)
-{
-    if (!json.is_array() || json.size() != count) return false;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!read_into(json[i], values[i])) return false;
-    }
-    return true;
-}
-
-template <typename Value>
-bool read_into(const PlainJson& json, Value& value)
-{
-    if (!json.is_object()) return false;
-    bool good = true;
-    each_member(value, [&](const char* key, auto& member) {
-        const auto found = json.find(key);
-        good = good && found != json.end() && read_into(*found, member);
-    });
-    return good;
-}
+/// The format of a member that no text has: it is written as JSON alone.
+struct JsonOnly {
+    void read(const base::Node&, auto&, base::Reading&) const {}
+    [[nodiscard]] std::string print(const auto&) const { return {}; }
+    [[nodiscard]] std::string describe() const { return {}; }
+};
 
 } // namespace
 
-nlohmann::ordered_json to_json(const Metrics& metrics) { return written(metrics); }
+constexpr auto fields_of(base::Tag<Spread>)
+{
+    return base::fields("spread", base::field("mean", &Spread::mean),
+                        base::field("min", &Spread::min), base::field("max", &Spread::max),
+                        base::field("std", &Spread::std));
+}
+
+constexpr auto fields_of(base::Tag<ForceSteps>)
+{
+    return base::fields("force steps", base::field("largest_n", &ForceSteps::largest_n),
+                        base::field("reversals", &ForceSteps::reversals));
+}
+
+constexpr auto fields_of(base::Tag<Similarity>)
+{
+    return base::fields("similarity", base::field("share", &Similarity::share),
+                        base::field("lag_s", &Similarity::lag_s));
+}
+
+/// All but the task, which is a name.
+constexpr auto fields_of(base::Tag<Metrics>)
+{
+    constexpr auto field = [](std::string_view key, auto member) {
+        return base::field(key, member, JsonOnly{});
+    };
+    return base::fields(
+        "metrics", field("scored_s", &Metrics::scored_s),
+        field("body_vibration_m", &Metrics::body_vibration_m),
+        field("stiffness_n_per_m", &Metrics::stiffness_n_per_m),
+        field("force_discrepancy", &Metrics::force_discrepancy),
+        field("discrepancy_m", &Metrics::discrepancy_m),
+        field("force_vibration_n", &Metrics::force_vibration_n),
+        field("felt_vibration_n", &Metrics::felt_vibration_n),
+        field("contact_lost", &Metrics::contact_lost), field("force_steps", &Metrics::force_steps),
+        field("energy_taken_j", &Metrics::energy_taken_j), field("drag_n", &Metrics::drag_n),
+        field("path_rms_m", &Metrics::path_rms_m), field("drops", &Metrics::drops),
+        field("overshoot_m", &Metrics::overshoot_m), field("response_s", &Metrics::response_s),
+        field("similarity", &Metrics::similarity));
+}
+
+nlohmann::ordered_json to_json(const Metrics& metrics)
+{
+    nlohmann::ordered_json json{{"task", std::string{device::name_of(metrics.task)}}};
+    json.update(base::json_of(metrics));
+    return json;
+}
 
 std::optional<Metrics> metrics_from(const nlohmann::json& json)
 {
     Metrics metrics;
-    if (!read_into(json, metrics)) return std::nullopt;
+    if (!base::read_json(json, metrics)) return std::nullopt;
+    const auto name = json.find("task");
+    if (name == json.end() || !name->is_string()) return std::nullopt;
+    const auto task = device::task_named(name->get_ref<const std::string&>());
+    if (!task) return std::nullopt;
+    metrics.task = *task;
     return metrics;
 }
 

@@ -10,7 +10,7 @@ namespace hapnet::lab {
 
 namespace {
 
-// A number that is none stays one, so that it fails where it is judged.
+// A number that is not finite stays so: it fails where it is judged.
 
 /// What is in `value` beyond `reference`, of two root mean squares that do not correlate.
 double excess(double value, double reference)

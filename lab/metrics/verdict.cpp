@@ -30,7 +30,7 @@ std::string sentence(const Wording& words, double value, char relation, double l
                        relation, limit * words.scale, words.unit);
 }
 
-// A number that is none keeps no limit.
+// A number that is not finite keeps no limit.
 
 void at_most(std::optional<double> value, double limit, const Wording& words,
              std::vector<std::string>& objections)
@@ -70,19 +70,19 @@ Judgement judge(const Scores& scores, const Criteria& criteria)
     const auto stiffness = scores.stiffness_ratio[judged_press];
     Judgement judgement;
     auto& failures = judgement.failures;
-    at_least(scores.scored_share, criteria.scored_share_min, scored_words, failures);
-    at_most(judged(scores.vibration_m, order), at_order(criteria.vibration_max_m, order),
+    at_least(scores.scored_share, criteria.usable.scored_share_min, scored_words, failures);
+    at_most(judged(scores.vibration_m, order), at_order(criteria.usable.vibration_max_m, order),
             vibration_words, failures);
-    at_least(stiffness, criteria.stiffness_ratio_min, stiffness_words, failures);
-    at_most(judged(scores.force_vibration_added_n, order), criteria.force_vibration_max_n,
+    at_least(stiffness, criteria.usable.stiffness_ratio_min, stiffness_words, failures);
+    at_most(judged(scores.force_vibration_added_n, order), criteria.usable.force_vibration_max_n,
             force_vibration_words, failures);
 
     auto& shortcomings = judgement.shortcomings;
-    at_least(stiffness, criteria.good_stiffness_ratio_min, stiffness_words, shortcomings);
-    at_most(scores.force_discrepancy, criteria.good_force_discrepancy_max, force_discrepancy_words,
+    at_least(stiffness, criteria.good.stiffness_ratio_min, stiffness_words, shortcomings);
+    at_most(scores.force_discrepancy, criteria.good.force_discrepancy_max, force_discrepancy_words,
             shortcomings);
-    at_most(scores.contact_lost, criteria.good_contact_lost_max, contact_words, shortcomings);
-    at_most(scores.drag_n, criteria.good_drag_max_n, drag_words, shortcomings);
+    at_most(scores.contact_lost, criteria.good.contact_lost_max, contact_words, shortcomings);
+    at_most(scores.drag_n, criteria.good.drag_max_n, drag_words, shortcomings);
     if (failures.empty()) judgement.tier = shortcomings.empty() ? Tier::good : Tier::usable;
     return judgement;
 }

@@ -4,6 +4,7 @@
 
 #include "lab/metrics/criteria.hpp"
 #include "lab/metrics/scores.hpp"
+#include "proto/base/names.hpp"
 
 #include <cstdint>
 #include <string>
@@ -13,6 +14,7 @@
 namespace hapnet::lab {
 
 enum class Tier : std::uint8_t { unusable, usable, good };
+constexpr auto names_of(base::Tag<Tier>) { return base::names("unusable", "usable", "good"); }
 
 /// "unusable", "usable", "good"
 [[nodiscard]] std::string_view to_text(Tier tier);
@@ -25,7 +27,7 @@ struct Judgement {
     std::vector<std::string> shortcomings;
 };
 
-/// Judges what the task exercised; what it did not is taken as kept.
+/// Judges the metrics that the task exercised; the others count as kept.
 [[nodiscard]] Judgement judge(const Scores& scores, const Criteria& criteria);
 
 } // namespace hapnet::lab

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/records/agreement.hpp"
 
+#include "lab/records/moments.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,60 +16,8 @@ using namespace std::chrono_literals;
 using record::Phase;
 using record::TickRow;
 
-// Ticks of B further apart than this have time without data between them, not a straight line.
-constexpr base::Duration gap_max = 10ms;
 // Once both let go, the copies have this long to agree again.
 constexpr base::Duration settling_time = 2s;
-
-/// A tick of A, and the ticks of B around it; equal when B has one at that very time.
-struct Moment {
-    const TickRow* a;
-    const TickRow* before;
-    const TickRow* after;
-    double share; // of the way from `before` to `after`
-
-    [[nodiscard]] bool both_in(Phase phase) const
-    {
-        return a->phase == phase && before->phase == phase && after->phase == phase;
-    }
-    [[nodiscard]] bool both_touch() const
-    {
-        return a->touching && before->touching && after->touching;
-    }
-    [[nodiscard]] base::Displacement cube_distance() const
-    {
-        const base::Displacement step = after->cube - before->cube;
-        return a->cube - (before->cube + share * step);
-    }
-    [[nodiscard]] double force_distance() const
-    {
-        const base::Force step = after->contact - before->contact;
-        return std::abs(norm(a->contact) - norm(before->contact + share * step));
-    }
-};
-
-std::vector<Moment> moments_of(const Session& session)
-{
-    std::vector<Moment> moments;
-    const auto b = session.b.ticks;
-    const auto time_of = [&](const TickRow& row) { return session.clock.to_a(row.at()); };
-    auto after = b.begin();
-    for (const TickRow& a : session.a.ticks) {
-        while (after != b.end() && time_of(*after) < a.at()) ++after;
-        if (after == b.end()) break;
-        if (time_of(*after) == a.at()) {
-            moments.push_back({&a, &*after, &*after, 0.0});
-            continue;
-        }
-        if (after == b.begin()) continue;
-        const auto before = after - 1;
-        const base::Duration gap = after->at() - before->at();
-        if (gap > gap_max) continue;
-        moments.push_back({&a, &*before, &*after,
-                           base::to_seconds(a.at() - time_of(*before)) / base::to_seconds(gap)});
-    }
-    return moments;
-}
 
 std::optional<ForceDiscrepancy> force_discrepancy_of(const std::vector<Moment>& moments)
 {

@@ -16,7 +16,7 @@ struct ForceDiscrepancy {
     double max = 0.0;
 };
 
-/// Shares of time, 0 to 1. A task was played only while somebody touched.
+/// Shares of time, 0 to 1. A task was played only while a hand touched.
 struct TouchShares {
     double a = 0.0;
     double b = 0.0;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
+#include <utility>
 
 namespace hapnet::lab {
 
@@ -69,12 +70,6 @@ constexpr std::string_view name_of(ClockMethod method)
     return method == ClockMethod::same_boot ? "same-boot" : "echo";
 }
 
-/// A number as a cell of the table; "-" where there is none.
-std::string cell(std::optional<double> value, int digits)
-{
-    return value && std::isfinite(*value) ? fmt::format("{:.{}f}", *value, digits) : "-";
-}
-
 template <typename T>
 std::optional<double> part(const std::optional<T>& whole, auto member, double unit)
 {
@@ -82,77 +77,87 @@ std::optional<double> part(const std::optional<T>& whole, auto member, double un
     return unit * ((*whole).*member);
 }
 
-std::string row(std::string_view name, const std::string& a, const std::string& b)
+std::optional<double> scaled(std::optional<double> value, double unit)
 {
-    return fmt::format("{:<26}{:>12}{:>12}\n", name, a, b);
+    return value ? std::optional{unit * *value} : std::nullopt;
 }
 
-std::string cell(const std::optional<Quantiles>& quantiles, base::Duration Quantiles::*member,
-                 double (*unit)(base::Duration))
-{
-    return quantiles ? cell(unit((*quantiles).*member), 3) : "-";
-}
-
-std::string table_of(const Agreement& agreement)
+TextTable distances_table(const Agreement& agreement)
 {
     const auto& x = agreement.discrepancy_x;
     const auto& force = agreement.force_discrepancy;
-    std::string text;
-    text += fmt::format("{:<26}{:>10}{:>10}{:>10}{:>10}\n", "", "mean", "min", "max", "std");
-    text += fmt::format("{:<26}{:>10}{:>10}{:>10}{:>10}\n", "cube |x_A - x_B|, mm",
-                        cell(part(x, &Spread::mean, mm), 3), cell(part(x, &Spread::min, mm), 3),
-                        cell(part(x, &Spread::max, mm), 3), cell(part(x, &Spread::std, mm), 3));
-    text += fmt::format("{:<26}{:>10}{:>10}{:>10}\n", "force ||F_A| - |F_B||, N",
-                        cell(part(force, &ForceDiscrepancy::mean, 1.0), 3), "",
-                        cell(part(force, &ForceDiscrepancy::max, 1.0), 3));
-    const auto settled = agreement.settled_discrepancy;
-    text += fmt::format("{:<26}{:>10}\n", "settled, mm",
-                        cell(settled ? std::optional{mm * *settled} : std::nullopt, 4));
+    const auto of_x = [&](double Spread::*member) { return number_text(part(x, member, mm), 3); };
+    const auto of_force = [&](double ForceDiscrepancy::*member) {
+        return number_text(part(force, member, 1.0), 3);
+    };
+    return {"How far both sides were apart at equal times",
+            "",
+            {"mean", "min", "max", "std"},
+            {{"cube |x_A - x_B|, mm",
+              {of_x(&Spread::mean), of_x(&Spread::min), of_x(&Spread::max), of_x(&Spread::std)}},
+             {"force ||F_A| - |F_B||, N",
+              {of_force(&ForceDiscrepancy::mean), "", of_force(&ForceDiscrepancy::max), ""}},
+             {"settled at the end, mm",
+              {"", "", number_text(scaled(agreement.settled_discrepancy, mm), 4), ""}}}};
+}
+
+TextTable touching_table(const Agreement& agreement)
+{
     const TouchShares& touching = agreement.touching;
-    text += fmt::format("{:<26}{:>10}{:>10}{:>10}{:>10}\n", "", "A", "B", "either", "both");
-    text +=
-        fmt::format("{:<26}{:>10.1f}{:>10.1f}{:>10.1f}{:>10.1f}\n", "touching the cube, %",
-                    1e2 * touching.a, 1e2 * touching.b, 1e2 * touching.either, 1e2 * touching.both);
-    text += fmt::format("{:<26}{:>10.3f}\n", "scored, s", base::to_seconds(agreement.scored));
-    text += fmt::format("{:<26}{:>10.2f}\n", "overlap, %", 1e2 * agreement.overlap);
-    return text;
+    const auto percent = [](double share) { return number_text(1e2 * share, 1); };
+    return {"Who touched the cube, and for how long both sides were in session",
+            "",
+            {"A", "B", "either", "both"},
+            {{"touching the cube, %",
+              {percent(touching.a), percent(touching.b), percent(touching.either),
+               percent(touching.both)}},
+             {"scored, s", {"", "", "", number_text(base::to_seconds(agreement.scored), 3)}},
+             {"overlap, %", {"", "", "", number_text(1e2 * agreement.overlap, 2)}}}};
 }
 
-std::string table_of(const Path& up, const Path& down)
+TextTable network_table(const Path& up, const Path& down)
 {
-    const auto percent = [](std::optional<double> share) {
-        return cell(share ? std::optional{1e2 * *share} : std::nullopt, 3);
+    TextTable table{"What the network did", "", {"A to B", "B to A"}, {}, {}, 12};
+    const auto add = [&](std::string_view name, const auto& cell) {
+        table.rows.push_back({std::string{name}, {cell(up), cell(down)}});
     };
-    std::string text = row("", "A to B", "B to A");
-    text += row("sent", std::to_string(up.sent), std::to_string(down.sent));
-    text += row("received", std::to_string(up.received), std::to_string(down.received));
-    text += row("duplicates", std::to_string(up.duplicates), std::to_string(down.duplicates));
-    text += row("reordered", std::to_string(up.reordered), std::to_string(down.reordered));
-    text += row("loss, %", percent(up.loss), percent(down.loss));
-    text += row("sent per second", cell(up.packets_per_s, 2), cell(down.packets_per_s, 2));
-    const auto times = [&](std::string_view name, auto of, auto member) {
-        text += row(name, cell(up.*of, member, ms), cell(down.*of, member, ms));
+    const auto count = [](std::uint64_t Path::*member) {
+        return [=](const Path& path) { return std::to_string(path.*member); };
     };
-    times("delay p50, ms", &Path::delay, &Quantiles::p50);
-    times("delay p99, ms", &Path::delay, &Quantiles::p99);
-    times("delay max, ms", &Path::delay, &Quantiles::max);
-    times("jitter p50, ms", &Path::jitter, &Quantiles::p50);
-    times("jitter p99, ms", &Path::jitter, &Quantiles::p99);
-    return text;
+    const auto time = [](std::optional<Quantiles> Path::*of, base::Duration Quantiles::*member) {
+        return [=](const Path& path) {
+            const auto& found = path.*of;
+            return number_text(found ? std::optional{ms((*found).*member)} : std::nullopt, 3);
+        };
+    };
+    add("sent", count(&Path::sent));
+    add("received", count(&Path::received));
+    add("duplicates", count(&Path::duplicates));
+    add("reordered", count(&Path::reordered));
+    add("loss, %", [](const Path& path) { return number_text(scaled(path.loss, 1e2), 3); });
+    add("sent per second", [](const Path& path) { return number_text(path.packets_per_s, 2); });
+    add("delay p50, ms", time(&Path::delay, &Quantiles::p50));
+    add("delay p99, ms", time(&Path::delay, &Quantiles::p99));
+    add("delay max, ms", time(&Path::delay, &Quantiles::max));
+    add("jitter p50, ms", time(&Path::jitter, &Quantiles::p50));
+    add("jitter p99, ms", time(&Path::jitter, &Quantiles::p99));
+    return table;
 }
 
-std::string table_of(const Loop& a, const Loop& b)
+TextTable loops_table(const Loop& a, const Loop& b)
 {
-    std::string text = row("", "A", "B");
-    text += row("ticks per second", cell(a.rate_hz, 2), cell(b.rate_hz, 2));
-    text += row("ticks missed", std::to_string(a.missed), std::to_string(b.missed));
-    text +=
-        row("late p50, us", cell(a.late, &Quantiles::p50, us), cell(b.late, &Quantiles::p50, us));
-    text +=
-        row("late p99, us", cell(a.late, &Quantiles::p99, us), cell(b.late, &Quantiles::p99, us));
-    text +=
-        row("late max, us", cell(a.late, &Quantiles::max, us), cell(b.late, &Quantiles::max, us));
-    return text;
+    const auto late = [](const Loop& loop, base::Duration Quantiles::*member) {
+        return number_text(loop.late ? std::optional{us((*loop.late).*member)} : std::nullopt, 3);
+    };
+    TextTable table{"How well each haptic loop kept its time", "", {"A", "B"}, {}, {}, 12};
+    table.rows = {{"ticks per second", {number_text(a.rate_hz, 2), number_text(b.rate_hz, 2)}},
+                  {"ticks missed", {std::to_string(a.missed), std::to_string(b.missed)}}};
+    for (const auto& [name, member] : {std::pair{"late p50, us", &Quantiles::p50},
+                                       {"late p99, us", &Quantiles::p99},
+                                       {"late max, us", &Quantiles::max}}) {
+        table.rows.push_back({name, {late(a, member), late(b, member)}});
+    }
+    return table;
 }
 
 } // namespace
@@ -183,16 +188,25 @@ Json to_json(const Analysis& analysis)
             {"invalid_because", analysis.invalid_because}};
 }
 
+std::vector<TextTable> tables_of(const Analysis& analysis)
+{
+    return {distances_table(analysis.agreement), touching_table(analysis.agreement),
+            network_table(analysis.a_to_b, analysis.b_to_a), loops_table(analysis.a, analysis.b)};
+}
+
+std::string clock_text(const Clock& clock)
+{
+    if (clock.method == ClockMethod::same_boot) return "";
+    return fmt::format("two clocks: B is {:.3f} ms ahead of A, known within {:.3f} ms",
+                       ms(clock.offset), ms(clock.uncertainty));
+}
+
 std::string to_table(const Analysis& analysis)
 {
-    std::string text = table_of(analysis.agreement);
-    text += '\n' + table_of(analysis.a_to_b, analysis.b_to_a);
-    text += '\n' + table_of(analysis.a, analysis.b);
-    if (analysis.clock.method == ClockMethod::echo) {
-        text += fmt::format("\ntwo clocks: B is {:.3f} ms ahead of A, known within {:.3f} ms\n",
-                            ms(analysis.clock.offset), ms(analysis.clock.uncertainty));
-    }
-    text += analysis.valid() ? "\nvalid\n" : "\nNOT VALID\n";
+    std::string text;
+    for (const TextTable& table : tables_of(analysis)) text += to_text(table) + '\n';
+    if (const auto clock = clock_text(analysis.clock); !clock.empty()) text += clock + "\n\n";
+    text += analysis.valid() ? "valid\n" : "NOT VALID\n";
     for (const std::string& reason : analysis.invalid_because) text += "  " + reason + '\n';
     return text;
 }

@@ -3,16 +3,24 @@
 #pragma once
 
 #include "lab/records/analysis.hpp"
+#include "lab/records/text_table.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace hapnet::lab {
 
 /// An analysis for programs: units in the names, null where there is nothing to say.
 [[nodiscard]] nlohmann::ordered_json to_json(const Analysis& analysis);
 
-/// An analysis for people: lines of text.
+/// An analysis for people, as tables: distances, touch, network, loops.
+[[nodiscard]] std::vector<TextTable> tables_of(const Analysis& analysis);
+
+/// How far apart two clocks are; empty when both records were made by one clock.
+[[nodiscard]] std::string clock_text(const Clock& clock);
+
+/// An analysis for people, as lines of text: the tables, and whether the run counts.
 [[nodiscard]] std::string to_table(const Analysis& analysis);
 
 } // namespace hapnet::lab

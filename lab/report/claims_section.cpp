@@ -35,8 +35,8 @@ std::string line_of(const LimitRow& row)
     const auto paper = row.paper_limit ? limit_text(*row.paper_limit, false, row.unit) : "–";
     return fmt::format("Limit of {}, <b>{}</b>, {}: {} (paper: {})",
                        escaped(impairment_text(row.impairment)), escaped(row.algorithm),
-                       row.task == "worst" ? "worst of the tasks" : "in " + escaped(row.task),
-                       escaped(limit_text(row.limit, row.is_open, row.unit)), escaped(paper));
+                       row.task == worst_task ? "worst of the tasks" : "in " + escaped(row.task),
+                       escaped(limit_text(row.limit, row.is_open(), row.unit)), escaped(paper));
 }
 
 std::string list(std::string_view title, std::string_view style,
@@ -68,7 +68,7 @@ Claims main_claims(const Results& results)
     Claims claims;
     for (const Table1Row& row : results.table1) add_claim(claims, row.verdict, line_of(row));
     for (const LimitRow& row : results.limits) {
-        if (row.task == "worst") add_claim(claims, row.status, line_of(row));
+        if (row.task == worst_task) add_claim(claims, to_claim(row.status), line_of(row));
     }
     return claims;
 }
@@ -77,7 +77,7 @@ Claims task_claims(const Results& results)
 {
     Claims claims;
     for (const LimitRow& row : results.limits) {
-        if (row.task != "worst") add_claim(claims, row.status, line_of(row));
+        if (row.task != worst_task) add_claim(claims, to_claim(row.status), line_of(row));
     }
     return claims;
 }

@@ -26,15 +26,16 @@ struct Criterion {
 };
 
 constexpr std::array criteria_drawn{
-    Criterion{"vibration", "Vibration of the cube above 20 Hz", "mm", &Judged::vibration_mm,
-              plot::Scale::logarithmic, false,
-              [](const Criteria& c) { return 1e3 * at_order(c.vibration_max_m, c.filter_order); }},
+    Criterion{
+        "vibration", "Vibration of the cube above 20 Hz", "mm", &Judged::vibration_mm,
+        plot::Scale::logarithmic, false,
+        [](const Criteria& c) { return 1e3 * at_order(c.usable.vibration_max_m, c.filter_order); }},
     Criterion{"stiffness", "Stiffness felt at 1 Hz", "of what it is at no delay",
               &Judged::stiffness_ratio, plot::Scale::linear, true,
-              [](const Criteria& c) { return c.stiffness_ratio_min; }},
+              [](const Criteria& c) { return c.usable.stiffness_ratio_min; }},
     Criterion{"force-vibration", "Vibration of the force above 20 Hz", "N",
               &Judged::force_vibration_n, plot::Scale::logarithmic, false,
-              [](const Criteria& c) { return c.force_vibration_max_n; }}};
+              [](const Criteria& c) { return c.usable.force_vibration_max_n; }}};
 
 /// The sessions of one level: the worst of them.
 struct LevelOfCurve {
@@ -49,7 +50,7 @@ std::map<double, LevelOfCurve> levels_of(const std::vector<CurveRow>& rows,
     for (const CurveRow& row : rows) {
         if (row.algorithm != algorithm) continue;
         LevelOfCurve& level = levels[row.level];
-        level.is_unusable |= row.judged.tier == Rating::unusable;
+        level.is_unusable |= row.judged.tier == Tier::unusable;
         const auto value = row.judged.*criterion.value;
         const bool is_worse =
             value && (!level.value || (criterion.is_worse_when_less ? *value < *level.value
@@ -97,7 +98,7 @@ std::vector<CurveRow> up_to_failure(const std::vector<CurveRow>& rows)
 {
     std::map<std::string, double> ends;
     for (const CurveRow& row : rows) {
-        if (row.judged.tier != Rating::unusable) continue;
+        if (row.judged.tier != Tier::unusable) continue;
         const auto [found, is_new] = ends.emplace(row.algorithm, row.level);
         if (!is_new) found->second = std::min(found->second, row.level);
     }
@@ -154,7 +155,7 @@ void add_curves(Section& section, const std::vector<CurveRow>& rows,
     section.html += "</div>\n";
     if (!unmeasured.empty()) {
         section.html += fmt::format("<p class='banner'>Not measured in any of these sessions, so "
-                                    "none can have failed by it: {}.</p>\n",
+                                    "no session can have failed by it: {}.</p>\n",
                                     unmeasured);
     }
     section.html += folded("Each task on its own", by_task(rows, criteria));

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/bands.hpp"
 #include "lab/report/plot/bars.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
+#include "lab/results/paper.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -12,8 +12,6 @@ namespace hapnet::lab::report {
 using plot::escaped;
 
 namespace {
-
-constexpr std::string_view worst = "worst";
 
 std::vector<LimitRow> limits_of(const Results& results, std::string_view impairment)
 {
@@ -26,7 +24,7 @@ std::vector<LimitRow> limits_of(const Results& results, std::string_view impairm
 
 std::string measured_text(const LimitRow& row)
 {
-    return limit_text(row.limit, row.is_open, row.unit);
+    return limit_text(row.limit, row.is_open(), row.unit);
 }
 
 plot::Bar paper_bar(const LimitRow& row, double paper)
@@ -41,12 +39,12 @@ plot::Bar paper_bar(const LimitRow& row, double paper)
 plot::Bar measured_bar(const LimitRow& row)
 {
     return {.value = row.limit,
-            .label = fmt::format("{}{}", row.is_open ? "> " : "", plain(row.limit)),
+            .label = fmt::format("{}{}", row.is_open() ? "> " : "", plain(row.limit)),
             .colour = colour_of(row.algorithm),
-            .is_open = row.is_open,
-            .is_missed = row.status == Claim::missed,
+            .is_open = row.is_open(),
+            .is_missed = to_claim(row.status) == Claim::missed,
             .tip = fmt::format("{} in {}: {} {}", row.algorithm, row.task, measured_text(row),
-                               claim_text(row.status))};
+                               claim_text(to_claim(row.status)))};
 }
 
 /// The worst of the tasks, beside the paper: one group for each algorithm.
@@ -54,7 +52,7 @@ std::string worst_bars(const std::vector<LimitRow>& rows)
 {
     std::vector<plot::BarGroup> groups;
     for (const LimitRow& row : rows) {
-        if (row.task != worst) continue;
+        if (row.task != worst_task) continue;
         plot::BarGroup group{row.algorithm, {}};
         if (row.paper_limit) group.bars.push_back(paper_bar(row, *row.paper_limit));
         group.bars.push_back(measured_bar(row));
@@ -73,7 +71,7 @@ std::string task_bars(const std::vector<LimitRow>& rows)
     std::vector<plot::BarGroup> groups;
     std::vector<plot::LegendEntry> legend;
     for (const std::string& task : distinct(rows, [](const auto& row) { return row.task; })) {
-        if (task == worst) continue;
+        if (task == worst_task) continue;
         plot::BarGroup group{task, {}};
         for (const LimitRow& row : rows) {
             if (row.task == task) group.bars.push_back(measured_bar(row));
@@ -95,7 +93,7 @@ std::string limits_table(const std::vector<LimitRow>& rows, bool of_worst)
                     impairment_text(rows.front().impairment));
     HtmlTable table{caption, {"algorithm", "task", "limit", "paper", "band", "status"}};
     const auto add = [&](const LimitRow& row) {
-        const bool is_missed = row.status == Claim::missed;
+        const bool is_missed = to_claim(row.status) == Claim::missed;
         const auto paper =
             row.paper_limit ? limit_text(*row.paper_limit, false, row.unit) : std::string{"–"};
         table.rows.push_back({{escaped(row.algorithm)},
@@ -103,10 +101,10 @@ std::string limits_table(const std::vector<LimitRow>& rows, bool of_worst)
                               {escaped(measured_text(row)), is_missed ? "ours missed" : "ours"},
                               {escaped(paper), "paper"},
                               {std::string{limit_band(row.algorithm, row.impairment)}, "band"},
-                              {claim_badge(row.status)}});
+                              {claim_badge(to_claim(row.status))}});
     };
     for (const LimitRow& row : rows) {
-        if ((row.task == worst) == of_worst) add(row);
+        if ((row.task == worst_task) == of_worst) add(row);
     }
     return html_of(table);
 }
@@ -144,7 +142,7 @@ std::optional<Section> limits_section(const Results& results, Section section,
 std::optional<Section> fig6a_section(const Results& results)
 {
     return limits_section(results,
-                          {"fig6a", "Fig. 6a: how much delay and jitter is bearable",
+                          {"fig6a", "Fig. 6a: tolerated delay and jitter",
                            "<p>Each limit is searched from below: the bar ends where the first "
                            "session fails.</p>\n"},
                           {"delay", "jitter"});
@@ -153,7 +151,7 @@ std::optional<Section> fig6a_section(const Results& results)
 std::optional<Section> fig6b_section(const Results& results)
 {
     return limits_section(results,
-                          {"fig6b", "Fig. 6b: how much loss is bearable",
+                          {"fig6b", "Fig. 6b: tolerated loss",
                            "<p>Random loss in percent; burst loss as messages lost in a row of "
                            "every 100.</p>\n"},
                           {"random-loss", "burst-loss"});

@@ -15,8 +15,8 @@ namespace hapnet::lab::report {
 [[nodiscard]] std::string_view zoom_script();
 [[nodiscard]] std::string_view player_script();
 
-/// The beginning of a page, up to and with <main>; the title is text.
-[[nodiscard]] std::string page_head(std::string_view title);
+/// The beginning of a page, up to and with <main>; the title is text, the subject a word.
+[[nodiscard]] std::string page_head(std::string_view title, std::string_view subject);
 /// Its end.
 [[nodiscard]] std::string page_foot(std::string_view scripts = "");
 

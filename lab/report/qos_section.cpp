@@ -27,7 +27,7 @@ std::size_t index_of(const std::vector<double>& values, double value)
 
 /// A cell of the plane: the worst of the tasks, and what each says.
 struct PlaneCellOnPage {
-    Rating worst = Rating::good;
+    Tier worst = Tier::good;
     std::string tip;
 };
 
@@ -40,7 +40,7 @@ void add_task(PlaneCellOnPage& cell, const QosRow& row)
     }
     cell.tip +=
         fmt::format("\n{}: {}, vibration {} mm, stiffness {}, force vibration {} N", row.task,
-                    rating_text(row.judged.tier), shown(row.judged.vibration_mm, 3),
+                    to_text(row.judged.tier), shown(row.judged.vibration_mm, 3),
                     shown(row.judged.stiffness_ratio, 2), shown(row.judged.force_vibration_n, 3));
 }
 
@@ -59,8 +59,8 @@ std::string plane_map(const std::vector<QosRow>& rows, const std::vector<double>
         map.rows.push_back((jitter > 0.0 ? "± " : "") + plain(jitter));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (cells[i].tip.empty()) continue; // not tried
-        map.cells.push_back({i % delays.size(), i / delays.size(), rating_colour(cells[i].worst),
-                             rating_symbol(cells[i].worst), cells[i].tip});
+        map.cells.push_back({i % delays.size(), i / delays.size(), tier_colour(cells[i].worst),
+                             tier_symbol(cells[i].worst), cells[i].tip});
     }
     const std::string title =
         fmt::format("{}, {} % loss", rows.front().algorithm, plain(rows.front().loss_percent));
@@ -71,8 +71,8 @@ std::string plane_map(const std::vector<QosRow>& rows, const std::vector<double>
 std::string legend()
 {
     std::string out = "<p class='legend'>";
-    for (const Rating rating : {Rating::good, Rating::usable, Rating::unusable}) {
-        out += rating_badge(rating) + " ";
+    for (const Tier tier : {Tier::good, Tier::usable, Tier::unusable}) {
+        out += tier_badge(tier) + " ";
     }
     return out + "worst of the tasks; point at a field for its numbers</p>\n";
 }

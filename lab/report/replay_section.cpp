@@ -53,31 +53,34 @@ Json packed(const std::vector<double>& column)
     return {{"step", step}, {"data", base64(bytes)}};
 }
 
-Json packed(const Replay& replay)
-{
-    Json columns;
-    for (std::size_t i = 0; i < replay_columns.size(); ++i) {
-        columns[std::string{replay_columns[i]}] = packed(replay.columns[i]);
-    }
-    return {{"algorithm", replay.algorithm},
-            {"task", replay.task},
-            {"start_s", replay.start_s},
-            {"step_s", replay.step_s},
-            {"count", replay.columns.front().size()},
-            {"columns", columns}};
-}
-
-/// What stands in the paper's scene, in mm.
-Json bodies()
+/// What stands in a scene, in mm.
+Json bodies_of(const scene::Description& scene)
 {
     Json list = Json::array();
-    for (const scene::BodyDescription& body : scene::paper_scene().bodies) {
+    for (const scene::BodyDescription& body : scene.bodies) {
         const auto at = body.position;
         list.push_back({{"movable", body.movable},
                         {"half", {1e3 * body.half.x, 1e3 * body.half.y, 1e3 * body.half.z}},
                         {"at", {1e3 * at.x(), 1e3 * at.y(), 1e3 * at.z()}}});
     }
     return list;
+}
+
+Json packed(const Replay& replay)
+{
+    Json columns;
+    base::for_each_field(
+        [&](const auto& field, const auto&) {
+            if (field.key == "time_s") return; // it runs in equal steps
+            std::vector<double> column;
+            for (const ReplayRow& row : replay.rows) column.push_back(row.*field.member);
+            columns[std::string{field.key}] = packed(column);
+        },
+        replay.rows.front());
+    return {{"algorithm", replay.algorithm},     {"task", replay.task},
+            {"bodies", bodies_of(replay.scene)}, {"hip_radius", 1e3 * replay.scene.hands.radius_m},
+            {"start_s", replay.start_s},         {"step_s", replay.step_s},
+            {"count", replay.rows.size()},       {"columns", columns}};
 }
 
 /// JSON that can stand inside a script element: nothing in it closes that.
@@ -128,16 +131,13 @@ std::optional<Section> replay_section(const Results& results)
     if (results.replays.empty()) return std::nullopt;
     Json replays = Json::array();
     for (const Replay& replay : results.replays) replays.push_back(packed(replay));
-    const Json data{{"bodies", bodies()},
-                    {"hip_radius", 1e3 * scene::paper_scene().hands.radius_m},
-                    {"replays", replays}};
     return Section{"replay", "Look at it",
                    "<p>Both computers hold a copy of the blue cube. Each picture shows one of "
                    "them, with the hand that is there; the dashed outline is where the other has "
                    "the cube at the same moment. Arrows are forces on the hands.</p>\n" +
                        std::string{player} +
                        fmt::format("<script type='application/json' id='replays'>{}</script>\n",
-                                   for_script(data))};
+                                   for_script(replays))};
 }
 
 } // namespace hapnet::lab::report

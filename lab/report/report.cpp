@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/report.hpp"
 
-#include "lab/report/gnuplot.hpp"
 #include "lab/report/page.hpp"
 #include "lab/report/plot/axis.hpp"
 #include "lab/report/section.hpp"
@@ -29,7 +28,9 @@ struct PartOfPage {
 };
 
 constexpr std::array parts_of_page{
+    PartOfPage{"the demo", demo_section, ""},
     PartOfPage{"the replay", replay_section, "scripts/table1.sh --out", "table1"},
+    PartOfPage{"recorded sessions", session_section, ""},
     PartOfPage{"Table 1", table1_section, "scripts/table1.sh --out", "table1"},
     PartOfPage{"Fig. 6a", fig6a_section, "scripts/fig6a.sh --out", "fig6a"},
     PartOfPage{"Fig. 6b", fig6b_section, "scripts/fig6b.sh --out", "fig6b"},
@@ -48,13 +49,34 @@ struct Contents {
     std::string missing;
 };
 
+/// What a page is about. A page about one thing does not replace one about another unnoticed.
+enum class Subject : std::uint8_t { experiments, demo, session };
+
+Subject subject_of(const Results& results)
+{
+    if (results.demo) return Subject::demo;
+    const bool has_sessions_only = !results.sessions.empty() && results.runs.empty();
+    return has_sessions_only ? Subject::session : Subject::experiments;
+}
+
+std::string_view name_of(Subject subject)
+{
+    switch (subject) {
+    case Subject::experiments: return "experiments";
+    case Subject::demo: return "demo";
+    case Subject::session: return "session";
+    }
+    return "";
+}
+
 Contents contents_of(const Results& results, std::string_view folder)
 {
     Contents contents;
+    const bool is_of_experiments = subject_of(results) == Subject::experiments;
     for (const PartOfPage& part : parts_of_page) {
         if (auto section = part.section(results)) {
             contents.sections.push_back(*std::move(section));
-        } else if (!part.command.empty()) {
+        } else if (!part.command.empty() && is_of_experiments) {
             contents.missing += fmt::format("<li>{}: <code>{} {}/{}</code></li>\n", part.what,
                                             part.command, escaped(folder), part.subfolder);
         }
@@ -69,41 +91,69 @@ std::string title_of(const Results& results)
         const auto title = manifest.find("title");
         if (title != manifest.end() && title->is_string()) return title->get<std::string>();
     }
-    return "Two people, one cube, a bad network";
+    if (subject_of(results) != Subject::session) return "Two people, one cube, a bad network";
+    if (results.sessions.size() > 1) return "Recorded sessions";
+    const std::string& task = results.sessions.front().task;
+    return task.empty() ? "A recorded session" : "A recorded session of task " + task;
 }
 
-/// Whether the results count, and why not.
+std::string_view lead_of(Subject subject)
+{
+    switch (subject) {
+    case Subject::experiments:
+        return "Two simulated hands push one cube over a bad network; each computer has its own "
+               "copy of the cube, and this page shows how far the copies drift apart and when the "
+               "push stops feeling right, beside the paper’s numbers.";
+    case Subject::demo:
+        return "Two simulated hands push one cube through the emulator, over real UDP, under the "
+               "paper’s 160 ms. This page shows how far the two copies of the cube drift apart, "
+               "beside the paper’s numbers.";
+    case Subject::session:
+        return "Two hands push one cube over a network; each computer has its own copy of the "
+               "cube. This page shows what the two records say: how far the copies drift apart, "
+               "what the network did, and whether the run counts.";
+    }
+    return "";
+}
+
+/// Why a run is not valid, a line of HTML for each reason.
+std::string reasons_of(const Run& run)
+{
+    if (run.is_valid()) return "";
+    std::string reasons;
+    const auto add = [&](const std::string& why) {
+        reasons += fmt::format("<li>{}: {}</li>\n", escaped(run.folder), escaped(why));
+    };
+    const auto found = run.manifest.find("invalid_because");
+    if (found == run.manifest.end() || !found->is_array() || found->empty()) {
+        // Each row of the sessions over real UDP says it for itself.
+        const bool is_real_time = run.manifest.value("kind", Json{}) == "real-time";
+        add(is_real_time ? "not every session over real UDP kept its timing" : "does not say why");
+        return reasons;
+    }
+    for (const auto& reason : *found) {
+        add(reason.is_string() ? reason.get<std::string>() : reason.dump());
+    }
+    return reasons;
+}
+
+/// Whether the results count, and why not. Recorded sessions say so themselves.
 std::string validity(const Results& results)
 {
     std::string reasons;
-    for (const Run& run : results.runs) {
-        if (run.is_valid()) continue;
-        const auto found = run.manifest.find("invalid_because");
-        if (found == run.manifest.end() || !found->is_array() || found->empty()) {
-            // Of sessions over real UDP each row says it for itself.
-            const bool is_real_time = run.manifest.value("kind", Json{}) == "real-time";
-            reasons += fmt::format("<li>{}: {}</li>\n", escaped(run.folder),
-                                   is_real_time ? "not every session over real UDP kept its timing"
-                                                : "does not say why");
-            continue;
-        }
-        for (const auto& reason : *found) {
-            const auto text = reason.is_string() ? reason.get<std::string>() : reason.dump();
-            reasons += fmt::format("<li>{}: {}</li>\n", escaped(run.folder), escaped(text));
-        }
-    }
+    for (const Run& run : results.runs) reasons += reasons_of(run);
     if (!reasons.empty()) {
         return "<div class='banner missed' role='alert'><b>Not valid.</b> These numbers do not "
                "count:<ul>\n" +
                reasons + "</ul></div>\n";
     }
-    if (results.runs.empty()) {
-        return "<div class='banner'>No manifest.json: how these numbers came about, and whether "
-               "they are valid, is not known.</div>\n";
+    if (!results.runs.empty()) {
+        return "<div class='banner met'><b>Valid.</b> All runs completed and passed their own "
+               "validity checks.</div>\n";
     }
-    return "<div class='banner met'><b>Valid.</b> Every run came to its end and has nothing "
-           "against "
-           "itself.</div>\n";
+    if (subject_of(results) == Subject::session) return "";
+    return "<div class='banner'>There is no manifest.json: it is not known how these numbers came "
+           "about and whether they are valid.</div>\n";
 }
 
 std::string tile(std::size_t count, std::string_view text, std::string_view style)
@@ -116,12 +166,8 @@ std::string head_of(const Results& results, const std::string& title, const Cont
 {
     const Claims claims = main_claims(results);
     const std::size_t count = claims.calibrated.size() + claims.met.size() + claims.missed.size();
-    std::string out = fmt::format(
-        "<header>\n<h1>{}</h1>\n<p class='lead'>Two simulated hands push one cube over a bad "
-        "network; each computer has its own copy of the cube, and this page shows how far the "
-        "copies drift apart and when the push stops feeling right, beside the paper’s numbers."
-        "</p>\n{}",
-        escaped(title), validity(results));
+    std::string out = fmt::format("<header>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n{}",
+                                  escaped(title), lead_of(subject_of(results)), validity(results));
     if (count > 0) {
         out += fmt::format("<p class='tiles' aria-label='results that stand against the paper'>\n"
                            "{}{}{}</p>\n",
@@ -139,7 +185,8 @@ std::string head_of(const Results& results, const std::string& title, const Cont
 std::string page_of(const Results& results, const Contents& contents)
 {
     const std::string title = title_of(results);
-    std::string page = page_head(title) + head_of(results, title, contents);
+    const Subject subject = subject_of(results);
+    std::string page = page_head(title, name_of(subject)) + head_of(results, title, contents);
     for (const Section& section : contents.sections) {
         page += fmt::format("<section id='{0}' aria-labelledby='{0}-title'>\n"
                             "<h2 id='{0}-title'>{1}</h2>\n{2}</section>\n",
@@ -150,12 +197,23 @@ std::string page_of(const Results& results, const Contents& contents)
                 "rest; report the folder again afterwards.</p>\n<ul>\n" +
                 contents.missing + "</ul>\n</section>\n";
     }
-    page += "<footer><p>The hands are simulated. A verdict is a calibrated convention, not a "
-            "finding about people.</p></footer>\n";
+    if (subject != Subject::session) {
+        page += "<footer><p>The hands are simulated. A verdict is a calibrated convention, not a "
+                "finding about people.</p></footer>\n";
+    }
     return page + page_foot(std::string{zoom_script()}.append(player_script()));
 }
 
 } // namespace
+
+std::string_view page_subject(std::string_view page)
+{
+    constexpr std::string_view key = "<meta name=\"hapnet-subject\" content=\"";
+    const auto found = page.find(key);
+    if (found == std::string_view::npos) return "";
+    page.remove_prefix(found + key.size());
+    return page.substr(0, page.find('"'));
+}
 
 std::vector<File> report_of(const Results& results, std::string_view folder)
 {
@@ -166,7 +224,6 @@ std::vector<File> report_of(const Results& results, std::string_view folder)
             files.push_back({fmt::format("figures/{}.svg", one.name), standalone(one.svg)});
         }
     }
-    for (File& file : gnuplot_files(results)) files.push_back(std::move(file));
     return files;
 }
 

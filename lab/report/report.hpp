@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/file.hpp"
-#include "lab/report/results.hpp"
+#include "lab/results/file.hpp"
+#include "lab/results/results.hpp"
 
 #include <string_view>
 #include <vector>
 
 namespace hapnet::lab::report {
 
-/// The report of a result folder: report.html, figures/*.svg, gnuplot/*. Equal results give equal
+/// The report of a result folder: report.html and figures/*.svg. Equal results give equal
 /// bytes. `folder` is its name, for the commands that the page shows.
 [[nodiscard]] std::vector<File> report_of(const Results& results, std::string_view folder);
+
+/// What a report.html is about: "experiments", "demo" or "session"; empty when it does not say.
+[[nodiscard]] std::string_view page_subject(std::string_view page);
 
 } // namespace hapnet::lab::report

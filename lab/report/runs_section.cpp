@@ -4,6 +4,7 @@
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
 
+#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::report {
@@ -33,6 +34,13 @@ std::string words_of(const Json& value)
     return value.dump();
 }
 
+/// Objects in objects, such as the demo's configuration, are shown as JSON.
+bool is_nested(const Json& value)
+{
+    return value.is_object() &&
+           std::any_of(value.begin(), value.end(), [](const Json& one) { return one.is_object(); });
+}
+
 /// "speed_ratio" as "speed ratio", "wall_time_s" as "wall time, s".
 std::string title_of_key(std::string key)
 {
@@ -51,8 +59,8 @@ std::string words_at(const Run& run, std::string_view key)
 std::string overview(const std::vector<Run>& runs)
 {
     HtmlTable table{"What was run",
-                    {"folder", "title", "wall time, s", "simulated, s", "times faster<br>than life",
-                     "sessions", "seeds", "valid"}};
+                    {"folder", "title", "wall time, s", "simulated, s",
+                     "times faster<br>than real time", "sessions", "seeds", "valid"}};
     for (const Run& run : runs) {
         table.rows.push_back(
             {{escaped(run.folder)},
@@ -73,7 +81,8 @@ std::string run_html(const Run& run)
     HtmlTable table{run.folder, {"", "value"}};
     std::string texts;
     for (const auto& [key, value] : run.manifest.items()) {
-        const std::string words = words_of(value), title = escaped(title_of_key(key));
+        const std::string words = is_nested(value) ? value.dump(2) : words_of(value),
+                          title = escaped(title_of_key(key));
         if (words.find('\n') == std::string::npos) {
             table.rows.push_back({{title}, {escaped(words), "words"}});
         } else {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/results.hpp"
+#include "lab/results/results.hpp"
 
 #include <optional>
 #include <string>
@@ -28,9 +28,13 @@ struct Section {
     void add_figure(std::string name, std::string svg, std::string_view caption);
 };
 
-// The sections, each from what the folder holds of it; nullopt when that is nothing.
+// The sections. nullopt when the folder has no data for one.
 
+/// The demo's own numbers.
+[[nodiscard]] std::optional<Section> demo_section(const Results& results);
 [[nodiscard]] std::optional<Section> replay_section(const Results& results);
+/// Recorded sessions over time, and their analysis.
+[[nodiscard]] std::optional<Section> session_section(const Results& results);
 [[nodiscard]] std::optional<Section> table1_section(const Results& results);
 [[nodiscard]] std::optional<Section> tasks_section(const Results& results);
 /// Delay and jitter.

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/bands.hpp"
 #include "lab/report/plot/bars.hpp"
 #include "lab/report/section.hpp"
 #include "lab/report/words.hpp"
+#include "lab/results/paper.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -18,7 +18,7 @@ struct Quantity {
     std::string_view name;
     double Table1Row::*ours;
     std::optional<double> Table1Row::*papers;
-    std::optional<Band> Table1Bands::*band;
+    Band Table1Bands::*band;
 };
 
 constexpr std::array quantities{
@@ -38,12 +38,21 @@ HtmlCell band_cell(const std::optional<Band>& band)
     return {fmt::format("{} to {}", shown(band->low, 2), shown(band->high, 2)), "band"};
 }
 
-const Table1Row* base_of(const Results& results)
+Spread spread_of(const Table1Row& row) { return {row.mean_mm, row.min_mm, row.max_mm, row.std_mm}; }
+
+/// Where the numbers of a row agree; nullopt when there is nothing to hold them against.
+std::optional<Table1Bands> bands_of(const Results& results, const Table1Row& row)
 {
-    for (const Table1Row& row : results.table1) {
-        if (row.algorithm == "base") return &row;
+    std::optional<Spread> base;
+    for (const Table1Row& other : results.table1) {
+        if (other.algorithm == "base") base = spread_of(other);
     }
-    return nullptr;
+    return table1_bands(row.algorithm, base);
+}
+
+std::optional<Band> band_of(const std::optional<Table1Bands>& bands, Band Table1Bands::*band)
+{
+    return bands ? std::optional{(*bands).*band} : std::nullopt;
 }
 
 std::string table_of(const Results& results)
@@ -55,14 +64,13 @@ std::string table_of(const Results& results)
         table.heads.insert(table.heads.end(), {std::string{quantity.name}, "paper", "band"});
     }
     table.heads.insert(table.heads.end(), {"min", "verdict"});
-    const Table1Row* base = base_of(results);
     for (const Table1Row& row : results.table1) {
-        const Table1Bands bands = table1_bands(row, base);
+        const auto bands = bands_of(results, row);
         std::vector<HtmlCell> cells{{escaped(row.algorithm)}};
         for (const Quantity& quantity : quantities) {
-            cells.push_back(measured_cell(row.*quantity.ours, bands.*quantity.band));
+            cells.push_back(measured_cell(row.*quantity.ours, band_of(bands, quantity.band)));
             cells.push_back({shown(row.*quantity.papers, 2), "paper"});
-            cells.push_back(band_cell(bands.*quantity.band));
+            cells.push_back(band_cell(band_of(bands, quantity.band)));
         }
         cells.push_back({shown(row.min_mm, 2), "ours"});
         cells.push_back({claim_badge(row.verdict)});
@@ -74,7 +82,6 @@ std::string table_of(const Results& results)
 /// Ours beside the paper's, one group for each algorithm.
 std::string bars_of(const Results& results, const Quantity& quantity)
 {
-    const Table1Row* base = base_of(results);
     std::vector<plot::BarGroup> groups;
     for (const Table1Row& row : results.table1) {
         plot::BarGroup group{row.algorithm, {}};
@@ -88,7 +95,7 @@ std::string bars_of(const Results& results, const Quantity& quantity)
                  .tip = fmt::format("{}, paper: {} mm", row.algorithm, shown(*paper, 2))});
         }
         const double ours = row.*quantity.ours;
-        const auto band = table1_bands(row, base).*quantity.band;
+        const auto band = band_of(bands_of(results, row), quantity.band);
         group.bars.push_back(
             {.value = ours,
              .label = shown(ours, 1),
@@ -135,17 +142,16 @@ std::optional<Section> tasks_section(const Results& results)
     for (const std::string& task : distinct(results.tasks, [](const auto& r) { return r.task; })) {
         for (const TaskRow& row : results.tasks) {
             if (row.task != task) continue;
-            const Judged& judged = row.judged;
             table.rows.push_back({{escaped(task)},
                                   {escaped(row.algorithm), "name"},
-                                  {rating_badge(judged.tier), "name"},
-                                  {plain(row.seeds)},
-                                  {shown(judged.mean_mm, 2)},
+                                  {tier_badge(row.tier), "name"},
+                                  {std::to_string(row.seeds)},
+                                  {shown(row.mean_mm, 2)},
                                   {shown(row.std_mm, 2)},
                                   {shown(row.max_mm, 2)},
-                                  {shown(judged.vibration_mm, 3)},
-                                  {shown(judged.stiffness_ratio, 3)},
-                                  {shown(judged.force_vibration_n, 3)},
+                                  {shown(row.vibration_mm, 3)},
+                                  {shown(row.stiffness_ratio, 3)},
+                                  {shown(row.force_vibration_n, 3)},
                                   {percent(row.force_discrepancy)},
                                   {percent(row.contact_lost)},
                                   {shown(row.force_step_n, 3)},

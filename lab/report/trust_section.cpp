@@ -16,18 +16,18 @@ namespace {
 
 /// A way of measuring: the order of the filter and whose hands.
 struct Way {
-    double filter_order = 0.0;
+    std::uint32_t filter_order = 0;
     std::string hand;
 
     friend bool operator==(const Way&, const Way&) = default;
 };
 
-Way way_of(const ConventionRow& row) { return {row.filter_order, row.hand}; }
+Way way_of(const SensitivityRow& row) { return {row.filter_order, row.hand}; }
 
-const ConventionRow* row_of(const std::vector<ConventionRow>& rows, const ConventionRow& like,
-                            const Way& way)
+const SensitivityRow* row_of(const std::vector<SensitivityRow>& rows, const SensitivityRow& like,
+                             const Way& way)
 {
-    for (const ConventionRow& row : rows) {
+    for (const SensitivityRow& row : rows) {
         if (row.algorithm == like.algorithm && row.task == like.task && way_of(row) == way) {
             return &row;
         }
@@ -35,7 +35,7 @@ const ConventionRow* row_of(const std::vector<ConventionRow>& rows, const Conven
     return nullptr;
 }
 
-std::string ways_table(const std::vector<ConventionRow>& rows)
+std::string ways_table(const std::vector<SensitivityRow>& rows)
 {
     const std::string caption =
         fmt::format("Limit of {}, {}, by the order of the 20 Hz filter and the hands",
@@ -47,7 +47,7 @@ std::string ways_table(const std::vector<ConventionRow>& rows)
             fmt::format("order {}<br>{}", plain(way.filter_order), escaped(way.hand)));
     }
     std::vector<std::pair<std::string, std::string>> seen;
-    for (const ConventionRow& like : rows) {
+    for (const SensitivityRow& like : rows) {
         const std::pair key{like.algorithm, like.task};
         if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
         seen.push_back(key);
@@ -55,12 +55,12 @@ std::string ways_table(const std::vector<ConventionRow>& rows)
         plot::Range range;
         bool is_open = false;
         for (const Way& way : ways) {
-            const ConventionRow* row = row_of(rows, like, way);
+            const SensitivityRow* row = row_of(rows, like, way);
             cells.push_back(
-                {row == nullptr ? "–" : escaped((row->is_open ? "> " : "") + plain(row->limit))});
+                {row == nullptr ? "–" : escaped((row->is_open() ? "> " : "") + plain(row->limit))});
             if (row == nullptr) continue;
             range.include(row->limit);
-            is_open |= row->is_open && row->limit >= range.high;
+            is_open |= row->is_open() && row->limit >= range.high;
         }
         const auto span =
             fmt::format("{} … {}{}", plain(range.low), is_open ? "> " : "", plain(range.high));
@@ -73,7 +73,7 @@ std::string ways_table(const std::vector<ConventionRow>& rows)
 }
 
 /// The hands in the order of their strokes: nominal first.
-std::vector<std::string> hands_of(const std::vector<ConventionRow>& rows)
+std::vector<std::string> hands_of(const std::vector<SensitivityRow>& rows)
 {
     auto hands = distinct(rows, [](const auto& row) { return row.hand; });
     std::stable_partition(hands.begin(), hands.end(),
@@ -84,11 +84,11 @@ std::vector<std::string> hands_of(const std::vector<ConventionRow>& rows)
 /// The least limit over the tasks, by algorithm, hand and order.
 using Least = std::map<std::tuple<std::string, std::string, double>, double>;
 
-std::string ways_plot(const std::vector<ConventionRow>& rows)
+std::string ways_plot(const std::vector<SensitivityRow>& rows)
 {
     Least least;
-    for (const ConventionRow& row : rows) {
-        const auto key = std::tuple{row.algorithm, row.hand, row.filter_order};
+    for (const SensitivityRow& row : rows) {
+        const auto key = std::tuple{row.algorithm, row.hand, static_cast<double>(row.filter_order)};
         const auto [found, is_new] = least.emplace(key, row.limit);
         if (!is_new) found->second = std::min(found->second, row.limit);
     }
@@ -116,7 +116,7 @@ std::string ways_plot(const std::vector<ConventionRow>& rows)
                           {.size = {440.0, 250.0}, .y = {0.0, 0.0}});
 }
 
-std::string strokes_caption(const std::vector<ConventionRow>& rows)
+std::string strokes_caption(const std::vector<SensitivityRow>& rows)
 {
     constexpr std::array<std::string_view, 3> names{"solid", "dashed", "dotted"};
     std::string out = "Least of the tasks. Hands: ";
@@ -132,7 +132,7 @@ std::string strokes_caption(const std::vector<ConventionRow>& rows)
 
 std::optional<Section> trust_section(const Results& results)
 {
-    if (results.conventions.empty()) return std::nullopt;
+    if (results.sensitivity.empty()) return std::nullopt;
     Section section{"trust", "How far a limit can be trusted",
                     "<p>A limit is where a measure crosses a threshold, so it moves with how the "
                     "measure is taken: with the order of the filter that separates vibration from "
@@ -140,10 +140,10 @@ std::optional<Section> trust_section(const Results& results)
                     "what moves much is a convention.</p>\n"};
     section.html += "<div class='panels'>\n";
     std::string tables;
-    const auto names = distinct(results.conventions, [](const auto& r) { return r.impairment; });
+    const auto names = distinct(results.sensitivity, [](const auto& r) { return r.impairment; });
     for (const std::string& name : names) {
-        std::vector<ConventionRow> rows;
-        for (const ConventionRow& row : results.conventions) {
+        std::vector<SensitivityRow> rows;
+        for (const SensitivityRow& row : results.sensitivity) {
             if (row.impairment == name) rows.push_back(row);
         }
         section.add_figure("trust-" + name, ways_plot(rows), strokes_caption(rows));

@@ -57,16 +57,7 @@ std::string impairment_text(std::string_view impairment)
     return std::string{found_in(known, impairment, impairment)};
 }
 
-std::string_view claim_text(Claim claim)
-{
-    switch (claim) {
-    case Claim::none: break;
-    case Claim::calibrated: return "calibrated";
-    case Claim::met: return "met";
-    case Claim::missed: return "missed";
-    }
-    return "";
-}
+std::string_view claim_text(Claim claim) { return base::name_of(claim); }
 
 std::string claim_badge(Claim claim)
 {
@@ -74,38 +65,28 @@ std::string claim_badge(Claim claim)
     return fmt::format("<span class='badge {0}'>{0}</span>", claim_text(claim));
 }
 
-std::string_view rating_text(Rating rating)
+std::string_view tier_symbol(Tier tier)
 {
-    switch (rating) {
-    case Rating::unusable: return "unusable";
-    case Rating::usable: return "usable";
-    case Rating::good: return "good";
+    switch (tier) {
+    case Tier::unusable: return "×";
+    case Tier::usable: return "○";
+    case Tier::good: return "●";
     }
     return "";
 }
 
-std::string_view rating_symbol(Rating rating)
+std::string tier_badge(Tier tier)
 {
-    switch (rating) {
-    case Rating::unusable: return "×";
-    case Rating::usable: return "○";
-    case Rating::good: return "●";
-    }
-    return "";
+    return fmt::format("<span class='badge tier-{0}'>{1} {0}</span>", to_text(tier),
+                       tier_symbol(tier));
 }
 
-std::string rating_badge(Rating rating)
+std::string_view tier_colour(Tier tier)
 {
-    return fmt::format("<span class='badge tier-{0}'>{1} {0}</span>", rating_text(rating),
-                       rating_symbol(rating));
-}
-
-std::string_view rating_colour(Rating rating)
-{
-    switch (rating) {
-    case Rating::unusable: return "var(--unusable)";
-    case Rating::usable: return "var(--usable)";
-    case Rating::good: return "var(--good)";
+    switch (tier) {
+    case Tier::unusable: return "var(--unusable)";
+    case Tier::usable: return "var(--usable)";
+    case Tier::good: return "var(--good)";
     }
     return "";
 }
@@ -138,6 +119,25 @@ std::string html_of(const HtmlTable& table)
         out += "</tr>\n";
     }
     return out + "</tbody></table></div>\n";
+}
+
+std::string html_of(const TextTable& table)
+{
+    HtmlTable html{table.caption, {escaped(table.unit)}};
+    for (const std::string& head : table.heads) html.heads.push_back(escaped(head));
+    const auto has_note = [](const TextTable::Row& row) { return !row.note.empty(); };
+    const bool has_notes = std::any_of(table.rows.begin(), table.rows.end(), has_note);
+    if (has_notes) html.heads.emplace_back();
+    for (const TextTable::Row& row : table.rows) {
+        std::vector<HtmlCell> cells{{escaped(row.name)}};
+        for (const std::string& cell : row.cells) cells.push_back({escaped(cell)});
+        cells.resize(table.heads.size() + 1);
+        if (has_notes) cells.push_back({escaped(row.note), "words"});
+        html.rows.push_back(std::move(cells));
+    }
+    std::string out = html_of(html);
+    for (const std::string& remark : table.remarks) out += "<p>" + escaped(remark) + "</p>\n";
+    return out;
 }
 
 std::string figure(std::string_view svg, std::string_view caption)

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/report/results.hpp"
+#include "lab/records/text_table.hpp"
+#include "lab/results/results.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -23,15 +24,14 @@ namespace hapnet::lab::report {
 [[nodiscard]] std::string limit_text(double limit, bool is_open, std::string_view unit);
 /// "ms", "%", "of 100"
 [[nodiscard]] std::string_view unit_text(std::string_view unit);
-/// "delay", "burst loss"; what is not known is left as it is.
+/// "delay", "burst loss"; an unknown name stays as it is.
 [[nodiscard]] std::string impairment_text(std::string_view impairment);
 
 [[nodiscard]] std::string_view claim_text(Claim claim); // "calibrated"
 [[nodiscard]] std::string claim_badge(Claim claim);     // as HTML; empty for none
-[[nodiscard]] std::string_view rating_text(Rating rating);
-[[nodiscard]] std::string_view rating_symbol(Rating rating);
-[[nodiscard]] std::string rating_badge(Rating rating); // as HTML
-[[nodiscard]] std::string_view rating_colour(Rating rating);
+[[nodiscard]] std::string_view tier_symbol(Tier tier);
+[[nodiscard]] std::string tier_badge(Tier tier); // as HTML
+[[nodiscard]] std::string_view tier_colour(Tier tier);
 
 /// The colour of an algorithm, the same all over the page; of what a person need not tell apart
 /// the same.
@@ -66,6 +66,9 @@ struct HtmlTable {
 
 /// A table that a narrow screen scrolls sideways.
 [[nodiscard]] std::string html_of(const HtmlTable& table);
+
+/// The same of what a terminal shows as text, with its remarks below.
+[[nodiscard]] std::string html_of(const TextTable& table);
 
 /// A figure with its caption, which is HTML.
 [[nodiscard]] std::string figure(std::string_view svg, std::string_view caption);

@@ -14,7 +14,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// ISO 8601, UTC, whole seconds.
+Json seeds_of(const Experiment& experiment)
+{
+    Json seeds = Json::array();
+    for (std::uint32_t i = 0; i < experiment.seeds; ++i) {
+        seeds.push_back(experiment.first_seed + i);
+    }
+    return seeds;
+}
+
+} // namespace
+
 std::string utc_text(double since_1970_s)
 {
     const std::chrono::sys_seconds time{
@@ -27,43 +37,40 @@ std::string utc_text(double since_1970_s)
                        clock.hours().count(), clock.minutes().count(), clock.seconds().count());
 }
 
-Json seeds_of(const Experiment& experiment)
+Json manifest_head(const Circumstances& circumstances)
 {
-    Json seeds = Json::array();
-    for (std::uint32_t i = 0; i < experiment.seeds; ++i) {
-        seeds.push_back(experiment.first_seed + i);
-    }
-    return seeds;
+    Json head{{"command", circumstances.command}};
+    if (!circumstances.program.empty()) head["program"] = circumstances.program;
+    head["version"] = base::version();
+    head["commit"] = base::commit();
+    head["compiler"] = base::compiler();
+    head["host"] = circumstances.host;
+    head["start"] = circumstances.start;
+    head["wall_time_s"] = circumstances.wall_time_s;
+    return head;
 }
 
-} // namespace
-
-Json manifest_of(const Experiment& experiment, const Circumstances& circumstances)
+Json make_manifest(const Experiment& experiment, const Circumstances& circumstances,
+                   const RunOutcome& outcome)
 {
     const double simulated_s =
-        static_cast<double>(circumstances.played) * base::to_seconds(experiment.duration);
+        static_cast<double>(outcome.played) * base::to_seconds(experiment.duration);
     Json speed_ratio; // null when nothing was played
-    if (circumstances.played > 0 && circumstances.wall_time_s > 0.0) {
+    if (outcome.played > 0 && circumstances.wall_time_s > 0.0) {
         speed_ratio = simulated_s / circumstances.wall_time_s;
     }
-    return {{"command", circumstances.command},
-            {"program", circumstances.program},
-            {"version", base::version()},
-            {"commit", base::commit()},
-            {"compiler", base::compiler()},
-            {"host", circumstances.host},
-            {"start", utc_text(circumstances.start_s)},
-            {"wall_time_s", circumstances.wall_time_s},
-            {"kind", name_of(experiment.kind)},
-            {"title", experiment.title},
-            {"configuration", to_text(experiment)},
-            {"criteria", circumstances.criteria},
-            {"seeds", seeds_of(experiment)},
-            {"valid", circumstances.invalid_because.empty()},
-            {"invalid_because", circumstances.invalid_because},
-            {"sessions", {{"played", circumstances.played}, {"reused", circumstances.reused}}},
-            {"simulated_s", simulated_s},
-            {"speed_ratio", speed_ratio}};
+    Json manifest = manifest_head(circumstances);
+    manifest.update({{"kind", name_of(experiment.kind)},
+                     {"title", experiment.title},
+                     {"configuration", to_text(experiment)},
+                     {"criteria", outcome.criteria},
+                     {"seeds", seeds_of(experiment)},
+                     {"valid", outcome.invalid_because.empty()},
+                     {"invalid_because", outcome.invalid_because},
+                     {"sessions", {{"played", outcome.played}, {"reused", outcome.reused}}},
+                     {"simulated_s", simulated_s},
+                     {"speed_ratio", speed_ratio}});
+    return manifest;
 }
 
 } // namespace hapnet::lab

@@ -11,21 +11,32 @@
 
 namespace hapnet::lab {
 
-/// What happened around a run, which its results do not follow from.
+/// What happened around a run. Its results do not depend on it.
 struct Circumstances {
-    std::string command;  // what was typed
-    std::string criteria; // TOML
-    std::string program;  // "hapnet-lab 0.1.0 (commit abc, GCC 12.2.0)"
-    nlohmann::ordered_json host;
-    double start_s = 0.0; // since 1970
+    std::string command; // what was typed
+    std::string start;   // ISO 8601, UTC
     double wall_time_s = 0.0;
-    std::size_t played = 0; // sessions
-    std::size_t reused = 0;
-    std::vector<std::string> invalid_because;
+    nlohmann::ordered_json host{};
+    std::string program{}; // "hapnet-lab 0.1.0 (commit abc, GCC 12.2.0)"; empty: several programs
 };
 
-/// manifest.json of a folder of results.
-[[nodiscard]] nlohmann::ordered_json manifest_of(const Experiment& experiment,
-                                                 const Circumstances& circumstances);
+/// ISO 8601, UTC, whole seconds.
+[[nodiscard]] std::string utc_text(double since_1970_s);
+
+/// What every manifest.json begins with: command, version, commit, compiler, host, time.
+[[nodiscard]] nlohmann::ordered_json manifest_head(const Circumstances& circumstances);
+
+/// How the run of an experiment ended.
+struct RunOutcome {
+    std::string criteria;   // TOML
+    std::size_t played = 0; // sessions
+    std::size_t reused = 0;
+    std::vector<std::string> invalid_because{};
+};
+
+/// manifest.json of an experiment's folder of results.
+[[nodiscard]] nlohmann::ordered_json make_manifest(const Experiment& experiment,
+                                                   const Circumstances& circumstances,
+                                                   const RunOutcome& outcome);
 
 } // namespace hapnet::lab

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/paper.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -24,82 +25,93 @@ constexpr std::array paper_algorithms{
 
 const PaperAlgorithm* paper_of(std::string_view algorithm)
 {
-    for (const PaperAlgorithm& known : paper_algorithms) {
-        if (known.name == algorithm) return &known;
-    }
-    return nullptr;
+    const auto known =
+        std::find_if(paper_algorithms.begin(), paper_algorithms.end(),
+                     [&](const PaperAlgorithm& one) { return one.name == algorithm; });
+    return known == paper_algorithms.end() ? nullptr : &*known;
 }
 
-bool within_share(double value, double of, double share)
+constexpr double base_share = 0.10;           // of the paper's
+constexpr double dead_reckoning_share = 0.15; // of the paper's
+constexpr double sep_share = 0.03;            // of base's
+constexpr Band dead_reckoning_max_mm{40.0, 65.0};
+
+Band around(double centre, double share)
 {
-    return std::abs(value - of) <= share * of;
+    return {(1.0 - share) * centre, (1.0 + share) * centre};
 }
 
-bool is_from_to(double value, double least, double most) { return value >= least && value <= most; }
+/// How a limit stands to that of base in the same task.
+enum class ToBase : std::uint8_t { any, near, at_least, more, less };
 
-bool base_agrees(const Spread& mm, const PaperRow& paper)
+/// Where a limit agrees.
+struct LimitRule {
+    std::string_view algorithm;
+    Impairment impairment;
+    std::string_view text; // for people
+    Band band{};
+    ToBase to_base = ToBase::any;
+    double near_share = 0.0;  // of base's
+    double near_points = 0.0; // of the unit
+};
+
+constexpr double no_end = std::numeric_limits<double>::infinity();
+
+// base: delay within 5 %, random loss within 1, burst loss within 5 of 100, which the paper's own
+// limits are apart; jitter up to the most that the paper tried.
+constexpr std::array limit_rules{
+    LimitRule{"base", Impairment::delay, "152 to 168", {152.0, 168.0}},
+    LimitRule{"base", Impairment::jitter, "15 or more", {15.0, no_end}},
+    LimitRule{"base", Impairment::random_loss, "92 to 94", {92.0, 94.0}},
+    LimitRule{"base", Impairment::burst_loss, "35 to 45", {35.0, 45.0}},
+    LimitRule{"sep", Impairment::delay, "base’s ± 5 %", {}, ToBase::near, 0.05, 0.0},
+    LimitRule{"sep", Impairment::jitter, "15 or more", {15.0, no_end}},
+    LimitRule{"sep", Impairment::random_loss, "base’s ± 1", {}, ToBase::near, 0.0, 1.0},
+    LimitRule{"sep", Impairment::burst_loss, "base’s or more", {}, ToBase::at_least},
+    LimitRule{"dead-reckoning",
+              Impairment::delay,
+              "130 to 155, less than base",
+              {130.0, 155.0},
+              ToBase::less},
+    LimitRule{"dead-reckoning", Impairment::jitter, "3 to 6", {3.0, 6.0}},
+    LimitRule{"dead-reckoning",
+              Impairment::random_loss,
+              "60 to 85, less than base",
+              {60.0, 85.0},
+              ToBase::less},
+    LimitRule{"dead-reckoning", Impairment::burst_loss, "more than base", {}, ToBase::more}};
+
+const LimitRule* rule_of(std::string_view algorithm, std::string_view impairment)
 {
-    constexpr double tolerance = 0.10;
-    return within_share(mm.mean, paper.mean_mm, tolerance) &&
-           within_share(mm.std, paper.std_mm, tolerance) &&
-           within_share(mm.max, paper.max_mm, tolerance);
+    const auto known =
+        std::find_if(limit_rules.begin(), limit_rules.end(), [&](const LimitRule& rule) {
+            return rule.algorithm == algorithm && name_of(rule.impairment) == impairment;
+        });
+    return known == limit_rules.end() ? nullptr : &*known;
 }
 
-bool dead_reckoning_agrees(const Spread& mm, const PaperRow& paper)
+bool stands_to_base(const LimitRule& rule, const FoundLimit& found,
+                    const std::optional<FoundLimit>& base)
 {
-    constexpr double tolerance = 0.15;
-    return within_share(mm.mean, paper.mean_mm, tolerance) &&
-           within_share(mm.std, paper.std_mm, tolerance) && is_from_to(mm.max, 40.0, 65.0);
-}
-
-bool sep_agrees(const Spread& mm, const std::optional<Spread>& base_mm)
-{
-    constexpr double tolerance = 0.03;
-    return base_mm && within_share(mm.mean, base_mm->mean, tolerance) &&
-           within_share(mm.std, base_mm->std, tolerance) &&
-           within_share(mm.max, base_mm->max, tolerance);
-}
-
-constexpr double delay_share = 0.05;       // 8 ms of 160
-constexpr double random_loss_points = 1.0; // 92 to 94 of 93 %
-constexpr double burst_points = 5.0;       // what the paper's own limits are apart
-constexpr double jitter_usable_ms = 15.0;
-
-bool is_near(const FoundLimit& found, double wanted, Impairment impairment)
-{
-    const double margin = impairment == Impairment::delay         ? delay_share * wanted
-                          : impairment == Impairment::random_loss ? random_loss_points
-                                                                  : burst_points;
-    return found.ever_failed && std::abs(found.limit - wanted) <= margin;
-}
-
-bool base_limit_agrees(Impairment impairment, const FoundLimit& found, double paper)
-{
-    if (impairment == Impairment::jitter) return found.limit >= jitter_usable_ms;
-    return is_near(found, paper, impairment);
-}
-
-bool sep_limit_agrees(Impairment impairment, const FoundLimit& found,
-                      const std::optional<FoundLimit>& base)
-{
-    if (impairment == Impairment::jitter) return found.limit >= jitter_usable_ms;
+    if (rule.to_base == ToBase::any) return true;
     if (!base) return false;
-    if (impairment == Impairment::burst_loss) return found.limit >= base->limit;
-    if (!found.ever_failed || !base->ever_failed) return found.ever_failed == base->ever_failed;
-    return is_near(found, base->limit, impairment);
+    switch (rule.to_base) {
+    case ToBase::any: break;
+    case ToBase::near:
+        if (!found.ever_failed || !base->ever_failed) return found.ever_failed == base->ever_failed;
+        return std::abs(found.limit - base->limit) <=
+               rule.near_share * base->limit + rule.near_points;
+    case ToBase::at_least: return found.limit >= base->limit;
+    case ToBase::more: return found.limit > base->limit;
+    case ToBase::less: return found.limit < base->limit;
+    }
+    return true;
 }
 
-bool dead_reckoning_limit_agrees(Impairment impairment, const FoundLimit& found,
-                                 const std::optional<FoundLimit>& base)
+bool agrees(const LimitRule& rule, const FoundLimit& found, const std::optional<FoundLimit>& base)
 {
-    if (impairment == Impairment::jitter) {
-        return found.ever_failed && is_from_to(found.limit, 3.0, 6.0);
-    }
-    if (!base) return false;
-    if (impairment == Impairment::burst_loss) return found.limit > base->limit;
-    const bool is_less = found.ever_failed && found.limit < base->limit;
-    return impairment == Impairment::delay ? is_less && is_from_to(found.limit, 130.0, 155.0)
-                                           : is_less && is_from_to(found.limit, 60.0, 85.0);
+    const bool is_known = found.ever_failed || rule.band.high == no_end;
+    return is_known && rule.band.holds(found.limit) && stands_to_base(rule, found, base);
 }
 
 } // namespace
@@ -117,33 +129,48 @@ std::optional<double> paper_limit(std::string_view algorithm, Impairment impairm
     return paper->limits[static_cast<std::size_t>(impairment)];
 }
 
-std::string_view table1_verdict(std::string_view algorithm, const Spread& mm,
-                                const std::optional<Spread>& base_mm)
+std::optional<Table1Bands> table1_bands(std::string_view algorithm,
+                                        const std::optional<Spread>& base_mm)
 {
-    const PaperAlgorithm* paper = paper_of(algorithm);
-    if (paper == nullptr) return "";
-    if (algorithm == "base") return base_agrees(mm, paper->table1) ? "calibrated" : "missed";
-    const bool agrees =
-        algorithm == "sep" ? sep_agrees(mm, base_mm) : dead_reckoning_agrees(mm, paper->table1);
-    return agrees ? "met" : "missed";
+    const auto paper = paper_table1(algorithm);
+    if (!paper) return std::nullopt;
+    if (algorithm == "sep") {
+        if (!base_mm) return std::nullopt;
+        return Table1Bands{around(base_mm->mean, sep_share), around(base_mm->std, sep_share),
+                           around(base_mm->max, sep_share)};
+    }
+    const bool is_base = algorithm == "base";
+    const double share = is_base ? base_share : dead_reckoning_share;
+    return Table1Bands{around(paper->mean_mm, share), around(paper->std_mm, share),
+                       is_base ? around(paper->max_mm, share) : dead_reckoning_max_mm};
 }
 
-std::string_view limit_status(std::string_view algorithm, Impairment impairment,
-                              const FoundLimit& found, const std::optional<FoundLimit>& base)
+Claim table1_verdict(std::string_view algorithm, const Spread& mm,
+                     const std::optional<Spread>& base_mm)
 {
-    const PaperAlgorithm* paper = paper_of(algorithm);
-    if (paper == nullptr) return "";
-    if (algorithm == "base") {
-        const bool agrees = base_limit_agrees(impairment, found,
-                                              paper->limits[static_cast<std::size_t>(impairment)]);
-        const bool was_calibrated_on =
-            impairment == Impairment::delay || impairment == Impairment::random_loss;
-        if (!agrees) return "predicted-missed";
-        return was_calibrated_on ? "calibrated" : "predicted-met";
-    }
-    const bool agrees = algorithm == "sep" ? sep_limit_agrees(impairment, found, base)
-                                           : dead_reckoning_limit_agrees(impairment, found, base);
-    return agrees ? "predicted-met" : "predicted-missed";
+    if (paper_of(algorithm) == nullptr) return Claim::none;
+    const auto bands = table1_bands(algorithm, base_mm);
+    const bool is_within = bands && bands->mean_mm.holds(mm.mean) && bands->std_mm.holds(mm.std) &&
+                           bands->max_mm.holds(mm.max);
+    if (!is_within) return Claim::missed;
+    return algorithm == "base" ? Claim::calibrated : Claim::met;
+}
+
+std::string_view limit_band(std::string_view algorithm, std::string_view impairment)
+{
+    const LimitRule* rule = rule_of(algorithm, impairment);
+    return rule == nullptr ? std::string_view{} : rule->text;
+}
+
+LimitStatus limit_status(std::string_view algorithm, Impairment impairment, const FoundLimit& found,
+                         const std::optional<FoundLimit>& base)
+{
+    const LimitRule* rule = rule_of(algorithm, name_of(impairment));
+    if (rule == nullptr) return LimitStatus::none;
+    if (!agrees(*rule, found, base)) return LimitStatus::predicted_missed;
+    const bool was_calibrated_on = algorithm == "base" && (impairment == Impairment::delay ||
+                                                           impairment == Impairment::random_loss);
+    return was_calibrated_on ? LimitStatus::calibrated : LimitStatus::predicted_met;
 }
 
 } // namespace hapnet::lab

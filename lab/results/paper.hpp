@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/experiment/level.hpp"
+#include "lab/experiment/impairment.hpp"
 #include "lab/metrics/spread.hpp"
+#include "lab/results/rows.hpp"
 
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -25,13 +27,32 @@ struct PaperRow {
 /// The number in the paper's Fig. 6, in the impairment's unit.
 [[nodiscard]] std::optional<double> paper_limit(std::string_view algorithm, Impairment impairment);
 
-/// "met", "missed" or "calibrated"; empty: the paper has no such algorithm. `mm` is what was
-/// measured of the algorithm, `base_mm` of base, in mm; the paper's row of base was calibrated on.
-/// - base: calibrated when mean, std and max are within 10 % of the paper's;
-/// - dead-reckoning: met when mean and std are within 15 % of the paper's and max is 40 to 65 mm;
-/// - sep: met when mean, std and max are within 3 % of base's.
-[[nodiscard]] std::string_view table1_verdict(std::string_view algorithm, const Spread& mm,
-                                              const std::optional<Spread>& base_mm);
+/// From low to high, ends included.
+struct Band {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
+};
+
+/// Where the numbers of Table 1 agree:
+/// - base: mean, std and max within 10 % of the paper's;
+/// - dead-reckoning: mean and std within 15 % of the paper's, max from 40 to 65 mm;
+/// - sep: mean, std and max within 3 % of base's, which was measured in the same run.
+struct Table1Bands {
+    Band mean_mm{};
+    Band std_mm{};
+    Band max_mm{};
+};
+
+/// nullopt when there is nothing to hold the algorithm against.
+[[nodiscard]] std::optional<Table1Bands> table1_bands(std::string_view algorithm,
+                                                      const std::optional<Spread>& base_mm);
+
+/// Claim::none: the paper has no such algorithm. `mm` is what was measured of the algorithm,
+/// `base_mm` of base. The paper's row of base was calibrated on.
+[[nodiscard]] Claim table1_verdict(std::string_view algorithm, const Spread& mm,
+                                   const std::optional<Spread>& base_mm);
 
 /// A limit as it was found, in the impairment's unit.
 struct FoundLimit {
@@ -39,17 +60,15 @@ struct FoundLimit {
     bool ever_failed = true;
 };
 
-/// "calibrated", "predicted-met" or "predicted-missed"; empty: the paper has no such algorithm.
-/// `base` is the limit of base in the same task, without which what is relative to it is missed.
-/// - base: delay and random loss are calibrated when they come out within 5 % and 1 of the paper's
-///   number, burst loss is met within 5 of 100, jitter from 15 ms;
-/// - sep: jitter from 15 ms; delay and random loss when within 5 % and 1 of base's; burst loss when
-///   it is no less than base's;
-/// - dead-reckoning: delay from 130 to 155 ms and less than base's; random loss from 60 to 85 % and
-///   less than base's; burst loss when it is more than base's; jitter from 3 to 6 ms.
-/// A limit never reached within its range meets no band that ends above.
-[[nodiscard]] std::string_view limit_status(std::string_view algorithm, Impairment impairment,
-                                            const FoundLimit& found,
-                                            const std::optional<FoundLimit>& base);
+/// Where a limit agrees, for people to read: "130 to 155, less than base"; empty for what the paper
+/// does not know.
+[[nodiscard]] std::string_view limit_band(std::string_view algorithm, std::string_view impairment);
+
+/// LimitStatus::none: the paper has no such algorithm. `base` is the limit of base in the same
+/// task, without which what is relative to it is missed. Delay and random loss of base were
+/// calibrated on. A limit never reached within its range meets no band that ends above.
+[[nodiscard]] LimitStatus limit_status(std::string_view algorithm, Impairment impairment,
+                                       const FoundLimit& found,
+                                       const std::optional<FoundLimit>& base);
 
 } // namespace hapnet::lab

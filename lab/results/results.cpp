@@ -2,200 +2,248 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/results.hpp"
 
-#include "lab/experiment/plane.hpp"
-#include "lab/metrics/calibration.hpp"
-#include "lab/results/cells.hpp"
-#include "lab/results/limits_csv.hpp"
-#include "lab/results/paper.hpp"
-#include "lab/results/rows.hpp"
-#include "lab/results/summary.hpp"
+#include "lab/records/recorded_trace.hpp"
+#include "scene/text/text.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <spdlog/fmt/fmt.h>
+#include <type_traits>
+#include <utility>
 
 namespace hapnet::lab {
 
 namespace {
 
-/// What the sessions of one algorithm and task found, in the order of the seeds.
-struct Group {
-    std::string_view algorithm;
-    device::Task task{};
-    std::vector<Scores> scores{};
-    std::string_view rows{}; // of the first seed
+using Json = nlohmann::ordered_json;
+using Outcome = base::Result<void>;
+
+std::string_view file_name_of(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+
+std::string folder_of(std::string_view path)
+{
+    const auto slash = path.rfind('/');
+    return std::string{path.substr(0, slash == std::string_view::npos ? 0 : slash)};
+}
+
+Outcome add_run(const File& file, Results& results)
+{
+    // What nests deeper than anything that we write is left out: it could exhaust the stack.
+    constexpr int depth_max = 16;
+    auto json = Json::parse(
+        file.text, [](int depth, Json::parse_event_t, const Json&) { return depth <= depth_max; },
+        false);
+    if (!json.is_object()) return base::fail(file.path + ":1: expected one JSON object");
+    Run run{folder_of(file.path), std::move(json), std::nullopt};
+    const auto criteria = run.manifest.find("criteria");
+    if (criteria != run.manifest.end() && criteria->is_string()) {
+        auto parsed = parse_criteria(criteria->get<std::string>(), file.path + ": criteria");
+        if (!parsed) return tl::unexpected{parsed.error()};
+        run.criteria = *parsed;
+    }
+    results.runs.push_back(std::move(run));
+    return {};
+}
+
+template <typename Value>
+Outcome append(std::vector<Value>& all, base::Result<std::vector<Value>> rows)
+{
+    if (!rows) return tl::unexpected{rows.error()};
+    all.insert(all.end(), std::make_move_iterator(rows->begin()),
+               std::make_move_iterator(rows->end()));
+    return {};
+}
+
+Outcome add_replay(const File& file, Results& results)
+{
+    auto replay = read_replay(file);
+    if (!replay) return tl::unexpected{replay.error()};
+    results.replays.push_back(*std::move(replay));
+    return {};
+}
+
+struct FileKind {
+    std::string_view name;
+    Outcome (*add)(const File&, Results&);
 };
 
-/// The findings of single sessions, by algorithm and task; each plane cell begins anew.
-std::vector<Group> groups_of(const Experiment& experiment, std::span<const Finding> findings)
+/// A file whose rows are kept as they are read.
+template <auto rows>
+Outcome add_rows(const File& file, Results& results)
 {
-    const auto parts = parts_of(experiment);
-    std::vector<Group> groups;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto& part = std::get<SessionPart>(parts[i]);
-        const auto& finding = std::get<SessionFinding>(findings[i]);
-        if (part.spec.setting.seed.value() == experiment.first_seed) {
-            groups.push_back(
-                {experiment.algorithms[part.algorithm].name, part.task, {}, finding.rows});
-        }
-        groups.back().scores.push_back(scores_of(finding.metrics, finding.perfect));
-    }
-    return groups;
+    using Row = typename std::remove_reference_t<decltype(results.*rows)>::value_type;
+    return append(results.*rows, base::read_csv<Row>(file.text, file.path));
 }
 
-Spread in_mm(const Spread& metres)
+constexpr std::array kinds{FileKind{"manifest.json", add_run},
+                           FileKind{"table1.csv", add_rows<&Results::table1>},
+                           FileKind{"tasks.csv", add_rows<&Results::tasks>},
+                           FileKind{"limits.csv", add_rows<&Results::limits>},
+                           FileKind{"limits_by_convention.csv", add_rows<&Results::sensitivity>},
+                           FileKind{"curves.csv", add_rows<&Results::curves>},
+                           FileKind{"trajectories.csv",
+                                    [](const File& f, Results& r) {
+                                        return append(r.trajectories, read_trajectories(f));
+                                    }},
+                           FileKind{"qos.csv", add_rows<&Results::qos>},
+                           FileKind{"real_time.csv", add_rows<&Results::real_time>}};
+
+constexpr FileKind replay_kind{"*.csv", add_replay};
+
+const FileKind* kind_of(std::string_view path)
 {
-    return {1e3 * metres.mean, 1e3 * metres.min, 1e3 * metres.max, 1e3 * metres.std};
+    const auto folder = folder_of(path);
+    if (file_name_of(folder) == "replay" && path.ends_with(".csv")) return &replay_kind;
+    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const FileKind& kind) {
+        return kind.name == file_name_of(path);
+    });
+    return found == kinds.end() ? nullptr : &*found;
 }
 
-std::optional<Spread> base_in_mm(const std::vector<Group>& groups, const Criteria& criteria)
+/// Says which rows give one thing twice.
+template <typename Value, typename Name>
+Outcome require_once(const std::vector<Value>& rows, std::string_view file, const Name& name)
 {
-    for (const Group& group : groups) {
-        if (group.algorithm != "base" || group.task != device::Task::p1) continue;
-        const auto typical = summary_of(group.scores, criteria).typical_m;
-        if (typical) return in_mm(*typical);
+    std::map<std::string, int> counts;
+    for (const Value& row : rows) {
+        const std::string one = name(row);
+        if (++counts[one] == 1) continue;
+        return base::fail(fmt::format("{} has '{}' twice, perhaps in two folders: report one at a "
+                                      "time",
+                                      file, one));
     }
-    return std::nullopt;
+    return {};
 }
 
-std::string table1_row(const Group& group, const Summary& summary,
-                       const std::optional<Spread>& base_mm)
+Outcome require_each_once(const Results& results)
 {
-    const auto paper = paper_table1(group.algorithm);
-    const auto mm = [](std::optional<double> value) {
-        return value ? fmt::format("{:.3f}", *value) : std::string{};
-    };
-    const auto typical = summary.typical_m.value_or(Spread{});
-    const auto verdict =
-        summary.typical_m ? table1_verdict(group.algorithm, in_mm(typical), base_mm) : "missed";
-    return fmt::format("{},{},{},{},{},{},{},{},{}\n", group.algorithm, milli_cell(typical.mean),
-                       milli_cell(typical.min), milli_cell(typical.max), milli_cell(typical.std),
-                       mm(paper ? std::optional{paper->mean_mm} : std::nullopt),
-                       mm(paper ? std::optional{paper->max_mm} : std::nullopt),
-                       mm(paper ? std::optional{paper->std_mm} : std::nullopt), verdict);
-}
-
-std::string task_row(const Group& group, const Summary& summary, const Criteria& criteria)
-{
-    const auto typical = summary.typical_m;
-    return fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", group.algorithm, name_of(group.task),
-        group.scores.size(), milli_cell(typical ? std::optional{typical->mean} : std::nullopt),
-        milli_cell(typical ? std::optional{typical->std} : std::nullopt),
-        milli_cell(summary.discrepancy_max_m), milli_cell(vibration_m(summary, criteria)),
-        number_cell(summary.worst.stiffness_ratio[judged_press]),
-        number_cell(force_vibration_n(summary, criteria)),
-        number_cell(summary.worst.force_discrepancy), number_cell(summary.worst.contact_lost),
-        number_cell(summary.force_step_n), number_cell(summary.worst.drag_n),
-        milli_cell(summary.worst.energy_taken_j), to_text(summary.tier),
-        text_cell(summary.limited_by));
-}
-
-/// Which command wrote the criteria.
-std::string origin_of(const Experiment& experiment)
-{
-    std::vector<std::string_view> tasks;
-    for (const device::Task task : experiment.tasks) tasks.push_back(name_of(task));
-    return fmt::format("# Written by `hapnet-lab run calibration`: {}, {} seeds of {}, {}.\n",
-                       experiment.algorithms.front().name, experiment.seeds, fmt::join(tasks, ", "),
-                       name_of(experiment.hands));
-}
-
-struct ResultsOf {
-    const Experiment& experiment;
-    const Criteria& criteria;
-    std::span<const Finding> findings;
-
-    base::Result<std::vector<ResultText>> operator()(const Table1&) const
-    {
-        const auto groups = groups_of(experiment, findings);
-        const auto base_mm = base_in_mm(groups, criteria);
-        std::string table = "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,"
-                            "paper_std_mm,verdict\n";
-        std::string tasks = "algorithm,task,seeds,mean_mm,std_mm,max_mm,vibration_mm,"
-                            "stiffness_ratio,force_vibration_n,force_discrepancy,contact_lost,"
-                            "force_step_n,drag_n,energy_mj,tier,limited_by\n";
-        std::vector<ResultText> files;
-        for (const Group& group : groups) {
-            const Summary summary = summary_of(group.scores, criteria);
-            if (group.task == device::Task::p1) {
-                table += table1_row(group, summary, base_mm);
-            } else {
-                tasks += task_row(group, summary, criteria);
-            }
-            files.push_back({fmt::format("replay/{}-{}.csv", group.algorithm, name_of(group.task)),
-                             fmt::format("{}\n{}", replay_header, group.rows)});
-        }
-        files.push_back({"table1.csv", std::move(table)});
-        files.push_back({"tasks.csv", std::move(tasks)});
-        return files;
-    }
-
-    base::Result<std::vector<ResultText>> operator()(const Limits& limits) const
-    {
-        std::vector<ResultText> files;
-        files.push_back({"limits.csv", limits_csv(experiment, findings)});
-        files.push_back({"curves.csv", curves_csv(experiment, criteria, findings)});
-        if (limits.convention) {
-            files.push_back({"limits_by_convention.csv",
-                             convention_csv(experiment, *limits.convention, findings)});
-        }
-        return files;
-    }
-
-    base::Result<std::vector<ResultText>> operator()(const Trajectories&) const
-    {
-        std::string out = std::string{trajectory_header} + '\n';
-        for (const Group& group : groups_of(experiment, findings)) {
-            out += trajectory_rows(group.rows, group.algorithm);
-        }
-        return std::vector<ResultText>{{"trajectories.csv", std::move(out)}};
-    }
-
-    base::Result<std::vector<ResultText>> operator()(const Plane& plane) const
-    {
-        const auto groups = groups_of(experiment, findings);
-        const auto cells = cells_of(plane);
-        const std::size_t groups_per_cell = groups.size() / cells.size();
-        std::string out = "algorithm,task,delay_ms,jitter_ms,loss_percent,mean_mm,vibration_mm,"
-                          "stiffness_ratio,force_vibration_n,tier\n";
-        for (std::size_t i = 0; i < groups.size(); ++i) {
-            const PlaneCell& cell = cells[i / groups_per_cell];
-            const Summary summary = summary_of(groups[i].scores, criteria);
-            const auto typical = summary.typical_m;
-            out += fmt::format(
-                "{},{},{},{},{},{},{},{},{},{}\n", groups[i].algorithm, name_of(groups[i].task),
-                to_text(cell.delay), to_text(cell.jitter), to_text(cell.loss),
-                milli_cell(typical ? std::optional{typical->mean} : std::nullopt),
-                milli_cell(vibration_m(summary, criteria)),
-                number_cell(summary.worst.stiffness_ratio[judged_press]),
-                number_cell(force_vibration_n(summary, criteria)), to_text(summary.tier));
-        }
-        return std::vector<ResultText>{{"qos.csv", std::move(out)}};
-    }
-
-    base::Result<std::vector<ResultText>> operator()(const Calibration&) const
-    {
-        std::vector<Scores> scores;
-        for (const Finding& finding : findings) {
-            const auto& session = std::get<SessionFinding>(finding);
-            scores.push_back(scores_of(session.metrics, session.perfect));
-        }
-        const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
-        const auto rest = std::span{scores}.subspan(half.size());
-        return calibrated({half, rest}, criteria).map([this](const Criteria& found) {
-            return std::vector<ResultText>{
-                {"criteria.toml", origin_of(experiment) + print_criteria(found)}};
+    return require_once(results.table1, "table1.csv",
+                        [](const Table1Row& row) { return row.algorithm; })
+        .and_then([&] {
+            return require_once(results.tasks, "tasks.csv", [](const TaskRow& row) {
+                return row.algorithm + " in " + row.task;
+            });
+        })
+        .and_then([&] {
+            return require_once(results.limits, "limits.csv", [](const LimitRow& row) {
+                return row.algorithm + ", " + row.impairment + ", " + row.task;
+            });
+        })
+        .and_then([&] {
+            return require_once(results.qos, "qos.csv", [](const QosRow& row) {
+                return fmt::format("{}, {}, {} ms, {} ms, {} %", row.algorithm, row.task,
+                                   row.delay_ms, row.jitter_ms, row.loss_percent);
+            });
+        })
+        .and_then([&] {
+            return require_once(results.replays, "replay/", [](const Replay& replay) {
+                return replay.algorithm + "-" + replay.task;
+            });
         });
-    }
-};
+}
+
+/// Base first, then the others as the paper names them, then what it does not know.
+std::size_t rank(std::string_view algorithm)
+{
+    constexpr std::array<std::string_view, 3> known{"base", "sep", "dead-reckoning"};
+    return static_cast<std::size_t>(std::find(known.begin(), known.end(), algorithm) -
+                                    known.begin());
+}
+
+template <typename Value>
+void put_in_order(std::vector<Value>& rows)
+{
+    std::stable_sort(rows.begin(), rows.end(), [](const Value& a, const Value& b) {
+        return rank(a.algorithm) < rank(b.algorithm);
+    });
+}
+
+constexpr std::uint32_t replay_rows_per_s = 100;
+
+/// What a record's configuration says under a key; empty when it says nothing.
+std::string text_in(const nlohmann::json& config, const char* key)
+{
+    const auto found = config.find(key);
+    return found != config.end() && found->is_string() ? found->get<std::string>() : "";
+}
 
 } // namespace
 
-base::Result<std::vector<ResultText>> results_of(const Experiment& experiment,
-                                                 const Criteria& criteria,
-                                                 std::span<const Finding> findings)
+bool Run::is_valid() const
 {
-    return std::visit(ResultsOf{experiment, criteria, findings}, experiment.kind);
+    const auto found = manifest.find("valid");
+    return found != manifest.end() && found->is_boolean() && found->get<bool>();
+}
+
+std::optional<Criteria> Results::criteria() const
+{
+    if (runs.empty()) return std::nullopt;
+    const auto first = runs.front().criteria;
+    const bool is_one = std::all_of(runs.begin(), runs.end(),
+                                    [&](const Run& run) { return run.criteria == first; });
+    return is_one ? first : std::nullopt;
+}
+
+base::Result<void> add_session(Results& results, const std::string& name, const record::Record& a,
+                               const record::Record& b)
+{
+    const auto analysis = analyse(a, b);
+    if (!analysis) return tl::unexpected{analysis.error()};
+    const auto session = common_session(a, b);
+    if (!session) return tl::unexpected{session.error()};
+    const auto task_or = [&](std::string_view otherwise) {
+        return session->task.empty() ? std::string{otherwise} : session->task;
+    };
+    RecordedSession recorded{.name = name.empty() ? task_or("session") : name,
+                             .task = session->task,
+                             .algorithm = text_in(a.config, "algorithm"),
+                             .peer_a = session->a.peer_id,
+                             .peer_b = session->b.peer_id,
+                             .analysis = *analysis,
+                             .curves = curves_of(*session)};
+    auto rows = make_replay_rows(trace_of(*session), replay_rows_per_s);
+    if (rows.size() >= 2) { // there are none when the two were hardly in session together
+        Replay replay{.algorithm = recorded.algorithm.empty() ? "recorded" : recorded.algorithm,
+                      .task = recorded.name,
+                      .start_s = rows.front().time_s,
+                      .step_s = 1.0 / replay_rows_per_s,
+                      .rows = std::move(rows)};
+        const auto scene = scene::parse_scene(text_in(a.config, "scene_toml"), "scene_toml");
+        if (scene) replay.scene = *scene;
+        results.replays.push_back(std::move(replay));
+    }
+    results.sessions.push_back(std::move(recorded));
+    return {};
+}
+
+bool is_result_file(std::string_view path) { return kind_of(path) != nullptr; }
+
+base::Result<Results> read_results(std::span<const File> files)
+{
+    std::vector<const File*> ordered;
+    for (const File& file : files) ordered.push_back(&file);
+    std::sort(ordered.begin(), ordered.end(),
+              [](const File* a, const File* b) { return a->path < b->path; });
+    Results results;
+    for (const File* file : ordered) {
+        const FileKind* kind = kind_of(file->path);
+        if (kind == nullptr) continue;
+        const auto added = kind->add(*file, results);
+        if (!added) return tl::unexpected{added.error()};
+    }
+    const auto once = require_each_once(results);
+    if (!once) return tl::unexpected{once.error()};
+    put_in_order(results.table1);
+    put_in_order(results.tasks);
+    put_in_order(results.limits);
+    put_in_order(results.sensitivity);
+    put_in_order(results.curves);
+    put_in_order(results.trajectories);
+    put_in_order(results.qos);
+    put_in_order(results.real_time);
+    put_in_order(results.replays);
+    return results;
 }
 
 } // namespace hapnet::lab

@@ -2,24 +2,72 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/experiment/parts.hpp"
+#include "lab/metrics/criteria.hpp"
+#include "lab/records/analysis.hpp"
+#include "lab/records/curves.hpp"
+#include "lab/results/demo.hpp"
+#include "lab/results/rows.hpp"
 
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace hapnet::lab {
 
-/// A file of a folder of results: docs/use/experiments.md says what its columns are.
-struct ResultText {
-    std::string name; // relative to the folder
-    std::string text;
+/// How some of the results came about: a manifest.json.
+struct Run {
+    std::string folder; // where it stands, as the path of the file says
+    nlohmann::ordered_json manifest;
+    std::optional<Criteria> criteria; // by which it judged; nullopt: it does not say
+
+    [[nodiscard]] bool is_valid() const;
 };
 
-/// What an experiment found, as files: equal findings, equal bytes. `findings` are those of
-/// parts_of(experiment), in that order. The error: sessions that nothing can be calibrated on.
-[[nodiscard]] base::Result<std::vector<ResultText>> results_of(const Experiment& experiment,
-                                                               const Criteria& criteria,
-                                                               std::span<const Finding> findings);
+/// A session that two peers have recorded.
+struct RecordedSession {
+    std::string name; // of the folder of the two records; of the task when there is one session
+    std::string task; // empty: the record does not say
+    std::string algorithm; // empty: the record does not say
+    std::int64_t peer_a = 0;
+    std::int64_t peer_b = 0;
+    Analysis analysis;
+    SessionCurves curves;
+};
+
+/// All that a result folder holds, its subfolders' results joined.
+struct Results {
+    std::vector<Run> runs;
+    std::vector<Table1Row> table1;
+    std::vector<TaskRow> tasks;
+    std::vector<LimitRow> limits;
+    std::vector<SensitivityRow> sensitivity;
+    std::vector<CurveRow> curves;
+    std::vector<TrajectoryRow> trajectories;
+    std::vector<QosRow> qos;
+    std::vector<RealTimeRow> real_time;
+    std::vector<Replay> replays;
+    std::vector<RecordedSession> sessions;
+    std::optional<DemoRun> demo;
+
+    /// By which all runs judged; nullopt when they do not say, or differ.
+    [[nodiscard]] std::optional<Criteria> criteria() const;
+};
+
+/// Adds the session that two records share, and its replay: both sides as the player shows them.
+/// The error: the records cannot be compared.
+[[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
+                                             const record::Record& a, const record::Record& b);
+
+/// Whether a file of this name is one that read_results() reads; all others it leaves alone.
+/// Replays are those of a folder replay/.
+[[nodiscard]] bool is_result_file(std::string_view path);
+
+/// Reads the files of a result folder and of its subfolders; their order does not matter. Errors
+/// begin with "FILE:LINE: ". Of two results that exclude each other, such as two rows of Table 1
+/// for one algorithm, it is an error that both are there.
+[[nodiscard]] base::Result<Results> read_results(std::span<const File> files);
 
 } // namespace hapnet::lab

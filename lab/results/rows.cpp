@@ -3,57 +3,99 @@
 #include "lab/results/rows.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab {
 
 namespace {
 
-constexpr std::size_t replay_columns = 15;
-
-void append_side(std::string& out, const Sample& sample)
+/// The error of a row, whose line is no longer known: `index` counts from the header.
+tl::unexpected<base::Error> fail_at_row(const File& file, std::size_t index, std::string_view what)
 {
-    constexpr double mm = 1e3;
-    fmt::format_to(std::back_inserter(out), ",{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f}",
-                   mm * sample.body.x(), mm * sample.body.y(), mm * sample.body.z(),
-                   mm * sample.hip.x(), mm * sample.hip.y(), mm * sample.hip.z(),
-                   sample.on_hand.x());
+    return base::fail(fmt::format("{}:{}: {}", file.path, index + 2, what));
 }
 
 } // namespace
 
-std::string replay_rows(const Trace& trace, std::uint32_t rows_per_s)
+std::vector<ReplayRow> make_replay_rows(const Trace& trace, std::uint32_t rows_per_s)
 {
-    std::string out;
-    if (rows_per_s == 0) return out;
+    constexpr double mm = 1e3;
+    std::vector<ReplayRow> rows;
+    if (rows_per_s == 0) return rows;
     const auto interval = base::Duration{std::chrono::seconds{1}} / rows_per_s;
     const auto every = static_cast<std::size_t>(std::max<std::int64_t>(interval / trace.tick, 1));
     for (std::size_t i = 0; i < trace.sides[0].size(); i += every) {
         const auto time = trace.begin + static_cast<std::int64_t>(i) * trace.tick;
-        out += fmt::format("{:.4f}", base::to_seconds(time));
-        append_side(out, trace.sides[0][i]);
-        append_side(out, trace.sides[1][i]);
-        out += '\n';
+        const Sample &l = trace.sides[0][i], &r = trace.sides[1][i];
+        rows.push_back({.time_s = base::to_seconds(time),
+                        .lx = mm * l.body.x(),
+                        .ly = mm * l.body.y(),
+                        .lz = mm * l.body.z(),
+                        .lhx = mm * l.hip.x(),
+                        .lhy = mm * l.hip.y(),
+                        .lhz = mm * l.hip.z(),
+                        .lfx = l.on_hand.x(),
+                        .rx = mm * r.body.x(),
+                        .ry = mm * r.body.y(),
+                        .rz = mm * r.body.z(),
+                        .rhx = mm * r.hip.x(),
+                        .rhy = mm * r.hip.y(),
+                        .rhz = mm * r.hip.z(),
+                        .rfx = r.on_hand.x()});
     }
-    return out;
+    return rows;
 }
 
-std::string trajectory_rows(std::string_view replay_rows, std::string_view algorithm)
+std::string to_lines(const std::vector<ReplayRow>& rows)
 {
-    std::string out;
-    while (!replay_rows.empty()) {
-        auto line = replay_rows.substr(0, replay_rows.find('\n'));
-        replay_rows.remove_prefix(std::min(line.size() + 1, replay_rows.size()));
-        std::array<std::string_view, replay_columns> cells;
-        for (std::string_view& cell : cells) {
-            cell = line.substr(0, line.find(','));
-            line.remove_prefix(std::min(cell.size() + 1, line.size()));
-        }
-        out += fmt::format("{},{},{},{},{},{},{},{}\n", algorithm, cells[0], cells[1], cells[8],
-                           cells[4], cells[11], cells[7], cells[14]);
+    std::string lines;
+    for (const ReplayRow& row : rows) lines += base::csv_line(row) + '\n';
+    return lines;
+}
+
+TrajectoryRow to_trajectory(const std::string& algorithm, const ReplayRow& row)
+{
+    return {algorithm, row.time_s, row.lx, row.rx, row.lhx, row.rhx, row.lfx, row.rfx};
+}
+
+base::Result<std::vector<TrajectoryRow>> read_trajectories(const File& file)
+{
+    auto rows = base::read_csv<TrajectoryRow>(file.text, file.path);
+    for (std::size_t i = 1; rows && i < rows->size(); ++i) {
+        const TrajectoryRow &before = (*rows)[i - 1], &row = (*rows)[i];
+        if (row.algorithm != before.algorithm || row.time_s > before.time_s) continue;
+        return fail_at_row(
+            file, i,
+            fmt::format("time_s: expected more than {}, found {}", before.time_s, row.time_s));
     }
-    return out;
+    return rows;
+}
+
+base::Result<Replay> read_replay(const File& file)
+{
+    auto rows = base::read_csv<ReplayRow>(file.text, file.path);
+    if (!rows) return tl::unexpected{rows.error()};
+    if (rows->size() < 2) return fail_at_row(file, rows->size(), "expected two rows at least");
+    std::string_view name = file.path;
+    name.remove_prefix(name.rfind('/') + 1);
+    name.remove_suffix(std::min(name.size(), std::string_view{".csv"}.size()));
+    const auto dash = std::min(name.rfind('-'), name.size());
+    Replay replay{.algorithm = std::string{name.substr(0, dash)},
+                  .task = std::string{name.substr(std::min(dash + 1, name.size()))},
+                  .start_s = rows->front().time_s};
+    const auto steps = static_cast<double>(rows->size() - 1);
+    replay.step_s = (rows->back().time_s - replay.start_s) / steps;
+    for (std::size_t i = 0; i < rows->size(); ++i) {
+        const double time_s = (*rows)[i].time_s;
+        const double expected = replay.start_s + static_cast<double>(i) * replay.step_s;
+        if (replay.step_s > 0.0 && std::abs(time_s - expected) <= 0.5 * replay.step_s) continue;
+        return fail_at_row(file, i,
+                           fmt::format("time_s: expected equal steps and so {:.4f}, found {:.4f}",
+                                       expected, time_s));
+    }
+    replay.rows = *std::move(rows);
+    return replay;
 }
 
 } // namespace hapnet::lab

@@ -2,27 +2,311 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/metrics/verdict.hpp"
+#include "lab/results/file.hpp"
 #include "lab/virtual_time/trace.hpp"
+#include "proto/base/csv.hpp"
+#include "scene/description.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hapnet::lab {
 
-/// What the columns of a replay are: time, and of each side the places of the cube and of the hand
-/// in mm and the force on the hand along x in N.
-inline constexpr std::string_view replay_header =
-    "time_s,lx,ly,lz,lhx,lhy,lhz,lfx,rx,ry,rz,rhx,rhy,rhz,rfx";
+// The rows of the files of a result folder: docs/use/experiments.md says what each column means.
+// Names end with the unit. What a task does not exercise is nullopt. Each struct is written and
+// read by the description of its fields: base::csv_text() and base::read_csv().
 
-/// Every so many of a trace's samples as lines of CSV, `rows_per_s` a second or all when there are
-/// fewer.
-[[nodiscard]] std::string replay_rows(const Trace& trace, std::uint32_t rows_per_s);
+/// How a result stands to what the paper says.
+enum class Claim : std::uint8_t { none, calibrated, met, missed };
+constexpr auto names_of(base::Tag<Claim>) { return base::names("", "calibrated", "met", "missed"); }
 
-inline constexpr std::string_view trajectory_header =
-    "algorithm,time_s,cube_l_mm,cube_r_mm,hand_l_mm,hand_r_mm,force_l_n,force_r_n";
+/// The same of a limit.
+enum class LimitStatus : std::uint8_t { none, calibrated, predicted_met, predicted_missed };
+constexpr auto names_of(base::Tag<LimitStatus>)
+{
+    return base::names("", "calibrated", "predicted-met", "predicted-missed");
+}
+[[nodiscard]] constexpr Claim to_claim(LimitStatus status) { return static_cast<Claim>(status); }
 
-/// The rows of a replay as rows of Fig. 7: what lies along x.
-[[nodiscard]] std::string trajectory_rows(std::string_view replay_rows, std::string_view algorithm);
+/// Whether a limit was found, or nothing failed as far as was tried.
+enum class Bound : std::uint8_t { found, open };
+constexpr auto names_of(base::Tag<Bound>) { return base::names("=", ">"); }
+
+inline constexpr base::Decimals thousandths{3};
+inline constexpr base::Decimals ten_thousandths{4};
+
+/// Of table1.csv.
+struct Table1Row {
+    std::string algorithm;
+    double mean_mm = 0.0;
+    double min_mm = 0.0;
+    double max_mm = 0.0;
+    double std_mm = 0.0;
+    std::optional<double> paper_mean_mm{};
+    std::optional<double> paper_max_mm{};
+    std::optional<double> paper_std_mm{};
+    Claim verdict{};
+};
+constexpr auto fields_of(base::Tag<Table1Row>)
+{
+    using Row = Table1Row;
+    return base::fields("table1", base::field("algorithm", &Row::algorithm),
+                        base::field("mean_mm", &Row::mean_mm, thousandths),
+                        base::field("min_mm", &Row::min_mm, thousandths),
+                        base::field("max_mm", &Row::max_mm, thousandths),
+                        base::field("std_mm", &Row::std_mm, thousandths),
+                        base::field("paper_mean_mm", &Row::paper_mean_mm, thousandths),
+                        base::field("paper_max_mm", &Row::paper_max_mm, thousandths),
+                        base::field("paper_std_mm", &Row::paper_std_mm, thousandths),
+                        base::field("verdict", &Row::verdict));
+}
+
+/// Of tasks.csv: the worst of the seeds, mean and std as their mean.
+struct TaskRow {
+    std::string algorithm;
+    std::string task;
+    std::uint32_t seeds = 0;
+    std::optional<double> mean_mm{};
+    std::optional<double> std_mm{};
+    std::optional<double> max_mm{};
+    std::optional<double> vibration_mm{};
+    std::optional<double> stiffness_ratio{};
+    std::optional<double> force_vibration_n{};
+    std::optional<double> force_discrepancy{};
+    std::optional<double> contact_lost{};
+    std::optional<double> force_step_n{};
+    std::optional<double> drag_n{};
+    std::optional<double> energy_mj{};
+    Tier tier{};
+    std::string limited_by;
+};
+constexpr auto fields_of(base::Tag<TaskRow>)
+{
+    using Row = TaskRow;
+    return base::fields(
+        "tasks", base::field("algorithm", &Row::algorithm), base::field("task", &Row::task),
+        base::field("seeds", &Row::seeds), base::field("mean_mm", &Row::mean_mm, thousandths),
+        base::field("std_mm", &Row::std_mm, thousandths),
+        base::field("max_mm", &Row::max_mm, thousandths),
+        base::field("vibration_mm", &Row::vibration_mm, thousandths),
+        base::field("stiffness_ratio", &Row::stiffness_ratio, ten_thousandths),
+        base::field("force_vibration_n", &Row::force_vibration_n, ten_thousandths),
+        base::field("force_discrepancy", &Row::force_discrepancy, ten_thousandths),
+        base::field("contact_lost", &Row::contact_lost, ten_thousandths),
+        base::field("force_step_n", &Row::force_step_n, ten_thousandths),
+        base::field("drag_n", &Row::drag_n, ten_thousandths),
+        base::field("energy_mj", &Row::energy_mj, thousandths), base::field("tier", &Row::tier),
+        base::field("limited_by", &Row::limited_by));
+}
+
+/// In limits.csv, where the limit of the worst of the tasks stands.
+inline constexpr std::string_view worst_task = "worst";
+
+/// Of limits.csv.
+struct LimitRow {
+    std::string algorithm;
+    std::string impairment;
+    std::string task; // or "worst"
+    double limit = 0.0;
+    Bound bound{};
+    std::string unit;
+    std::optional<double> paper_limit{};
+    LimitStatus status{};
+
+    [[nodiscard]] bool is_open() const { return bound == Bound::open; }
+};
+constexpr auto fields_of(base::Tag<LimitRow>)
+{
+    using Row = LimitRow;
+    return base::fields("limits", base::field("algorithm", &Row::algorithm),
+                        base::field("impairment", &Row::impairment),
+                        base::field("task", &Row::task), base::field("limit", &Row::limit),
+                        base::field("bound", &Row::bound), base::field("unit", &Row::unit),
+                        base::field("paper_limit", &Row::paper_limit),
+                        base::field("status", &Row::status));
+}
+
+/// Of limits_by_convention.csv: how sensitive a limit is to the filter and to the hands.
+struct SensitivityRow {
+    std::string algorithm;
+    std::string impairment;
+    std::string task;
+    std::uint32_t filter_order = 0;
+    std::string hand;
+    double limit = 0.0;
+    Bound bound{};
+    std::string unit;
+
+    [[nodiscard]] bool is_open() const { return bound == Bound::open; }
+};
+constexpr auto fields_of(base::Tag<SensitivityRow>)
+{
+    using Row = SensitivityRow;
+    return base::fields("limits by convention", base::field("algorithm", &Row::algorithm),
+                        base::field("impairment", &Row::impairment),
+                        base::field("task", &Row::task),
+                        base::field("filter_order", &Row::filter_order),
+                        base::field("hand", &Row::hand), base::field("limit", &Row::limit),
+                        base::field("bound", &Row::bound), base::field("unit", &Row::unit));
+}
+
+/// By what a session is judged.
+struct Judged {
+    std::optional<double> mean_mm{};
+    std::optional<double> vibration_mm{};
+    std::optional<double> stiffness_ratio{};
+    std::optional<double> force_vibration_n{};
+    Tier tier{};
+};
+constexpr auto fields_of(base::Tag<Judged>)
+{
+    return base::fields(
+        "judged", base::field("mean_mm", &Judged::mean_mm, thousandths),
+        base::field("vibration_mm", &Judged::vibration_mm, thousandths),
+        base::field("stiffness_ratio", &Judged::stiffness_ratio, ten_thousandths),
+        base::field("force_vibration_n", &Judged::force_vibration_n, ten_thousandths),
+        base::field("tier", &Judged::tier));
+}
+
+/// Of curves.csv: a session that a search played.
+struct CurveRow {
+    std::string algorithm;
+    std::string impairment;
+    std::string task;
+    double level = 0.0;
+    std::string unit;
+    std::uint32_t seed = 0;
+    Judged judged{};
+};
+constexpr auto fields_of(base::Tag<CurveRow>)
+{
+    using Row = CurveRow;
+    return base::fields("curves", base::field("algorithm", &Row::algorithm),
+                        base::field("impairment", &Row::impairment),
+                        base::field("task", &Row::task), base::field("level", &Row::level),
+                        base::field("unit", &Row::unit), base::field("seed", &Row::seed),
+                        base::part(&Row::judged));
+}
+
+/// Of qos.csv: a point of the grid of delay, jitter and loss.
+struct QosRow {
+    std::string algorithm;
+    std::string task;
+    double delay_ms = 0.0;
+    double jitter_ms = 0.0;
+    double loss_percent = 0.0;
+    Judged judged{};
+};
+constexpr auto fields_of(base::Tag<QosRow>)
+{
+    using Row = QosRow;
+    return base::fields("qos", base::field("algorithm", &Row::algorithm),
+                        base::field("task", &Row::task), base::field("delay_ms", &Row::delay_ms),
+                        base::field("jitter_ms", &Row::jitter_ms),
+                        base::field("loss_percent", &Row::loss_percent), base::part(&Row::judged));
+}
+
+/// Of trajectories.csv: Fig. 7.
+struct TrajectoryRow {
+    std::string algorithm;
+    double time_s = 0.0;
+    double cube_l_mm = 0.0;
+    double cube_r_mm = 0.0;
+    double hand_l_mm = 0.0;
+    double hand_r_mm = 0.0;
+    double force_l_n = 0.0;
+    double force_r_n = 0.0;
+};
+constexpr auto fields_of(base::Tag<TrajectoryRow>)
+{
+    using Row = TrajectoryRow;
+    return base::fields("trajectories", base::field("algorithm", &Row::algorithm),
+                        base::field("time_s", &Row::time_s, ten_thousandths),
+                        base::field("cube_l_mm", &Row::cube_l_mm, thousandths),
+                        base::field("cube_r_mm", &Row::cube_r_mm, thousandths),
+                        base::field("hand_l_mm", &Row::hand_l_mm, thousandths),
+                        base::field("hand_r_mm", &Row::hand_r_mm, thousandths),
+                        base::field("force_l_n", &Row::force_l_n, ten_thousandths),
+                        base::field("force_r_n", &Row::force_r_n, ten_thousandths));
+}
+
+/// Of real_time.csv: a session of the programs beside the same in virtual time.
+struct RealTimeRow {
+    std::string algorithm;
+    std::string where;
+    std::optional<double> mean_mm{};
+    std::optional<double> std_mm{};
+    std::optional<double> max_mm{};
+    std::optional<double> virtual_mean_mm{};
+    std::optional<double> virtual_std_mm{};
+    std::optional<double> virtual_max_mm{};
+    std::optional<double> difference_percent{};
+    bool is_valid = false;
+    std::string invalid_because;
+};
+constexpr auto fields_of(base::Tag<RealTimeRow>)
+{
+    using Row = RealTimeRow;
+    return base::fields(
+        "real time", base::field("algorithm", &Row::algorithm), base::field("where", &Row::where),
+        base::field("mean_mm", &Row::mean_mm, ten_thousandths),
+        base::field("std_mm", &Row::std_mm, ten_thousandths),
+        base::field("max_mm", &Row::max_mm, ten_thousandths),
+        base::field("virtual_mean_mm", &Row::virtual_mean_mm, ten_thousandths),
+        base::field("virtual_std_mm", &Row::virtual_std_mm, ten_thousandths),
+        base::field("virtual_max_mm", &Row::virtual_max_mm, ten_thousandths),
+        base::field("difference_percent", &Row::difference_percent, base::Decimals{2}),
+        base::field("valid", &Row::is_valid),
+        base::field("invalid_because", &Row::invalid_because));
+}
+
+/// Of replay/ALGORITHM-TASK.csv: of each side, L and R, the places of the cube and of the hand in
+/// mm and the force on the hand along x in N.
+struct ReplayRow {
+    double time_s = 0.0;
+    double lx = 0.0, ly = 0.0, lz = 0.0, lhx = 0.0, lhy = 0.0, lhz = 0.0, lfx = 0.0;
+    double rx = 0.0, ry = 0.0, rz = 0.0, rhx = 0.0, rhy = 0.0, rhz = 0.0, rfx = 0.0;
+};
+constexpr auto fields_of(base::Tag<ReplayRow>)
+{
+    using Row = ReplayRow;
+    return base::fields(
+        "replay", base::field("time_s", &Row::time_s, ten_thousandths),
+        base::field("lx", &Row::lx, thousandths), base::field("ly", &Row::ly, thousandths),
+        base::field("lz", &Row::lz, thousandths), base::field("lhx", &Row::lhx, thousandths),
+        base::field("lhy", &Row::lhy, thousandths), base::field("lhz", &Row::lhz, thousandths),
+        base::field("lfx", &Row::lfx, ten_thousandths), base::field("rx", &Row::rx, thousandths),
+        base::field("ry", &Row::ry, thousandths), base::field("rz", &Row::rz, thousandths),
+        base::field("rhx", &Row::rhx, thousandths), base::field("rhy", &Row::rhy, thousandths),
+        base::field("rhz", &Row::rhz, thousandths), base::field("rfx", &Row::rfx, ten_thousandths));
+}
+
+/// Samples of a trace as rows, `rows_per_s` a second or all when there are fewer.
+[[nodiscard]] std::vector<ReplayRow> make_replay_rows(const Trace& trace, std::uint32_t rows_per_s);
+
+/// The rows as CSV without a header.
+[[nodiscard]] std::string to_lines(const std::vector<ReplayRow>& rows);
+
+/// What lies along x.
+[[nodiscard]] TrajectoryRow to_trajectory(const std::string& algorithm, const ReplayRow& row);
+
+/// What both sides did, in equal steps of time.
+struct Replay {
+    std::string algorithm;
+    std::string task;
+    double start_s = 0.0;
+    double step_s = 0.01;
+    std::vector<ReplayRow> rows{};                   // at least two
+    scene::Description scene = scene::paper_scene(); // in which it was played
+};
+
+/// The times of each algorithm must increase.
+[[nodiscard]] base::Result<std::vector<TrajectoryRow>> read_trajectories(const File& file);
+/// Algorithm and task stand in the file's name.
+[[nodiscard]] base::Result<Replay> read_replay(const File& file);
 
 } // namespace hapnet::lab

@@ -68,7 +68,7 @@ std::optional<Spread> mean_spread(std::span<const Scores> all)
 
 } // namespace
 
-Summary summary_of(std::span<const Scores> scores, const Criteria& criteria)
+Summary summarize(std::span<const Scores> scores, const Criteria& criteria)
 {
     Summary summary{mean_spread(scores), {}, {}, worst_of(scores)};
     for (const Scores& one : scores) {
@@ -82,14 +82,16 @@ Summary summary_of(std::span<const Scores> scores, const Criteria& criteria)
     return summary;
 }
 
-std::optional<double> vibration_m(const Summary& summary, const Criteria& criteria)
+Judged make_judged(const Summary& summary, const Criteria& criteria)
 {
-    return vibration_at(summary.worst.vibration_m, criteria.filter_order);
-}
-
-std::optional<double> force_vibration_n(const Summary& summary, const Criteria& criteria)
-{
-    return vibration_at(summary.worst.force_vibration_n, criteria.filter_order);
+    const auto vibration_m = vibration_at(summary.worst.vibration_m, criteria.filter_order);
+    Judged judged{.stiffness_ratio = summary.worst.stiffness_ratio[judged_press],
+                  .force_vibration_n =
+                      vibration_at(summary.worst.force_vibration_n, criteria.filter_order),
+                  .tier = summary.tier};
+    if (summary.typical_m) judged.mean_mm = 1e3 * summary.typical_m->mean;
+    if (vibration_m) judged.vibration_mm = 1e3 * *vibration_m;
+    return judged;
 }
 
 } // namespace hapnet::lab

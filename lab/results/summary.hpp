@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/metrics/verdict.hpp"
+#include "lab/results/rows.hpp"
 
 #include <optional>
 #include <span>
@@ -21,11 +22,9 @@ struct Summary {
 };
 
 /// A task's scores by seed; at least one.
-[[nodiscard]] Summary summary_of(std::span<const Scores> scores, const Criteria& criteria);
+[[nodiscard]] Summary summarize(std::span<const Scores> scores, const Criteria& criteria);
 
-/// Of the worst, by the filter that the criteria judge by.
-[[nodiscard]] std::optional<double> vibration_m(const Summary& summary, const Criteria& criteria);
-[[nodiscard]] std::optional<double> force_vibration_n(const Summary& summary,
-                                                      const Criteria& criteria);
+/// What is judged of the worst, by the filter that the criteria judge by; the mean is the typical.
+[[nodiscard]] Judged make_judged(const Summary& summary, const Criteria& criteria);
 
 } // namespace hapnet::lab

@@ -32,15 +32,14 @@ std::string progress_text(const RunProgress& progress, base::Duration elapsed)
     const auto done = progress.sessions.played + progress.sessions.reused;
     const double rate =
         static_cast<double>(progress.sessions.played) / std::max(base::to_seconds(elapsed), 1e-3);
-    if (progress.parts_done == 0) return fmt::format("{} sessions, {:.1f}/s", done, rate);
-    const double per_part = static_cast<double>(done) / static_cast<double>(progress.parts_done);
-    const auto total =
-        progress.parts_done == progress.parts
-            ? done
-            : static_cast<std::size_t>(per_part * static_cast<double>(progress.parts));
+    if (progress.jobs_done == 0) return fmt::format("{} sessions, {:.1f}/s", done, rate);
+    const double per_job = static_cast<double>(done) / static_cast<double>(progress.jobs_done);
+    const auto total = progress.jobs_done == progress.jobs
+                           ? done
+                           : static_cast<std::size_t>(per_job * static_cast<double>(progress.jobs));
     auto text = fmt::format("{}/{}{} sessions ({} %), {:.1f}/s", done,
-                            progress.parts_done == progress.parts ? "" : "~", total,
-                            100 * progress.parts_done / progress.parts, rate);
+                            progress.jobs_done == progress.jobs ? "" : "~", total,
+                            100 * progress.jobs_done / progress.jobs, rate);
     if (rate > 0.0 && total > done) {
         text += fmt::format(", {} left", time_text(static_cast<double>(total - done) / rate));
     }
@@ -55,7 +54,7 @@ ProgressLine::ProgressLine(base::TimePoint start)
 
 void ProgressLine::show(const RunProgress& progress, base::TimePoint now)
 {
-    const bool is_last = progress.parts_done == progress.parts;
+    const bool is_last = progress.jobs_done == progress.jobs;
     if (is_over_ || (now < next_ && !is_last)) return;
     is_over_ = is_last;
     next_ = now + (is_terminal_ ? terminal_interval : line_interval);

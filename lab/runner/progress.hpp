@@ -9,7 +9,7 @@
 
 namespace hapnet::lab {
 
-/// "412/~1300 sessions (31 %), 41.2/s, 22 s left": the total is what the parts that are done make
+/// "412/~1300 sessions (31 %), 41.2/s, 22 s left": the total is what the jobs that are done make
 /// likely. `reused` sessions took no time.
 [[nodiscard]] std::string progress_text(const RunProgress& progress, base::Duration elapsed);
 

@@ -26,39 +26,39 @@ using namespace std::chrono_literals;
 constexpr base::Duration look_interval = 20ms;
 
 /// The threads of a run and what they share.
-class Crew {
+class WorkerPool {
 public:
-    Crew(const Experiment& experiment, const Criteria& criteria, const Runner& runner)
+    WorkerPool(const Experiment& experiment, const Criteria& criteria, const Runner& runner)
         : experiment_{experiment},
           criteria_{criteria},
           runner_{runner},
-          parts_{parts_of(experiment)},
-          findings_(parts_.size())
+          jobs_{make_jobs(experiment)},
+          results_(jobs_.size())
     {
-        const std::size_t count = std::clamp<std::size_t>(runner.jobs, 1, parts_.size());
+        const std::size_t count = std::clamp<std::size_t>(runner.threads, 1, jobs_.size());
         working_ = count;
         for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
     }
-    ~Crew() { join(); }
-    Crew(const Crew&) = delete;
-    Crew& operator=(const Crew&) = delete;
+    ~WorkerPool() { join(); }
+    WorkerPool(const WorkerPool&) = delete;
+    WorkerPool& operator=(const WorkerPool&) = delete;
 
     void stop() { stop_ = true; }
     [[nodiscard]] bool is_over() const { return working_ == 0; }
     [[nodiscard]] RunProgress progress() const
     {
-        return {parts_.size(), parts_done_, runner_.store.counts()};
+        return {jobs_.size(), jobs_done_, runner_.store.counts()};
     }
 
     /// nullopt when it was stopped.
-    base::Result<std::optional<std::vector<Finding>>> findings()
+    base::Result<std::optional<std::vector<JobResult>>> results()
     {
         join();
         if (thrown_) std::rethrow_exception(thrown_);
         if (error_) return base::fail(*error_);
-        if (parts_done_ < parts_.size()) return std::nullopt;
-        std::vector<Finding> all;
-        for (auto& finding : findings_) all.push_back(*std::move(finding));
+        if (jobs_done_ < jobs_.size()) return std::nullopt;
+        std::vector<JobResult> all;
+        for (auto& result : results_) all.push_back(*std::move(result));
         return std::optional{std::move(all)};
     }
 
@@ -68,8 +68,8 @@ private:
         try {
             while (!stop_) {
                 const auto index = next_++;
-                if (index >= parts_.size()) break;
-                carry_out_part(index);
+                if (index >= jobs_.size()) break;
+                run_one(index);
             }
         } catch (...) {
             const std::lock_guard lock{mutex_};
@@ -79,20 +79,20 @@ private:
         --working_;
     }
 
-    void carry_out_part(std::size_t index)
+    void run_one(std::size_t index)
     {
-        const PlaySession play = [this](const SessionSpec& spec) -> base::Result<Played> {
+        const PlaySession play = [this](const SessionSpec& spec) -> base::Result<PlayedSession> {
             if (stop_) return base::fail("stopped");
             return runner_.store.played(
                 spec, [this](const SessionSpec& one) { return runner_.play(one, stop_); });
         };
-        auto finding = carry_out(parts_[index], experiment_, criteria_, play);
-        if (finding) {
-            findings_[index] = *std::move(finding);
-            ++parts_done_;
+        auto result = run_job(jobs_[index], experiment_, criteria_, play);
+        if (result) {
+            results_[index] = *std::move(result);
+            ++jobs_done_;
         } else if (!stop_.exchange(true)) {
             const std::lock_guard lock{mutex_};
-            error_ = finding.error().message;
+            error_ = result.error().message;
         }
     }
 
@@ -106,11 +106,11 @@ private:
     const Experiment& experiment_;
     const Criteria& criteria_;
     const Runner& runner_;
-    std::vector<Part> parts_;
-    std::vector<std::optional<Finding>> findings_; // each written by the thread of its part
+    std::vector<Job> jobs_;
+    std::vector<std::optional<JobResult>> results_; // each written by the thread of its job
     std::atomic<bool> stop_ = false;
     std::atomic<std::size_t> next_ = 0;
-    std::atomic<std::size_t> parts_done_ = 0;
+    std::atomic<std::size_t> jobs_done_ = 0;
     std::atomic<std::size_t> working_ = 0;
     std::mutex mutex_; // over the two below
     std::exception_ptr thrown_;
@@ -120,19 +120,20 @@ private:
 
 } // namespace
 
-base::Result<Played> play_in_virtual_time(const SessionSpec& spec, const std::atomic<bool>& stop)
+base::Result<PlayedSession> play_in_virtual_time(const SessionSpec& spec,
+                                                 const std::atomic<bool>& stop)
 {
     return play(spec.setting, &stop).map([&](const Trace& trace) {
-        return Played{metrics_of(trace), replay_rows(trace, spec.rows_per_s)};
+        return PlayedSession{metrics_of(trace), to_lines(make_replay_rows(trace, spec.rows_per_s))};
     });
 }
 
-base::Result<std::optional<std::vector<Finding>>> carry_out_all(const Experiment& experiment,
-                                                                const Criteria& criteria,
-                                                                const Runner& runner,
-                                                                net::StopSignal& stop)
+base::Result<std::optional<std::vector<JobResult>>> run_all(const Experiment& experiment,
+                                                            const Criteria& criteria,
+                                                            const Runner& runner,
+                                                            net::StopSignal& stop)
 {
-    Crew crew{experiment, criteria, runner};
+    WorkerPool crew{experiment, criteria, runner};
     while (!crew.is_over()) {
         net::wait_readable(std::array{stop.descriptor()}, net::monotonic_now() + look_interval);
         if (stop.requested()) {
@@ -141,9 +142,9 @@ base::Result<std::optional<std::vector<Finding>>> carry_out_all(const Experiment
         }
         runner.on_progress(crew.progress());
     }
-    auto findings = crew.findings();
+    auto results = crew.results();
     runner.on_progress(crew.progress());
-    return findings;
+    return results;
 }
 
 } // namespace hapnet::lab

@@ -34,15 +34,15 @@ Json header_of(const FolderIdentity& identity)
     return {{"format", store_format}, {"kind", identity.kind}, {"title", identity.title}};
 }
 
-std::optional<Played> played_from(const Json& line)
+std::optional<PlayedSession> played_from(const Json& line)
 {
     if (!line.contains("metrics") || !line.value("rows", Json("")).is_string()) return std::nullopt;
     auto metrics = metrics_from(nlohmann::json(line["metrics"]));
     if (!metrics) return std::nullopt;
-    return Played{*std::move(metrics), line.value("rows", std::string{})};
+    return PlayedSession{*std::move(metrics), line.value("rows", std::string{})};
 }
 
-Json line_of(const std::string& key, const Played& played)
+Json line_of(const std::string& key, const PlayedSession& played)
 {
     Json line{{"key", key}, {"metrics", to_json(played.metrics)}};
     if (!played.rows.empty()) line["rows"] = played.rows;
@@ -106,7 +106,7 @@ base::Result<void> SessionStore::read(const FolderIdentity& identity)
         }
         take_line(line);
     }
-    if (text.back() != '\n') append(""); // what comes next is a line of its own
+    if (text.back() != '\n') append(""); // the next session starts a new line
     return {};
 }
 
@@ -134,7 +134,7 @@ void SessionStore::append(const std::string& line) const
     }
 }
 
-base::Result<Played> SessionStore::played(const SessionSpec& spec, const PlaySession& play)
+base::Result<PlayedSession> SessionStore::played(const SessionSpec& spec, const PlaySession& play)
 {
     const auto key = key_of(spec, program_);
     {
@@ -146,7 +146,7 @@ base::Result<Played> SessionStore::played(const SessionSpec& spec, const PlaySes
         }
         being_played_.insert(key);
     }
-    const auto leave = [this, &key](const base::Result<Played>& played) {
+    const auto leave = [this, &key](const base::Result<PlayedSession>& played) {
         const std::lock_guard lock{mutex_};
         being_played_.erase(key);
         changed_.notify_all();

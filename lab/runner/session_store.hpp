@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/experiment/spec.hpp"
+#include "lab/experiment/session_spec.hpp"
 #include "proto/base/result.hpp"
 
 #include <condition_variable>
@@ -38,7 +38,8 @@ public:
 
     /// What is known of a session, or else what comes of `play`. Throws std::system_error when it
     /// cannot be kept.
-    [[nodiscard]] base::Result<Played> played(const SessionSpec& spec, const PlaySession& play);
+    [[nodiscard]] base::Result<PlayedSession> played(const SessionSpec& spec,
+                                                     const PlaySession& play);
 
     struct Counts {
         std::size_t played = 0;
@@ -62,7 +63,7 @@ private:
 
     mutable std::mutex mutex_; // over all below
     std::condition_variable changed_;
-    std::map<std::string, Played> sessions_;
+    std::map<std::string, PlayedSession> sessions_;
     std::set<std::string> from_before_; // those that this run has not asked for yet
     std::set<std::string> being_played_;
     Counts counts_;

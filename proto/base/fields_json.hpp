@@ -43,6 +43,11 @@ template <typename T>
     return value ? json_of(*value) : nlohmann::ordered_json();
 }
 
+template <typename T>
+[[nodiscard]] nlohmann::ordered_json json_of(const std::vector<T>& values);
+template <typename T, std::size_t count>
+[[nodiscard]] nlohmann::ordered_json json_of(const std::array<T, count>& values);
+
 namespace detail {
 
 template <typename List>
@@ -56,13 +61,13 @@ template <typename List>
 } // namespace detail
 
 template <typename T>
-[[nodiscard]] nlohmann::ordered_json json_of(const std::vector<T>& values)
+nlohmann::ordered_json json_of(const std::vector<T>& values)
 {
     return detail::json_list(values);
 }
 
 template <typename T, std::size_t count>
-[[nodiscard]] nlohmann::ordered_json json_of(const std::array<T, count>& values)
+nlohmann::ordered_json json_of(const std::array<T, count>& values)
 {
     return detail::json_list(values);
 }

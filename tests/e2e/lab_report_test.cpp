@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // What hapnet-lab report makes of folders, and of what is none.
+#include "proto/record/writer.hpp"
 #include "tests/e2e/process.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -24,7 +26,7 @@ void write_file(const fs::path& path, const std::string& text)
     std::ofstream{path} << text;
 }
 
-TEST(LabReport, WritesThePageItsFiguresAndTheGnuplotFilesOfAFolderAndItsSubfolders)
+TEST(LabReport, WritesThePageAndItsFiguresOfAFolderAndItsSubfolders)
 {
     const TemporaryFolder temporary;
     const fs::path folder = temporary.file("results");
@@ -41,10 +43,79 @@ TEST(LabReport, WritesThePageItsFiguresAndTheGnuplotFilesOfAFolderAndItsSubfolde
     EXPECT_NE(page.find("<section id='qos'"), std::string::npos);
     EXPECT_NE(page.find("scripts/fig7.sh --out " + folder.string() + "/fig7"), std::string::npos);
     EXPECT_TRUE(fs::exists(folder / "figures/table1-mean.svg"));
-    EXPECT_TRUE(fs::exists(folder / "gnuplot/table1.gp"));
-    EXPECT_TRUE(fs::exists(folder / "gnuplot/table1.dat"));
     EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
     EXPECT_EQ(text_of((folder / "report.html").string()), page) << "made again, it is the same";
+}
+
+/// The record of a peer that moved the cube to x and took part for a second.
+void write_record(const fs::path& path, int peer_id, double x_m)
+{
+    fs::create_directories(path.parent_path());
+    record::Writer writer{
+        path.string(),
+        {{"peer_id", peer_id}, {"boot_id", "one boot"}, {"tick_ns", 1'000'000}, {"task", "T3"}}};
+    const base::TimePoint start{std::chrono::seconds{5}};
+    writer.write(
+        record::SessionRow{.start = start, .length = std::chrono::seconds{1}, .session = 1});
+    for (int tick = 0; tick < 1000; ++tick) {
+        record::TickRow row;
+        row.due = start + tick * std::chrono::milliseconds{1};
+        row.phase = record::Phase::running;
+        row.cube = {{x_m, 0.0, 0.0}};
+        writer.write(row);
+    }
+    writer.flush();
+}
+
+TEST(LabReport, MakesAPageOfAnybodysTwoRecordsBesideTheFirst)
+{
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.file("session");
+    write_record(folder / "a.rec", 1, 0.010);
+    write_record(folder / "b.rec", 2, 0.035);
+    const auto a = (folder / "a.rec").string(), b = (folder / "b.rec").string();
+    const auto outcome = run("hapnet-lab", {"report", a, b});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, (folder / "report.html").string() + "\n");
+    const auto page = text_of((folder / "report.html").string());
+    EXPECT_NE(page.find("<section id='replay'"), std::string::npos);
+    EXPECT_NE(page.find("25.00 mm on average while both hands were on"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "figures/session-T3-apart.svg"));
+    EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).exit, 0);
+    EXPECT_EQ(text_of((folder / "report.html").string()), page)
+        << "the folder that holds the two records gives the same page";
+}
+
+TEST(LabReport, SaysThatItReplacesAPageAboutSomethingElse)
+{
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.file("mixed");
+    write_file(folder / "table1.csv", table1);
+    EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).err, "");
+    EXPECT_EQ(run("hapnet-lab", {"report", folder.string()}).err, "") << "the same page again";
+    write_record(folder / "a.rec", 1, 0.010);
+    write_record(folder / "b.rec", 2, 0.035);
+    const auto a = (folder / "a.rec").string(), b = (folder / "b.rec").string();
+    const auto outcome = run("hapnet-lab", {"report", a, b});
+    EXPECT_NE(outcome.err.find("it was a page about experiments, not session"), std::string::npos)
+        << outcome.err;
+}
+
+TEST(LabReport, RefusesOneRecordAloneAndTwoThatDoNotBelongTogether)
+{
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.file("wrong");
+    write_record(folder / "a.rec", 1, 0.0);
+    write_record(folder / "again.rec", 1, 0.0);
+    const auto a = (folder / "a.rec").string(), again = (folder / "again.rec").string();
+    const auto alone = run("hapnet-lab", {"report", a});
+    EXPECT_EQ(alone.exit, 2);
+    EXPECT_NE(alone.err.find("name those of both peers"), std::string::npos) << alone.err;
+    const auto twice = run("hapnet-lab", {"report", a, again});
+    EXPECT_EQ(twice.exit, 2);
+    EXPECT_NE(twice.err.find("both records were written by peer 1"), std::string::npos)
+        << twice.err;
+    EXPECT_FALSE(fs::exists(folder / "report.html"));
 }
 
 TEST(LabReport, RefusesWhatIsNoResultWithFileAndLine)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "lab/report/table.hpp"
+#include "proto/base/csv.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 #include <string>
@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace hapnet;
     std::string text;
     for (const std::uint8_t byte : std::span{data, size}) text += static_cast<char>(byte);
-    const auto table = lab::report::read_table({"a.csv", text});
+    const auto table = base::parse_csv(text, "a.csv");
     if (!table) {
         base::ensure(table.error().message.starts_with("a.csv:"));
         return 0;
@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         base::ensure(line.cells.size() == table->columns.size());
         append_line(printed, line.cells);
     }
-    const auto again = lab::report::read_table({"b.csv", printed});
+    const auto again = base::parse_csv(printed, "b.csv");
     base::ensure(again && again->columns == table->columns);
     base::ensure(again->lines.size() == table->lines.size());
     for (std::size_t i = 0; i < again->lines.size(); ++i) {

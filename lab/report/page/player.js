@@ -6,7 +6,7 @@
   const source = document.getElementById("replays");
   const player = document.querySelector(".player");
   if (!source || !player) return;
-  const data = JSON.parse(source.textContent);
+  const replays = JSON.parse(source.textContent);
   const find = (name) => player.querySelector("." + name);
   const [algorithm, task, speed] = ["algorithm", "task", "speed"].map(find);
   const [play, time, strip] = ["play", "time", "strip"].map(find);
@@ -84,7 +84,7 @@
     const [x, y] = project(canvas, ...place);
     const scale = canvas.width / (window3d.right - window3d.left);
     context.beginPath();
-    context.arc(x, y, data.hip_radius * scale, 0, 2 * Math.PI);
+    context.arc(x, y, replay.hip_radius * scale, 0, 2 * Math.PI);
     Object.assign(context, { fillStyle: colour, strokeStyle: colours.ink, lineWidth: 3 }).fill();
     context.stroke();
     const length = force * mmPerNewton * scale;
@@ -115,8 +115,8 @@
     for (let z = -60; z <= 60; z += 20) {
       polygon(canvas, [[-120, -20, z], [180, -20, z]], null, colours.line);
     }
-    const moving = data.bodies.find((body) => body.movable);
-    const fixed = data.bodies.filter((body) => !body.movable);
+    const moving = replay.bodies.find((body) => body.movable);
+    const fixed = replay.bodies.filter((body) => !body.movable);
     const cube = place(side, row);
     const pink = { fill: colours["static-cube"], stroke: colours.ink };
     const boxes = fixed.map((body) => [body.at, body.half, pink]);
@@ -201,7 +201,7 @@
     select.replaceChildren(...names.map((name) => new Option(name, name)));
   };
   const choose = () => {
-    const wanted = data.replays.filter((one) => one.algorithm === algorithm.value);
+    const wanted = replays.filter((one) => one.algorithm === algorithm.value);
     const name = task.value;
     fill(task, wanted.map((one) => one.task));
     if (wanted.some((one) => one.task === name)) task.value = name;
@@ -211,7 +211,7 @@
     goTo(at);
   };
 
-  fill(algorithm, [...new Set(data.replays.map((one) => one.algorithm))]);
+  fill(algorithm, [...new Set(replays.map((one) => one.algorithm))]);
   readColours();
   choose();
   goTo(0.2 * replay.count); // at its beginning nothing happens yet

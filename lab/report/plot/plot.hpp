@@ -30,7 +30,7 @@ struct Curve {
     bool shows_points = false; // a dot at each
 };
 
-/// How the two axes are divided. On a logarithmic one what is not above zero is left out.
+/// How the two axes are divided. A logarithmic one leaves out values that are not above zero.
 struct Scales {
     Scale x = Scale::linear;
     Scale y = Scale::linear;

@@ -31,8 +31,8 @@ SteppedHand::SteppedHand(const device::Performer& performer, int steps_a_read)
 void SteppedHand::on_cue(const device::Cue& cue)
 {
     centre_.x = cue.is_left ? -workspace_offset_m : workspace_offset_m;
-    part_ = Part{device::Script{performer_.task, cue, performer_.options, performer_.person.hand},
-                 device::HandNoise{cue.seed, cue.peer_id, performer_.person}, cue.start};
+    part_ = Job{device::Script{performer_.task, cue, performer_.options, performer_.person.hand},
+                device::HandNoise{cue.seed, cue.peer_id, performer_.person}, cue.start};
     cued_at_.reset();
     rest_ = position_;
 }

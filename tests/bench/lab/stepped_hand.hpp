@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    struct Part {
+    struct Job {
         device::Script script;
         device::HandNoise noise;
         base::TimePoint start;
@@ -55,7 +55,7 @@ private:
     glm::dvec3 rest_{0.0, 0.0, 0.035};
     device::VelocityFilter velocity_;
     std::optional<base::TimePoint> last_read_;
-    std::optional<Part> part_;
+    std::optional<Job> part_;
     std::optional<base::TimePoint> cued_at_;
 };
 

@@ -27,7 +27,9 @@ TEST(LabOptions, HaveACompleteHelp)
 {
     const auto prints = cli::prints_of("hapnet-lab", parse_command_line);
     EXPECT_EQ(cli::help_faults("hapnet-lab", prints), std::vector<std::string>{});
-    EXPECT_EQ(prints({"report", "--help"})->rfind("Usage: hapnet-lab report DIR\n", 0), 0U);
+    EXPECT_EQ(prints({"report", "--help"})
+                  ->rfind("Usage: hapnet-lab report DIR|RECORD_A [RECORD_B]\n", 0),
+              0U);
     EXPECT_EQ(
         prints({"help", "run"})->rfind("Usage: hapnet-lab run EXPERIMENT --out DIR [OPTIONS]\n", 0),
         0U);
@@ -54,6 +56,14 @@ TEST(LabOptions, HoldWhatWasTyped)
 TEST(LabOptions, UnderstandTheOtherSpellingOfAnalyse)
 {
     EXPECT_EQ(command_of<AnalyseCommand>({"analyze", "a", "b"}).record_b, "b");
+}
+
+TEST(LabOptions, ReportAFolderOrTwoRecords)
+{
+    EXPECT_EQ(command_of<ReportCommand>({"report", "results"}).record_b, "");
+    const auto report = command_of<ReportCommand>({"report", "a.rec", "b.rec"});
+    EXPECT_EQ(report.path, "a.rec");
+    EXPECT_EQ(report.record_b, "b.rec");
 }
 
 TEST(LabOptions, ListTheExperiments)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/experiment/spec.hpp"
+#include "lab/experiment/session_spec.hpp"
 #include "lab/metrics/criteria.hpp"
 
 #include <atomic>
@@ -14,7 +14,7 @@ namespace hapnet::lab {
 inline Criteria known_criteria()
 {
     Criteria criteria;
-    criteria.vibration_max_m = {.first = 0.95e-3, .second = 0.95e-3, .fourth = 0.95e-3};
+    criteria.usable.vibration_max_m = {.first = 0.95e-3, .second = 0.95e-3, .fourth = 0.95e-3};
     return criteria;
 }
 
@@ -29,11 +29,11 @@ inline double delay_ms(const SessionSpec& spec)
 /// A session whose outcome is known beforehand: it vibrates 9.99 um for every millisecond of delay
 /// by the filter of first order, half as much by the second's and a fifth by the fourth's, and from
 /// seed to seed 1 % more. So it is usable up to 0.95 mm: at seed 1 up to 95 ms, at seed 3 up to 93.
-inline Played known_session(const SessionSpec& spec)
+inline PlayedSession known_session(const SessionSpec& spec)
 {
     const double seed = static_cast<double>(spec.setting.seed.value());
     const double vibration_m = 9.99e-6 * delay_ms(spec) * (1.0 + 0.01 * (seed - 1.0));
-    Played played;
+    PlayedSession played;
     played.metrics.task = spec.setting.task;
     played.metrics.scored_s = 27.0;
     played.metrics.body_vibration_m[0] = ByOrder{vibration_m, vibration_m / 2.0, vibration_m / 5.0};

@@ -22,7 +22,9 @@ Limit found(std::int64_t level) { return {{1000 * level}, true}; }
 /// Passes up to `last`, in whole units.
 Passes up_to(std::int64_t last)
 {
-    return [last](Level level) -> base::Result<bool> { return level.thousandths <= 1000 * last; };
+    return [last](ImpairmentLevel level) -> base::Result<bool> {
+        return level.thousandths <= 1000 * last;
+    };
 }
 
 } // namespace
@@ -47,7 +49,7 @@ TEST(Search, LooksBelowTheRangeWhenItsFirstLevelFails)
     for (std::int64_t last = 0; last < 50; ++last) {
         EXPECT_EQ(*find_limit(range(50, 99, 10, 1), up_to(last)), found(last)) << last;
     }
-    const Passes never = [](Level) -> base::Result<bool> { return false; };
+    const Passes never = [](ImpairmentLevel) -> base::Result<bool> { return false; };
     EXPECT_EQ(*find_limit(range(50, 99, 10, 1), never), found(0));
     EXPECT_EQ(*find_limit(range(0, 99, 10, 1), never), found(0));
 }
@@ -55,30 +57,32 @@ TEST(Search, LooksBelowTheRangeWhenItsFirstLevelFails)
 TEST(Search, StopsAtTheFirstFailureWhateverPassesBeyond)
 {
     std::vector<std::int64_t> visited;
-    const auto limit = find_limit(range(0, 100, 10, 5), [&](Level level) -> base::Result<bool> {
-        visited.push_back(level.thousandths / 1000);
-        return level.thousandths != 30'000; // one bad level, as a buzz at one delay would be
-    });
+    const auto limit =
+        find_limit(range(0, 100, 10, 5), [&](ImpairmentLevel level) -> base::Result<bool> {
+            visited.push_back(level.thousandths / 1000);
+            return level.thousandths != 30'000; // one bad level, as a buzz at one delay would be
+        });
     EXPECT_EQ(*limit, found(25));
     EXPECT_EQ(visited, (std::vector<std::int64_t>{0, 10, 20, 30, 25}));
 }
 
 TEST(Search, PassesAnErrorOn)
 {
-    const auto limit = find_limit(range(0, 100, 10, 5), [](Level level) -> base::Result<bool> {
-        if (level.thousandths > 40'000) return base::fail("no more");
-        return true;
-    });
+    const auto limit =
+        find_limit(range(0, 100, 10, 5), [](ImpairmentLevel level) -> base::Result<bool> {
+            if (level.thousandths > 40'000) return base::fail("no more");
+            return true;
+        });
     ASSERT_FALSE(limit);
     EXPECT_EQ(limit.error().message, "no more");
 }
 
 TEST(Levels, ArePutAsPeopleReadThem)
 {
-    EXPECT_EQ(to_text(Level{160'000}), "160");
-    EXPECT_EQ(to_text(Level{4'500}), "4.5");
-    EXPECT_EQ(to_text(Level{92'125}), "92.125");
-    EXPECT_EQ(to_text(Level{0}), "0");
+    EXPECT_EQ(to_text(ImpairmentLevel{160'000}), "160");
+    EXPECT_EQ(to_text(ImpairmentLevel{4'500}), "4.5");
+    EXPECT_EQ(to_text(ImpairmentLevel{92'125}), "92.125");
+    EXPECT_EQ(to_text(ImpairmentLevel{0}), "0");
 }
 
 TEST(Levels, ImpairBothWaysOnTopOfWhatIsThere)
@@ -98,41 +102,44 @@ TEST(Levels, ImpairBothWaysOnTopOfWhatIsThere)
 TEST(Paper, Table1IsMetWithinItsBandsAndNotBeyond)
 {
     const Spread base{13.25, 0.0, 44.5, 10.57};
-    EXPECT_EQ(table1_verdict("base", base, base), "calibrated");
-    EXPECT_EQ(table1_verdict("base", {15.2, 0.0, 46.0, 10.99}, {}), "missed"); // 10 %: 15.168
-    EXPECT_EQ(table1_verdict("sep", {13.6, 0.0, 45.0, 10.6}, base), "met");
-    EXPECT_EQ(table1_verdict("sep", {13.7, 0.0, 45.0, 10.6}, base), "missed"); // 3 %: 13.65
-    EXPECT_EQ(table1_verdict("sep", base, {}), "missed");
-    EXPECT_EQ(table1_verdict("dead-reckoning", {3.8, 0.0, 41.0, 4.4}, base), "met");
-    EXPECT_EQ(table1_verdict("dead-reckoning", {3.3, 0.0, 66.0, 3.8}, base), "missed");
-    EXPECT_EQ(table1_verdict("mine", base, base), "");
+    EXPECT_EQ(table1_verdict("base", base, base), Claim::calibrated);
+    EXPECT_EQ(table1_verdict("base", {15.2, 0.0, 46.0, 10.99}, {}), Claim::missed); // 10 %: 15.168
+    EXPECT_EQ(table1_verdict("sep", {13.6, 0.0, 45.0, 10.6}, base), Claim::met);
+    EXPECT_EQ(table1_verdict("sep", {13.7, 0.0, 45.0, 10.6}, base), Claim::missed); // 3 %: 13.65
+    EXPECT_EQ(table1_verdict("sep", base, {}), Claim::missed);
+    EXPECT_EQ(table1_verdict("dead-reckoning", {3.8, 0.0, 41.0, 4.4}, base), Claim::met);
+    EXPECT_EQ(table1_verdict("dead-reckoning", {3.3, 0.0, 66.0, 3.8}, base), Claim::missed);
+    EXPECT_EQ(table1_verdict("mine", base, base), Claim::none);
 }
 
 TEST(Paper, LimitsAreCalibratedMetOrMissed)
 {
     using enum Impairment;
     const FoundLimit base_delay{160.0, true};
-    EXPECT_EQ(limit_status("base", delay, base_delay, {}), "calibrated");
-    EXPECT_EQ(limit_status("base", delay, {150.0, true}, {}), "predicted-missed");
-    EXPECT_EQ(limit_status("base", delay, {160.0, false}, {}), "predicted-missed");
-    EXPECT_EQ(limit_status("base", random_loss, {92.0, true}, {}), "calibrated");
-    EXPECT_EQ(limit_status("base", burst_loss, {45.0, true}, {}), "predicted-met");
-    EXPECT_EQ(limit_status("base", jitter, {20.0, false}, {}), "predicted-met");
-    EXPECT_EQ(limit_status("base", jitter, {14.5, true}, {}), "predicted-missed");
-    EXPECT_EQ(limit_status("sep", delay, {165.0, true}, base_delay), "predicted-met");
-    EXPECT_EQ(limit_status("sep", delay, {320.0, false}, base_delay), "predicted-missed");
+    EXPECT_EQ(limit_status("base", delay, base_delay, {}), LimitStatus::calibrated);
+    EXPECT_EQ(limit_status("base", delay, {150.0, true}, {}), LimitStatus::predicted_missed);
+    EXPECT_EQ(limit_status("base", delay, {160.0, false}, {}), LimitStatus::predicted_missed);
+    EXPECT_EQ(limit_status("base", random_loss, {92.0, true}, {}), LimitStatus::calibrated);
+    EXPECT_EQ(limit_status("base", burst_loss, {45.0, true}, {}), LimitStatus::predicted_met);
+    EXPECT_EQ(limit_status("base", jitter, {20.0, false}, {}), LimitStatus::predicted_met);
+    EXPECT_EQ(limit_status("base", jitter, {14.5, true}, {}), LimitStatus::predicted_missed);
+    EXPECT_EQ(limit_status("sep", delay, {165.0, true}, base_delay), LimitStatus::predicted_met);
+    EXPECT_EQ(limit_status("sep", delay, {320.0, false}, base_delay),
+              LimitStatus::predicted_missed);
     EXPECT_EQ(limit_status("sep", burst_loss, {40.0, true}, FoundLimit{40.0, true}),
-              "predicted-met");
-    EXPECT_EQ(limit_status("dead-reckoning", delay, {150.0, true}, base_delay), "predicted-met");
+              LimitStatus::predicted_met);
+    EXPECT_EQ(limit_status("dead-reckoning", delay, {150.0, true}, base_delay),
+              LimitStatus::predicted_met);
     EXPECT_EQ(limit_status("dead-reckoning", delay, {150.0, true}, FoundLimit{150.0, true}),
-              "predicted-missed");
-    EXPECT_EQ(limit_status("dead-reckoning", jitter, {6.0, true}, {}), "predicted-met");
-    EXPECT_EQ(limit_status("dead-reckoning", jitter, {6.0, false}, {}), "predicted-missed");
+              LimitStatus::predicted_missed);
+    EXPECT_EQ(limit_status("dead-reckoning", jitter, {6.0, true}, {}), LimitStatus::predicted_met);
+    EXPECT_EQ(limit_status("dead-reckoning", jitter, {6.0, false}, {}),
+              LimitStatus::predicted_missed);
     EXPECT_EQ(limit_status("dead-reckoning", random_loss, {80.0, true}, FoundLimit{93.0, true}),
-              "predicted-met");
+              LimitStatus::predicted_met);
     EXPECT_EQ(limit_status("dead-reckoning", burst_loss, {95.0, false}, FoundLimit{40.0, true}),
-              "predicted-met");
-    EXPECT_EQ(limit_status("mine", delay, base_delay, base_delay), "");
+              LimitStatus::predicted_met);
+    EXPECT_EQ(limit_status("mine", delay, base_delay, base_delay), LimitStatus::none);
 }
 
 } // namespace hapnet::lab

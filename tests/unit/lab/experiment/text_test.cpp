@@ -118,12 +118,12 @@ TEST(ExperimentText, ABadSettingIsNamedWithWhatWouldBeRight)
 
 TEST(ExperimentText, ComplaintsSayWhereAndWhatWouldBeRight)
 {
-    expect_words(complaint("tasks = \"T1\"\n"), {"mine.toml:1:", "'kind' is missing"});
+    expect_words(complaint("tasks = \"T1\"\n"), {"mine.toml:1:", "missing key 'kind'"});
     expect_words(complaint("kind = \"limit\"\ntasks = \"T1\"\n"),
                  {"mine.toml:1:8: ", "did you mean 'limits'?"});
     expect_words(complaint("kind = \"table1\"\ntaks = \"T1\"\n"),
                  {"mine.toml:2:1: ", "did you mean 'tasks'?"});
-    expect_words(complaint("kind = \"table1\"\n"), {"'tasks' is missing"});
+    expect_words(complaint("kind = \"table1\"\n"), {"missing key 'tasks'"});
     expect_words(complaint("kind = \"table1\"\ntasks = [\"T9\"]\n"), {"mine.toml:2:9: ", "T9"});
     expect_words(complaint(with("tasks = [\n")), {"mine.toml:3:"});
     expect_words(complaint(with("algorithms = [\"bse\"]\n")), {"mine.toml:3:14: ", "bse"});

@@ -73,7 +73,7 @@ TEST(Page, EveryColourThatIsUsedIsDefinedForLightAndDark)
 
 TEST(Page, HeadTakesTextAndFootEndsIt)
 {
-    const std::string head = page_head("a <b> & c");
+    const std::string head = page_head("a <b> & c", "session");
     EXPECT_NE(head.find("<title>a &lt;b&gt; &amp; c</title>"), std::string::npos);
     EXPECT_NE(head.find("name=\"viewport\""), std::string::npos);
     EXPECT_TRUE(page_foot().ends_with("</html>\n"));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // What a run keeps, reuses and finds, on however many threads.
 #include "lab/experiment/text.hpp"
-#include "lab/results/results.hpp"
+#include "lab/results/result_files.hpp"
 #include "lab/runner/progress.hpp"
 #include "lab/runner/runner.hpp"
 #include "tests/unit/lab/experiment/known_law.hpp"
@@ -61,7 +61,7 @@ resolution = "5ms"
                              "test.toml", {false, settings});
 }
 
-base::Result<Played> play_known(const SessionSpec& spec, const std::atomic<bool>&)
+base::Result<PlayedSession> play_known(const SessionSpec& spec, const std::atomic<bool>&)
 {
     return known_session(spec);
 }
@@ -71,9 +71,9 @@ Runner runner_of(SessionStore& store, unsigned jobs)
     return {store, play_known, jobs, [](const RunProgress&) {}};
 }
 
-std::string limits_of(const Experiment& experiment, const std::vector<Finding>& findings)
+std::string limits_of(const Experiment& experiment, const std::vector<JobResult>& findings)
 {
-    return results_of(experiment, known_criteria(), findings)->front().text;
+    return make_result_files(experiment, known_criteria(), findings)->front().text;
 }
 
 } // namespace
@@ -86,8 +86,7 @@ TEST_F(SessionFile, GivesTheSameResultsForAnyNumberOfJobsAndPlaysNoSessionTwice)
     for (const unsigned jobs : {1U, 2U, 5U}) {
         std::filesystem::remove(path);
         const auto store = open();
-        const auto findings =
-            carry_out_all(experiment, known_criteria(), runner_of(*store, jobs), stop);
+        const auto findings = run_all(experiment, known_criteria(), runner_of(*store, jobs), stop);
         ASSERT_TRUE(findings && *findings);
         const auto limits = limits_of(experiment, **findings);
         if (jobs == 1) {
@@ -105,8 +104,7 @@ TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
 {
     const auto run = [&](const Experiment& experiment) {
         const auto store = open();
-        const auto findings =
-            carry_out_all(experiment, known_criteria(), runner_of(*store, 2), stop);
+        const auto findings = run_all(experiment, known_criteria(), runner_of(*store, 2), stop);
         EXPECT_TRUE(findings && *findings);
         return store->counts();
     };
@@ -121,23 +119,22 @@ TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
 
 TEST_F(SessionFile, DoesNotReuseTheSessionsOfAnotherProgram)
 {
-    std::ignore = carry_out_all(known_limits(), known_criteria(), runner_of(*open(), 1), stop);
+    std::ignore = run_all(known_limits(), known_criteria(), runner_of(*open(), 1), stop);
     const auto store = open("that");
-    std::ignore = carry_out_all(known_limits(), known_criteria(), runner_of(*store, 1), stop);
+    std::ignore = run_all(known_limits(), known_criteria(), runner_of(*store, 1), stop);
     EXPECT_EQ(store->counts().reused, 0U);
 }
 
 TEST_F(SessionFile, LosesOnlyTheLineThatWasCutOff)
 {
-    std::ignore = carry_out_all(known_limits(), known_criteria(), runner_of(*open(), 1), stop);
+    std::ignore = run_all(known_limits(), known_criteria(), runner_of(*open(), 1), stop);
     const auto whole = text();
     const auto lines = static_cast<std::size_t>(std::count(whole.begin(), whole.end(), '\n'));
     std::filesystem::resize_file(path, whole.size() - 20);
     for (const std::size_t played : {std::size_t{1}, std::size_t{0}}) {
         const auto store = open();
         EXPECT_EQ(store->damaged_lines(), 1U);
-        const auto findings =
-            carry_out_all(known_limits(), known_criteria(), runner_of(*store, 1), stop);
+        const auto findings = run_all(known_limits(), known_criteria(), runner_of(*store, 1), stop);
         ASSERT_TRUE(findings && *findings);
         EXPECT_EQ(store->counts().played, played);
         EXPECT_EQ(store->counts().reused, lines - 1 - played); // the first is a header
@@ -166,11 +163,12 @@ TEST_F(SessionFile, KeepsWhatWasPlayedBeforeASessionFailed)
     const auto store = open();
     Runner runner = runner_of(*store, 1);
     std::size_t played = 0;
-    runner.play = [&](const SessionSpec& spec, const std::atomic<bool>&) -> base::Result<Played> {
+    runner.play = [&](const SessionSpec& spec,
+                      const std::atomic<bool>&) -> base::Result<PlayedSession> {
         if (++played > 5) return base::fail("the scene cannot be shared");
         return known_session(spec);
     };
-    const auto findings = carry_out_all(known_limits(), known_criteria(), runner, stop);
+    const auto findings = run_all(known_limits(), known_criteria(), runner, stop);
     ASSERT_FALSE(findings);
     EXPECT_EQ(findings.error().message, "the scene cannot be shared");
     EXPECT_EQ(store->counts().played, 5U);
@@ -180,10 +178,10 @@ TEST_F(SessionFile, PassesOnWhatAThreadHasThrown)
 {
     const auto store = open();
     Runner runner = runner_of(*store, 2);
-    runner.play = [](const SessionSpec&, const std::atomic<bool>&) -> base::Result<Played> {
+    runner.play = [](const SessionSpec&, const std::atomic<bool>&) -> base::Result<PlayedSession> {
         throw std::runtime_error{"disk full"};
     };
-    EXPECT_THROW(std::ignore = carry_out_all(known_limits(), known_criteria(), runner, stop),
+    EXPECT_THROW(std::ignore = run_all(known_limits(), known_criteria(), runner, stop),
                  std::runtime_error);
 }
 

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/cli/files.hpp"
+
+#include "proto/net/program.hpp"
+#include "proto/net/text_file.hpp"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace hapnet::lab {
+
+base::Result<nlohmann::ordered_json> read_json(const std::string& path)
+{
+    const auto text = net::text_of_file(path);
+    if (!text) return tl::unexpected{text.error()};
+    auto json = nlohmann::ordered_json::parse(*text, nullptr, false);
+    if (!json.is_object()) return base::fail(path + " does not hold one JSON object");
+    return json;
+}
+
+base::Result<record::Record> read_record(const std::string& path)
+{
+    auto record = record::read(path);
+    if (record && record->cut_off) {
+        net::say("hapnet-lab", path + " ends inside a row, which is left out: its writer was "
+                                      "killed or its disk was full");
+    }
+    return record;
+}
+
+void create_folder(const std::string& path)
+{
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) throw std::system_error{error, "cannot create the folder " + path};
+}
+
+base::Result<SessionFiles> read_session_files(const std::string& folder)
+{
+    SessionFiles files;
+    for (auto [part, name] : {std::pair{&files.analysis, "/analysis.json"},
+                              {&files.emulator, "/emulator.json"},
+                              {&files.peer, "/peer-1.json"}}) {
+        auto json = read_json(folder + name);
+        if (!json) return tl::unexpected{json.error()};
+        *part = *std::move(json);
+    }
+    return files;
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/results/session_files.hpp"
+#include "proto/base/result.hpp"
+#include "proto/record/reader.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace hapnet::lab {
+
+/// The object that a file holds. The error names the file.
+[[nodiscard]] base::Result<nlohmann::ordered_json> read_json(const std::string& path);
+
+/// Reads a record. Says so on standard error when its end is missing.
+[[nodiscard]] base::Result<record::Record> read_record(const std::string& path);
+
+/// Creates a folder and those above it. Throws std::system_error naming the folder.
+void create_folder(const std::string& path);
+
+/// What a folder holds of a session over real UDP. The error names the file that is missing.
+[[nodiscard]] base::Result<SessionFiles> read_session_files(const std::string& folder);
+
+} // namespace hapnet::lab

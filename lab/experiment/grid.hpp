@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/experiment.hpp"
+
+#include <vector>
+
+namespace hapnet::lab {
+
+/// One point of the plane of delay, jitter and loss.
+struct GridPoint {
+    ImpairmentLevel delay{};
+    ImpairmentLevel jitter{};
+    ImpairmentLevel loss{};
+};
+
+/// All of them: loss runs first, then jitter, then delay.
+[[nodiscard]] std::vector<GridPoint> grid_points(const ImpairmentGrid& plane);
+
+/// The conditions of a point. The mean delay is `delay`, or the jitter where that is more: nothing
+/// leaves before it came.
+[[nodiscard]] emulator::Path make_path(const emulator::Path& ground, const GridPoint& point);
+
+} // namespace hapnet::lab

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/experiment/impairment.hpp"
+
+#include "proto/base/text.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::lab {
+
+namespace {
+
+constexpr std::int64_t thousand = 1000;
+constexpr std::uint32_t burst_period = 100; // messages
+
+struct ImpairmentWords {
+    std::string_view name;
+    std::string_view unit;
+};
+
+const ImpairmentWords& words_of(Impairment impairment)
+{
+    static constexpr std::array<ImpairmentWords, impairments.size()> words{
+        {{"delay", "ms"}, {"jitter", "ms"}, {"random-loss", "percent"}, {"burst-loss", "of_100"}}};
+    return words[static_cast<std::size_t>(impairment)];
+}
+
+base::Duration duration_of(ImpairmentLevel level)
+{
+    return std::chrono::microseconds{level.thousandths};
+}
+
+/// Rounded to 0.001 %: a share typed with at most three decimals is exact.
+base::Probability share_of(ImpairmentLevel level)
+{
+    const double fraction = static_cast<double>(level.thousandths) / (100.0 * thousand);
+    return base::Probability::from_fraction(fraction).value();
+}
+
+void read_time_level(const base::Node& node, ImpairmentLevel& target, base::Reading& reading)
+{
+    base::Duration value{};
+    base::read_value(node, value, reading);
+    const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(value);
+    if (value < base::Duration{0} || whole != value || value > std::chrono::seconds{10}) {
+        return reading.complain(node.place, "a level is from 0 to 10s, in whole microseconds");
+    }
+    target = {whole.count()};
+}
+
+void read_share_level(const base::Node& node, ImpairmentLevel& target, base::Reading& reading)
+{
+    base::Probability value;
+    base::read_value(node, value, reading);
+    const double thousandths = value.fraction() * 100.0 * thousand;
+    const ImpairmentLevel level{std::llround(thousandths)};
+    constexpr double rounding = 1e-12; // of the text to a number
+    if (std::abs(share_of(level).fraction() - value.fraction()) > rounding) {
+        return reading.complain(node.place, "a level has at most three decimals, such as 92.5%");
+    }
+    target = level;
+}
+
+void read_burst_level(const base::Node& node, ImpairmentLevel& target, base::Reading& reading)
+{
+    const auto count = base::count_of(node, burst_period);
+    if (!count) {
+        return base::complain_of(
+            node, fmt::format("a number of messages from 0 to {}", burst_period), reading);
+    }
+    target = {static_cast<std::int64_t>(*count) * thousand};
+}
+
+void impair(emulator::Conditions& conditions, Impairment impairment, ImpairmentLevel level)
+{
+    switch (impairment) {
+    case Impairment::delay: conditions.delay = emulator::constant(duration_of(level)); return;
+    case Impairment::jitter:
+        conditions.delay = emulator::constant(duration_of(level));
+        conditions.jitter = emulator::uniform(duration_of(level));
+        conditions.order = emulator::Order::free;
+        return;
+    case Impairment::random_loss:
+        conditions.loss.push_back(emulator::RandomLoss{share_of(level)});
+        return;
+    case Impairment::burst_loss:
+        conditions.loss.push_back(emulator::Burst{
+            static_cast<std::uint32_t>(level.thousandths / thousand), burst_period, {}});
+        return;
+    }
+}
+
+} // namespace
+
+std::string_view name_of(Impairment impairment) { return words_of(impairment).name; }
+std::string_view unit_of(Impairment impairment) { return words_of(impairment).unit; }
+
+std::string to_text(ImpairmentLevel level)
+{
+    std::string text =
+        fmt::format("{}.{:03}", level.thousandths / thousand, level.thousandths % thousand);
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+double in_units(ImpairmentLevel level) { return static_cast<double>(level.thousandths) / thousand; }
+
+void read_level(const base::Node& node, Impairment impairment, ImpairmentLevel& target,
+                base::Reading& reading)
+{
+    switch (impairment) {
+    case Impairment::delay:
+    case Impairment::jitter: return read_time_level(node, target, reading);
+    case Impairment::random_loss: return read_share_level(node, target, reading);
+    case Impairment::burst_loss: return read_burst_level(node, target, reading);
+    }
+}
+
+std::string level_text(ImpairmentLevel level, Impairment impairment)
+{
+    if (impairment == Impairment::burst_loss) return to_text(level);
+    if (impairment == Impairment::random_loss) return base::quoted(to_text(level) + "%");
+    return base::value_text(duration_of(level));
+}
+
+emulator::Path impaired(const emulator::Path& ground, Impairment impairment, ImpairmentLevel level)
+{
+    emulator::Path path = ground;
+    if (level == ImpairmentLevel{}) return path;
+    impair(path.up, impairment, level);
+    impair(path.down, impairment, level);
+    return path;
+}
+
+} // namespace hapnet::lab

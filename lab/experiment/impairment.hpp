@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "proto/base/reading.hpp"
+#include "proto/base/result.hpp"
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace hapnet::lab {
+
+/// What Fig. 6 of the paper makes worse and worse.
+enum class Impairment : std::uint8_t { delay, jitter, random_loss, burst_loss };
+inline constexpr std::array impairments{Impairment::delay, Impairment::jitter,
+                                        Impairment::random_loss, Impairment::burst_loss};
+
+/// "delay", "jitter", "random-loss", "burst-loss"
+[[nodiscard]] std::string_view name_of(Impairment impairment);
+
+/// What its levels count: "ms", "percent" or "of_100" (messages lost in a row of every 100).
+[[nodiscard]] std::string_view unit_of(Impairment impairment);
+
+/// How much of an impairment, in thousandths of its unit: whole, so that a search visits the same
+/// levels on every machine. Not negative.
+struct ImpairmentLevel {
+    std::int64_t thousandths = 0;
+
+    friend constexpr auto operator<=>(const ImpairmentLevel&, const ImpairmentLevel&) = default;
+};
+
+/// In the unit: "160", "4.5".
+[[nodiscard]] std::string to_text(ImpairmentLevel level);
+[[nodiscard]] double in_units(ImpairmentLevel level);
+
+/// Reads "160ms", "93%" or a number of messages from 0 to 100; complains of anything else.
+void read_level(const base::Node& node, Impairment impairment, ImpairmentLevel& target,
+                base::Reading& reading);
+/// TOML that reads back as the same level.
+[[nodiscard]] std::string level_text(ImpairmentLevel level, Impairment impairment);
+
+/// The path `ground` with so much of the impairment, the same both ways. ImpairmentLevel 0 leaves
+/// `ground` as it is. Jitter of J is uniform from 0 to 2 J, of mean J, each datagram on its own:
+/// they overtake one another.
+[[nodiscard]] emulator::Path impaired(const emulator::Path& ground, Impairment impairment,
+                                      ImpairmentLevel level);
+
+} // namespace hapnet::lab

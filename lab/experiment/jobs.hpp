@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/search.hpp"
+#include "lab/experiment/session_spec.hpp"
+#include "lab/metrics/verdict.hpp"
+
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hapnet::lab {
+
+// An experiment in jobs that do not depend on one another: on whatever thread and in whatever
+// order they are carried out, each finds the same.
+
+/// One session and its perfect twin.
+struct SessionJob {
+    std::size_t algorithm = 0; // of the experiment's
+    device::Task task{};
+    SessionSpec spec{};
+};
+
+/// One limit.
+struct SearchJob {
+    std::size_t algorithm = 0;
+    device::Task task{};
+    SearchRange range{};
+};
+
+/// The same limit for these hands, and by each order of the filter.
+struct SensitivityJob {
+    std::size_t algorithm = 0;
+    device::Task task{};
+    SearchRange range{};
+    Hands hands{};
+};
+
+using Job = std::variant<SessionJob, SearchJob, SensitivityJob>;
+
+/// The jobs of an experiment in the order of its results.
+[[nodiscard]] std::vector<Job> make_jobs(const Experiment& experiment);
+
+struct SessionResult {
+    Metrics metrics{};
+    Metrics perfect{};
+    std::string rows{};
+};
+
+/// A session that a search played.
+struct CurvePoint {
+    ImpairmentLevel level{};
+    std::uint32_t seed = 1;
+    Scores scores{};
+    Tier tier{};
+};
+
+struct SearchResult {
+    Limit limit{};
+    std::vector<CurvePoint> curve{}; // ascending in level, then seed
+};
+
+/// The limits by the filter orders of the sensitivity check, in their order.
+struct SensitivityResult {
+    std::vector<Limit> limits{};
+};
+
+using JobResult = std::variant<SessionResult, SearchResult, SensitivityResult>;
+
+/// Carries out one job, playing by `play` what it needs. An error of `play` is passed on.
+[[nodiscard]] base::Result<JobResult> run_job(const Job& job, const Experiment& experiment,
+                                              const Criteria& criteria, const PlaySession& play);
+
+} // namespace hapnet::lab

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/experiment/session_spec.hpp"
+
+#include "emulator/core/profile/text.hpp"
+#include "peer/core/sync/text.hpp"
+#include "proto/base/ensure.hpp"
+#include "proto/base/text.hpp"
+#include "scene/text/text.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::lab {
+
+namespace {
+
+/// 64 bits: among 10^5 sessions two are alike by chance once in 10^9 experiments.
+std::uint64_t hash_of(std::string_view text) { return base::Seed{}.stream(text).bits(0); }
+
+/// The scene that a task is made for.
+scene::Description scene_for(device::Task task)
+{
+    const auto name = device::scene_of(task);
+    if (name == "paper") return scene::paper_scene();
+    const auto built_in = scene::load_scene(
+        std::string{name}, [](const std::string& file) { return base::fail(file); });
+    base::ensure(built_in.has_value());
+    return *built_in;
+}
+
+std::string player_text(const PlayerSetting& player)
+{
+    return fmt::format(
+        "{}{}clock_ahead = {}\nphase = {}\n", peer::print_algorithm(player.algorithm),
+        device::print_operator(player.person), player.clock_ahead.count(), player.phase.count());
+}
+
+} // namespace
+
+SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,
+                              const emulator::Path& path)
+{
+    SessionSpec spec;
+    Setting& setting = spec.setting;
+    setting.task = one.task;
+    setting.scene = scene_for(one.task);
+    setting.seed = base::Seed{one.seed};
+    setting.length = experiment.duration;
+    setting.tick = experiment.tick;
+    setting.profile.path = path;
+    setting.players[0].algorithm = one.algorithm.algorithm;
+    setting.players[0].person = one.hands.left;
+    setting.players[1].algorithm = one.algorithm.algorithm;
+    setting.players[1].person = one.hands.right;
+    return spec;
+}
+
+SessionSpec perfect_twin(const SessionSpec& spec)
+{
+    SessionSpec twin = spec;
+    twin.setting.profile = {};
+    twin.rows_per_s = 0;
+    return twin;
+}
+
+std::string key_of(const SessionSpec& spec, std::string_view program)
+{
+    const Setting& setting = spec.setting;
+    const auto left = player_text(setting.players[0]);
+    const auto right = player_text(setting.players[1]);
+    const auto label = fmt::format("{} {} {}/{} seed {} {}", name_of(setting.task),
+                                   peer::name_of(setting.players[0].algorithm),
+                                   setting.players[0].person.name, setting.players[1].person.name,
+                                   setting.seed.value(), base::to_text(setting.length));
+    const auto all = fmt::format(
+        "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n", label, program, setting.tick.count(), spec.rows_per_s,
+        emulator::to_text(setting.profile), left, right, scene::to_text(setting.scene));
+    return fmt::format("{} {:016x}", label, hash_of(all));
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/experiment.hpp"
+#include "lab/metrics/metrics.hpp"
+#include "lab/virtual_time/setting.hpp"
+#include "proto/base/result.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace hapnet::lab {
+
+/// A session to be played, and how many rows a second are kept of it besides its metrics.
+struct SessionSpec {
+    Setting setting{};
+    std::uint32_t rows_per_s = 0;
+};
+
+/// What came of a session: a pure function of its spec.
+struct PlayedSession {
+    Metrics metrics{};
+    std::string rows{}; // CSV without a header: see rows.hpp; empty when none were to be kept
+};
+
+/// Plays a session, or gives what is known of it already.
+using PlaySession = std::function<base::Result<PlayedSession>(const SessionSpec&)>;
+
+/// Which of an experiment's sessions.
+struct SessionCase {
+    const NamedAlgorithm& algorithm;
+    const Hands& hands;
+    device::Task task{};
+    std::uint32_t seed = 1;
+};
+
+[[nodiscard]] SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,
+                                            const emulator::Path& path);
+
+/// The same session on a perfect network: what scores are relative to. Keeps no rows.
+[[nodiscard]] SessionSpec perfect_twin(const SessionSpec& spec);
+
+/// One line that tells sessions apart: what a person looks for, and a hash of all that the session
+/// follows from. `program` is who plays it: another program may play it differently.
+[[nodiscard]] std::string key_of(const SessionSpec& spec, std::string_view program);
+
+} // namespace hapnet::lab

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/records/moments.hpp"
+
+#include <chrono>
+#include <cmath>
+
+namespace hapnet::lab {
+
+namespace {
+
+// Ticks of B further apart than this have time without data between them, not a straight line.
+constexpr base::Duration gap_max{std::chrono::milliseconds{10}};
+
+} // namespace
+
+base::Displacement Moment::cube_distance() const
+{
+    const base::Displacement step = after->cube - before->cube;
+    return a->cube - (before->cube + share * step);
+}
+
+double Moment::force_distance() const
+{
+    const base::Force step = after->contact - before->contact;
+    return std::abs(norm(a->contact) - norm(before->contact + share * step));
+}
+
+std::vector<Moment> moments_of(const Session& session)
+{
+    std::vector<Moment> moments;
+    const auto b = session.b.ticks;
+    const auto time_of = [&](const record::TickRow& row) { return session.clock.to_a(row.at()); };
+    auto after = b.begin();
+    for (const record::TickRow& a : session.a.ticks) {
+        while (after != b.end() && time_of(*after) < a.at()) ++after;
+        if (after == b.end()) break;
+        if (time_of(*after) == a.at()) {
+            moments.push_back({&a, &*after, &*after, 0.0});
+            continue;
+        }
+        if (after == b.begin()) continue;
+        const auto before = after - 1;
+        const base::Duration gap = after->at() - before->at();
+        if (gap > gap_max) continue;
+        moments.push_back({&a, &*before, &*after,
+                           base::to_seconds(a.at() - time_of(*before)) / base::to_seconds(gap)});
+    }
+    return moments;
+}
+
+} // namespace hapnet::lab

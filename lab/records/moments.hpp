@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/records/session.hpp"
+#include "proto/base/space.hpp"
+
+#include <vector>
+
+namespace hapnet::lab {
+
+/// One moment of a session on both sides: a tick of A and the ticks of B around it. Both ticks of B
+/// are the same one when B has a tick at that very time.
+struct Moment {
+    const record::TickRow* a;
+    const record::TickRow* before;
+    const record::TickRow* after;
+    double share; // of the way from `before` to `after`
+
+    [[nodiscard]] bool both_in(record::Phase phase) const
+    {
+        return a->phase == phase && before->phase == phase && after->phase == phase;
+    }
+    [[nodiscard]] bool both_touch() const
+    {
+        return a->touching && before->touching && after->touching;
+    }
+    /// From B's copy of the cube to A's.
+    [[nodiscard]] base::Displacement cube_distance() const;
+    /// ||F_A| - |F_B|| of the contact forces.
+    [[nodiscard]] double force_distance() const;
+};
+
+/// The moments at which both sides have data, one for each such tick of A. Refers into the session.
+[[nodiscard]] std::vector<Moment> moments_of(const Session& session);
+
+} // namespace hapnet::lab

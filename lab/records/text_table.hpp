@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// Numbers for people, in rows and columns: a terminal shows them as text, a page as HTML.
+struct TextTable {
+    struct Row {
+        std::string name;
+        std::vector<std::string> cells;
+        std::string note{}; // after the cells
+    };
+
+    std::string caption; // what a page says above it
+    std::string unit;    // above the names of the rows; can be empty
+    std::vector<std::string> heads;
+    std::vector<Row> rows{};
+    std::vector<std::string> remarks{}; // below it, a line each
+    std::size_t cell_width = 10;        // in a terminal
+};
+
+/// Lines of text: names to the left, cells to the right.
+[[nodiscard]] std::string to_text(const TextTable& table);
+
+/// A number as a cell, with so many decimals; "-" when there is none or when it is not finite.
+[[nodiscard]] std::string number_text(std::optional<double> value, int decimals);
+
+/// A CSV without quoted cells as a table for people: columns of equal width.
+[[nodiscard]] std::string aligned(std::string_view csv);
+
+} // namespace hapnet::lab

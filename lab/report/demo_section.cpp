@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/report/plot/axis.hpp"
+#include "lab/report/section.hpp"
+#include "lab/report/words.hpp"
+
+namespace hapnet::lab::report {
+
+std::optional<Section> demo_section(const Results& results)
+{
+    if (!results.demo) return std::nullopt;
+    Section section{"demo", "The demo beside the paper’s Table 1"};
+    for (const TextTable& table : demo_tables(*results.demo)) section.html += html_of(table);
+    section.html += "<p>While the left hand moves the cube in P1, the right copy is where the left "
+                    "one was 160 ms ago. Where x stays flat at its highest, the cube stands at the "
+                    "static cube. At the end both hands are off, and the copies agree "
+                    "again.</p>\n";
+    return section;
+}
+
+} // namespace hapnet::lab::report

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/records/analysis_report.hpp"
+#include "lab/report/plot/plot.hpp"
+#include "lab/report/section.hpp"
+#include "lab/report/words.hpp"
+
+#include <array>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::lab::report {
+
+using plot::escaped;
+
+namespace {
+
+constexpr std::size_t curve_points_max = 4000; // a curve: finer than pixels, and no peak is lost
+constexpr plot::Size plot_size{900.0, 230.0};
+constexpr std::string_view colour_a = "var(--left)";
+constexpr std::string_view colour_b = "var(--right)";
+
+plot::Curve curve_of(std::string_view name, std::string_view colour,
+                     const std::vector<TimedValue>& values)
+{
+    std::vector<plot::Point> points;
+    for (const TimedValue& one : values) points.push_back({one.time_s, one.value});
+    return {.name = name, .colour = colour, .points = plot::thinned(points, curve_points_max)};
+}
+
+/// The first and the last time of what is drawn: all plots of a session span the same.
+plot::Range span_of(const SessionCurves& curves)
+{
+    plot::Range range;
+    for (const auto* values : {&curves.cube_a_mm, &curves.cube_b_mm}) {
+        if (values->empty()) continue;
+        range.include(values->front().time_s);
+        range.include(values->back().time_s);
+    }
+    return range;
+}
+
+std::string validity_of(const Analysis& analysis)
+{
+    std::string out = analysis.valid()
+                          ? "<div class='banner met'><b>Valid.</b> Both loops kept their time, and "
+                            "both sides were in session together."
+                          : "<div class='banner missed'><b>Not valid.</b> These numbers do not "
+                            "count:<ul>\n";
+    for (const std::string& reason : analysis.invalid_because) {
+        out += fmt::format("<li>{}</li>\n", escaped(reason));
+    }
+    return out + (analysis.valid() ? "</div>\n" : "</ul></div>\n");
+}
+
+std::string apart_caption(const Analysis& analysis)
+{
+    const auto& x = analysis.agreement.discrepancy_x;
+    if (!x) return "The two sides were never running together.";
+    return fmt::format("How far the two copies of the cube are apart in x at equal times: {} mm "
+                       "on average while both hands were on, {} mm at most.",
+                       shown(1e3 * x->mean, 2), shown(1e3 * x->max, 1));
+}
+
+void add_plots(Section& section, const RecordedSession& session)
+{
+    const SessionCurves& curves = session.curves;
+    const plot::Range time = span_of(curves);
+    const auto add = [&](std::string_view name, const plot::PlotTitles& titles,
+                         std::span<const plot::Curve> drawn, const std::string& caption) {
+        section.add_figure(
+            fmt::format("session-{}-{}", session.name, name),
+            plot::svg_plot(titles, drawn, {.size = plot_size, .x = time, .can_zoom = true}),
+            caption);
+    };
+    const std::array apart{curve_of("|x_A − x_B|", "var(--ink)", curves.apart_mm)};
+    add("apart", {"Distance of the two copies of the cube", "s from the start", "mm"}, apart,
+        apart_caption(session.analysis));
+    const std::array cubes{curve_of("cube at A", colour_a, curves.cube_a_mm),
+                           curve_of("cube at B", colour_b, curves.cube_b_mm)};
+    add("cubes", {"Where each side has the cube", "s from the start", "x, mm"}, cubes,
+        "x of both copies of the cube.");
+    const std::array forces{curve_of("on hand A", colour_a, curves.force_a_n),
+                            curve_of("on hand B", colour_b, curves.force_b_n)};
+    add("forces", {"Force on each hand", "s from the start", "N"}, forces,
+        "Magnitude of the force that each device was told to apply, after its governor.");
+}
+
+void add_session(Section& section, const RecordedSession& session)
+{
+    const auto title = session.task.empty() ? session.name : "Task " + session.task;
+    section.html += fmt::format("<h3>{}</h3>\n<p>A is peer {}, B is peer {}", escaped(title),
+                                session.peer_a, session.peer_b);
+    if (!session.algorithm.empty()) {
+        section.html += fmt::format("; algorithm {}", escaped(session.algorithm));
+    }
+    section.html += ".</p>\n" + validity_of(session.analysis);
+    section.html += "<div class='zoom-group'>\n<p class='zoom-help' hidden>Drag across a plot to "
+                    "zoom; all follow. <span class='zoom-buttons'></span></p>\n";
+    add_plots(section, session);
+    section.html += "</div>\n<div class='panels'>\n";
+    for (const TextTable& table : tables_of(session.analysis)) section.html += html_of(table);
+    section.html += "</div>\n";
+    if (const auto clock = clock_text(session.analysis.clock); !clock.empty()) {
+        section.html += fmt::format("<p>{}.</p>\n", escaped(clock));
+    }
+}
+
+} // namespace
+
+std::optional<Section> session_section(const Results& results)
+{
+    if (results.sessions.empty()) return std::nullopt;
+    Section section{"sessions", results.sessions.size() == 1 ? "The session" : "The sessions",
+                    "<p>Times count from the start of the session on A’s clock. Each session ends "
+                    "with hands off: then the two copies of the cube should agree again.</p>\n"};
+    for (const RecordedSession& session : results.sessions) add_session(section, session);
+    return section;
+}
+
+} // namespace hapnet::lab::report

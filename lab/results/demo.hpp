@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/records/text_table.hpp"
+#include "lab/results/manifest.hpp"
+#include "lab/results/session_files.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// The demo of the paper's main job: task P1 and then T3 under 160 ms.
+struct DemoRun {
+    SessionFiles p1;
+    SessionFiles t3;
+};
+
+/// What the demo measured: beside the paper's Table 1, and of both tasks.
+[[nodiscard]] std::vector<TextTable> demo_tables(const DemoRun& run);
+
+/// The same as lines of text, and whether the run counts.
+[[nodiscard]] std::string demo_table(const DemoRun& run);
+
+/// Whether P1's mean discrepancy is within 15 % of the paper's 13.79 mm and the emulator of each
+/// task has accounted for every datagram.
+[[nodiscard]] bool demo_is_met(const DemoRun& run);
+
+/// The manifest of the demo's folder.
+[[nodiscard]] nlohmann::ordered_json demo_manifest(const DemoRun& run,
+                                                   const Circumstances& circumstances);
+
+} // namespace hapnet::lab

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/results/real_time.hpp"
+
+#include "emulator/core/profile/text.hpp"
+#include "lab/metrics/metrics.hpp"
+#include "lab/results/rows.hpp"
+#include "peer/core/peer.hpp"
+#include "peer/core/sync/text.hpp"
+#include "scene/text/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <spdlog/fmt/fmt.h>
+#include <string_view>
+
+namespace hapnet::lab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double agreement_percent = 5.0; // of mean and of std
+
+/// The values that a program wrote down. What is missing is remembered.
+class Written {
+public:
+    Written(const Json& json, std::string_view program) : json_{json}, program_{program} {}
+
+    template <typename Value>
+    Value at(const std::string& pointer)
+    {
+        const Json::json_pointer where{pointer};
+        const Json found = json_.contains(where) ? json_.at(where) : Json{};
+        const bool fits =
+            std::is_same_v<Value, std::string> ? found.is_string() : found.is_number();
+        if (fits) return found.get<Value>();
+        if (!missing_) missing_ = fmt::format("{} does not say {}", program_, pointer);
+        return {};
+    }
+    [[nodiscard]] const std::optional<std::string>& missing() const { return missing_; }
+
+private:
+    const Json& json_;
+    std::string_view program_;
+    std::optional<std::string> missing_;
+};
+
+/// Takes results; the first error stays.
+class Parts {
+public:
+    template <typename Value>
+    Value take(base::Result<Value> part)
+    {
+        if (part) return *std::move(part);
+        if (!error_) error_ = part.error().message;
+        return {};
+    }
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
+private:
+    std::optional<std::string> error_;
+};
+
+/// A spread as `analyse` writes it.
+std::optional<Spread> spread_in(const Json& json)
+{
+    Written written{json, "the analysis"};
+    const Spread spread{written.at<double>("/mean"), written.at<double>("/min"),
+                        written.at<double>("/max"), written.at<double>("/std")};
+    if (written.missing()) return std::nullopt;
+    return spread;
+}
+
+std::optional<Spread> in_mm(const std::optional<Spread>& metres)
+{
+    if (!metres) return std::nullopt;
+    return Spread{1e3 * metres->mean, 1e3 * metres->min, 1e3 * metres->max, 1e3 * metres->std};
+}
+
+std::vector<std::string> objections_to(const SessionFiles& session)
+{
+    auto objections = session.invalid_because();
+    if (!session.analysis.value("discrepancy_x_mm", Json{}).is_object()) {
+        objections.emplace_back("the two were never in session together");
+    }
+    return objections;
+}
+
+std::string_view verdict_on(const RealTimeResult& result)
+{
+    if (!result.valid()) return "NOT VALID, excluded";
+    const auto difference = result.difference_percent();
+    if (!difference) return "nothing to compare";
+    return std::abs(*difference) <= agreement_percent ? "agrees" : "DIFFERS";
+}
+
+} // namespace
+
+base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFile& open)
+{
+    Written peer{session.files.peer, "hapnet-peer"};
+    Written emulator{session.files.emulator, "hapnet-emulator"};
+    const auto task = peer.at<std::string>("/task");
+    const auto scene = peer.at<std::string>("/scene");
+    const auto algorithm = peer.at<std::string>("/algorithm_toml");
+    const auto person = peer.at<std::string>("/operator_toml");
+    const auto profile = emulator.at<std::string>("/profile");
+    Setting setting;
+    setting.length = base::from_seconds(peer.at<double>("/duration_s"));
+    setting.seed = base::Seed{emulator.at<std::uint64_t>("/seed")};
+    setting.players[0].seed = base::Seed{peer.at<std::uint64_t>("/session/seed")};
+    const auto grip_damping = peer.at<double>("/grip_damping_ns_per_m");
+    for (const Written* written : {&peer, &emulator}) {
+        if (written->missing()) return base::fail(*written->missing());
+    }
+    if (grip_damping != peer::Settings{}.grip_damping_ns_per_m) {
+        return base::fail("virtual time supports only the default grip damping");
+    }
+
+    Parts parts;
+    setting.task = parts.take(device::task_named(task));
+    setting.scene = parts.take(scene::load_scene(scene, open));
+    setting.profile = parts.take(emulator::parse_profile(profile, "the emulator's profile", open));
+    const auto text_of_person = [&](const std::string&) {
+        return base::Result<std::string>{person};
+    };
+    for (PlayerSetting& player : setting.players) {
+        player.algorithm = parts.take(peer::parse_algorithm(algorithm, "the peer's algorithm"));
+        player.person = parts.take(device::load_operator("the/peer's operator", text_of_person));
+    }
+    if (parts.error()) return base::fail(*parts.error());
+    if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
+    return setting;
+}
+
+std::optional<double> RealTimeResult::difference_percent() const
+{
+    if (!valid() || !real_mm || !virtual_mm) return std::nullopt;
+    if (virtual_mm->mean == 0.0 || virtual_mm->std == 0.0) return std::nullopt;
+    const double of_mean = 100.0 * (real_mm->mean - virtual_mm->mean) / virtual_mm->mean;
+    const double of_std = 100.0 * (real_mm->std - virtual_mm->std) / virtual_mm->std;
+    return std::abs(of_mean) >= std::abs(of_std) ? of_mean : of_std;
+}
+
+RealTimeResult result_of(const RealTimeSession& session, const Trace& twin)
+{
+    return {.algorithm = session.files.peer.value("algorithm", "?"),
+            .where = session.where,
+            .real_mm = spread_in(session.files.analysis.value("discrepancy_x_mm", Json{})),
+            .virtual_mm = in_mm(metrics_of(twin).discrepancy_m),
+            .invalid_because = objections_to(session.files)};
+}
+
+std::string real_time_csv(std::span<const RealTimeResult> results)
+{
+    std::vector<RealTimeRow> rows;
+    for (const RealTimeResult& result : results) {
+        RealTimeRow row{.algorithm = result.algorithm,
+                        .where = result.where,
+                        .difference_percent = result.difference_percent(),
+                        .is_valid = result.valid(),
+                        .invalid_because =
+                            fmt::format("{}", fmt::join(result.invalid_because, "; "))};
+        if (const auto& mm = result.real_mm) {
+            row.mean_mm = mm->mean;
+            row.std_mm = mm->std;
+            row.max_mm = mm->max;
+        }
+        if (const auto& mm = result.virtual_mm) {
+            row.virtual_mean_mm = mm->mean;
+            row.virtual_std_mm = mm->std;
+            row.virtual_max_mm = mm->max;
+        }
+        rows.push_back(std::move(row));
+    }
+    return base::csv_text(rows);
+}
+
+std::string real_time_table(std::span<const RealTimeResult> results)
+{
+    constexpr auto row = "{:<16}{:<12}{:>9}{:>9}{:>9}   {}\n";
+    std::string table = fmt::format(row, "|x_L - x_R|, mm", "where", "mean", "std", "max",
+                                    "real time against virtual time");
+    const auto line = [&](const RealTimeResult& result, std::string_view where,
+                          const std::optional<Spread>& spread, std::string_view note) {
+        const auto cell = [&](double Spread::*part) {
+            return spread ? fmt::format("{:.2f}", (*spread).*part) : std::string{"-"};
+        };
+        table += fmt::format(row, result.algorithm, where, cell(&Spread::mean), cell(&Spread::std),
+                             cell(&Spread::max), note);
+    };
+    for (const RealTimeResult& result : results) {
+        line(result, "virtual", result.virtual_mm, "");
+        const auto percent = result.difference_percent();
+        line(result, result.where, result.real_mm,
+             !percent ? std::string{verdict_on(result)}
+                      : fmt::format("{:.2f} % off at most: {}", *percent, verdict_on(result)));
+        for (const auto& reason : result.invalid_because) table += "  " + reason + '\n';
+    }
+    return table;
+}
+
+Json real_time_manifest(std::span<const RealTimeResult> results, const Circumstances& circumstances)
+{
+    Json sessions = Json::array();
+    for (const RealTimeResult& result : results) {
+        sessions.push_back({{"algorithm", result.algorithm},
+                            {"where", result.where},
+                            {"valid", result.valid()},
+                            {"invalid_because", result.invalid_because}});
+    }
+    const auto is_valid = [](const RealTimeResult& result) { return result.valid(); };
+    Json manifest = manifest_head(circumstances);
+    manifest["valid"] = std::ranges::all_of(results, is_valid);
+    manifest["sessions"] = sessions;
+    return manifest;
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/results/result_files.hpp"
+
+#include "lab/experiment/grid.hpp"
+#include "lab/metrics/calibration.hpp"
+#include "lab/results/limit_rows.hpp"
+#include "lab/results/paper.hpp"
+#include "lab/results/summary.hpp"
+
+#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+
+namespace hapnet::lab {
+
+namespace {
+
+/// What the sessions of one algorithm and task found, in the order of the seeds.
+struct Group {
+    std::string_view algorithm;
+    device::Task task{};
+    std::vector<Scores> scores{};
+    std::string_view rows{}; // of the first seed
+};
+
+/// The results of single sessions, by algorithm and task; each point of a grid begins anew.
+std::vector<Group> groups_of(const Experiment& experiment, std::span<const JobResult> results)
+{
+    const auto jobs = make_jobs(experiment);
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const auto& job = std::get<SessionJob>(jobs[i]);
+        const auto& result = std::get<SessionResult>(results[i]);
+        if (job.spec.setting.seed.value() == experiment.first_seed) {
+            groups.push_back(
+                {experiment.algorithms[job.algorithm].name, job.task, {}, result.rows});
+        }
+        groups.back().scores.push_back(scores_of(result.metrics, result.perfect));
+    }
+    return groups;
+}
+
+Spread in_mm(const Spread& metres)
+{
+    return {1e3 * metres.mean, 1e3 * metres.min, 1e3 * metres.max, 1e3 * metres.std};
+}
+
+std::optional<Spread> base_in_mm(const std::vector<Group>& groups, const Criteria& criteria)
+{
+    for (const Group& group : groups) {
+        if (group.algorithm != "base" || group.task != device::Task::p1) continue;
+        const auto typical = summarize(group.scores, criteria).typical_m;
+        if (typical) return in_mm(*typical);
+    }
+    return std::nullopt;
+}
+
+std::optional<double> in_thousandths(std::optional<double> value)
+{
+    return value ? std::optional{1e3 * *value} : std::nullopt;
+}
+
+Table1Row table1_row(const Group& group, const Summary& summary,
+                     const std::optional<Spread>& base_mm)
+{
+    const auto paper = paper_table1(group.algorithm);
+    const Spread mm = in_mm(summary.typical_m.value_or(Spread{}));
+    Table1Row row{.algorithm = std::string{group.algorithm},
+                  .mean_mm = mm.mean,
+                  .min_mm = mm.min,
+                  .max_mm = mm.max,
+                  .std_mm = mm.std,
+                  .verdict = summary.typical_m ? table1_verdict(group.algorithm, mm, base_mm)
+                                               : Claim::missed};
+    if (paper) {
+        row.paper_mean_mm = paper->mean_mm;
+        row.paper_max_mm = paper->max_mm;
+        row.paper_std_mm = paper->std_mm;
+    }
+    return row;
+}
+
+TaskRow task_row(const Group& group, const Summary& summary, const Criteria& criteria)
+{
+    const Judged judged = make_judged(summary, criteria);
+    TaskRow row{.algorithm = std::string{group.algorithm},
+                .task = std::string{name_of(group.task)},
+                .seeds = static_cast<std::uint32_t>(group.scores.size()),
+                .mean_mm = judged.mean_mm,
+                .max_mm = in_thousandths(summary.discrepancy_max_m),
+                .vibration_mm = judged.vibration_mm,
+                .stiffness_ratio = judged.stiffness_ratio,
+                .force_vibration_n = judged.force_vibration_n,
+                .force_discrepancy = summary.worst.force_discrepancy,
+                .contact_lost = summary.worst.contact_lost,
+                .force_step_n = summary.force_step_n,
+                .drag_n = summary.worst.drag_n,
+                .energy_mj = in_thousandths(summary.worst.energy_taken_j),
+                .tier = judged.tier,
+                .limited_by = summary.limited_by};
+    if (summary.typical_m) row.std_mm = 1e3 * summary.typical_m->std;
+    return row;
+}
+
+/// The rows that a session kept: CSV without a header.
+std::vector<ReplayRow> parse_rows(std::string_view rows)
+{
+    auto parsed = base::read_csv<ReplayRow>(
+        fmt::format("{}\n{}", base::csv_header<ReplayRow>(), rows), "rows of a session");
+    return parsed ? *std::move(parsed) : std::vector<ReplayRow>{};
+}
+
+/// Which command wrote the criteria.
+std::string origin_of(const Experiment& experiment)
+{
+    std::vector<std::string_view> tasks;
+    for (const device::Task task : experiment.tasks) tasks.push_back(name_of(task));
+    return fmt::format("# Written by `hapnet-lab run calibration`: {}, {} seeds of {}, {}.\n",
+                       experiment.algorithms.front().name, experiment.seeds, fmt::join(tasks, ", "),
+                       name_of(experiment.hands));
+}
+
+struct ResultsOf {
+    const Experiment& experiment;
+    const Criteria& criteria;
+    std::span<const JobResult> results;
+
+    base::Result<std::vector<File>> operator()(const Table1&) const
+    {
+        const auto groups = groups_of(experiment, results);
+        const auto base_mm = base_in_mm(groups, criteria);
+        std::vector<Table1Row> table;
+        std::vector<TaskRow> tasks;
+        std::vector<File> files;
+        for (const Group& group : groups) {
+            const Summary summary = summarize(group.scores, criteria);
+            if (group.task == device::Task::p1) {
+                table.push_back(table1_row(group, summary, base_mm));
+            } else {
+                tasks.push_back(task_row(group, summary, criteria));
+            }
+            files.push_back({fmt::format("replay/{}-{}.csv", group.algorithm, name_of(group.task)),
+                             fmt::format("{}\n{}", base::csv_header<ReplayRow>(), group.rows)});
+        }
+        files.push_back({"table1.csv", base::csv_text(table)});
+        files.push_back({"tasks.csv", base::csv_text(tasks)});
+        return files;
+    }
+
+    base::Result<std::vector<File>> operator()(const Limits& limits) const
+    {
+        std::vector<File> files;
+        files.push_back({"limits.csv", base::csv_text(make_limit_rows(experiment, results))});
+        files.push_back(
+            {"curves.csv", base::csv_text(make_curve_rows(experiment, criteria, results))});
+        if (limits.sensitivity) {
+            files.push_back(
+                {"limits_by_convention.csv",
+                 base::csv_text(make_sensitivity_rows(experiment, *limits.sensitivity, results))});
+        }
+        return files;
+    }
+
+    base::Result<std::vector<File>> operator()(const Trajectories&) const
+    {
+        std::vector<TrajectoryRow> rows;
+        for (const Group& group : groups_of(experiment, results)) {
+            for (const ReplayRow& row : parse_rows(group.rows)) {
+                rows.push_back(to_trajectory(std::string{group.algorithm}, row));
+            }
+        }
+        return std::vector<File>{{"trajectories.csv", base::csv_text(rows)}};
+    }
+
+    base::Result<std::vector<File>> operator()(const ImpairmentGrid& grid) const
+    {
+        const auto groups = groups_of(experiment, results);
+        const auto points = grid_points(grid);
+        const std::size_t groups_per_point = groups.size() / points.size();
+        std::vector<QosRow> rows;
+        for (std::size_t i = 0; i < groups.size(); ++i) {
+            const GridPoint& point = points[i / groups_per_point];
+            rows.push_back(
+                {.algorithm = std::string{groups[i].algorithm},
+                 .task = std::string{name_of(groups[i].task)},
+                 .delay_ms = in_units(point.delay),
+                 .jitter_ms = in_units(point.jitter),
+                 .loss_percent = in_units(point.loss),
+                 .judged = make_judged(summarize(groups[i].scores, criteria), criteria)});
+        }
+        return std::vector<File>{{"qos.csv", base::csv_text(rows)}};
+    }
+
+    base::Result<std::vector<File>> operator()(const Calibration&) const
+    {
+        std::vector<Scores> scores;
+        for (const JobResult& result : results) {
+            const auto& session = std::get<SessionResult>(result);
+            scores.push_back(scores_of(session.metrics, session.perfect));
+        }
+        const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
+        const auto rest = std::span{scores}.subspan(half.size());
+        return calibrated({half, rest}, criteria).map([this](const Criteria& found) {
+            return std::vector<File>{
+                {"criteria.toml", origin_of(experiment) + print_criteria(found)}};
+        });
+    }
+};
+
+} // namespace
+
+base::Result<std::vector<File>> make_result_files(const Experiment& experiment,
+                                                  const Criteria& criteria,
+                                                  std::span<const JobResult> results)
+{
+    return std::visit(ResultsOf{experiment, criteria, results}, experiment.kind);
+}
+
+} // namespace hapnet::lab

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/jobs.hpp"
+#include "lab/results/file.hpp"
+
+#include <span>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// What an experiment found, as files: equal results, equal bytes. `results` are those of
+/// make_jobs(experiment), in that order. The error: sessions that nothing can be calibrated on.
+[[nodiscard]] base::Result<std::vector<File>> make_result_files(const Experiment& experiment,
+                                                                const Criteria& criteria,
+                                                                std::span<const JobResult> results);
+
+} // namespace hapnet::lab

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::lab {
+
+/// The result files of one session over real UDP, as the programs wrote them.
+struct SessionFiles {
+    using Json = nlohmann::ordered_json;
+
+    Json analysis = Json::object(); // hapnet-lab analyse --json
+    Json emulator = Json::object(); // hapnet-emulator --stats
+    Json peer = Json::object();     // hapnet-peer --stats, of the peer with id 1
+
+    /// Why the session does not count, for people; empty: it does.
+    [[nodiscard]] std::vector<std::string> invalid_because() const;
+};
+
+} // namespace hapnet::lab

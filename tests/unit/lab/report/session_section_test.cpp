@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "tests/unit/lab/records/recording.hpp"
+#include "tests/unit/lab/report/sample.hpp"
+
+namespace hapnet::lab::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A session of two peers: the copies are 25 mm apart for as long as it lasts.
+struct TwoRecords {
+    TwoRecords()
+    {
+        a.content().config.update({{"task", "T3"}, {"algorithm", "<base>"}});
+        a.session(1s).ticks(0s, 1s, Phase::running, cube_at(0.010));
+        b.session(1s).ticks(0s, 1s, Phase::running, cube_at(0.035));
+    }
+
+    Recording a{1};
+    Recording b{2};
+};
+
+Results results_of(TwoRecords& records)
+{
+    Results results;
+    const auto added = add_session(results, "", records.a.content(), records.b.content());
+    EXPECT_TRUE(added) << added.error().message;
+    return results;
+}
+
+std::string page_of(const Results& results)
+{
+    return text_of(report_of(results, "r"), "report.html");
+}
+
+TEST(SessionSection, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecords)
+{
+    TwoRecords records;
+    const Results results = results_of(records);
+    const std::string page = page_of(results);
+    EXPECT_TRUE(holds(page, "<h1>A recorded session of task T3</h1>"));
+    EXPECT_TRUE(holds(page, "<section id='replay'"));
+    EXPECT_TRUE(holds(page, "<section id='sessions'"));
+    EXPECT_TRUE(holds(page, "25.00 mm on average while both hands were on, 25.0 mm at most"));
+    EXPECT_TRUE(holds(page, "<th scope='row'>cube |x_A - x_B|, mm</th><td>25.000</td>"));
+    EXPECT_TRUE(holds(page, "<th scope='row'>ticks per second</th><td>1000.00</td>"));
+    EXPECT_TRUE(holds(page, "algorithm &lt;base&gt;"));
+    EXPECT_FALSE(holds(page, "<base>"));
+    EXPECT_FALSE(holds(page, "<section id='missing'")) << "no experiment was to be here";
+    const auto files = report_of(results, "r");
+    for (const char* name : {"apart", "cubes", "forces"}) {
+        EXPECT_FALSE(text_of(files, "figures/session-T3-" + std::string{name} + ".svg").empty())
+            << name;
+    }
+    EXPECT_EQ(page_subject(page), "session");
+}
+
+TEST(SessionSection, SaysWhetherTheSessionIsValidAndWhyNot)
+{
+    TwoRecords records;
+    EXPECT_TRUE(holds(page_of(results_of(records)), "<b>Valid.</b>"));
+    Recording late{2};
+    late.session(1s).ticks(500ms, 1s, Phase::running, cube_at(0.0));
+    Results results;
+    ASSERT_TRUE(add_session(results, "late", records.a.content(), late.content()));
+    const std::string page = page_of(results);
+    EXPECT_TRUE(holds(page, "<b>Not valid.</b>"));
+    EXPECT_TRUE(holds(page, "<li>the sessions overlap 50.0 %, less than 95 %</li>"));
+}
+
+TEST(SessionSection, IsThereWithoutAPlayerWhenTheTwoNeverPlayedTogether)
+{
+    Recording a{1};
+    Recording b{2};
+    a.session(1s).ticks(0s, 1s);
+    b.session(1s);
+    Results results;
+    ASSERT_TRUE(add_session(results, "", a.content(), b.content()));
+    const std::string page = page_of(results);
+    EXPECT_FALSE(holds(page, "<section id='replay'"));
+    EXPECT_TRUE(holds(page, "The two sides were never running together."));
+}
+
+TEST(SessionSection, RefusesRecordsThatDoNotBelongTogether)
+{
+    Recording a{1};
+    Recording b{1};
+    Results results;
+    EXPECT_FALSE(add_session(results, "", a.content(), b.content()));
+    EXPECT_TRUE(results.sessions.empty());
+}
+
+TEST(SessionSection, ThePlayerShowsTheSceneOfTheRecord)
+{
+    TwoRecords records;
+    records.a.content().config["scene_toml"] = "[[body]]\nsize = \"60mm\"\nmass = \"0.1kg\"\n";
+    EXPECT_TRUE(holds(page_of(results_of(records)), R"("half":[30.0,30.0,30.0])"));
+}
+
+TEST(DemoSection, PutsTheDemosTablesOnTopOfTheSessionsAndKeepsThemInTheirScrollingFrames)
+{
+    TwoRecords records;
+    Results results = results_of(records);
+    SessionFiles task{.analysis = {{"discrepancy_x_mm", {{"mean", 13.5}}}}};
+    results.demo = DemoRun{task, task};
+    results.runs.push_back(
+        {"r", Json{{"kind", "demo"}, {"command", "demo.sh --out <here & there>"}}, std::nullopt});
+    const std::string page = page_of(results);
+    const auto demo = page.find("<section id='demo'"), sessions = page.find("<section id='session");
+    ASSERT_NE(demo, std::string::npos);
+    EXPECT_LT(demo, sessions);
+    EXPECT_TRUE(holds(page, "<th scope='row'>paper</th><td>13.79</td><td>0.00</td>"));
+    EXPECT_TRUE(holds(page, "mean within 15 % of the paper&#39;s: met"));
+    EXPECT_TRUE(holds(page, "--out &lt;here &amp; there&gt;"));
+    EXPECT_FALSE(holds(page, "<here"));
+    EXPECT_FALSE(holds(page, "<section id='missing'"));
+    EXPECT_EQ(page_subject(page), "demo");
+    std::size_t tables = 0, frames = 0;
+    for (auto at = page.find("<table"); at != std::string::npos; at = page.find("<table", at + 1)) {
+        ++tables;
+        frames += page.rfind("<div", at) == page.rfind("<div class='scroll'", at) ? 1U : 0U;
+    }
+    EXPECT_GE(tables, 6U);
+    EXPECT_EQ(frames, tables) << "a narrow screen scrolls each table";
+}
+
+TEST(PageSubject, IsEmptyForAPageThatDoesNotSay)
+{
+    EXPECT_EQ(page_subject("<html></html>"), "");
+    EXPECT_EQ(page_subject(report::page_of({sample_table1()})), "experiments");
+}
+
+} // namespace
+} // namespace hapnet::lab::report
