@@ -129,5 +129,14 @@ TEST(Words, OfThePagesArePlain)
     });
 }
 
+TEST(Words, OfTheProgramsArePlain)
+{
+    const auto words = words_below(file_at("docs/GLOSSARY.md"), "Phrases to avoid");
+    expect_none([&](const SourceFile& file) {
+        const bool is_read = file.is_cpp() && !file.is_in("tests");
+        return is_read ? words_in(literals_of(file), words) : std::vector<std::string>{};
+    });
+}
+
 } // namespace
 } // namespace hapnet::tidy
