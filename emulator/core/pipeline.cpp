@@ -51,7 +51,7 @@ Fate Pipeline::on_packet(const Packet& packet)
         fate.states[i] = loss_[i].process.state();
         if (!cause) cause = lost;
     }
-    Deliver deliver;
+    auto& deliver = std::get<Deliver>(fate.verdict); // drawn in place: this is done a lot
     if (is_drawn(corrupt_.share, corrupt_stream_, packet.number)) {
         deliver.flips = draw_flips(packet.number);
     }
@@ -63,11 +63,7 @@ Fate Pipeline::on_packet(const Packet& packet)
     if (is_drawn(reorder_.share, reorder_stream_, packet.number)) {
         deliver.displacement = reorder_.displacement;
     }
-    if (cause) {
-        fate.verdict = Drop{*cause};
-    } else {
-        fate.verdict = deliver;
-    }
+    if (cause) fate.verdict = Drop{*cause};
     return fate;
 }
 
