@@ -197,7 +197,7 @@ struct List {
     {
         std::vector<std::string> texts;
         for (const T& value : values) texts.push_back(element.print(value));
-        return "[" + list_text(texts) + "]";
+        return fmt::format("[{}]", list_text(texts));
     }
     [[nodiscard]] std::string describe() const { return "a list: each " + element.describe(); }
 };

@@ -12,8 +12,7 @@ constexpr std::string_view program = "bench_device";
 constexpr std::string_view usage =
     "usage: bench_device [--quick] [--json FILE]\n"
     "Times a tick of the servo between the device's bytes and the network's: encoder counts to a\n"
-    "place, the contact, the governor with the torques of the joints. Beside it the same tick
-    "
+    "place, the contact, the governor with the torques of the joints. Beside it the same tick\n"
     "without governor and kinematics. --json: the rows. --quick ends within seconds.\n";
 
 base::Result<int> measure(const Options& options)
