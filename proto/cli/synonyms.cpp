@@ -205,14 +205,6 @@ constexpr std::array values{
                  "TiDeC is not open; sep is its open stand-in: --algorithm sep"},
     ValueSynonym{"--device", "simulated", "sim"},
     ValueSynonym{"--device", "none", "sim"},
-    ValueSynonym{"--device", "touch", "hdapi",
-                 "the vendor's library opens a Touch: --device hdapi"},
-    ValueSynonym{"--device", "phantom", "hdapi",
-                 "a PHANToM on FireWire is --device omni1394; the vendor's library opens the "
-                 "others: --device hdapi"},
-    ValueSynonym{"--device", "omni", "omni1394",
-                 "an Omni on FireWire is --device omni1394; the vendor's library opens the others: "
-                 "--device hdapi"},
     ValueSynonym{"--timing", "accurate", "precise"},
     ValueSynonym{"--timing", "busy", "spin"},
     ValueSynonym{"--timing", "sleep", "eco"},

@@ -157,7 +157,7 @@ TEST(PeerDevices, RefusesBadUsageNamingTheCure)
     const std::string free = "127.0.0.1:9";
     for (const Case& c : {
              Case{{"list-devices", "--jsn"}, 2, {"--jsn", "did you mean --json?"}},
-             Case{{"doctor", "now"}, 2, {"now", "doctor --help"}},
+             Case{{"doctor", "now"}, 2, {"unexpected 'now'", "hapnet-peer doctor [OPTIONS]"}},
              Case{{"self-test"}, 2, {"--device is required", "list-devices"}},
              Case{{"self-test", "--device", "sim", "--skip", "all"}, 2, {"--skip", "cable"}},
              Case{{"self-test", "--device", "sim", "--read-for", "0"}, 2, {"--read-for", "100ms"}},

@@ -100,7 +100,8 @@ TEST(PeerOptions, PrintAnAlgorithmWithoutARemote)
 {
     const auto prints = cli::prints_of("hapnet-peer", parse_command_line);
     expect_words(prints({"--print-algorithm", "dr"}).value(), "velocity = ");
-    expect_words(refusal_to({"--print-algorithm", "best"}), "--print-algorithm: 'best'");
+    expect_words(refusal_to({"--print-algorithm", "best"}),
+                 "--print-algorithm: unknown algorithm \"best\"");
     expect_words(prints({"doctor", "--print-udev-rules"}).value(), "SUBSYSTEM");
 }
 

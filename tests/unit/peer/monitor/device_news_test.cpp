@@ -39,8 +39,9 @@ TEST(DeviceReporter, TellsAFaultAtOnceAndOnceAndItsEnd)
     const auto fault = reporter.look(CalibrationStep::done, cable, noon);
     ASSERT_TRUE(fault);
     EXPECT_EQ(describe(*fault),
-              "zero force (communication): the device was not understood: check its cable, and use "
-              "no hub; to feel force again put the stylus into its holder, or hold it still for a "
+              "zero force (communication): the device sent data that makes no sense: check its "
+              "cable, and use no hub; to feel force again put the stylus into its holder, or hold "
+              "it still for a "
               "second and press its button");
     EXPECT_FALSE(reporter.look(CalibrationStep::done, cable, noon + 5s));
     const auto end = reporter.look(CalibrationStep::done, {}, noon + 6s);

@@ -135,7 +135,7 @@ TEST(SceneText, NamesThePlaceOfWhatIsWrongAndWhatIsPossible)
         {"[[plane]]\nnormal = [0, 0, 0]", {"s.toml:2:10: ", "not zero"}},
         {"[[body]]\nsize = \"40mm\"", {"s.toml:1:1: ", "'mass' or 'density' is missing"}},
         {"[[body]]\nmas = \"1kg\"", {"s.toml:2:1: ", "did you mean 'mass'?"}},
-        {"[[body]]\nmass = \"1kg\"", {"s.toml:1:1: ", "'size' is missing"}},
+        {"[[body]]\nmass = \"1kg\"", {"s.toml:1:1: ", "missing key 'size'"}},
         {with_body("density = \"1g/cm3\""), {"s.toml:4:11: ", "leave out one"}},
         {with_body("size_ = 1"), {"s.toml:4:1: ", "did you mean 'size'?"}},
         {with_body("position = [0, \"2km\", 0]"), {"s.toml:4:16: ", "40mm"}},
@@ -145,7 +145,7 @@ TEST(SceneText, NamesThePlaceOfWhatIsWrongAndWhatIsPossible)
         {with_body("turning = \"lockd\""), {"s.toml:4:11: ", "did you mean 'locked'?"}},
         {with_body("locked = [\"w\"]"), {"s.toml:4:11: ", "\"x\", \"y\" or \"z\""}},
         {with_body("fixed = 1"), {"s.toml:4:9: ", "true or false"}},
-        {with_body("orientation = { axis = [0, 1, 0] }"), {"s.toml:4:15: ", "'angle' is missing"}},
+        {with_body("orientation = { axis = [0, 1, 0] }"), {"s.toml:4:15: ", "missing key 'angle'"}},
         {with_body("orientation = \"30deg\""), {"s.toml:4:15: ", "axis = [0, 1, 0]"}},
         {with_body("[[array]]\nsize = \"1m\"\nmass = \"1kg\"\nspacing = [0, 0, 0]\n"
                    "count = [1000, 1, 101]"),
