@@ -189,12 +189,12 @@ void Recorder::on_fate(Direction direction, std::uint64_t number, const Fate& fa
 
 void Recorder::on_arrival(const Observation& observed, const Verdict& verdict)
 {
-    if (capture_) put({.observed = observed, .verdict = verdict});
+    if (capture_) put({.observed = observed, .verdict = verdict, .late = {}, .is_copy = false});
 }
 
 void Recorder::on_departure(const Observation& observed, base::Duration late, bool is_copy)
 {
-    if (capture_) put({.observed = observed, .late = late, .is_copy = is_copy});
+    if (capture_) put({.observed = observed, .verdict = {}, .late = late, .is_copy = is_copy});
 }
 
 void Recorder::put(const CaptureHeader& header)
