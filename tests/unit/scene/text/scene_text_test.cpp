@@ -59,7 +59,7 @@ TEST(SceneText, ReadsWhatABodyMayHave)
     EXPECT_NEAR(body.angular_velocity.z, std::acos(0.0), 1e-15);
     EXPECT_NEAR(body.mass_kg, 0.8, 1e-15);
     EXPECT_EQ(body.turning, Turning::about_z);
-    EXPECT_TRUE(body.locked_x && body.locked_y && !body.locked_z);
+    EXPECT_TRUE(body.locked.x && body.locked.y && !body.locked.z);
     EXPECT_EQ(body.material, (Material{0.3, 1.0}));
     EXPECT_EQ(body.drag_ns_per_m, 10.0);
 }
