@@ -88,10 +88,10 @@ private:
     };
     /// The beginning of a packet; its bytes follow in chunks.
     struct CaptureHeader {
-        Observation observed;             // its bytes: only how many
-        std::optional<Verdict> verdict{}; // nullopt: it left
-        base::Duration late{};            // when it left
-        bool is_copy = false;
+        Observation observed;           // its bytes: only how many
+        std::optional<Verdict> verdict; // nullopt: it left
+        base::Duration late;            // when it left
+        bool is_copy;
     };
     struct CaptureChunk {
         std::array<std::byte, 240> bytes; // most datagrams are one chunk

@@ -20,10 +20,10 @@ LawMoments LogNormalLaw::moments() const { return {mean, sd}; }
 
 LogNormalLaw::Sampler::Sampler(const LogNormalLaw& law)
 {
-    const double mean = std::max(base::to_nanoseconds(law.mean), 1.0);
-    const double spread = base::to_nanoseconds(law.sd) / mean;
+    const double mean_ns = std::max(base::to_nanoseconds(law.mean), 1.0);
+    const double spread = base::to_nanoseconds(law.sd) / mean_ns;
     const double log_variance = base::log1p(spread * spread);
-    log_mean_ = base::log(mean) - 0.5 * log_variance;
+    log_mean_ = base::log(mean_ns) - 0.5 * log_variance;
     log_sd_ = std::sqrt(log_variance);
 }
 

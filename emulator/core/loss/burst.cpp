@@ -92,9 +92,9 @@ void TimedBurst::Model::change(const TimedBurst& law, const base::RandomStream& 
 {
     base::ensure(law.every > base::Duration{0});
     law_ = law;
-    const auto every = static_cast<double>(law.every.count());
+    const auto period = static_cast<double>(law.every.count());
     begin_ = law.phase.value_or(
-        base::Duration{static_cast<base::Duration::rep>(stream.uniform(0) * every)});
+        base::Duration{static_cast<base::Duration::rep>(stream.uniform(0) * period)});
 }
 
 } // namespace hapnet::emulator

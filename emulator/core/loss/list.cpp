@@ -34,9 +34,9 @@ std::vector<LossProperty> ListedLoss::properties(const RunFacts& facts) const
 
 bool ListedLoss::Model::on_packet(const Packet& packet, const base::RandomStream& /*stream*/)
 {
-    const auto& numbers = law_.numbers;
-    while (next_ < numbers.size() && numbers[next_] < packet.number) ++next_;
-    return next_ < numbers.size() && numbers[next_] == packet.number;
+    const auto& lost = law_.numbers;
+    while (next_ < lost.size() && lost[next_] < packet.number) ++next_;
+    return next_ < lost.size() && lost[next_] == packet.number;
 }
 
 void ListedLoss::Model::change(const ListedLoss& law, const base::RandomStream& /*stream*/)

@@ -78,9 +78,9 @@ std::vector<LossProperty> Outage::properties(const RunFacts& /*facts*/) const
 
 bool Outage::Model::on_packet(const Packet& packet, const base::RandomStream& /*stream*/)
 {
-    const auto& windows = law_.windows;
-    while (next_ < windows.size() && windows[next_].to <= packet.at) ++next_;
-    return next_ < windows.size() && windows[next_].from <= packet.at;
+    const auto& outages = law_.windows;
+    while (next_ < outages.size() && outages[next_].to <= packet.at) ++next_;
+    return next_ < outages.size() && outages[next_].from <= packet.at;
 }
 
 void Outage::Model::change(const Outage& law, const base::RandomStream& /*stream*/)
