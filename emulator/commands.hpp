@@ -16,6 +16,6 @@ namespace hapnet::emulator {
 /// Prints what the profile will do to a stream.
 [[nodiscard]] base::Result<int> run(const PredictOptions& options);
 /// Tests whether the fates of a run are those that its profile promises; 1 when a test fails.
-[[nodiscard]] base::Result<int> run(const VerifyOptions& options);
+[[nodiscard]] base::Result<int> run(const VerifyOptions& request);
 
 } // namespace hapnet::emulator

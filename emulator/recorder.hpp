@@ -87,7 +87,8 @@ private:
         Direction direction = Direction::up;
     };
     /// The beginning of a packet; its bytes follow in chunks.
-    struct CaptureHeader {
+    // No defaults: Clang 14 needs them before the class that holds this one is complete.
+    struct CaptureHeader {              // NOLINT(cppcoreguidelines-pro-type-member-init)
         Observation observed;           // its bytes: only how many
         std::optional<Verdict> verdict; // nullopt: it left
         base::Duration late;            // when it left

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/describe.hpp"
-#include "emulator/core/delay/theory.hpp"
 
 #include "emulator/core/delay/theory.hpp"
 #include "emulator/core/loss/loss.hpp"

@@ -62,7 +62,7 @@ void add_analyse(cli::Command& command, AnalyseCommand& analyse)
     command.flag("--json", "Print one JSON object instead of a table", analyse.json);
 }
 
-base::Result<ExportRows> parse_rows(const std::string& text)
+base::Result<ExportRows> parse_export_rows(const std::string& text)
 {
     return cli::one_of({"ticks", "messages"})(text).map([](const std::string& word) {
         return word == "messages" ? ExportRows::messages : ExportRows::ticks;
@@ -78,7 +78,7 @@ void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
     command.flag("--csv", "As CSV: the only format, and the default", as_csv);
     command.option("--rows", "ticks|messages",
                    "Ticks of the haptic loop, or messages received (default ticks)",
-                   cli::into(exported.rows, parse_rows));
+                   cli::into(exported.rows, parse_export_rows));
 }
 
 /// Facts that a script knows and hapnet-lab does not.

@@ -204,9 +204,10 @@ base::Result<void> add_session(Results& results, const std::string& name, const 
                              .curves = curves_of(*session)};
     auto rows = make_replay_rows(trace_of(*session), replay_rows_per_s);
     if (rows.size() >= 2) { // there are none when the two were hardly in session together
+        const double start_s = rows.front().time_s;
         Replay replay{.algorithm = recorded.algorithm.empty() ? "recorded" : recorded.algorithm,
                       .task = recorded.name,
-                      .start_s = rows.front().time_s,
+                      .start_s = start_s,
                       .step_s = 1.0 / replay_rows_per_s,
                       .rows = std::move(rows)};
         const auto scene = scene::parse_scene(text_in(a.config, "scene_toml"), "scene_toml");

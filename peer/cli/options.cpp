@@ -156,7 +156,7 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
 
 base::Result<void> complete(Options& options, const cli::Command& program)
 {
-    if (const auto fine = check_device_options(program, options.device); !fine) return fine;
+    if (auto fine = check_device_options(program, options.device); !fine) return fine;
     if (program.is_given("--scene")) return {};
     const std::string scene{device::scene_of(options.task)};
     const auto taken = take_scene(scene, options);

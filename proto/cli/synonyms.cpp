@@ -267,12 +267,12 @@ std::string option_meant(const Command& command, std::string_view typed)
         if (!word.starts_with(prefix)) continue;
         const std::string rest = word.substr(prefix.size());
         const std::string way = prefix == "both." ? "" : std::string{prefix};
-        const auto name = proposed(synonyms, rest, names, program_of(command));
+        auto name = proposed(synonyms, rest, names, program_of(command));
         if (!name.empty() && !way.empty() && name.starts_with("--")) {
             return fmt::format("--{}{}", way, name.substr(2));
         }
         if (!name.empty()) return name;
-        const auto exact = fmt::format("--{}{}", way, rest);
+        auto exact = fmt::format("--{}{}", way, rest);
         if (std::find(names.begin(), names.end(), exact) != names.end()) return exact;
     }
     std::vector<std::string_view> undashed;
@@ -293,7 +293,7 @@ std::string unknown_option(const Command& command, std::string_view word)
 
 std::string command_meant(const Command& program, std::string_view word)
 {
-    const std::string meant = proposed(commands, plain(word), {}, program);
+    auto meant = proposed(commands, plain(word), {}, program);
     if (!meant.empty()) return meant;
     const auto name = base::nearest(plain(word), names_of(program));
     return name ? program.find_command(*name)->path() : "";
