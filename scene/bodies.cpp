@@ -37,8 +37,8 @@ BodyProperties properties_of(const BodyDescription& body, BodyId id)
     properties.mass = body.mass_kg;
     properties.turning = body.turning;
     const double light = 1.0 / body.mass_kg;
-    properties.inverse_mass = {body.locked_x ? 0.0 : light, body.locked_y ? 0.0 : light,
-                               body.locked_z ? 0.0 : light};
+    properties.inverse_mass = {body.locked.x ? 0.0 : light, body.locked.y ? 0.0 : light,
+                               body.locked.z ? 0.0 : light};
     properties.inertia = box_inertia(body.mass_kg, body.half);
     properties.is_isotropic = body.half.x == body.half.y && body.half.y == body.half.z;
     if (body.turning == Turning::free) {

@@ -140,8 +140,8 @@ private:
 
 void add(Hash& hash, const BodyDescription& body)
 {
-    const auto flags = (body.movable ? 1U : 0U) | (body.locked_x ? 2U : 0U) |
-                       (body.locked_y ? 4U : 0U) | (body.locked_z ? 8U : 0U) |
+    const auto flags = (body.movable ? 1U : 0U) | (body.locked.x ? 2U : 0U) |
+                       (body.locked.y ? 4U : 0U) | (body.locked.z ? 8U : 0U) |
                        static_cast<unsigned>(body.turning) << 4U;
     hash.add(std::uint64_t{flags});
     hash.add(body.half);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
 
@@ -24,6 +25,20 @@ struct Material {
 /// How a body may rotate: freely, not at all, or about one axis of the world alone.
 enum class Turning : std::uint8_t { free, locked, about_x, about_y, about_z };
 
+constexpr auto names_of(base::Tag<Turning>)
+{
+    return base::names("free", "locked", "about-x", "about-y", "about-z");
+}
+
+/// The axes of the world along which a body's centre does not move.
+struct LockedAxes {
+    bool x = false;
+    bool y = false;
+    bool z = false;
+
+    friend bool operator==(const LockedAxes&, const LockedAxes&) = default;
+};
+
 /// A solid box of even density.
 struct BodyDescription {
     std::string name;
@@ -35,9 +50,7 @@ struct BodyDescription {
     glm::dvec3 angular_velocity{0.0}; // rad/s, in the world's frame
     double mass_kg = 0.1;
     Turning turning = Turning::free;
-    bool locked_x = false; // its centre keeps this coordinate
-    bool locked_y = false;
-    bool locked_z = false;
+    LockedAxes locked{};
     Material material{};
     double drag_ns_per_m = 0.0; // viscous friction on the plane that supports it, tangential
 

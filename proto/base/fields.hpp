@@ -41,6 +41,7 @@ namespace hapnet::base {
 /// without a value is left out, or written as `absent`.
 template <typename Struct, typename Value, typename Format>
 struct Field {
+    using Owner = Struct;
     using Member = Value;
 
     std::string_view key;
@@ -49,12 +50,28 @@ struct Field {
     std::string_view about{};
     bool is_required = false;
     std::string_view absent{};
+    bool is_always_printed = false;
+    bool Struct::*printed_if = nullptr;
 
     /// The same field, which has to be written.
     [[nodiscard]] constexpr Field required() const
     {
         Field copy = *this;
         copy.is_required = true;
+        return copy.always();
+    }
+    /// The same field, which is printed even if it has its default.
+    [[nodiscard]] constexpr Field always() const
+    {
+        Field copy = *this;
+        copy.is_always_printed = true;
+        return copy;
+    }
+    /// The same field, which is printed even if it has its default where another member is set.
+    [[nodiscard]] constexpr Field if_set(bool Struct::*other) const
+    {
+        Field copy = *this;
+        copy.printed_if = other;
         return copy;
     }
     /// The same field, whose missing value is written as a word: "never".
@@ -120,6 +137,17 @@ template <typename Struct, typename Value>
                                    std::string_view about = {})
 {
     return Field<Struct, Value, UsualFormat<Value>>{key, member, {}, about, false, {}};
+}
+
+/// The format of what is not written in TOML: rows of bytes, cells and JSON go by the type.
+struct Unwritten {};
+
+/// A member that is not written in TOML.
+template <typename Struct, typename Value>
+[[nodiscard]] constexpr auto member(std::string_view key, Value Struct::*member,
+                                    std::string_view about = {})
+{
+    return Field<Struct, Value, Unwritten>{key, member, {}, about};
 }
 
 template <typename Struct, typename Value>
@@ -220,7 +248,8 @@ template <typename Struct, typename Value, typename Format>
     }
 }
 
-/// `half_width = "15ms"`, one text for each field that is printed.
+/// `half_width = "15ms"`, one text for each field that is printed. A value differs from the default
+/// when it is written otherwise: so does the zero with a sign.
 template <Described T>
 [[nodiscard]] std::vector<std::string> field_texts(const T& value, Print print = Print::all)
 {
@@ -228,9 +257,14 @@ template <Described T>
     std::vector<std::string> texts;
     for_each_field(
         [&](const auto& field, const auto& member, const auto& usual) {
-            if (print == Print::needed && !field.is_required && member == usual) return;
-            if (const auto text = field_text(field, member)) {
-                texts.push_back(std::string{field.key} + " = " + *text);
+            using Own = std::remove_cvref_t<decltype(field)>;
+            const auto text = field_text(field, member);
+            bool is_printed = print == Print::all || field.is_always_printed;
+            if constexpr (std::is_same_v<typename Own::Owner, T>) {
+                is_printed |= field.printed_if != nullptr && value.*field.printed_if;
+            }
+            if (text && (is_printed || text != field_text(field, usual))) {
+                texts.push_back(fmt::format("{} = {}", field.key, *text));
             }
         },
         value, defaults);

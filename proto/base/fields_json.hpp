@@ -109,7 +109,7 @@ inline bool read_json(const nlohmann::json& json, bool& value)
 template <std::unsigned_integral T>
 bool read_json(const nlohmann::json& json, T& value)
 {
-    if (!json.is_number_unsigned()) return false;
+    if (!json.is_number_integer() || json < 0) return false;
     const auto read = json.get<std::uint64_t>();
     if (read > std::numeric_limits<T>::max()) return false;
     value = static_cast<T>(read);
@@ -171,7 +171,8 @@ bool read_json(const nlohmann::json& json, T& value)
     return is_good;
 }
 
-/// What `json` says; the error names the first key that is missing or of another kind.
+/// The value in `json`; an optional may be missing. The error names the first key that is missing
+/// or of another kind.
 template <Described T>
 [[nodiscard]] Result<T> from_json(const nlohmann::json& json, const std::string& source)
 {
@@ -180,7 +181,9 @@ template <Described T>
     std::string_view wrong;
     for_each_field(
         [&](const auto& field, auto& member) {
+            using Member = std::remove_cvref_t<decltype(member)>;
             const auto found = json.find(std::string{field.key});
+            if (detail::is_optional<Member> && found == json.end()) return;
             const bool is_good = found != json.end() && read_json(*found, member);
             if (!is_good && wrong.empty()) wrong = field.key;
         },

@@ -204,7 +204,11 @@ std::string quoted(std::string_view text)
 
 std::string value_text(Duration value) { return quoted(to_text(value)); }
 std::string value_text(Probability value) { return quoted(to_text(value)); }
-std::string value_text(double value) { return fmt::format("{}", value); }
+std::string value_text(double value)
+{
+    // Of a whole number TOML would forget the sign of zero.
+    return value == 0.0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
+}
 std::string value_text(std::uint8_t value) { return fmt::format("{}", value); }
 std::string value_text(std::uint32_t value) { return fmt::format("{}", value); }
 std::string value_text(const std::string& value) { return quoted(value); }

@@ -16,7 +16,7 @@ namespace {
 template <typename R>
 consteval std::size_t used_bytes()
 {
-    std::size_t bytes = sizeof(Kind<R>::code);
+    std::size_t bytes = sizeof(kind_code<R>);
     const R row{};
     for_each_field(row,
                    [&]<typename T>(std::string_view, const T&) { bytes += FieldType<T>::bytes; });
@@ -41,12 +41,12 @@ base::Result<Row> decode_fields(base::ByteReader& in)
     });
     if (!refused.empty()) {
         return base::fail(
-            fmt::format("impossible value of '{}' in a {} row", refused, Kind<R>::name));
+            fmt::format("impossible value of '{}' in a {} row", refused, base::described_name<R>));
     }
     if (!is_consistent(row)) return base::fail("a message longer than its row");
     const auto padding = in.raw(row_bytes - used_bytes<R>());
     if (std::ranges::any_of(padding, [](std::byte b) { return b != std::byte{0}; })) {
-        return base::fail(fmt::format("padding of a {} row is not zero", Kind<R>::name));
+        return base::fail(fmt::format("padding of a {} row is not zero", base::described_name<R>));
     }
     return row;
 }
@@ -60,7 +60,7 @@ RowBytes encode(const Row& row)
     std::visit(
         [&]<typename R>(const R& fields) {
             base::ensure(is_consistent(fields));
-            out.u8(Kind<R>::code);
+            out.u8(kind_code<R>);
             for_each_field(fields, [&]<typename T>(std::string_view, const T& field) {
                 FieldType<T>::put(out, field);
             });
@@ -76,9 +76,9 @@ base::Result<Row> decode(std::span<const std::byte> bytes)
     }
     base::ByteReader in{bytes};
     switch (const std::uint8_t kind = in.u8()) {
-    case Kind<TickRow>::code: return decode_fields<TickRow>(in);
-    case Kind<MessageRow>::code: return decode_fields<MessageRow>(in);
-    case Kind<SessionRow>::code: return decode_fields<SessionRow>(in);
+    case kind_code<TickRow>: return decode_fields<TickRow>(in);
+    case kind_code<MessageRow>: return decode_fields<MessageRow>(in);
+    case kind_code<SessionRow>: return decode_fields<SessionRow>(in);
     default: return base::fail(fmt::format("unknown kind of row {}", kind));
     }
 }

@@ -2,86 +2,73 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/fields.hpp"
 #include "proto/record/rows.hpp"
 
-#include <concepts>
+#include <cstdint>
 #include <type_traits>
 
 namespace hapnet::record {
 
-template <typename R, typename Of>
-concept RowOf = std::same_as<std::remove_const_t<R>, Of>;
+// The fields of every row, in the order of their bytes. Encoding, decoding, the schema in the
+// header and the CSV all follow from it. docs/formats/record.md says what each means.
 
-// The fields of every row, by name, in the order of their bytes. Said once: encoding, decoding,
-// the schema in the header and the CSV all follow from it. `visit` takes a name and a field.
-
-template <RowOf<TickRow> R>
-constexpr void for_each_field(R& row, auto&& visit)
+constexpr auto fields_of(base::Tag<TickRow>)
 {
-    visit("tick", row.tick);
-    visit("due", row.due);
-    visit("late", row.late);
-    visit("missed_before", row.missed_before);
-    visit("sent_sequence", row.sent_sequence);
-    visit("phase", row.phase);
-    visit("touching", row.touching);
-    visit("remote_touching", row.remote_touching);
-    visit("remote_fresh", row.remote_fresh);
-    visit("hip", row.hip);
-    visit("hip_velocity", row.hip_velocity);
-    visit("cube", row.cube);
-    visit("cube_velocity", row.cube_velocity);
-    visit("contact", row.contact);
-    visit("device", row.device);
-    visit("remote", row.remote);
-    visit("gripping", row.gripping);
-    visit("docked", row.docked);
-    visit("calibrated", row.calibrated);
-    visit("buttons", row.buttons);
-    visit("fault", row.fault);
-    visit("presses", row.presses);
-    visit("sample_sequence", row.sample_sequence);
-    visit("governor", row.governor);
+    return base::fields(
+        "tick", base::member("tick", &TickRow::tick), base::member("due", &TickRow::due),
+        base::member("late", &TickRow::late),
+        base::member("missed_before", &TickRow::missed_before),
+        base::member("sent_sequence", &TickRow::sent_sequence),
+        base::member("phase", &TickRow::phase), base::member("touching", &TickRow::touching),
+        base::member("remote_touching", &TickRow::remote_touching),
+        base::member("remote_fresh", &TickRow::remote_fresh), base::member("hip", &TickRow::hip),
+        base::member("hip_velocity", &TickRow::hip_velocity), base::member("cube", &TickRow::cube),
+        base::member("cube_velocity", &TickRow::cube_velocity),
+        base::member("contact", &TickRow::contact), base::member("device", &TickRow::device),
+        base::member("remote", &TickRow::remote), base::member("gripping", &TickRow::gripping),
+        base::member("docked", &TickRow::docked), base::member("calibrated", &TickRow::calibrated),
+        base::member("buttons", &TickRow::buttons), base::member("fault", &TickRow::fault),
+        base::member("presses", &TickRow::presses),
+        base::member("sample_sequence", &TickRow::sample_sequence),
+        base::member("governor", &TickRow::governor));
 }
 
-template <RowOf<MessageRow> R>
-constexpr void for_each_field(R& row, auto&& visit)
+constexpr auto fields_of(base::Tag<MessageRow>)
 {
-    visit("tick", row.tick);
-    visit("received_at", row.received_at);
-    visit("size", row.size);
-    visit("bytes", row.bytes);
+    return base::fields("message", base::member("tick", &MessageRow::tick),
+                        base::member("received_at", &MessageRow::received_at),
+                        base::member("size", &MessageRow::size),
+                        base::member("bytes", &MessageRow::bytes));
 }
 
-template <RowOf<SessionRow> R>
-constexpr void for_each_field(R& row, auto&& visit)
+constexpr auto fields_of(base::Tag<SessionRow>)
 {
-    visit("start", row.start);
-    visit("length", row.length);
-    visit("remote_offset", row.remote_offset);
-    visit("offset_uncertainty", row.offset_uncertainty);
-    visit("session", row.session);
-    visit("seed", row.seed);
+    return base::fields("session", base::member("start", &SessionRow::start),
+                        base::member("length", &SessionRow::length),
+                        base::member("remote_offset", &SessionRow::remote_offset),
+                        base::member("offset_uncertainty", &SessionRow::offset_uncertainty),
+                        base::member("session", &SessionRow::session),
+                        base::member("seed", &SessionRow::seed));
 }
 
-/// A row's name in the header, and the byte that it starts with. 0 is no kind, so that a
-/// block of zeros, as a file system may leave behind a crash, is not a row.
+/// Calls visit(name, field) for every field of a row.
 template <typename R>
-struct Kind;
+requires base::Described<std::remove_const_t<R>>
+constexpr void for_each_field(R& row, auto&& visit)
+{
+    base::for_each_field([&](const auto& field, auto& value) { visit(field.key, value); }, row);
+}
+
+/// The byte that a row starts with; its name in the header is that of its fields. 0 is no kind, so
+/// that a block of zeros, as a file system may leave behind a crash, is not a row.
+template <typename R>
+inline constexpr std::uint8_t kind_code = 0;
 template <>
-struct Kind<TickRow> {
-    static constexpr std::string_view name = "tick";
-    static constexpr std::uint8_t code = 1;
-};
+inline constexpr std::uint8_t kind_code<TickRow> = 1;
 template <>
-struct Kind<MessageRow> {
-    static constexpr std::string_view name = "message";
-    static constexpr std::uint8_t code = 2;
-};
+inline constexpr std::uint8_t kind_code<MessageRow> = 2;
 template <>
-struct Kind<SessionRow> {
-    static constexpr std::string_view name = "session";
-    static constexpr std::uint8_t code = 3;
-};
+inline constexpr std::uint8_t kind_code<SessionRow> = 3;
 
 } // namespace hapnet::record

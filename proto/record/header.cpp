@@ -17,7 +17,7 @@ constexpr int version = 2;
 template <typename R>
 nlohmann::json schema_of()
 {
-    std::size_t offset = sizeof(Kind<R>::code);
+    std::size_t offset = sizeof(kind_code<R>);
     auto fields = nlohmann::json::array();
     const R row{};
     for_each_field(row, [&]<typename T>(std::string_view name, const T&) {
@@ -27,7 +27,7 @@ nlohmann::json schema_of()
         fields.push_back(std::move(field));
         offset += FieldType<T>::bytes;
     });
-    return {{"kind", unsigned{Kind<R>::code}}, {"fields", std::move(fields)}};
+    return {{"kind", unsigned{kind_code<R>}}, {"fields", std::move(fields)}};
 }
 
 /// All of the header that is the same in every record of this format.
@@ -38,9 +38,9 @@ nlohmann::json layout()
             {"row_bytes", row_bytes},
             {"byte_order", "little"},
             {"schema",
-             {{Kind<TickRow>::name, schema_of<TickRow>()},
-              {Kind<MessageRow>::name, schema_of<MessageRow>()},
-              {Kind<SessionRow>::name, schema_of<SessionRow>()}}}};
+             {{base::described_name<TickRow>, schema_of<TickRow>()},
+              {base::described_name<MessageRow>, schema_of<MessageRow>()},
+              {base::described_name<SessionRow>, schema_of<SessionRow>()}}}};
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "scene/text/text.hpp"
-#include "scene/text/values.hpp"
+
+#include "proto/base/built_in.hpp"
+#include "scene/text/fields.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,59 +20,30 @@ using base::Node;
 using base::Place;
 using base::Reading;
 using base::TableReader;
-using text::read;
-using text::Span;
 
 constexpr std::size_t scene_bytes_max = 64U << 20U; // of the most bodies, each on its own
 
-constexpr Span place_span{base::length_kind, -reach_max_m, reach_max_m};
-constexpr Span size_span{base::length_kind, 2.0 * size_min_m, 2.0 * size_max_m};
-constexpr Span radius_span{base::length_kind, size_min_m, size_max_m};
-constexpr Span reach_span{base::length_kind, 0.0, size_max_m};
-constexpr Span speed_span{base::speed_kind, -speed_max_m_per_s, speed_max_m_per_s};
-constexpr Span turn_span{base::turn_kind, -turn_max_rad_per_s, turn_max_rad_per_s};
-constexpr Span mass_span{base::mass_kind, mass_min_kg, mass_max_kg};
-constexpr Span density_span{base::density_kind, 1e-9, 1e18}; // of the smallest, the largest mass
-constexpr Span drag_span{base::damping_kind, 0.0, damping_max_ns_per_m};
-constexpr Span stiffness_span{base::stiffness_kind, 0.0, stiffness_max_n_per_m};
-constexpr Span force_span{base::force_kind, 0.0, force_max_n};
-constexpr Span gravity_span{base::acceleration_kind, -gravity_max_m_per_s2, gravity_max_m_per_s2};
+constexpr base::Quantity density_format{base::density_kind, 1e-9,
+                                        1e18}; // of the smallest, the largest mass
+constexpr text::PerAxis spacing_format{{base::length_kind, -reach_max_m, reach_max_m}};
 
-/// Calls `use` with the value of a key, if it is there.
-template <typename Use>
-void with(TableReader& table, std::string_view key, Use use)
+/// What is written as a density, instead of as a mass.
+void read_density(TableReader& table, BodyDescription& body)
 {
-    if (const Node* node = table.find(key)) use(*node);
-}
-
-void read_material(TableReader& table, Material& material)
-{
-    Reading& reading = table.reading();
-    with(table, "friction", [&](const Node& node) {
-        text::read_share(node, material.friction, friction_max, reading);
-    });
-    with(table, "restitution",
-         [&](const Node& node) { text::read_share(node, material.restitution, 1.0, reading); });
-}
-
-/// What is written as a mass or as a density.
-void read_mass(TableReader& table, BodyDescription& body)
-{
-    Reading& reading = table.reading();
-    const Node* mass = table.find("mass");
     const Node* density = table.find("density");
-    if (mass != nullptr && density != nullptr) {
-        return reading.complain(density->place, "the mass says it already: leave out one of them");
-    }
-    if (mass != nullptr) return read(*mass, body.mass_kg, mass_span, reading);
     if (density == nullptr) return;
+    Reading& reading = table.reading();
+    if (table.find("mass") != nullptr) {
+        return reading.complain(density->place,
+                                "mass and density exclude each other: leave out one of them");
+    }
     double value = 1.0;
-    read(*density, value, density_span, reading);
+    density_format.read(*density, value, reading);
     const double kg = value * 8.0 * body.half.x * body.half.y * body.half.z;
     if (!(kg >= mass_min_kg && kg <= mass_max_kg)) {
         return reading.complain(density->place,
-                                fmt::format("makes a mass of {:.3g} kg: from {} to {} is possible",
-                                            kg, base::quantity_text(mass_min_kg, base::mass_kind),
+                                fmt::format("makes a mass of {:.3g} kg: {} to {} is possible", kg,
+                                            base::quantity_text(mass_min_kg, base::mass_kind),
                                             base::quantity_text(mass_max_kg, base::mass_kind)));
     }
     body.mass_kg = kg;
@@ -79,31 +52,9 @@ void read_mass(TableReader& table, BodyDescription& body)
 /// The keys that a body and an array of bodies have in common.
 BodyDescription read_body_keys(TableReader& table)
 {
-    Reading& reading = table.reading();
     BodyDescription body;
-    with(table, "name", [&](const Node& node) { base::read_value(node, body.name, reading); });
-    bool is_fixed = false;
-    with(table, "fixed", [&](const Node& node) { read(node, is_fixed, reading); });
-    body.movable = !is_fixed;
-    with(table, "size", [&](const Node& node) {
-        glm::dvec3 edges = 2.0 * body.half;
-        text::read_size(node, edges, size_span, reading);
-        body.half = 0.5 * edges;
-    });
-    const auto read_three = [&](std::string_view key, glm::dvec3& target, const Span& span) {
-        with(table, key, [&](const Node& node) { read(node, target, span, reading); });
-    };
-    read_three("position", body.position.value, place_span);
-    with(table, "orientation",
-         [&](const Node& node) { text::read_orientation(node, body.orientation, reading); });
-    read_three("velocity", body.velocity.value, speed_span);
-    read_three("angular_velocity", body.angular_velocity, turn_span);
-    read_mass(table, body);
-    with(table, "turning", [&](const Node& node) { read(node, body.turning, reading); });
-    with(table, "locked", [&](const Node& node) { text::read_locked(node, body, reading); });
-    read_material(table, body.material);
-    with(table, "drag",
-         [&](const Node& node) { read(node, body.drag_ns_per_m, drag_span, reading); });
+    base::read_fields(table, body);
+    read_density(table, body);
     return body;
 }
 
@@ -154,10 +105,9 @@ void read_array(TableReader& table, Growing& growing)
     auto& bodies = growing.scene.bodies;
     const BodyDescription first = read_body_keys(table);
     std::array<std::uint32_t, 3> count{1, 1, 1};
-    with(table, "count",
-         [&](const Node& node) { count = read_count(node, bodies.size(), reading); });
+    if (const Node* node = table.find("count")) count = read_count(*node, bodies.size(), reading);
     glm::dvec3 spacing{0.0};
-    with(table, "spacing", [&](const Node& node) { read(node, spacing, place_span, reading); });
+    if (const Node* node = table.find("spacing")) spacing_format.read(*node, spacing, reading);
     const auto [nx, ny, nz] = count;
     std::size_t number = 0;
     for (std::uint32_t y = 0; y < ny; ++y) {
@@ -196,12 +146,7 @@ void read_planes(TableReader& table, Growing& growing)
     with_each(table.find("plane"), "plane", reading, [&](const Node& node) {
         TableReader keys{std::get<Node::Table>(node.value), node.place, reading};
         PlaneDescription plane;
-        with(keys, "name", [&](const Node& name) { base::read_value(name, plane.name, reading); });
-        with(keys, "normal",
-             [&](const Node& normal) { text::read_direction(normal, plane.normal, reading); });
-        with(keys, "offset",
-             [&](const Node& offset) { read(offset, plane.offset_m, place_span, reading); });
-        read_material(keys, plane.material);
+        base::read_fields(keys, plane);
         keys.finish();
         growing.scene.planes.push_back(std::move(plane));
         growing.plane_places.push_back(node.place);
@@ -240,40 +185,6 @@ void read_bodies(TableReader& table, Growing& growing)
     }
 }
 
-void read_hands(TableReader& table, HandDescription& hands)
-{
-    Reading& reading = table.reading();
-    with(table, "hips", [&](const Node& node) {
-        const auto* entries = std::get_if<Node::Table>(&node.value);
-        if (entries == nullptr) return base::complain_of(node, "a table [hips]", reading);
-        TableReader keys{*entries, node.place, reading};
-        with(keys, "count", [&](const Node& count) {
-            const auto value = base::count_of(count, hands_max);
-            if (value) hands.count = static_cast<std::uint32_t>(*value);
-            const auto expected = fmt::format("a whole number of hands from 0 to {}", hands_max);
-            if (!value) base::complain_of(count, expected, reading);
-        });
-        const auto quantity = [&](std::string_view key, double& target, const Span& span) {
-            with(keys, key, [&](const Node& value) { read(value, target, span, reading); });
-        };
-        quantity("radius", hands.radius_m, radius_span);
-        quantity("stiffness", hands.stiffness_n_per_m, stiffness_span);
-        quantity("damping", hands.damping_ns_per_m, drag_span);
-        quantity("grip_reach", hands.grip_reach_m, reach_span);
-        with(keys, "friction", [&](const Node& friction) {
-            text::read_share(friction, hands.friction, friction_max, reading);
-        });
-        with(keys, "force_max", [&](const Node& force) {
-            const auto* word = std::get_if<std::string>(&force.value);
-            if (word == nullptr || *word != "none") {
-                return read(force, hands.force_max_n, force_span, reading);
-            }
-            hands.force_max_n = std::numeric_limits<double>::infinity();
-        });
-        keys.finish();
-    });
-}
-
 /// Where that stands which check() finds wrong, as far as one part alone is.
 Place culprit(const Growing& growing, Place otherwise)
 {
@@ -303,10 +214,8 @@ base::Result<Description> parse_scene(std::string_view text, const std::string& 
     TableReader table{std::get<Node::Table>(document->value), document->place, reading};
     Growing growing;
     Description& scene = growing.scene;
-    with(table, "name", [&](const Node& node) { base::read_value(node, scene.name, reading); });
-    with(table, "gravity",
-         [&](const Node& node) { read(node, scene.gravity, gravity_span, reading); });
-    read_hands(table, scene.hands);
+    base::read_fields(table, scene);
+    if (const Node* hands = table.find("hips")) base::read_table(*hands, scene.hands, reading);
     read_planes(table, growing);
     read_bodies(table, growing);
     table.finish();
@@ -317,6 +226,13 @@ base::Result<Description> parse_scene(std::string_view text, const std::string& 
     }
     if (!reading.is_good()) return base::fail(*reading.complaint());
     return std::move(scene);
+}
+
+base::Result<Description> load_scene(const std::string& file_or_name, const base::OpenFile& open)
+{
+    const auto found = base::find_text(file_or_name, built_in_scenes(), "a scene", open);
+    if (!found) return tl::unexpected{found.error()};
+    return parse_scene(found->text, found->source);
 }
 
 } // namespace hapnet::scene

@@ -50,7 +50,7 @@ BodyDescription body_from(Bytes& bytes)
     const std::uint8_t flags = bytes.byte();
     body.movable = (flags & 1U) == 0;
     body.turning = static_cast<Turning>((flags >> 1U) % 5U);
-    body.locked_x = (flags & 0xe0U) == 0xe0U;
+    body.locked.x = (flags & 0xe0U) == 0xe0U;
     body.half = 0.001 + glm::abs(bytes.vector(0.02));
     body.position.value = bytes.vector(0.1);
     body.velocity.value = bytes.vector(1000.0);

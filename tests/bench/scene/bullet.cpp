@@ -156,9 +156,9 @@ private:
         if (one.movable) {
             body.setLinearVelocity(bullet_of(one.velocity.value));
             body.setAngularVelocity(bullet_of(one.angular_velocity));
-            body.setLinearFactor({one.locked_x ? scalar_of(0) : scalar_of(1),
-                                  one.locked_y ? scalar_of(0) : scalar_of(1),
-                                  one.locked_z ? scalar_of(0) : scalar_of(1)});
+            body.setLinearFactor({one.locked.x ? scalar_of(0) : scalar_of(1),
+                                  one.locked.y ? scalar_of(0) : scalar_of(1),
+                                  one.locked.z ? scalar_of(0) : scalar_of(1)});
             if (one.turning == scene::Turning::locked) body.setAngularFactor(scalar_of(0));
             if (one.drag_ns_per_m > 0.0) dragged_.push_back(bodies_.size() - 1);
             if (!options_.is_stock) body.setSleepingThresholds(scalar_of(0.01), scalar_of(0.5));

@@ -164,8 +164,8 @@ private:
         dBodySetAngularVel(id, w[0], w[1], w[2]);
         if (options_.begins_asleep && !bodies_.empty()) dBodyDisable(id);
         bodies_.push_back(id);
-        const bool is_held = body.turning == scene::Turning::locked || body.locked_x ||
-                             body.locked_y || body.locked_z || body.drag_ns_per_m > 0.0;
+        const bool is_held = body.turning == scene::Turning::locked || body.locked.x ||
+                             body.locked.y || body.locked.z || body.drag_ns_per_m > 0.0;
         if (is_held) held_.push_back(bodies_.size() - 1);
     }
 
@@ -205,11 +205,11 @@ private:
             const dReal* v = dBodyGetLinearVel(bodies_[i]);
             const auto start = body.position.value;
             const dReal* p = dBodyGetPosition(bodies_[i]);
-            if (body.locked_x || body.locked_y || body.locked_z) {
-                dBodySetLinearVel(bodies_[i], body.locked_x ? 0.0 : v[0],
-                                  body.locked_y ? 0.0 : v[1], body.locked_z ? 0.0 : v[2]);
-                dBodySetPosition(bodies_[i], body.locked_x ? start.x : p[0],
-                                 body.locked_y ? start.y : p[1], body.locked_z ? start.z : p[2]);
+            if (body.locked.x || body.locked.y || body.locked.z) {
+                dBodySetLinearVel(bodies_[i], body.locked.x ? 0.0 : v[0],
+                                  body.locked.y ? 0.0 : v[1], body.locked.z ? 0.0 : v[2]);
+                dBodySetPosition(bodies_[i], body.locked.x ? start.x : p[0],
+                                 body.locked.y ? start.y : p[1], body.locked.z ? start.z : p[2]);
             }
             if (body.turning == scene::Turning::locked) dBodySetAngularVel(bodies_[i], 0, 0, 0);
         }

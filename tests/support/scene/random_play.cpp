@@ -114,9 +114,9 @@ BodyDescription random_body(Dice& dice, const Style& style, std::size_t index)
     body.velocity.value = style.speed * dice.vector();
     if (style.spins) body.angular_velocity = dice.power(0.1, 100.0) * dice.vector();
     if (style.locks) {
-        body.locked_x = dice.one_in(3);
-        body.locked_y = dice.one_in(3);
-        body.locked_z = dice.one_in(3);
+        body.locked.x = dice.one_in(3);
+        body.locked.y = dice.one_in(3);
+        body.locked.z = dice.one_in(3);
     }
     body.material = random_material(dice, style);
     if (style.drags) body.drag_ns_per_m = dice.power(0.1, 30.0);

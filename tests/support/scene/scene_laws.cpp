@@ -56,9 +56,9 @@ bool is_same(const BodyState& a, const BodyState& b)
 
 bool keeps_locks(const BodyDescription& form, const BodyState& before, const BodyState& after)
 {
-    if (form.locked_x && before.position.x() != after.position.x()) return false;
-    if (form.locked_y && before.position.y() != after.position.y()) return false;
-    if (form.locked_z && before.position.z() != after.position.z()) return false;
+    if (form.locked.x && before.position.x() != after.position.x()) return false;
+    if (form.locked.y && before.position.y() != after.position.y()) return false;
+    if (form.locked.z && before.position.z() != after.position.z()) return false;
     if (form.turning == Turning::free) return true;
     if (form.turning == Turning::locked) return before.orientation == after.orientation;
     const glm::dquat by = after.orientation * glm::conjugate(before.orientation);
@@ -70,9 +70,9 @@ bool keeps_locks(const BodyDescription& form, const BodyState& before, const Bod
 
 glm::dvec3 free_part(const BodyDescription& form, glm::dvec3 v)
 {
-    if (form.locked_x) v.x = 0.0;
-    if (form.locked_y) v.y = 0.0;
-    if (form.locked_z) v.z = 0.0;
+    if (form.locked.x) v.x = 0.0;
+    if (form.locked.y) v.y = 0.0;
+    if (form.locked.z) v.z = 0.0;
     return v;
 }
 
@@ -128,7 +128,7 @@ SceneLaws::SceneLaws(const RandomPlay& play) : play_{play}, moments_(play.descri
     for (const BodyDescription& form : play.description.bodies) {
         size_ = std::min({size_, form.half.x, form.half.y, form.half.z});
         if (form.movable) movable_ += 1.0;
-        const bool locked = form.locked_x || form.locked_y || form.locked_z;
+        const bool locked = form.locked.x || form.locked.y || form.locked.z;
         if (!form.movable || locked) nothing_is_fixed_ = false;
     }
 }

@@ -108,7 +108,7 @@ TEST(World, ALockedBodyCannotBePlacedTurned)
 TEST(World, ALockedCoordinateStaysWhereItIsWhereverTheBodyIsPut)
 {
     Description scene = paper_scene();
-    scene.bodies[0].locked_z = true;
+    scene.bodies[0].locked.z = true;
     World world = World::freeze(scene).value();
     BodyState state;
     state.position = {{0.01, 0.02, 0.03}};
@@ -121,7 +121,7 @@ TEST(World, ALockedCoordinateStaysWhereItIsWhereverTheBodyIsPut)
 TEST(World, ABodyPutSomewhereKeepsItsTurnAndSpin)
 {
     Description scene = row_of_cubes();
-    scene.bodies[0].locked_z = true;
+    scene.bodies[0].locked.z = true;
     scene.bodies[0].angular_velocity = glm::dvec3{0.0, 3.0, 0.0};
     World world = World::freeze(scene).value();
     for (int i = 0; i < 10; ++i) world.tick();

@@ -87,9 +87,9 @@ private:
         drawn.angular_velocity = vector(turn_max_rad_per_s);
         drawn.mass_kg = between(mass_min_kg, mass_max_kg);
         drawn.turning = static_cast<Turning>(below(5));
-        drawn.locked_x = below(2) == 0;
-        drawn.locked_y = below(2) == 0;
-        drawn.locked_z = below(2) == 0;
+        drawn.locked.x = below(2) == 0;
+        drawn.locked.y = below(2) == 0;
+        drawn.locked.z = below(2) == 0;
         drawn.material = material();
         drawn.drag_ns_per_m = std::abs(within(damping_max_ns_per_m));
         return drawn;

@@ -130,7 +130,7 @@ TEST(OneBoxObstacles, LockedAxesKeepTheirCoordinate)
 {
     Description scene = lone_cube();
     scene.gravity = {0.0, -9.81, 0.0};
-    scene.bodies[0].locked_y = true;
+    scene.bodies[0].locked.y = true;
     Rig<false> rig{scene};
     rig.place({0.0, 0.0, 0.0}, {0.1, 0.0, 0.0});
     rig.tick(100);

@@ -24,7 +24,7 @@ Description all_kinds()
     for (int i = 0; i < 4; ++i) scene.bodies.push_back(flying({1.0 * i, 0.0, 0.0}));
     scene.bodies[1].half = {0.01, 0.02, 0.03};
     scene.bodies[2].turning = Turning::about_y;
-    scene.bodies[3].locked_y = true;
+    scene.bodies[3].locked.y = true;
     return scene;
 }
 

@@ -72,7 +72,7 @@ TEST(Flight, APushAcceleratesTheBodyByItsMassForTheTick)
 TEST(Flight, ALockedAxisDoesNotFall)
 {
     BodyDescription hovering = box(glm::dvec3{0.02}, {});
-    hovering.locked_y = true;
+    hovering.locked.y = true;
     Flight flight{with({hovering})};
     flight.state.pushes[0] = {0.0, 1.0, 0.0};
     flight.state.pushed.add(0);

@@ -59,7 +59,7 @@ TEST(SceneText, ReadsWhatABodyMayHave)
     EXPECT_NEAR(body.angular_velocity.z, std::acos(0.0), 1e-15);
     EXPECT_NEAR(body.mass_kg, 0.8, 1e-15);
     EXPECT_EQ(body.turning, Turning::about_z);
-    EXPECT_TRUE(body.locked_x && body.locked_y && !body.locked_z);
+    EXPECT_TRUE(body.locked.x && body.locked.y && !body.locked.z);
     EXPECT_EQ(body.material, (Material{0.3, 1.0}));
     EXPECT_EQ(body.drag_ns_per_m, 10.0);
 }
@@ -127,19 +127,19 @@ TEST(SceneText, NamesThePlaceOfWhatIsWrongAndWhatIsPossible)
         {"bodies = 1", {"s.toml:1:1: ", "\"bodies\"", "did you mean 'body'?"}},
         {"body = 1", {"s.toml:1:8: ", "[[body]]"}},
         {"gravity = \"1m/s2\"", {"s.toml:1:11: ", "list of three", "acceleration"}},
-        {"gravity = [0, 1]", {"s.toml:1:11: ", "a list of 2", "three"}},
+        {"gravity = [0, 1]", {"s.toml:1:11: ", "not 2", "three values"}},
         {"gravity = [0, -9.81, 0]", {"s.toml:1:15: ", "'-9.81'", "-9.81m/s2"}},
         {"[hips]\ncount = 9", {"s.toml:2:9: ", "0 to 8"}},
         {"[hips]\nforce_max = \"nine\"", {"s.toml:2:13: ", "3.3N"}},
         {"[hips]\nstiffness = \"500N\"", {"s.toml:2:13: ", "'500N' is not a stiffness", "500N/m"}},
-        {"[[plane]]\nnormal = [0, 0, 0]", {"s.toml:2:10: ", "not zero"}},
+        {"[[plane]]\nnormal = [0, 0, 0]", {"s.toml:2:10: ", "cannot be zero"}},
         {"[[body]]\nsize = \"40mm\"", {"s.toml:1:1: ", "'mass' or 'density' is missing"}},
         {"[[body]]\nmas = \"1kg\"", {"s.toml:2:1: ", "did you mean 'mass'?"}},
         {"[[body]]\nmass = \"1kg\"", {"s.toml:1:1: ", "missing key 'size'"}},
         {with_body("density = \"1g/cm3\""), {"s.toml:4:11: ", "leave out one"}},
         {with_body("size_ = 1"), {"s.toml:4:1: ", "did you mean 'size'?"}},
         {with_body("position = [0, \"2km\", 0]"), {"s.toml:4:16: ", "40mm"}},
-        {with_body("position = [0, \"2000m\", 0]"), {"s.toml:4:16: ", "from -1000m to 1000m"}},
+        {with_body("position = [0, \"2000m\", 0]"), {"s.toml:4:16: ", "use -1000m to 1000m"}},
         {with_body("friction = -0.1"), {"s.toml:4:12: ", "0 to 10"}},
         {with_body("friction = \"30%\""), {"s.toml:4:12: ", "a number without a unit"}},
         {with_body("turning = \"lockd\""), {"s.toml:4:11: ", "did you mean 'locked'?"}},

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/formats.hpp"
+#include "scene/description.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+
+namespace hapnet::scene::text {
+
+// How the values of a scene are written that have a notation of their own (proto/base/formats.hpp).
+
+/// Three of a quantity: ["0m", "22.5mm", "0m"].
+struct PerAxis {
+    base::Quantity each;
+
+    void read(const base::Node& node, glm::dvec3& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const glm::dvec3& value) const;
+    [[nodiscard]] std::string describe() const;
+
+    /// Of a place or a velocity, which keep their numbers in `value`.
+    template <typename V>
+    requires requires(V v) { v.value; }
+    void read(const base::Node& node, V& target, base::Reading& reading) const
+    {
+        read(node, target.value, reading);
+    }
+    template <typename V>
+    requires requires(V v) { v.value; }
+    [[nodiscard]] std::string print(const V& value) const { return print(value.value); }
+};
+
+/// The edges of a box, of which half is kept: one length for a cube, or one for each axis.
+struct Edges {
+    void read(const base::Node& node, glm::dvec3& half, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const glm::dvec3& half) const;
+    [[nodiscard]] std::string describe() const;
+};
+
+/// Three numbers, not all of them 0; what is kept has the length 1.
+struct Direction {
+    void read(const base::Node& node, glm::dvec3& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const glm::dvec3& value) const;
+    [[nodiscard]] std::string describe() const { return "three numbers such as [0, 1, 0]"; }
+};
+
+/// { axis = [0, 1, 0], angle = "30deg" }, or the parts of a quaternion { w = 1, x = 0, y = 0, z = 0
+/// }, as which it is printed; what is kept has the length 1.
+struct Orientation {
+    void read(const base::Node& node, glm::dquat& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const glm::dquat& value) const;
+    [[nodiscard]] std::string describe() const
+    {
+        return R"(`{ axis = [0, 1, 0], angle = "30deg" }` or a quaternion)";
+    }
+};
+
+/// A list of axes: ["x", "y"].
+struct Axes {
+    void read(const base::Node& node, LockedAxes& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const LockedAxes& value) const;
+    [[nodiscard]] std::string describe() const { return R"(a list of axes such as `["x"]`)"; }
+};
+
+/// `fixed`, of which the opposite is kept.
+struct Fixed {
+    void read(const base::Node& node, bool& movable, base::Reading& reading) const;
+    [[nodiscard]] std::string print(bool movable) const { return movable ? "false" : "true"; }
+    [[nodiscard]] std::string describe() const { return "true or false"; }
+};
+
+/// A force, or "none" for an infinite one.
+struct ForceLimit {
+    void read(const base::Node& node, double& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(double value) const;
+    [[nodiscard]] std::string describe() const;
+};
+
+} // namespace hapnet::scene::text
