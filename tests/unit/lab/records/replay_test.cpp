@@ -121,7 +121,7 @@ TEST(ReplayOfARecord, NamesTheKeyThatTheConfigurationLacks)
         record.config.erase(key);
         const auto replayed = replay(record, std::nullopt);
         ASSERT_FALSE(replayed.has_value()) << key;
-        EXPECT_NE(replayed.error().message.find('"' + key + '"'), std::string::npos);
+        EXPECT_NE(replayed.error().message.find('\'' + key + '\''), std::string::npos);
     }
 }
 
