@@ -20,8 +20,8 @@
 namespace hapnet::base {
 
 // One description of a struct's fields, beside the struct. Reading and printing TOML, ranges and
-// their errors, JSON (fields_json.hpp), CSV (csv.hpp), ramps, help texts and the key tables of the
-// docs follow from it, so that none of them can forget a field:
+// their errors, JSON (fields_json.hpp), CSV (csv.hpp), ramps and tables of keys follow from it, so
+// that none of them can forget a field:
 //
 //     struct Burst {
 //         std::uint32_t lost = 1;
