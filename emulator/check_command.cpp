@@ -14,8 +14,8 @@ namespace hapnet::emulator {
 
 namespace {
 
-std::string in_words(std::string_view title, const Conditions& conditions, const Stream& stream,
-                     const DirectionPrediction& prediction)
+std::string in_words(std::string_view title, const Conditions& conditions,
+                     const tools::Stream& stream, const tools::DirectionPrediction& prediction)
 {
     std::string text = fmt::format("# {}\n", title);
     for (const auto& stage : describe(conditions, stream)) {
@@ -37,7 +37,7 @@ base::Result<int> run(const CheckOptions& options)
     if (!profile) return tl::unexpected{profile.error()};
     // What holds at the beginning; changes are not in it.
     const Profile beginning{profile->name, profile->seed, profile->path, {}};
-    const Stream& stream = options.stream;
+    const tools::Stream& stream = options.stream;
     const auto prediction = predict(beginning, stream, seed_of(options.conditions, *profile));
     const auto& [up, down] = profile->path;
     fmt::print("{}\n", to_text(*profile));

@@ -172,7 +172,7 @@ private:
     const Scenario& scenario_;
     Recorder recorder_;
     EmulatedPath path_;
-    Relay relay_;
+    ports::Relay relay_;
     std::optional<control::Server> control_;
     std::optional<net::ResultFile> stats_;
     std::optional<base::TimePoint> end_;

@@ -239,7 +239,7 @@ base::Result<base::Duration> parse_spacing(const std::string& text)
 }
 
 /// Datagrams a second, or the bit rate that the condition of this name is.
-cli::Take stream_rate(Stream& stream, ConditionOptions& into)
+cli::Take stream_rate(tools::Stream& stream, ConditionOptions& into)
 {
     return [&stream, &into](const std::string& text) -> base::Result<void> {
         if (text.find("bit") != std::string::npos || text.find("bps") != std::string::npos) {
@@ -251,7 +251,7 @@ cli::Take stream_rate(Stream& stream, ConditionOptions& into)
 }
 
 /// The options of check and of predict.
-void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, Stream& stream)
+void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools::Stream& stream)
 {
     constexpr std::uint64_t bytes_max = 65'507; // of UDP over IPv4
     command.positional("PROFILE", "A profile: a file, or the name of a preset",

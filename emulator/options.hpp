@@ -57,13 +57,13 @@ struct Options {
 /// `hapnet-emulator check PROFILE`
 struct CheckOptions {
     ConditionOptions conditions;
-    Stream stream{.packets = 100'000};
+    tools::Stream stream{.packets = 100'000};
 };
 
 /// `hapnet-emulator predict PROFILE --rate 1000`
 struct PredictOptions {
     ConditionOptions conditions;
-    Stream stream{};
+    tools::Stream stream{};
     bool as_json = false;
 };
 

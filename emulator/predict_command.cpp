@@ -26,13 +26,14 @@ double in_ms(base::Duration duration)
 
 Json json_of(std::optional<double> number) { return number ? Json(*number) : Json(nullptr); }
 
-double share_of(std::uint64_t part, const DirectionPrediction& of)
+double share_of(std::uint64_t part, const tools::DirectionPrediction& of)
 {
     const auto departures = of.statistics.delivered - of.statistics.duplicated;
     return departures == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(departures);
 }
 
-Json json_of(const DirectionPrediction& of, const Conditions& conditions, const Stream& stream)
+Json json_of(const tools::DirectionPrediction& of, const Conditions& conditions,
+             const tools::Stream& stream)
 {
     Json dropped = Json::object();
     for (const DropCause cause : drop_causes) {
@@ -83,8 +84,8 @@ std::string in_words(const std::optional<Moments>& moments)
                        in_ms(moments->sd.value_or(base::Duration{})));
 }
 
-std::string in_words(std::string_view title, const DirectionPrediction& of,
-                     const Conditions& conditions, const Stream& stream)
+std::string in_words(std::string_view title, const tools::DirectionPrediction& of,
+                     const Conditions& conditions, const tools::Stream& stream)
 {
     const StreamReport& measured = of.measured;
     std::string text = fmt::format("{}\n", title);
@@ -128,7 +129,7 @@ base::Result<int> run(const PredictOptions& options)
     const auto profile = profile_for(options.conditions, netem_warnings);
     if (!profile) return tl::unexpected{profile.error()};
     for (const std::string& warning : netem_warnings) net::say("hapnet-emulator", warning);
-    const Stream& stream = options.stream;
+    const tools::Stream& stream = options.stream;
     const auto seed = seed_of(options.conditions, *profile);
     const auto [up, down] = predict(*profile, stream, seed);
     const auto& path = profile->path;

@@ -77,7 +77,7 @@ Json json_of(const StreamReport& measured)
               {"peak_max", json_in_ms(measured.peak_age_max)}}}};
 }
 
-Json json_of(const Relay::Side& side, base::Duration budget)
+Json json_of(const ports::Relay::Side& side, base::Duration budget)
 {
     const Statistics& s = side.link.statistics();
     Json dropped = Json::object();
@@ -101,7 +101,7 @@ Json json_of(const Relay::Side& side, base::Duration budget)
             {"lens", json_of(side.link.stream_statistics().report())}};
 }
 
-Json address_of(const Relay::Side& side)
+Json address_of(const ports::Relay::Side& side)
 {
     const auto& address = side.filter.address();
     return address ? Json(address->to_text()) : Json(nullptr);
@@ -129,7 +129,7 @@ std::string incomplete(const Recorder& recorder)
     return text;
 }
 
-std::string in_words(const char* title, const Relay::Side& side, base::Duration budget)
+std::string in_words(const char* title, const ports::Relay::Side& side, base::Duration budget)
 {
     const Statistics& s = side.link.statistics();
     std::string text = fmt::format("{}: {} received, {} delivered, {} in flight", title, s.received,
@@ -157,7 +157,7 @@ std::string in_words(const char* title, const Relay::Side& side, base::Duration 
     return text + "\n";
 }
 
-std::string in_short(const char* title, const Relay::Side& side)
+std::string in_short(const char* title, const ports::Relay::Side& side)
 {
     const Statistics& s = side.link.statistics();
     std::string text =
@@ -178,9 +178,9 @@ std::string ready_line(const Run& run)
                        to_text(run.options.timing));
 }
 
-std::string endpoints_line(const Relay& relay)
+std::string endpoints_line(const ports::Relay& relay)
 {
-    const auto in_words = [](const Relay::Side& side) {
+    const auto in_words = [](const ports::Relay::Side& side) {
         const auto& address = side.filter.address();
         return address ? address->to_text() : std::string{"not known yet"};
     };
@@ -190,9 +190,9 @@ std::string endpoints_line(const Relay& relay)
 std::string statistics_json(const Run& run)
 {
     const Options& options = run.options;
-    const Relay::Side& a = run.relay.a();
-    const Relay::Side& b = run.relay.b();
-    const auto valid = [&](const Relay::Side& side) {
+    const ports::Relay::Side& a = run.relay.a();
+    const ports::Relay::Side& b = run.relay.b();
+    const auto valid = [&](const ports::Relay::Side& side) {
         return side.link.statistics().is_valid(options.budget);
     };
     const Json json{

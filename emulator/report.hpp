@@ -19,7 +19,7 @@ struct Run {
     const Options& options;
     const Scenario& scenario;
     const Director& director;
-    const Relay& relay;
+    const ports::Relay& relay;
     const Recorder& recorder;
     net::RealTime real_time;
     base::Duration elapsed{}; // since the sockets were bound
@@ -29,7 +29,7 @@ struct Run {
 [[nodiscard]] std::string ready_line(const Run& run);
 
 /// Who is on each side: "a is 127.0.0.1:5000, b is not known yet".
-[[nodiscard]] std::string endpoints_line(const Relay& relay);
+[[nodiscard]] std::string endpoints_line(const ports::Relay& relay);
 
 /// What --stats writes: one JSON object.
 [[nodiscard]] std::string statistics_json(const Run& run);

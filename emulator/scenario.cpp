@@ -6,7 +6,6 @@
 #include "emulator/core/profile/timeline.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
-#include "emulator/setting_hints.hpp"
 #include "emulator/tools/describe.hpp"
 #include "emulator/tools/netem.hpp"
 #include "emulator/tools/predict.hpp"
@@ -30,7 +29,7 @@ base::Result<Profile> profile_named(const ConditionOptions& options,
     }
     if (options.profile) return load_profile(*options.profile);
     if (!options.netem) return Profile{};
-    auto netem = parse_netem(*options.netem);
+    auto netem = tools::parse_netem(*options.netem);
     if (!netem) return base::fail(fmt::format("--netem: {}", netem.error().message));
     for (std::string& warning : netem->warnings) warnings.push_back(std::move(warning));
     Profile profile;
@@ -44,11 +43,8 @@ base::Result<Path> with_typed(const Path& path, const std::vector<TypedSetting>&
 {
     std::vector<Setting> settings;
     for (const auto& [key, value] : typed) {
-        auto setting = parse_setting(key, understood(key, value), net::text_of_file);
-        if (!setting) {
-            const std::string why = setting.error().message.substr(key.size() + 2);
-            return base::fail(fmt::format("--{}: {}", key, explained(key, value, why)));
-        }
+        auto setting = parse_setting(key, value, net::text_of_file);
+        if (!setting) return base::fail("--" + setting.error().message);
         settings.push_back(*std::move(setting));
     }
     return with_settings(path, settings);
@@ -58,11 +54,11 @@ base::Result<Path> with_typed(const Path& path, const std::vector<TypedSetting>&
 /// numbers that a prediction finds.
 void warn_of_conditions(Scenario& scenario)
 {
-    const Stream stream{.packets = 20'000};
+    const tools::Stream stream{.packets = 20'000};
     const Profile beginning{"", scenario.seed, scenario.profile.path, {}};
     const auto& [up, down] = beginning.path;
     if (up == Conditions{} && down == Conditions{}) return;
-    const Prediction prediction = predict(beginning, stream, scenario.seed);
+    const tools::Prediction prediction = predict(beginning, stream, scenario.seed);
     const auto warn = [&](const char* where, const std::vector<std::string>& warnings) {
         for (const std::string& warning : warnings) {
             scenario.warnings.push_back(fmt::format("{}: {}", where, warning));

@@ -21,10 +21,10 @@ namespace hapnet::emulator {
 
 namespace {
 
-nlohmann::json json_of(const std::vector<TestResult>& results)
+nlohmann::json json_of(const std::vector<tools::TestResult>& results)
 {
     auto list = nlohmann::json::array();
-    for (const TestResult& result : results) {
+    for (const tools::TestResult& result : results) {
         list.push_back({{"test", result.name},
                         {"outcome", to_text(result.outcome)},
                         {"statistic", result.statistic},
@@ -34,7 +34,7 @@ nlohmann::json json_of(const std::vector<TestResult>& results)
     return list;
 }
 
-std::string json_of(const Verification& verification)
+std::string json_of(const tools::Verification& verification)
 {
     const nlohmann::json json{{"passed", !verification.failed()},
                               {"up", json_of(verification.up)},
@@ -145,9 +145,9 @@ base::Result<int> run(const VerifyOptions& request)
         return base::fail("the profile changes during the run: only what holds from the first "
                           "datagram to the last can be verified");
     }
-    const Claim claim{.path = profile.path,
-                      .seed = request.seed ? request.seed : profile.seed,
-                      .spacing = request.spacing};
+    const tools::Claim claim{.path = profile.path,
+                             .seed = request.seed ? request.seed : profile.seed,
+                             .spacing = request.spacing};
     const auto verification = verify(claim, evidence->fates.up, evidence->fates.down);
     fmt::print("{}", request.as_json ? json_of(verification) : to_text(verification));
     return verification.failed() ? net::exit_failed : 0;

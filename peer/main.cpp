@@ -88,7 +88,7 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
                                          const device::Rig& rig, const Settings& settings)
 {
     if (!options.record) return std::nullopt;
-    nlohmann::json configuration = configuration_json(options, device);
+    nlohmann::json configuration = monitor::configuration_json(options, device);
     // The session's number follows from it.
     configuration["nonce"] = settings.introduction.nonce;
     configuration["grip_damping_ns_per_m"] = settings.grip_damping_ns_per_m; // as in the scene
@@ -117,7 +117,7 @@ std::string ready_line(const Options& options, const net::UdpSocket& socket,
                        name_of(options.algorithm), options.seed.value());
 }
 
-void write_statistics(const Run& run, std::optional<net::ResultFile>& file)
+void write_statistics(const monitor::Run& run, std::optional<net::ResultFile>& file)
 {
     const std::string statistics = statistics_json(run).dump(2) + "\n";
     if (file) {
@@ -128,7 +128,8 @@ void write_statistics(const Run& run, std::optional<net::ResultFile>& file)
 }
 
 /// Tells how the run went; its exit code.
-int conclude(const Run& run, const device::Governor& governor, const Monitor& monitor)
+int conclude(const monitor::Run& run, const device::Governor& governor,
+             const monitor::Monitor& monitor)
 {
     net::tell(summary(run));
     if (const auto reason = run.status.refusal) {
@@ -136,7 +137,7 @@ int conclude(const Run& run, const device::Governor& governor, const Monitor& mo
                         describe(*reason)));
         return net::exit_failed;
     }
-    if (const std::string fault = fault_at_the_end(governor); !fault.empty()) {
+    if (const std::string fault = monitor::fault_at_the_end(governor); !fault.empty()) {
         say(fault);
         return net::exit_failed;
     }
@@ -153,7 +154,7 @@ base::Result<int> run(const Options& options)
     const net::CrashStack stack;
     net::UdpSocket socket{endpoints->listen};
     std::optional<control::Server> server; // before the device is touched
-    if (options.control) server.emplace(*options.control, ControlSession::limits);
+    if (options.control) server.emplace(*options.control, monitor::ControlSession::limits);
     auto opened = open_chosen(options.device, options.task);
     if (!opened) {
         say(describe_open_error(options.device, opened.error()));
@@ -169,25 +170,25 @@ base::Result<int> run(const Options& options)
     const std::string lower = note_on_force_limit(options.force_max_n, allowed_n);
     if (is_asked_for && !lower.empty()) say(lower);
     const Settings settings = settings_of(options, rig);
-    Journal journal;
-    Monitor monitor{journal, writer_for(options, device, rig, settings), options.id};
+    loop::Journal journal;
+    monitor::Monitor monitor{journal, writer_for(options, device, rig, settings), options.id};
     std::optional<net::ResultFile> file;
     if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Side side{settings};
-    Watchdog watchdog{rig.device(), &crash};
-    Servo servo{{side, rig, socket, endpoints->remote, journal, watchdog}};
+    loop::Watchdog watchdog{rig.device(), &crash};
+    loop::Servo servo{{side, rig, socket, endpoints->remote, journal, watchdog}};
 
-    std::optional<ControlSession> control_session;
+    std::optional<monitor::ControlSession> control_session;
     if (server) {
-        control_session.emplace(ControlSession::Parts{*server, servo, options, journal, monitor,
-                                                      device, recovery_of(rig.device())});
+        control_session.emplace(monitor::ControlSession::Parts{
+            *server, servo, options, journal, monitor, device, monitor::recovery_of(rig.device())});
     }
 
-    supervise({servo, monitor, stop, control_session ? &*control_session : nullptr},
-              ready_line(options, socket, endpoints->remote));
+    loop::supervise({servo, monitor, stop, control_session ? &*control_session : nullptr},
+                    ready_line(options, socket, endpoints->remote));
 
-    const ServoStatus status = servo.status();
-    const Run run{options, status, journal, device, !monitor.record_failure()};
+    const loop::ServoStatus status = servo.status();
+    const monitor::Run run{options, status, journal, device, !monitor.record_failure()};
     write_statistics(run, file);
     return conclude(run, rig.governor(), monitor);
 }

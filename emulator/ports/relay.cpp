@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <span>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::ports {
 
 namespace {
 
@@ -166,4 +166,4 @@ void Relay::release(base::TimePoint now)
     }
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::ports

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::ports {
 
 /// The two sockets and the path between them. Moves datagrams; EmulatedPath and EndpointFilter take
 /// every decision.
@@ -60,4 +60,4 @@ private:
     Side b_;
 };
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::ports

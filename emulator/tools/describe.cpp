@@ -11,7 +11,7 @@
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -180,4 +180,4 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
     return list;
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

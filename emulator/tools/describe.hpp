@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 /// One sentence for each stage of a direction that does something, in the order of the stages, with
 /// what theory says of it.
@@ -18,4 +18,4 @@ namespace hapnet::emulator {
 [[nodiscard]] std::vector<std::string> warnings(const Conditions& conditions, const Stream& stream,
                                                 const DirectionPrediction& prediction);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -14,7 +14,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -407,4 +407,4 @@ double netem_correlated_share(double share, double correlation)
     return f[i] + (f[i + 1] - f[i]) * (place - static_cast<double>(i));
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 /// A sentence of tc-netem(8) as conditions of one direction, with a warning for everything that
 /// netem would not have done as it says, or that is done differently here.
@@ -39,4 +39,4 @@ struct NetemProfile {
 /// before (net/sched/sch_netem.c, get_crandom). Within 1e-4 for correlations up to 0.99.
 [[nodiscard]] double netem_correlated_share(double share, double correlation);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -197,4 +197,4 @@ bool NetemWords::is_number_next() const
 
 bool NetemWords::is_time_next() const { return is_number_next() && !words_[next_].ends_with('%'); }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 /// The words of a tc sentence, read one after the other, in the units of tc; keeps the first
 /// complaint about them. What is there after a complaint no longer matters.
@@ -51,4 +51,4 @@ private:
     std::optional<std::string> complaint_;
 };
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -97,4 +97,4 @@ Prediction predict(const Profile& profile, const Stream& stream, base::Seed seed
     return {up.with(path.link(Direction::up)), down.with(path.link(Direction::down))};
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 /// A stream of equal datagrams at even distances, the same both ways.
 struct Stream {
@@ -46,4 +46,4 @@ struct Prediction {
 /// is late in virtual time: what it shows is what the profile itself does.
 [[nodiscard]] Prediction predict(const Profile& profile, const Stream& stream, base::Seed seed);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -18,8 +18,9 @@ base::Result<bool> conclude_demo(const DemoReportCommand& command)
     if (!p1) return tl::unexpected{p1.error()};
     auto t3 = read_session_files(command.folder + "/t3");
     if (!t3) return tl::unexpected{t3.error()};
-    const DemoRun run{*std::move(p1), *std::move(t3)};
-    const Circumstances circumstances{command.command, command.start, command.wall_time_s, host()};
+    const results::DemoRun run{*std::move(p1), *std::move(t3)};
+    const results::Circumstances circumstances{command.command, command.start, command.wall_time_s,
+                                               host()};
     net::ResultFile{command.folder + "/manifest.json"}.commit(
         demo_manifest(run, circumstances).dump(2) + '\n');
     const auto page = write_report({command.folder, {}});

@@ -37,9 +37,9 @@ void create_folder(const std::string& path)
     if (error) throw std::system_error{error, "cannot create the folder " + path};
 }
 
-base::Result<SessionFiles> read_session_files(const std::string& folder)
+base::Result<results::SessionFiles> read_session_files(const std::string& folder)
 {
-    SessionFiles files;
+    results::SessionFiles files;
     for (auto [part, name] : {std::pair{&files.analysis, "/analysis.json"},
                               {&files.emulator, "/emulator.json"},
                               {&files.peer, "/peer-1.json"}}) {

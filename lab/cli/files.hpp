@@ -21,6 +21,6 @@ namespace hapnet::lab {
 void create_folder(const std::string& path);
 
 /// What a folder holds of a session over real UDP. The error names the file that is missing.
-[[nodiscard]] base::Result<SessionFiles> read_session_files(const std::string& folder);
+[[nodiscard]] base::Result<results::SessionFiles> read_session_files(const std::string& folder);
 
 } // namespace hapnet::lab

@@ -41,7 +41,7 @@ base::Result<int> run(const AnalyseCommand& command)
     if (!a) return tl::unexpected{a.error()};
     const auto b = read_record(command.record_b);
     if (!b) return tl::unexpected{b.error()};
-    const auto analysis = analyse(*a, *b);
+    const auto analysis = records::analyse(*a, *b);
     if (!analysis) {
         return base::fail("cannot compare " + command.record_a + " (A) with " + command.record_b +
                           " (B): " + analysis.error().message);
@@ -54,14 +54,14 @@ base::Result<int> run(const ExportCommand& command)
 {
     const auto record = read_record(command.record);
     if (!record) return tl::unexpected{record.error()};
-    const auto zero = csv_zero(*record);
+    const auto zero = records::csv_zero(*record);
     const auto print_rows = [&](const std::string& header, const auto& rows) {
         print(header + '\n');
         for (const auto& row : rows) print(csv_line(row, zero) + '\n');
     };
     switch (command.rows) {
-    case ExportRows::ticks: print_rows(tick_csv_header(), record->ticks); break;
-    case ExportRows::messages: print_rows(message_csv_header(), record->messages); break;
+    case ExportRows::ticks: print_rows(records::tick_csv_header(), record->ticks); break;
+    case ExportRows::messages: print_rows(records::message_csv_header(), record->messages); break;
     }
     return 0;
 }
@@ -75,7 +75,7 @@ base::Result<int> run(const ExplainCommand& command)
 {
     const auto scene = scene::load_scene(command.scene, net::text_of_file);
     if (!scene) return tl::unexpected{scene.error()};
-    const auto explanation = explain(*scene, command.tick, command.sleeping);
+    const auto explanation = scenes::explain(*scene, command.tick, command.sleeping);
     print(command.json ? to_json(explanation).dump(2) + '\n' : to_table(explanation));
     return 0;
 }
@@ -98,12 +98,13 @@ base::Result<int> run(const ReplayCommand& command)
         if (!algorithm) return base::fail("--algorithm: " + algorithm.error().message);
         instead = *std::move(algorithm);
     }
-    const auto replayed = replay(*record, instead);
+    const auto replayed = records::replay(*record, instead);
     if (!replayed) return base::fail(command.record + ": " + replayed.error().message);
     if (command.csv) {
-        print(replay_csv_header() + '\n');
-        const auto zero = csv_zero(*record);
-        for (const ReplayedTick& tick : replayed->ticks) print(csv_line(tick, zero) + '\n');
+        print(records::replay_csv_header() + '\n');
+        const auto zero = records::csv_zero(*record);
+        for (const records::ReplayedTick& tick : replayed->ticks)
+            print(csv_line(tick, zero) + '\n');
     } else {
         print(command.json ? to_json(*replayed).dump(2) + '\n' : to_table(*replayed));
     }
@@ -121,7 +122,7 @@ base::Result<int> run(const ReportCommand& command)
 
 base::Result<int> run(const RunCommand& command)
 {
-    keep_freed_memory();
+    runner::keep_freed_memory();
     return run_experiment(command);
 }
 

@@ -174,7 +174,7 @@ void add_run(cli::Command& command, RunCommand& run, bool& is_list)
     command
         .positional("EXPERIMENT",
                     fmt::format("A file (docs/use/experiments.md), or one of {}",
-                                names_of(built_in_experiments())),
+                                names_of(experiment::built_in_experiments())),
                     cli::into(run.experiment))
         .required("table1 --out results/table1");
     command.option("--out", "DIR", "The folder for the results", cli::into(run.out))
@@ -186,7 +186,7 @@ void add_run(cli::Command& command, RunCommand& run, bool& is_list)
                 cli::onto(run.settings))
         .repeated();
     command.option("--seeds", "N", "Number of seeds (default: the experiment's)",
-                   cli::into(run.seeds, base::Count{1, seeds_max}));
+                   cli::into(run.seeds, base::Count{1, experiment::seeds_max}));
     command.option("--jobs", "N",
                    "Number of threads; the results do not depend on it (default: all processors)",
                    cli::into(run.jobs, base::Count{1, jobs_max}));
@@ -202,7 +202,7 @@ void add_run(cli::Command& command, RunCommand& run, bool& is_list)
 std::string list_of_experiments()
 {
     std::string list;
-    for (const BuiltInExperiment& one : built_in_experiments()) {
+    for (const experiment::BuiltInExperiment& one : experiment::built_in_experiments()) {
         list += std::string{one.name} + "\n";
     }
     return list;

@@ -32,11 +32,11 @@ std::vector<fs::path> session_folders(const fs::path& place)
     return folders;
 }
 
-base::Result<RealTimeResult> result_in(const fs::path& folder, const std::string& where)
+base::Result<results::RealTimeResult> result_in(const fs::path& folder, const std::string& where)
 {
     auto files = read_session_files(folder.string());
     if (!files) return tl::unexpected{files.error()};
-    const RealTimeSession session{where, *std::move(files)};
+    const results::RealTimeSession session{where, *std::move(files)};
     const auto setting = twin_of(session, net::text_of_file);
     if (!setting) return base::fail(folder.string() + ": " + setting.error().message);
     const auto twin = play(*setting);
@@ -73,7 +73,7 @@ base::Result<void> note_in_manifest(const fs::path& folder, Json real_time)
 base::Result<std::string> conclude_real_time(const RealTimeCommand& command)
 {
     const fs::path folder{command.folder};
-    std::vector<RealTimeResult> results;
+    std::vector<results::RealTimeResult> results;
     for (const char* where : {"loopback", "namespaces"}) {
         for (const fs::path& session : session_folders(folder / "real-time" / where)) {
             auto result = result_in(session, where);
@@ -86,7 +86,8 @@ base::Result<std::string> conclude_real_time(const RealTimeCommand& command)
                           " holds no sessions: let scripts/real-time.sh play some");
     }
     net::ResultFile{(folder / "real_time.csv").string()}.commit(real_time_csv(results));
-    const Circumstances circumstances{command.command, command.start, command.wall_time_s, host()};
+    const results::Circumstances circumstances{command.command, command.start, command.wall_time_s,
+                                               host()};
     const auto noted = note_in_manifest(folder, real_time_manifest(results, circumstances));
     if (!noted) return tl::unexpected{noted.error()};
     return real_time_table(results);

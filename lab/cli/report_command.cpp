@@ -29,7 +29,7 @@ void collect(const fs::path& folder, std::vector<std::string>& paths)
         if (!fs::is_directory(place)) continue;
         for (const auto& entry : fs::directory_iterator{place}) {
             const auto path = entry.path().generic_string();
-            if (entry.is_regular_file() && is_result_file(path)) paths.push_back(path);
+            if (entry.is_regular_file() && results::is_result_file(path)) paths.push_back(path);
         }
     }
 }
@@ -48,11 +48,11 @@ std::vector<fs::path> places_in(const fs::path& root)
     return places;
 }
 
-base::Result<std::vector<File>> read_files(const std::vector<fs::path>& places)
+base::Result<std::vector<results::File>> read_files(const std::vector<fs::path>& places)
 {
     std::vector<std::string> paths;
     for (const fs::path& place : places) collect(place, paths);
-    std::vector<File> files;
+    std::vector<results::File> files;
     for (const std::string& path : paths) {
         auto text = net::text_of_file(path);
         if (!text) return tl::unexpected{text.error()};
@@ -73,8 +73,8 @@ std::vector<std::string> records_in(const fs::path& folder)
 }
 
 /// `name` tells the session from others; empty: that of its task.
-base::Result<void> add_records(Results& results, const std::string& name, const std::string& path_a,
-                               const std::string& path_b)
+base::Result<void> add_records(results::Results& results, const std::string& name,
+                               const std::string& path_a, const std::string& path_b)
 {
     auto a = read_record(path_a);
     if (!a) return tl::unexpected{a.error()};
@@ -87,7 +87,7 @@ base::Result<void> add_records(Results& results, const std::string& name, const 
 }
 
 /// The demo is known by the files of its two tasks.
-base::Result<void> add_demo(Results& results, const fs::path& root)
+base::Result<void> add_demo(results::Results& results, const fs::path& root)
 {
     const auto p1 = (root / "p1").string(), t3 = (root / "t3").string();
     if (!fs::exists(p1 + "/analysis.json") || !fs::exists(t3 + "/analysis.json")) return {};
@@ -95,11 +95,11 @@ base::Result<void> add_demo(Results& results, const fs::path& root)
     if (!files_p1) return tl::unexpected{files_p1.error()};
     auto files_t3 = read_session_files(t3);
     if (!files_t3) return tl::unexpected{files_t3.error()};
-    results.demo = DemoRun{*std::move(files_p1), *std::move(files_t3)};
+    results.demo = results::DemoRun{*std::move(files_p1), *std::move(files_t3)};
     return {};
 }
 
-base::Result<Results> results_in(const fs::path& root)
+base::Result<results::Results> results_in(const fs::path& root)
 {
     const auto places = places_in(root);
     const auto files = read_files(places);
@@ -125,7 +125,7 @@ base::Result<Results> results_in(const fs::path& root)
 
 /// What the arguments name, and the folder for the page.
 struct Source {
-    Results results;
+    results::Results results;
     fs::path folder;
 };
 
@@ -137,7 +137,7 @@ base::Result<Source> read_source(const ReportCommand& command)
             return base::fail("a session has two records: name those of both peers");
         }
         if (!fs::is_directory(first)) return base::fail(first.string() + " is not a folder");
-        return results_in(first).map([&](Results results) {
+        return results_in(first).map([&](results::Results results) {
             return Source{std::move(results), first};
         });
     }
@@ -171,7 +171,7 @@ base::Result<std::string> write_report(const ReportCommand& command)
 {
     const auto source = read_source(command);
     if (!source) return tl::unexpected{source.error()};
-    for (const File& file : report::report_of(source->results, source->folder.string())) {
+    for (const results::File& file : report::report_of(source->results, source->folder.string())) {
         const fs::path path = source->folder / file.path;
         create_folder(path.parent_path().string());
         if (file.path == "report.html") say_what_is_replaced(path, file.text);

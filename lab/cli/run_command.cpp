@@ -39,9 +39,9 @@ std::string program_identity()
     return fmt::format("{} {:016x}", base::version_line(program_name), hash);
 }
 
-base::Result<Experiment> load(const RunCommand& command)
+base::Result<experiment::Experiment> load(const RunCommand& command)
 {
-    Overrides overrides{command.quick, command.settings};
+    experiment::Overrides overrides{command.quick, command.settings};
     if (command.seeds) overrides.settings.push_back(fmt::format("seeds={}", *command.seeds));
     return load_experiment(command.experiment, net::text_of_file, overrides);
 }
@@ -65,7 +65,8 @@ base::Result<void> refuse_foreign(const std::filesystem::path& out)
 /// The run of one experiment into one folder.
 class ExperimentRun {
 public:
-    ExperimentRun(const RunCommand& command, Experiment experiment, const Criteria& criteria)
+    ExperimentRun(const RunCommand& command, experiment::Experiment experiment,
+                  const metrics::Criteria& criteria)
         : command_{command},
           experiment_{std::move(experiment)},
           criteria_{criteria},
@@ -80,9 +81,10 @@ public:
         auto foreign = refuse_foreign(out_);
         if (!foreign) return tl::unexpected{std::move(foreign).error()};
         create_folder(out_.string());
-        const FolderIdentity identity{std::string{name_of(experiment_.kind)}, experiment_.title};
-        const auto store =
-            SessionStore::open((out_ / "sessions.jsonl").string(), identity, program_identity());
+        const runner::FolderIdentity identity{std::string{name_of(experiment_.kind)},
+                                              experiment_.title};
+        const auto store = runner::SessionStore::open((out_ / "sessions.jsonl").string(), identity,
+                                                      program_identity());
         if (!store) return base::fail("--out: " + store.error().message);
         if ((*store)->damaged_lines() > 0) {
             net::say(program_name,
@@ -93,12 +95,13 @@ public:
     }
 
 private:
-    base::Result<int> run_with(SessionStore& store, net::StopSignal& stop)
+    base::Result<int> run_with(runner::SessionStore& store, net::StopSignal& stop)
     {
-        ProgressLine line{start_};
-        const Runner runner{
-            store, play_in_virtual_time, thread_count(),
-            [&](const RunProgress& progress) { line.show(progress, net::monotonic_now()); }};
+        runner::ProgressLine line{start_};
+        const runner::Runner runner{store, runner::play_in_virtual_time, thread_count(),
+                                    [&](const runner::RunProgress& progress) {
+                                        line.show(progress, net::monotonic_now());
+                                    }};
         const auto results = run_all(experiment_, criteria_, runner, stop);
         line.finish();
         if (!results) throw std::runtime_error{results.error().message};
@@ -118,14 +121,14 @@ private:
         return 0;
     }
 
-    void write_results(std::span<const JobResult> results) const
+    void write_results(std::span<const experiment::JobResult> results) const
     {
-        const auto files = make_result_files(experiment_, criteria_, results);
+        const auto files = results::make_result_files(experiment_, criteria_, results);
         if (!files) throw std::runtime_error{files.error().message};
-        for (const File& file : *files) {
+        for (const results::File& file : *files) {
             write_text(out_ / file.path, file.text);
             if (file.path == "table1.csv" || file.path == "limits.csv") {
-                fmt::print("{}\n", aligned(file.text));
+                fmt::print("{}\n", records::aligned(file.text));
             } else if (file.path == "criteria.toml") {
                 fmt::print("{}\n", file.text);
             }
@@ -137,20 +140,21 @@ private:
         return command_.jobs.value_or(std::max(std::thread::hardware_concurrency(), 1U));
     }
 
-    void write_manifest(const SessionStore::Counts& counts, std::vector<std::string> invalid) const
+    void write_manifest(const runner::SessionStore::Counts& counts,
+                        std::vector<std::string> invalid) const
     {
-        const Circumstances circumstances{command_.command, utc_text(start_s_),
-                                          base::to_seconds(net::monotonic_now() - start_), host(),
-                                          base::version_line(program_name)};
-        const RunOutcome outcome{print_criteria(criteria_), counts.played, counts.reused,
-                                 std::move(invalid)};
+        const results::Circumstances circumstances{command_.command, results::utc_text(start_s_),
+                                                   base::to_seconds(net::monotonic_now() - start_),
+                                                   host(), base::version_line(program_name)};
+        const results::RunOutcome outcome{print_criteria(criteria_), counts.played, counts.reused,
+                                          std::move(invalid)};
         write_text(out_ / "manifest.json",
                    make_manifest(experiment_, circumstances, outcome).dump(2) + '\n');
     }
 
     const RunCommand& command_;
-    Experiment experiment_;
-    Criteria criteria_;
+    experiment::Experiment experiment_;
+    metrics::Criteria criteria_;
     std::filesystem::path out_;
     base::TimePoint start_;
     double start_s_;
@@ -162,7 +166,7 @@ base::Result<int> run_experiment(const RunCommand& command)
 {
     auto experiment = load(command);
     if (!experiment) return tl::unexpected{experiment.error()};
-    const auto criteria = load_criteria(command.criteria, net::text_of_file);
+    const auto criteria = experiment::load_criteria(command.criteria, net::text_of_file);
     if (!criteria) return tl::unexpected{criteria.error()};
     return ExperimentRun{command, *std::move(experiment), *criteria}.run();
 }

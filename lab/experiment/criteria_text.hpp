@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 /// Criteria that every program carries with it: a file of scripts/criteria.
 struct BuiltInCriteria {
@@ -22,7 +22,7 @@ struct BuiltInCriteria {
 
 /// Reads the built-in criteria of that name, or else the file that `open` gives the text of.
 /// "paper" are those that were calibrated on the paper's two numbers.
-[[nodiscard]] base::Result<Criteria> load_criteria(const std::string& file_or_name,
-                                                   const base::OpenFile& open);
+[[nodiscard]] base::Result<metrics::Criteria> load_criteria(const std::string& file_or_name,
+                                                            const base::OpenFile& open);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/experiment/experiment.hpp"
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -24,4 +24,4 @@ std::string name_of(const Hands& hands)
 
 std::string_view name_of(const Kind& kind) { return std::visit(KindName{}, kind); }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -19,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 /// An algorithm under the name that the results give it.
 struct NamedAlgorithm {
@@ -53,8 +53,8 @@ struct SearchRange {
 /// How sensitive the limits are to the way of measuring: with which filters and hands they are to
 /// be searched again. In a text [convention].
 struct Sensitivity {
-    std::vector<FilterOrder> filter_orders{FilterOrder::first, FilterOrder::second,
-                                           FilterOrder::fourth};
+    std::vector<metrics::FilterOrder> filter_orders{
+        metrics::FilterOrder::first, metrics::FilterOrder::second, metrics::FilterOrder::fourth};
     std::vector<Hands> hands{};
     std::vector<device::Task> tasks{};
     std::uint32_t seeds = 1;
@@ -122,4 +122,4 @@ struct Experiment {
     emulator::Path path{}; // the conditions that all sessions have in common
 };
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 std::vector<GridPoint> grid_points(const ImpairmentGrid& plane)
 {
@@ -24,4 +24,4 @@ emulator::Path make_path(const emulator::Path& ground, const GridPoint& point)
     return impaired(delayed, Impairment::random_loss, point.loss);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

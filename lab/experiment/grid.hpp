@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 /// One point of the plane of delay, jitter and loss.
 struct GridPoint {
@@ -22,4 +22,4 @@ struct GridPoint {
 /// leaves before it came.
 [[nodiscard]] emulator::Path make_path(const emulator::Path& ground, const GridPoint& point);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -135,4 +135,4 @@ emulator::Path impaired(const emulator::Path& ground, Impairment impairment, Imp
     return path;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 /// What Fig. 6 of the paper makes worse and worse.
 enum class Impairment : std::uint8_t { delay, jitter, random_loss, burst_loss };
@@ -49,4 +49,4 @@ void read_level(const base::Node& node, Impairment impairment, ImpairmentLevel& 
 [[nodiscard]] emulator::Path impaired(const emulator::Path& ground, Impairment impairment,
                                       ImpairmentLevel level);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -9,7 +9,7 @@
 #include <functional>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -114,15 +114,16 @@ public:
     {}
 
     /// Whether all seeds are usable; the first that is not ends it.
-    base::Result<bool> passes(ImpairmentLevel level, std::uint32_t seeds, const Criteria& criteria)
+    base::Result<bool> passes(ImpairmentLevel level, std::uint32_t seeds,
+                              const metrics::Criteria& criteria)
     {
         for (std::uint32_t seed = experiment_.first_seed; seed < seeds_end(experiment_, seeds);
              ++seed) {
             const auto scores = scores_at(level, seed);
             if (!scores) return tl::unexpected{scores.error()};
-            const Tier tier = judge(*scores, criteria).tier;
+            const metrics::Tier tier = judge(*scores, criteria).tier;
             curve_.push_back({level, seed, *scores, tier});
-            if (tier == Tier::unusable) return false;
+            if (tier == metrics::Tier::unusable) return false;
         }
         return true;
     }
@@ -135,7 +136,7 @@ public:
     }
 
 private:
-    base::Result<Scores> scores_at(ImpairmentLevel level, std::uint32_t seed)
+    base::Result<metrics::Scores> scores_at(ImpairmentLevel level, std::uint32_t seed)
     {
         session_.seed = seed;
         const auto path = impaired(experiment_.path, impairment_, level);
@@ -156,7 +157,7 @@ private:
 
 struct RunJob {
     const Experiment& experiment;
-    const Criteria& criteria;
+    const metrics::Criteria& criteria;
     const PlaySession& play;
 
     base::Result<JobResult> operator()(const SessionJob& job) const
@@ -190,8 +191,8 @@ struct RunJob {
                           job.range.impairment,
                           play};
         SensitivityResult result;
-        for (const FilterOrder order : sensitivity.filter_orders) {
-            Criteria by_order = criteria;
+        for (const metrics::FilterOrder order : sensitivity.filter_orders) {
+            metrics::Criteria by_order = criteria;
             by_order.filter_order = order;
             const auto limit = find_limit(job.range, [&](ImpairmentLevel level) {
                 return levels.passes(level, sensitivity.seeds, by_order);
@@ -213,9 +214,9 @@ std::vector<Job> make_jobs(const Experiment& experiment)
 }
 
 base::Result<JobResult> run_job(const Job& job, const Experiment& experiment,
-                                const Criteria& criteria, const PlaySession& play)
+                                const metrics::Criteria& criteria, const PlaySession& play)
 {
     return std::visit(RunJob{experiment, criteria, play}, job);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

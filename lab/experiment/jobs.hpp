@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 // An experiment in jobs that do not depend on one another: on whatever thread and in whatever
 // order they are carried out, each finds the same.
@@ -44,8 +44,8 @@ using Job = std::variant<SessionJob, SearchJob, SensitivityJob>;
 [[nodiscard]] std::vector<Job> make_jobs(const Experiment& experiment);
 
 struct SessionResult {
-    Metrics metrics{};
-    Metrics perfect{};
+    metrics::Metrics metrics{};
+    metrics::Metrics perfect{};
     std::string rows{};
 };
 
@@ -53,8 +53,8 @@ struct SessionResult {
 struct CurvePoint {
     ImpairmentLevel level{};
     std::uint32_t seed = 1;
-    Scores scores{};
-    Tier tier{};
+    metrics::Scores scores{};
+    metrics::Tier tier{};
 };
 
 struct SearchResult {
@@ -71,6 +71,7 @@ using JobResult = std::variant<SessionResult, SearchResult, SensitivityResult>;
 
 /// Carries out one job, playing by `play` what it needs. An error of `play` is passed on.
 [[nodiscard]] base::Result<JobResult> run_job(const Job& job, const Experiment& experiment,
-                                              const Criteria& criteria, const PlaySession& play);
+                                              const metrics::Criteria& criteria,
+                                              const PlaySession& play);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -85,4 +85,4 @@ base::Result<base::Node> setting_table(std::string_view setting)
     return base::fail("a key has at most 8 parts");
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -7,7 +7,7 @@
 
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 /// Puts the entries of `over` into the table `under`: tables into tables, all else instead of what
 /// was there. Both are tables.
@@ -20,4 +20,4 @@ void overlay(base::Node& under, const base::Node& over);
 /// The error says how to write it.
 [[nodiscard]] base::Result<base::Node> setting_table(std::string_view setting);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

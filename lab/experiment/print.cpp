@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -89,7 +89,7 @@ struct KindTables {
         if (!limits.sensitivity) return out;
         const Sensitivity& sensitivity = *limits.sensitivity;
         out += fmt::format("\n[convention]\nfilter_orders = {}\n",
-                           toml_list(sensitivity.filter_orders, [](FilterOrder order) {
+                           toml_list(sensitivity.filter_orders, [](metrics::FilterOrder order) {
                                return fmt::format("{}", count_of(order));
                            }));
         out += fmt::format("hands = {}\n", toml_list(sensitivity.hands, hands_text));
@@ -140,4 +140,4 @@ std::string to_text(const Experiment& experiment)
     return out;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -205,4 +205,4 @@ base::Result<Experiment> load_experiment(const std::string& file_or_name,
     return parse_experiment(found->text, found->source, overrides);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

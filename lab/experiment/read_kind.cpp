@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -19,7 +19,8 @@ using base::TableReader;
 constexpr std::uint32_t rows_per_s_max = 1000;
 constexpr std::int64_t search_levels_max = 1000;
 
-void read_filter_orders(const Node& node, std::vector<FilterOrder>& target, Reading& reading)
+void read_filter_orders(const Node& node, std::vector<metrics::FilterOrder>& target,
+                        Reading& reading)
 {
     const auto* list = std::get_if<Node::List>(&node.value);
     if (list == nullptr || list->empty()) {
@@ -28,11 +29,13 @@ void read_filter_orders(const Node& node, std::vector<FilterOrder>& target, Read
     target.clear();
     for (const Node& element : *list) {
         const auto count = base::count_of(element, 4).value_or(0);
-        const auto known = std::find(filter_order_counts.begin(), filter_order_counts.end(), count);
-        if (known == filter_order_counts.end()) {
+        const auto known = std::find(metrics::filter_order_counts.begin(),
+                                     metrics::filter_order_counts.end(), count);
+        if (known == metrics::filter_order_counts.end()) {
             return base::complain_of(element, "the filter order 1, 2 or 4", reading);
         }
-        target.push_back(static_cast<FilterOrder>(known - filter_order_counts.begin()));
+        target.push_back(
+            static_cast<metrics::FilterOrder>(known - metrics::filter_order_counts.begin()));
     }
 }
 
@@ -261,4 +264,4 @@ void read_kind(const Node& name, TableReader& table, Kind& target)
     }
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 inline constexpr std::uint32_t seeds_max = 1000;
 inline constexpr std::uint32_t first_seed_max = 1'000'000'000;
@@ -30,4 +30,4 @@ void read_hands(const base::Node& node, Hands& target, base::Reading& reading);
 /// What a kind of experiment says besides what all say.
 void read_kind(const base::Node& name, base::TableReader& table, Kind& target);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -76,4 +76,4 @@ base::Result<Limit> find_limit(const SearchRange& range, const Passes& passes)
     });
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

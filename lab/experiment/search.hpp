@@ -7,7 +7,7 @@
 
 #include <functional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 /// The last level that passed before the first that failed.
 struct Limit {
@@ -25,4 +25,4 @@ using Passes = std::function<base::Result<bool>(ImpairmentLevel)>;
 /// `from` itself fails, the scan begins at 0.
 [[nodiscard]] base::Result<Limit> find_limit(const SearchRange& range, const Passes& passes);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

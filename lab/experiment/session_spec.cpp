@@ -10,7 +10,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -28,7 +28,7 @@ scene::Description scene_for(device::Task task)
     return *built_in;
 }
 
-std::string player_text(const PlayerSetting& player)
+std::string player_text(const virtual_time::PlayerSetting& player)
 {
     return fmt::format(
         "{}{}clock_ahead = {}\nphase = {}\n", peer::print_algorithm(player.algorithm),
@@ -41,7 +41,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
                               const emulator::Path& path)
 {
     SessionSpec spec;
-    Setting& setting = spec.setting;
+    virtual_time::Setting& setting = spec.setting;
     setting.task = one.task;
     setting.scene = scene_for(one.task);
     setting.seed = base::Seed{one.seed};
@@ -65,7 +65,7 @@ SessionSpec perfect_twin(const SessionSpec& spec)
 
 std::string key_of(const SessionSpec& spec, std::string_view program)
 {
-    const Setting& setting = spec.setting;
+    const virtual_time::Setting& setting = spec.setting;
     const auto left = player_text(setting.players[0]);
     const auto right = player_text(setting.players[1]);
     const auto label = fmt::format("{} {} {}/{} seed {} {}", name_of(setting.task),
@@ -78,4 +78,4 @@ std::string key_of(const SessionSpec& spec, std::string_view program)
     return fmt::format("{} {:016x}", label, hash_of(all));
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

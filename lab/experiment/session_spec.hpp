@@ -12,17 +12,17 @@
 #include <string>
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 /// A session to be played, and how many rows a second are kept of it besides its metrics.
 struct SessionSpec {
-    Setting setting{};
+    virtual_time::Setting setting{};
     std::uint32_t rows_per_s = 0;
 };
 
 /// What came of a session: a pure function of its spec.
 struct PlayedSession {
-    Metrics metrics{};
+    metrics::Metrics metrics{};
     std::string rows{}; // CSV without a header: see rows.hpp; empty when none were to be kept
 };
 
@@ -47,4 +47,4 @@ struct SessionCase {
 /// follows from. `program` is who plays it: another program may play it differently.
 [[nodiscard]] std::string key_of(const SessionSpec& spec, std::string_view program);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

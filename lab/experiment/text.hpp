@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 // Experiments as people write them, in TOML: docs/use/experiments.md.
 
@@ -45,4 +45,4 @@ struct BuiltInExperiment {
                                                        const base::OpenFile& open,
                                                        const Overrides& overrides);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

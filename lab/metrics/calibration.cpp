@@ -9,7 +9,7 @@
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -83,4 +83,4 @@ base::Result<Criteria> calibrated(const CalibrationSessions& sessions, const Cri
     return criteria;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -8,7 +8,7 @@
 
 #include <span>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// The sessions of `base` that the paper found just tolerable: of every task and seed that a limit
 /// is to hold for.
@@ -28,4 +28,4 @@ struct CalibrationSessions {
 [[nodiscard]] base::Result<Criteria> calibrated(const CalibrationSessions& sessions,
                                                 const Criteria& rest);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

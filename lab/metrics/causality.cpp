@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::optional<double> response_of(const Columns& pusher, const Columns& other, d
     return sum_s / responses;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

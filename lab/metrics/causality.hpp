@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// How long it takes, in seconds, until one side's push moves the other side's body: from the
 /// first tick of a touch until the other's copy moves faster than 20 mm/s; the mean over all
@@ -16,4 +16,4 @@ namespace hapnet::lab {
 [[nodiscard]] std::optional<double> response_of(const Columns& pusher, const Columns& other,
                                                 double tick_s);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

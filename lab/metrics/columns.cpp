@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/metrics/columns.hpp"
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -13,7 +13,7 @@ double dot_of(base::Force force, base::Displacement way)
 
 } // namespace
 
-Columns columns_of(std::span<const Sample> side)
+Columns columns_of(std::span<const virtual_time::Sample> side)
 {
     Columns columns;
     const std::size_t count = side.size();
@@ -24,7 +24,7 @@ Columns columns_of(std::span<const Sample> side)
     columns.touching.resize(count);
     columns.follows.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const Sample& sample = side[i];
+        const virtual_time::Sample& sample = side[i];
         const bool own = sample.touching || sample.holding;
         columns.body_x[i] = sample.body.x();
         columns.body_y[i] = sample.body.y();
@@ -35,10 +35,10 @@ Columns columns_of(std::span<const Sample> side)
         columns.follows[i] = !own && sample.remote_touching ? 1 : 0;
         // The device holds a tick's force until the next: this sum is exact, not a rule of
         // integration.
-        const Sample& next = side[i + 1 < count ? i + 1 : i];
+        const virtual_time::Sample& next = side[i + 1 < count ? i + 1 : i];
         columns.work[i] = -dot_of(sample.on_hand, next.hip - sample.hip);
     }
     return columns;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// What metrics are made of, of one side, as one contiguous row of numbers each: a sample is three
 /// cache lines, and a metric needs two numbers of it. SI units; x components.
@@ -24,6 +24,6 @@ struct Columns {
     std::vector<std::uint8_t> follows;  // only the other side touches
 };
 
-[[nodiscard]] Columns columns_of(std::span<const Sample> side);
+[[nodiscard]] Columns columns_of(std::span<const virtual_time::Sample> side);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -57,4 +57,4 @@ std::optional<double> drag_of(const Columns& side, double tick_s)
     return sum / count;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

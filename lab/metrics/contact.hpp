@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// Mean ||F_L| - |F_R|| over the mean of all the forces, both over the ticks in which both hands
 /// touch, at equal times: no delay is taken out, for the two persons do not know of any. 0: they
@@ -23,4 +23,4 @@ namespace hapnet::lab {
 /// in newtons: what carrying costs. nullopt when that takes less than 0.1 s altogether.
 [[nodiscard]] std::optional<double> drag_of(const Columns& side, double tick_s);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::string print_criteria(const Criteria& criteria)
            commented_lines(criteria);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

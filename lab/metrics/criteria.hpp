@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 enum class FilterOrder : std::uint8_t { first, second, fourth };
 
@@ -124,4 +124,4 @@ constexpr auto fields_of(base::Tag<Criteria>)
 /// TOML that reads back as the same criteria; its comments say where each number comes from.
 [[nodiscard]] std::string print_criteria(const Criteria& criteria);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

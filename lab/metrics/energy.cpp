@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 std::optional<double> energy_taken_of(std::span<const double> left_work,
                                       std::span<const double> right_work)
@@ -21,4 +21,4 @@ std::optional<double> energy_taken_of(std::span<const double> left_work,
     return std::max(0.0, -least);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

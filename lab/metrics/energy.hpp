@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// The most energy, in joules, that two hands have together got out of their devices beyond what
 /// they had put in until then: max(0, -min E), E the running sum of `work` of both, from 0. What
@@ -15,4 +15,4 @@ namespace hapnet::lab {
 [[nodiscard]] std::optional<double> energy_taken_of(std::span<const double> left_work,
                                                     std::span<const double> right_work);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -37,4 +37,4 @@ Exercise exercise_of(device::Task task)
     return {};
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

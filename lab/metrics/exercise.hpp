@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// From when to when, in seconds from the session's start.
 struct Stretch {
@@ -32,4 +32,4 @@ struct Exercise {
 
 [[nodiscard]] Exercise exercise_of(device::Task task);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

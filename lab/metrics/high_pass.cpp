@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -110,4 +110,4 @@ std::optional<double> band_vibration_of(std::span<const double> signal, const Cu
     return root_of_mean(sum, static_cast<double>(signal.size()));
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

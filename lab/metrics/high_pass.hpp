@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// Where a filter begins to pass, in hertz, and its sampling.
 struct Cutoff {
@@ -73,4 +73,4 @@ struct ByOrder {
 [[nodiscard]] std::optional<double> band_vibration_of(std::span<const double> signal,
                                                       const Cutoff& from, const Cutoff& to);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::optional<Metrics> metrics_from(const nlohmann::json& json)
     return metrics;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

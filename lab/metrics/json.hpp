@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 // Metrics as one JSON object, its keys the names of the fields; by side a list of two, null where
 // there is no value.
@@ -18,4 +18,4 @@ namespace hapnet::lab {
 /// nullopt when a key is missing or holds something else.
 [[nodiscard]] std::optional<Metrics> metrics_from(const nlohmann::json& json);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -155,7 +155,7 @@ std::optional<double> drops(const Taken& taken)
 
 } // namespace
 
-Metrics metrics_of(const Trace& trace)
+Metrics metrics_of(const virtual_time::Trace& trace)
 {
     base::ensure(trace.sides[0].size() == trace.sides[1].size());
     const Taken taken{.exercise = exercise_of(trace.task),
@@ -178,4 +178,4 @@ Metrics metrics_of(const Trace& trace)
     return metrics;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// Of L and of R.
 template <typename Value>
@@ -65,6 +65,6 @@ struct Metrics {
     friend bool operator==(const Metrics&, const Metrics&) = default;
 };
 
-[[nodiscard]] Metrics metrics_of(const Trace& trace);
+[[nodiscard]] Metrics metrics_of(const virtual_time::Trace& trace);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 std::optional<Quantiles> quantiles_of(std::vector<base::Duration> values)
 {
@@ -17,4 +17,4 @@ std::optional<Quantiles> quantiles_of(std::vector<base::Duration> values)
     return Quantiles{nearest_rank(50), nearest_rank(99), values.back()};
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// Exact quantiles by nearest rank: each is one of the values.
 struct Quantiles {
@@ -21,4 +21,4 @@ struct Quantiles {
 /// nullopt when there are no values.
 [[nodiscard]] std::optional<Quantiles> quantiles_of(std::vector<base::Duration> values);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

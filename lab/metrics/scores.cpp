@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -127,4 +127,4 @@ Scores scores_of(const Metrics& impaired, const Metrics& perfect)
     return scores;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

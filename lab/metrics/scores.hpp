@@ -7,7 +7,7 @@
 #include <array>
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// Metrics against those of the same session (task, algorithm, hands, seed) on a perfect network:
 /// what the network did. SI units; of the side that is worse off.
@@ -54,4 +54,4 @@ struct Scores {
 /// Both are to be of the same task.
 [[nodiscard]] Scores scores_of(const Metrics& impaired, const Metrics& perfect);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

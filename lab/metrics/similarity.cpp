@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -125,4 +125,4 @@ std::optional<Similarity> similarity_of(std::span<const double> sent,
     return Similarity{.share = sum / windows, .lag_s = static_cast<double>(lag) * tick_s};
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// How alike one force is to another once the delay is taken out.
 struct Similarity {
@@ -23,4 +23,4 @@ struct Similarity {
 [[nodiscard]] std::optional<Similarity>
 similarity_of(std::span<const double> sent, std::span<const double> received, double tick_s);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

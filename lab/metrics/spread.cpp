@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 std::optional<Spread> spread_of(std::span<const double> values)
 {
@@ -23,4 +23,4 @@ std::optional<Spread> spread_of(std::span<const double> values)
     return spread;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

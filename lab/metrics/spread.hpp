@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// How values lie, in their own unit; `std` is the population's.
 struct Spread {
@@ -24,4 +24,4 @@ struct Spread {
 /// nullopt when there are no values.
 [[nodiscard]] std::optional<Spread> spread_of(std::span<const double> values);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -31,4 +31,4 @@ std::optional<ForceSteps> force_steps_of(std::span<const double> force, double t
     return steps;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

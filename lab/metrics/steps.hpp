@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// How abruptly a force changes.
 struct ForceSteps {
@@ -21,4 +21,4 @@ struct ForceSteps {
 [[nodiscard]] std::optional<ForceSteps> force_steps_of(std::span<const double> force,
                                                        double tick_s);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::optional<double> stiffness_of(std::span<const double> force_on_hand,
     return -(force_part.c * place_part.c + force_part.s * place_part.s) / square;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

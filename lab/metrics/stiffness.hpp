@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// The stiffness that a hand feels when it moves to and fro at `hertz`, in N/m: -Re{F / X} of the
 /// force on the hand and of where it is, both taken at that frequency by correlation with a sine
@@ -16,4 +16,4 @@ namespace hapnet::lab {
                                                  std::span<const double> hip, double hertz,
                                                  double tick_s);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 /// The number of ticks nearest to `seconds`, which are not negative and no longer than a session.
 [[nodiscard]] inline std::size_t ticks_in(double seconds, double tick_s)
@@ -13,4 +13,4 @@ namespace hapnet::lab {
     return static_cast<std::size_t>(std::lround(seconds / tick_s));
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -5,7 +5,7 @@
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 namespace {
 
@@ -87,4 +87,4 @@ Judgement judge(const Scores& scores, const Criteria& criteria)
     return judgement;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::metrics {
 
 enum class Tier : std::uint8_t { unusable, usable, good };
 constexpr auto names_of(base::Tag<Tier>) { return base::names("unusable", "usable", "good"); }
@@ -30,4 +30,4 @@ struct Judgement {
 /// Judges the metrics that the task exercised; the others count as kept.
 [[nodiscard]] Judgement judge(const Scores& scores, const Criteria& criteria);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::metrics

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -27,7 +27,7 @@ std::optional<ForceDiscrepancy> force_discrepancy_of(const std::vector<Moment>& 
             distances.push_back(moment.force_distance());
         }
     }
-    const auto spread = spread_of(distances);
+    const auto spread = metrics::spread_of(distances);
     if (!spread) return std::nullopt;
     return ForceDiscrepancy{spread->mean, spread->max};
 }
@@ -89,7 +89,7 @@ Agreement agreement_of(const Session& session)
             distances.push_back(std::abs(moment.cube_distance().x()));
         }
     }
-    return {.discrepancy_x = spread_of(distances),
+    return {.discrepancy_x = metrics::spread_of(distances),
             .force_discrepancy = force_discrepancy_of(moments),
             .settled_discrepancy = settled_discrepancy_of(moments),
             .touching = touch_shares_of(moments),
@@ -97,4 +97,4 @@ Agreement agreement_of(const Session& session)
             .overlap = overlap_of(session, moments)};
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -8,7 +8,7 @@
 
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// In newtons.
 struct ForceDiscrepancy {
@@ -28,7 +28,7 @@ struct TouchShares {
 /// then is interpolated linearly between its ticks.
 struct Agreement {
     /// |x_A - x_B| of the cube, in metres, while both are running; nullopt when they never are.
-    std::optional<Spread> discrepancy_x;
+    std::optional<metrics::Spread> discrepancy_x;
     /// ||F_A| - |F_B|| of the contact forces while both are running and touch; nullopt when they
     /// never do.
     std::optional<ForceDiscrepancy> force_discrepancy;
@@ -45,4 +45,4 @@ struct Agreement {
 
 [[nodiscard]] Agreement agreement_of(const Session& session);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

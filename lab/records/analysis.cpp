@@ -6,7 +6,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -61,4 +61,4 @@ base::Result<Analysis> analyse(const record::Record& a, const record::Record& b)
     return analysis;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// What two records of one session say: how far the copies were apart, what the network did, how
 /// well both loops kept their time, and whether the run counts.
@@ -32,4 +32,4 @@ struct Analysis {
 /// Refuses records that cannot be compared; a run that went badly is analysed and not valid.
 [[nodiscard]] base::Result<Analysis> analyse(const record::Record& a, const record::Record& b);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -22,7 +22,7 @@ double us(base::Duration duration) { return 1e-3 * static_cast<double>(duration.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json number(std::optional<double> value) { return value ? number(*value) : Json(nullptr); }
 
-Json json_of(const std::optional<Spread>& spread)
+Json json_of(const std::optional<metrics::Spread>& spread)
 {
     if (!spread) return nullptr;
     return {{"mean", number(mm * spread->mean)},
@@ -37,7 +37,7 @@ Json json_of(const std::optional<ForceDiscrepancy>& force)
     return {{"mean", number(force->mean)}, {"max", number(force->max)}};
 }
 
-Json json_of(const std::optional<Quantiles>& quantiles, double (*unit)(base::Duration))
+Json json_of(const std::optional<metrics::Quantiles>& quantiles, double (*unit)(base::Duration))
 {
     if (!quantiles) return nullptr;
     return {{"p50", unit(quantiles->p50)},
@@ -86,7 +86,9 @@ TextTable distances_table(const Agreement& agreement)
 {
     const auto& x = agreement.discrepancy_x;
     const auto& force = agreement.force_discrepancy;
-    const auto of_x = [&](double Spread::*member) { return number_text(part(x, member, mm), 3); };
+    const auto of_x = [&](double metrics::Spread::*member) {
+        return number_text(part(x, member, mm), 3);
+    };
     const auto of_force = [&](double ForceDiscrepancy::*member) {
         return number_text(part(force, member, 1.0), 3);
     };
@@ -94,7 +96,8 @@ TextTable distances_table(const Agreement& agreement)
             "",
             {"mean", "min", "max", "std"},
             {{"cube |x_A - x_B|, mm",
-              {of_x(&Spread::mean), of_x(&Spread::min), of_x(&Spread::max), of_x(&Spread::std)}},
+              {of_x(&metrics::Spread::mean), of_x(&metrics::Spread::min),
+               of_x(&metrics::Spread::max), of_x(&metrics::Spread::std)}},
              {"force ||F_A| - |F_B||, N",
               {of_force(&ForceDiscrepancy::mean), "", of_force(&ForceDiscrepancy::max), ""}},
              {"settled at the end, mm",
@@ -124,7 +127,8 @@ TextTable network_table(const Path& up, const Path& down)
     const auto count = [](std::uint64_t Path::*member) {
         return [=](const Path& path) { return std::to_string(path.*member); };
     };
-    const auto time = [](std::optional<Quantiles> Path::*of, base::Duration Quantiles::*member) {
+    const auto time = [](std::optional<metrics::Quantiles> Path::*of,
+                         base::Duration metrics::Quantiles::*member) {
         return [=](const Path& path) {
             const auto& found = path.*of;
             return number_text(found ? std::optional{ms((*found).*member)} : std::nullopt, 3);
@@ -136,25 +140,25 @@ TextTable network_table(const Path& up, const Path& down)
     add("reordered", count(&Path::reordered));
     add("loss, %", [](const Path& path) { return number_text(scaled(path.loss, 1e2), 3); });
     add("sent per second", [](const Path& path) { return number_text(path.packets_per_s, 2); });
-    add("delay p50, ms", time(&Path::delay, &Quantiles::p50));
-    add("delay p99, ms", time(&Path::delay, &Quantiles::p99));
-    add("delay max, ms", time(&Path::delay, &Quantiles::max));
-    add("jitter p50, ms", time(&Path::jitter, &Quantiles::p50));
-    add("jitter p99, ms", time(&Path::jitter, &Quantiles::p99));
+    add("delay p50, ms", time(&Path::delay, &metrics::Quantiles::p50));
+    add("delay p99, ms", time(&Path::delay, &metrics::Quantiles::p99));
+    add("delay max, ms", time(&Path::delay, &metrics::Quantiles::max));
+    add("jitter p50, ms", time(&Path::jitter, &metrics::Quantiles::p50));
+    add("jitter p99, ms", time(&Path::jitter, &metrics::Quantiles::p99));
     return table;
 }
 
 TextTable loops_table(const Loop& a, const Loop& b)
 {
-    const auto late = [](const Loop& loop, base::Duration Quantiles::*member) {
+    const auto late = [](const Loop& loop, base::Duration metrics::Quantiles::*member) {
         return number_text(loop.late ? std::optional{us((*loop.late).*member)} : std::nullopt, 3);
     };
     TextTable table{"How well each haptic loop kept its time", "", {"A", "B"}, {}, {}, 12};
     table.rows = {{"ticks per second", {number_text(a.rate_hz, 2), number_text(b.rate_hz, 2)}},
                   {"ticks missed", {std::to_string(a.missed), std::to_string(b.missed)}}};
-    for (const auto& [name, member] : {std::pair{"late p50, us", &Quantiles::p50},
-                                       {"late p99, us", &Quantiles::p99},
-                                       {"late max, us", &Quantiles::max}}) {
+    for (const auto& [name, member] : {std::pair{"late p50, us", &metrics::Quantiles::p50},
+                                       {"late p99, us", &metrics::Quantiles::p99},
+                                       {"late max, us", &metrics::Quantiles::max}}) {
         table.rows.push_back({name, {late(a, member), late(b, member)}});
     }
     return table;
@@ -211,4 +215,4 @@ std::string to_table(const Analysis& analysis)
     return text;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

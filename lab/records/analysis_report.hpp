@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// An analysis for programs: units in the names, null where there is nothing to say.
 [[nodiscard]] nlohmann::ordered_json to_json(const Analysis& analysis);
@@ -23,4 +23,4 @@ namespace hapnet::lab {
 /// An analysis for people, as lines of text: the tables, and whether the run counts.
 [[nodiscard]] std::string to_table(const Analysis& analysis);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

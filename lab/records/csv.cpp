@@ -9,7 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::string csv_line(const record::MessageRow& row, base::TimePoint zero)
                               seconds(message->sent.time_since_epoch()));
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 // Rows of a record as lines of CSV, without their end of line. The first column is the time in
 // seconds since `zero`; numbers that are not finite become empty cells.
@@ -22,4 +22,4 @@ namespace hapnet::lab {
 [[nodiscard]] std::string message_csv_header();
 [[nodiscard]] std::string csv_line(const record::MessageRow& row, base::TimePoint zero);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -45,4 +45,4 @@ SessionCurves curves_of(const Session& session)
     return curves;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

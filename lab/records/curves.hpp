@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// A value at a time since the session's start, on A's clock.
 struct TimedValue {
@@ -25,4 +25,4 @@ struct SessionCurves {
 
 [[nodiscard]] SessionCurves curves_of(const Session& session);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

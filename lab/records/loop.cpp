@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 Loop loop_of(const Side& side)
 {
@@ -26,8 +26,8 @@ Loop loop_of(const Side& side)
     if (last > first) {
         loop.rate_hz = static_cast<double>(loop.ticks - 1) / base::to_seconds(last - first);
     }
-    loop.late = quantiles_of(std::move(late));
+    loop.late = metrics::quantiles_of(std::move(late));
     return loop;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// How well one peer's haptic loop kept its time, from T0 to its end.
 struct Loop {
@@ -16,7 +16,7 @@ struct Loop {
     std::uint64_t missed = 0;
     /// nullopt with fewer than two ticks.
     std::optional<double> rate_hz;
-    std::optional<Quantiles> late;
+    std::optional<metrics::Quantiles> late;
 
     /// Share of the ticks due that were skipped, 0 to 1.
     [[nodiscard]] double missed_share() const
@@ -28,4 +28,4 @@ struct Loop {
 
 [[nodiscard]] Loop loop_of(const Side& side);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

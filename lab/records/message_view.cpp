@@ -4,7 +4,7 @@
 
 #include "proto/wire/message.hpp"
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 std::optional<MessageView> view_of(const record::MessageRow& row)
 {
@@ -14,4 +14,4 @@ std::optional<MessageView> view_of(const record::MessageRow& row)
     return MessageView{state->session, state->sequence, state->sent};
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// What the analysis needs of a recorded state message.
 struct MessageView {
@@ -21,4 +21,4 @@ struct MessageView {
 /// nullopt when the bytes are no state message, or one whose stamp no clock reads.
 [[nodiscard]] std::optional<MessageView> view_of(const record::MessageRow& row);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

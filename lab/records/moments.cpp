@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -49,4 +49,4 @@ std::vector<Moment> moments_of(const Session& session)
     return moments;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// One moment of a session on both sides: a tick of A and the ticks of B around it. Both ticks of B
 /// are the same one when B has a tick at that very time.
@@ -34,4 +34,4 @@ struct Moment {
 /// The moments at which both sides have data, one for each such tick of A. Refers into the session.
 [[nodiscard]] std::vector<Moment> moments_of(const Session& session);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

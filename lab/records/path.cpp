@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -66,8 +66,8 @@ Path path_between(const Side& sender, const Side& receiver, base::Duration recei
     if (highest > 0) {
         path.loss = 1.0 - static_cast<double>(path.received) / static_cast<double>(highest);
     }
-    path.delay = quantiles_of(std::move(delays));
-    path.jitter = quantiles_of(std::move(variations));
+    path.delay = metrics::quantiles_of(std::move(delays));
+    path.jitter = metrics::quantiles_of(std::move(variations));
     return path;
 }
 
@@ -83,4 +83,4 @@ Path path_b_to_a(const Session& session)
     return path_between(session.b, session.a, -session.clock.offset);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// What became of the state messages of one session on one way.
 struct Path {
@@ -22,10 +22,10 @@ struct Path {
     /// nothing came. Those after it may still have been on their way.
     std::optional<double> loss;
     /// From the sender's stamp to the kernel's receive stamp.
-    std::optional<Quantiles> delay;
+    std::optional<metrics::Quantiles> delay;
     /// |difference of the delays| of messages received one after another (RFC 3393, in the order
     /// of arrival).
-    std::optional<Quantiles> jitter;
+    std::optional<metrics::Quantiles> jitter;
     /// The rate at which the sender sent.
     std::optional<double> packets_per_s;
 };
@@ -33,4 +33,4 @@ struct Path {
 [[nodiscard]] Path path_a_to_b(const Session& session);
 [[nodiscard]] Path path_b_to_a(const Session& session);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

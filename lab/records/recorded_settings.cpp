@@ -18,7 +18,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -123,4 +123,4 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     return recorded;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// How a peer and what stood between it and its motors were made.
 struct RecordedSettings {
@@ -21,4 +21,4 @@ struct RecordedSettings {
 /// Of a record with this configuration. The error names the key.
 [[nodiscard]] base::Result<RecordedSettings> settings_of(const nlohmann::json& config);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
 // Rows further apart than this have time without data between them, not a straight line.
 constexpr base::Duration bridge_max{std::chrono::milliseconds{10}};
 
-Sample sample_of(const record::TickRow& row)
+virtual_time::Sample sample_of(const record::TickRow& row)
 {
     return {.body = row.cube,
             .body_velocity = row.cube_velocity,
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] base::TimePoint end() const { return rows_.back().at() - ahead_; }
 
     struct Reading {
-        Sample sample;
+        virtual_time::Sample sample;
         bool is_bridged = false; // there is no row near it
     };
     /// At a time from begin() to end(), not before the last one asked for.
@@ -74,9 +74,9 @@ base::Duration hands_on(base::Duration length)
 
 } // namespace
 
-Trace trace_of(const Session& session)
+virtual_time::Trace trace_of(const Session& session)
 {
-    Trace trace{.tick = session.tick};
+    virtual_time::Trace trace{.tick = session.tick};
     if (const auto task = device::task_named(session.task)) trace.task = *task;
     const bool a_is_left = session.a.peer_id < session.b.peer_id;
     const base::Duration b_ahead = session.clock.offset;
@@ -106,4 +106,4 @@ Trace trace_of(const Session& session)
     return trace;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

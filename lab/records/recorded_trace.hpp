@@ -5,7 +5,7 @@
 #include "lab/records/session.hpp"
 #include "lab/virtual_time/trace.hpp"
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// What two records tell of a session, as play() gives it of one in virtual time: both sides at the
 /// same even times, by straight lines between their rows. Side 0 is the one whose seed and clock
@@ -15,6 +15,6 @@ namespace hapnet::lab {
 /// differs from the force on the body where the force on the hand was softened for passivity, or
 /// where the hand touched something else besides; `holding` is false throughout. Time without rows
 /// (more than 10 ms) is bridged by straight lines too, but does not count in `overlap`.
-[[nodiscard]] Trace trace_of(const Session& session);
+[[nodiscard]] virtual_time::Trace trace_of(const Session& session);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

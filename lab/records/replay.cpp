@@ -14,7 +14,7 @@
 #include <tuple>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -214,4 +214,4 @@ std::string csv_line(const ReplayedTick& tick, base::TimePoint zero)
     return line;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

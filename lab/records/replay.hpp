@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// One tick, lived through again.
 struct ReplayedTick {
@@ -59,4 +59,4 @@ inline constexpr double tolerance_n = 1e-9;
 /// Time in seconds since `zero`.
 [[nodiscard]] std::string csv_line(const ReplayedTick& tick, base::TimePoint zero);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -9,7 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <string>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -100,4 +100,4 @@ base::Result<Session> common_session(const record::Record& a, const record::Reco
     return common;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

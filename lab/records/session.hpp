@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 enum class ClockMethod : std::uint8_t {
     same_boot, ///< one machine, one CLOCK_MONOTONIC: nothing to convert
@@ -51,4 +51,4 @@ struct Session {
 [[nodiscard]] base::Result<Session> common_session(const record::Record& a,
                                                    const record::Record& b);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -7,7 +7,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::string aligned(std::string_view csv)
     return out;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

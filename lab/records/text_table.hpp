@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// Numbers for people, in rows and columns: a terminal shows them as text, a page as HTML.
 struct TextTable {
@@ -35,4 +35,4 @@ struct TextTable {
 /// A CSV without quoted cells as a table for people: columns of equal width.
 [[nodiscard]] std::string aligned(std::string_view csv);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -12,17 +12,17 @@ using plot::escaped;
 
 namespace {
 
-void add_claim(Claims& claims, Claim claim, std::string line)
+void add_claim(Claims& claims, results::Claim claim, std::string line)
 {
     switch (claim) {
-    case Claim::none: break;
-    case Claim::calibrated: claims.calibrated.push_back(std::move(line)); break;
-    case Claim::met: claims.met.push_back(std::move(line)); break;
-    case Claim::missed: claims.missed.push_back(std::move(line)); break;
+    case results::Claim::none: break;
+    case results::Claim::calibrated: claims.calibrated.push_back(std::move(line)); break;
+    case results::Claim::met: claims.met.push_back(std::move(line)); break;
+    case results::Claim::missed: claims.missed.push_back(std::move(line)); break;
     }
 }
 
-std::string line_of(const Table1Row& row)
+std::string line_of(const results::Table1Row& row)
 {
     return fmt::format("Table 1, <b>{}</b>: mean {}, std {}, max {} mm (paper: {}, {}, {})",
                        escaped(row.algorithm), shown(row.mean_mm, 2), shown(row.std_mm, 2),
@@ -30,12 +30,13 @@ std::string line_of(const Table1Row& row)
                        shown(row.paper_std_mm, 2), shown(row.paper_max_mm, 1));
 }
 
-std::string line_of(const LimitRow& row)
+std::string line_of(const results::LimitRow& row)
 {
     const auto paper = row.paper_limit ? limit_text(*row.paper_limit, false, row.unit) : "–";
     return fmt::format("Limit of {}, <b>{}</b>, {}: {} (paper: {})",
                        escaped(impairment_text(row.impairment)), escaped(row.algorithm),
-                       row.task == worst_task ? "worst of the tasks" : "in " + escaped(row.task),
+                       row.task == results::worst_task ? "worst of the tasks"
+                                                       : "in " + escaped(row.task),
                        escaped(limit_text(row.limit, row.is_open(), row.unit)), escaped(paper));
 }
 
@@ -63,26 +64,27 @@ bool is_empty(const Claims& claims)
 
 } // namespace
 
-Claims main_claims(const Results& results)
+Claims main_claims(const results::Results& results)
 {
     Claims claims;
-    for (const Table1Row& row : results.table1) add_claim(claims, row.verdict, line_of(row));
-    for (const LimitRow& row : results.limits) {
-        if (row.task == worst_task) add_claim(claims, to_claim(row.status), line_of(row));
+    for (const results::Table1Row& row : results.table1)
+        add_claim(claims, row.verdict, line_of(row));
+    for (const results::LimitRow& row : results.limits) {
+        if (row.task == results::worst_task) add_claim(claims, to_claim(row.status), line_of(row));
     }
     return claims;
 }
 
-Claims task_claims(const Results& results)
+Claims task_claims(const results::Results& results)
 {
     Claims claims;
-    for (const LimitRow& row : results.limits) {
-        if (row.task != worst_task) add_claim(claims, to_claim(row.status), line_of(row));
+    for (const results::LimitRow& row : results.limits) {
+        if (row.task != results::worst_task) add_claim(claims, to_claim(row.status), line_of(row));
     }
     return claims;
 }
 
-std::optional<Section> claims_section(const Results& results)
+std::optional<Section> claims_section(const results::Results& results)
 {
     const Claims main = main_claims(results), of_tasks = task_claims(results);
     if (is_empty(main) && is_empty(of_tasks)) return std::nullopt;

@@ -19,23 +19,24 @@ struct Criterion {
     std::string_view name;
     std::string_view title;
     std::string_view unit;
-    std::optional<double> Judged::*value;
+    std::optional<double> results::Judged::*value;
     plot::Scale scale;
     bool is_worse_when_less;
-    double (*threshold)(const Criteria&); // of what is usable
+    double (*threshold)(const metrics::Criteria&); // of what is usable
 };
 
 constexpr std::array criteria_drawn{
-    Criterion{
-        "vibration", "Vibration of the cube above 20 Hz", "mm", &Judged::vibration_mm,
-        plot::Scale::logarithmic, false,
-        [](const Criteria& c) { return 1e3 * at_order(c.usable.vibration_max_m, c.filter_order); }},
+    Criterion{"vibration", "Vibration of the cube above 20 Hz", "mm",
+              &results::Judged::vibration_mm, plot::Scale::logarithmic, false,
+              [](const metrics::Criteria& c) {
+                  return 1e3 * at_order(c.usable.vibration_max_m, c.filter_order);
+              }},
     Criterion{"stiffness", "Stiffness felt at 1 Hz", "of what it is at no delay",
-              &Judged::stiffness_ratio, plot::Scale::linear, true,
-              [](const Criteria& c) { return c.usable.stiffness_ratio_min; }},
+              &results::Judged::stiffness_ratio, plot::Scale::linear, true,
+              [](const metrics::Criteria& c) { return c.usable.stiffness_ratio_min; }},
     Criterion{"force-vibration", "Vibration of the force above 20 Hz", "N",
-              &Judged::force_vibration_n, plot::Scale::logarithmic, false,
-              [](const Criteria& c) { return c.usable.force_vibration_max_n; }}};
+              &results::Judged::force_vibration_n, plot::Scale::logarithmic, false,
+              [](const metrics::Criteria& c) { return c.usable.force_vibration_max_n; }}};
 
 /// The sessions of one level: the worst of them.
 struct LevelOfCurve {
@@ -43,14 +44,14 @@ struct LevelOfCurve {
     bool is_unusable = false;
 };
 
-std::map<double, LevelOfCurve> levels_of(const std::vector<CurveRow>& rows,
+std::map<double, LevelOfCurve> levels_of(const std::vector<results::CurveRow>& rows,
                                          std::string_view algorithm, const Criterion& criterion)
 {
     std::map<double, LevelOfCurve> levels;
-    for (const CurveRow& row : rows) {
+    for (const results::CurveRow& row : rows) {
         if (row.algorithm != algorithm) continue;
         LevelOfCurve& level = levels[row.level];
-        level.is_unusable |= row.judged.tier == Tier::unusable;
+        level.is_unusable |= row.judged.tier == metrics::Tier::unusable;
         const auto value = row.judged.*criterion.value;
         const bool is_worse =
             value && (!level.value || (criterion.is_worse_when_less ? *value < *level.value
@@ -61,8 +62,8 @@ std::map<double, LevelOfCurve> levels_of(const std::vector<CurveRow>& rows,
 }
 
 /// Empty when none of the rows has this criterion.
-std::string curve_plot(const std::vector<CurveRow>& rows, const Criterion& criterion,
-                       const std::string& title, const std::optional<Criteria>& criteria)
+std::string curve_plot(const std::vector<results::CurveRow>& rows, const Criterion& criterion,
+                       const std::string& title, const std::optional<metrics::Criteria>& criteria)
 {
     std::vector<plot::Curve> curves;
     plot::PlotOptions options{.scales = {.y = criterion.scale}, .size = {360.0, 250.0}};
@@ -94,28 +95,29 @@ std::string curve_plot(const std::vector<CurveRow>& rows, const Criterion& crite
 
 /// Without what an algorithm did beyond the first level at which a task failed: there the others
 /// are no longer the worst of all tasks.
-std::vector<CurveRow> up_to_failure(const std::vector<CurveRow>& rows)
+std::vector<results::CurveRow> up_to_failure(const std::vector<results::CurveRow>& rows)
 {
     std::map<std::string, double> ends;
-    for (const CurveRow& row : rows) {
-        if (row.judged.tier != Tier::unusable) continue;
+    for (const results::CurveRow& row : rows) {
+        if (row.judged.tier != metrics::Tier::unusable) continue;
         const auto [found, is_new] = ends.emplace(row.algorithm, row.level);
         if (!is_new) found->second = std::min(found->second, row.level);
     }
-    std::vector<CurveRow> kept;
-    for (const CurveRow& row : rows) {
+    std::vector<results::CurveRow> kept;
+    for (const results::CurveRow& row : rows) {
         const auto end = ends.find(row.algorithm);
         if (end == ends.end() || row.level <= end->second) kept.push_back(row);
     }
     return kept;
 }
 
-std::string by_task(const std::vector<CurveRow>& rows, const std::optional<Criteria>& criteria)
+std::string by_task(const std::vector<results::CurveRow>& rows,
+                    const std::optional<metrics::Criteria>& criteria)
 {
     std::string out;
     for (const std::string& task : distinct(rows, [](const auto& row) { return row.task; })) {
-        std::vector<CurveRow> of_task;
-        for (const CurveRow& row : rows) {
+        std::vector<results::CurveRow> of_task;
+        for (const results::CurveRow& row : rows) {
             if (row.task == task) of_task.push_back(row);
         }
         for (const Criterion& criterion : criteria_drawn) {
@@ -127,16 +129,16 @@ std::string by_task(const std::vector<CurveRow>& rows, const std::optional<Crite
     return "<div class='panels small'>\n" + out + "</div>\n";
 }
 
-bool is_measured(const std::vector<CurveRow>& rows, const Criterion& criterion)
+bool is_measured(const std::vector<results::CurveRow>& rows, const Criterion& criterion)
 {
-    return std::any_of(rows.begin(), rows.end(), [&](const CurveRow& row) {
+    return std::any_of(rows.begin(), rows.end(), [&](const results::CurveRow& row) {
         return (row.judged.*criterion.value).has_value();
     });
 }
 
 /// All curves of one impairment.
-void add_curves(Section& section, const std::vector<CurveRow>& rows,
-                const std::optional<Criteria>& criteria)
+void add_curves(Section& section, const std::vector<results::CurveRow>& rows,
+                const std::optional<metrics::Criteria>& criteria)
 {
     const std::string& name = rows.front().impairment;
     section.html +=
@@ -163,7 +165,7 @@ void add_curves(Section& section, const std::vector<CurveRow>& rows,
 
 } // namespace
 
-std::optional<Section> curves_section(const Results& results)
+std::optional<Section> curves_section(const results::Results& results)
 {
     if (results.curves.empty()) return std::nullopt;
     Section section{"curves", "The curves behind the limits",
@@ -174,8 +176,8 @@ std::optional<Section> curves_section(const Results& results)
     const auto criteria = results.criteria();
     if (criteria) section.html += "<p>The dashed line is where usable ends.</p>\n";
     for (const auto& name : distinct(results.curves, [](const auto& r) { return r.impairment; })) {
-        std::vector<CurveRow> rows;
-        for (const CurveRow& row : results.curves) {
+        std::vector<results::CurveRow> rows;
+        for (const results::CurveRow& row : results.curves) {
             if (row.impairment == name) rows.push_back(row);
         }
         add_curves(section, rows, criteria);

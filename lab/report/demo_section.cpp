@@ -6,11 +6,12 @@
 
 namespace hapnet::lab::report {
 
-std::optional<Section> demo_section(const Results& results)
+std::optional<Section> demo_section(const results::Results& results)
 {
     if (!results.demo) return std::nullopt;
     Section section{"demo", "The demo beside the paper’s Table 1"};
-    for (const TextTable& table : demo_tables(*results.demo)) section.html += html_of(table);
+    for (const records::TextTable& table : demo_tables(*results.demo))
+        section.html += html_of(table);
     section.html += "<p>While the left hand moves the cube in P1, the right copy is where the left "
                     "one was 160 ms ago. Where x stays flat at its highest, the cube stands at the "
                     "static cube. At the end both hands are off, and the copies agree "

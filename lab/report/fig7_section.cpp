@@ -17,12 +17,12 @@ constexpr std::size_t points_max = 6000; // a curve: finer than pixels even when
 constexpr std::string_view left_colour = "var(--left)";
 constexpr std::string_view right_colour = "var(--right)";
 
-using Rows = std::vector<TrajectoryRow>;
+using Rows = std::vector<results::TrajectoryRow>;
 
-std::vector<plot::Point> points_of(const Rows& rows, double TrajectoryRow::*value)
+std::vector<plot::Point> points_of(const Rows& rows, double results::TrajectoryRow::*value)
 {
     std::vector<plot::Point> points;
-    for (const TrajectoryRow& row : rows) points.push_back({row.time_s, row.*value});
+    for (const results::TrajectoryRow& row : rows) points.push_back({row.time_s, row.*value});
     return plot::thinned(points, points_max);
 }
 
@@ -32,20 +32,28 @@ struct BothSides {
     std::string_view left_name;
     std::string_view right_name;
     std::string_view unit;
-    double TrajectoryRow::*left;
-    double TrajectoryRow::*right;
+    double results::TrajectoryRow::*left;
+    double results::TrajectoryRow::*right;
 };
 
-constexpr BothSides drawn_cubes{
-    "", "cube at L", "cube at R", "x, mm", &TrajectoryRow::cube_l_mm, &TrajectoryRow::cube_r_mm};
-constexpr BothSides drawn_hands{
-    ": hands", "hand L", "hand R", "x, mm", &TrajectoryRow::hand_l_mm, &TrajectoryRow::hand_r_mm};
+constexpr BothSides drawn_cubes{"",
+                                "cube at L",
+                                "cube at R",
+                                "x, mm",
+                                &results::TrajectoryRow::cube_l_mm,
+                                &results::TrajectoryRow::cube_r_mm};
+constexpr BothSides drawn_hands{": hands",
+                                "hand L",
+                                "hand R",
+                                "x, mm",
+                                &results::TrajectoryRow::hand_l_mm,
+                                &results::TrajectoryRow::hand_r_mm};
 constexpr BothSides drawn_forces{": forces",
                                  "on hand L",
                                  "on hand R",
                                  "x, N",
-                                 &TrajectoryRow::force_l_n,
-                                 &TrajectoryRow::force_r_n};
+                                 &results::TrajectoryRow::force_l_n,
+                                 &results::TrajectoryRow::force_r_n};
 
 std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot::Range& range = {})
 {
@@ -63,7 +71,7 @@ std::string both_sides_plot(const Rows& rows, const BothSides& both, const plot:
 std::string apart_text(const Rows& rows)
 {
     double sum = 0.0, most = 0.0;
-    for (const TrajectoryRow& row : rows) {
+    for (const results::TrajectoryRow& row : rows) {
         const double apart = std::abs(row.cube_l_mm - row.cube_r_mm);
         sum += apart;
         most = std::max(most, apart);
@@ -75,7 +83,7 @@ std::string apart_text(const Rows& rows)
 
 } // namespace
 
-std::optional<Section> fig7_section(const Results& results)
+std::optional<Section> fig7_section(const results::Results& results)
 {
     if (results.trajectories.empty()) return std::nullopt;
     Section section{
@@ -83,7 +91,7 @@ std::optional<Section> fig7_section(const Results& results)
         "<div class='zoom-group'>\n<p class='zoom-help' hidden>Drag across a plot to zoom; "
         "all follow. <span class='zoom-buttons'></span></p>\n"};
     plot::Range range;
-    for (const TrajectoryRow& row : results.trajectories) {
+    for (const results::TrajectoryRow& row : results.trajectories) {
         range.include(row.cube_l_mm);
         range.include(row.cube_r_mm);
     }
@@ -91,7 +99,7 @@ std::optional<Section> fig7_section(const Results& results)
     for (const auto& name :
          distinct(results.trajectories, [](const auto& r) { return r.algorithm; })) {
         Rows rows;
-        for (const TrajectoryRow& row : results.trajectories) {
+        for (const results::TrajectoryRow& row : results.trajectories) {
             if (row.algorithm == name) rows.push_back(row);
         }
         section.add_figure("fig7-" + name, both_sides_plot(rows, drawn_cubes, range),

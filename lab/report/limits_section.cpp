@@ -13,21 +13,22 @@ using plot::escaped;
 
 namespace {
 
-std::vector<LimitRow> limits_of(const Results& results, std::string_view impairment)
+std::vector<results::LimitRow> limits_of(const results::Results& results,
+                                         std::string_view impairment)
 {
-    std::vector<LimitRow> rows;
-    for (const LimitRow& row : results.limits) {
+    std::vector<results::LimitRow> rows;
+    for (const results::LimitRow& row : results.limits) {
         if (row.impairment == impairment) rows.push_back(row);
     }
     return rows;
 }
 
-std::string measured_text(const LimitRow& row)
+std::string measured_text(const results::LimitRow& row)
 {
     return limit_text(row.limit, row.is_open(), row.unit);
 }
 
-plot::Bar paper_bar(const LimitRow& row, double paper)
+plot::Bar paper_bar(const results::LimitRow& row, double paper)
 {
     return {.value = paper,
             .label = plain(paper),
@@ -36,23 +37,23 @@ plot::Bar paper_bar(const LimitRow& row, double paper)
             .tip = fmt::format("{}, paper: {}", row.algorithm, limit_text(paper, false, row.unit))};
 }
 
-plot::Bar measured_bar(const LimitRow& row)
+plot::Bar measured_bar(const results::LimitRow& row)
 {
     return {.value = row.limit,
             .label = fmt::format("{}{}", row.is_open() ? "> " : "", plain(row.limit)),
             .colour = colour_of(row.algorithm),
             .is_open = row.is_open(),
-            .is_missed = to_claim(row.status) == Claim::missed,
+            .is_missed = to_claim(row.status) == results::Claim::missed,
             .tip = fmt::format("{} in {}: {} {}", row.algorithm, row.task, measured_text(row),
                                claim_text(to_claim(row.status)))};
 }
 
 /// The worst of the tasks, beside the paper: one group for each algorithm.
-std::string worst_bars(const std::vector<LimitRow>& rows)
+std::string worst_bars(const std::vector<results::LimitRow>& rows)
 {
     std::vector<plot::BarGroup> groups;
-    for (const LimitRow& row : rows) {
-        if (row.task != worst_task) continue;
+    for (const results::LimitRow& row : rows) {
+        if (row.task != results::worst_task) continue;
         plot::BarGroup group{row.algorithm, {}};
         if (row.paper_limit) group.bars.push_back(paper_bar(row, *row.paper_limit));
         group.bars.push_back(measured_bar(row));
@@ -66,14 +67,14 @@ std::string worst_bars(const std::vector<LimitRow>& rows)
 }
 
 /// Every task on its own: one group for each.
-std::string task_bars(const std::vector<LimitRow>& rows)
+std::string task_bars(const std::vector<results::LimitRow>& rows)
 {
     std::vector<plot::BarGroup> groups;
     std::vector<plot::LegendEntry> legend;
     for (const std::string& task : distinct(rows, [](const auto& row) { return row.task; })) {
-        if (task == worst_task) continue;
+        if (task == results::worst_task) continue;
         plot::BarGroup group{task, {}};
-        for (const LimitRow& row : rows) {
+        for (const results::LimitRow& row : rows) {
             if (row.task == task) group.bars.push_back(measured_bar(row));
         }
         groups.push_back(std::move(group));
@@ -86,30 +87,31 @@ std::string task_bars(const std::vector<LimitRow>& rows)
 }
 
 /// Of the worst of the tasks, or of each.
-std::string limits_table(const std::vector<LimitRow>& rows, bool of_worst)
+std::string limits_table(const std::vector<results::LimitRow>& rows, bool of_worst)
 {
     const std::string caption =
         fmt::format("Limits of {}: the last level that passed before the first that failed",
                     impairment_text(rows.front().impairment));
     HtmlTable table{caption, {"algorithm", "task", "limit", "paper", "band", "status"}};
-    const auto add = [&](const LimitRow& row) {
-        const bool is_missed = to_claim(row.status) == Claim::missed;
+    const auto add = [&](const results::LimitRow& row) {
+        const bool is_missed = to_claim(row.status) == results::Claim::missed;
         const auto paper =
             row.paper_limit ? limit_text(*row.paper_limit, false, row.unit) : std::string{"–"};
-        table.rows.push_back({{escaped(row.algorithm)},
-                              {escaped(row.task), "name"},
-                              {escaped(measured_text(row)), is_missed ? "ours missed" : "ours"},
-                              {escaped(paper), "paper"},
-                              {std::string{limit_band(row.algorithm, row.impairment)}, "band"},
-                              {claim_badge(to_claim(row.status))}});
+        table.rows.push_back(
+            {{escaped(row.algorithm)},
+             {escaped(row.task), "name"},
+             {escaped(measured_text(row)), is_missed ? "ours missed" : "ours"},
+             {escaped(paper), "paper"},
+             {std::string{results::limit_band(row.algorithm, row.impairment)}, "band"},
+             {claim_badge(to_claim(row.status))}});
     };
-    for (const LimitRow& row : rows) {
-        if ((row.task == worst_task) == of_worst) add(row);
+    for (const results::LimitRow& row : rows) {
+        if ((row.task == results::worst_task) == of_worst) add(row);
     }
     return html_of(table);
 }
 
-void add_impairment(Section& section, const std::vector<LimitRow>& rows)
+void add_impairment(Section& section, const std::vector<results::LimitRow>& rows)
 {
     const std::string& impairment = rows.front().impairment;
     section.html +=
@@ -123,7 +125,7 @@ void add_impairment(Section& section, const std::vector<LimitRow>& rows)
                     folded("Each task on its own", limits_table(rows, false));
 }
 
-std::optional<Section> limits_section(const Results& results, Section section,
+std::optional<Section> limits_section(const results::Results& results, Section section,
                                       const std::vector<std::string_view>& impairments)
 {
     bool is_empty = true;
@@ -139,7 +141,7 @@ std::optional<Section> limits_section(const Results& results, Section section,
 
 } // namespace
 
-std::optional<Section> fig6a_section(const Results& results)
+std::optional<Section> fig6a_section(const results::Results& results)
 {
     return limits_section(results,
                           {"fig6a", "Fig. 6a: tolerated delay and jitter",
@@ -148,7 +150,7 @@ std::optional<Section> fig6a_section(const Results& results)
                           {"delay", "jitter"});
 }
 
-std::optional<Section> fig6b_section(const Results& results)
+std::optional<Section> fig6b_section(const results::Results& results)
 {
     return limits_section(results,
                           {"fig6b", "Fig. 6b: tolerated loss",

@@ -12,9 +12,10 @@ using plot::escaped;
 
 namespace {
 
-std::vector<double> ascending(const std::vector<QosRow>& rows, double QosRow::*value)
+std::vector<double> ascending(const std::vector<results::QosRow>& rows,
+                              double results::QosRow::*value)
 {
-    auto values = distinct(rows, [&](const QosRow& row) { return row.*value; });
+    auto values = distinct(rows, [&](const results::QosRow& row) { return row.*value; });
     std::sort(values.begin(), values.end());
     return values;
 }
@@ -27,11 +28,11 @@ std::size_t index_of(const std::vector<double>& values, double value)
 
 /// A cell of the plane: the worst of the tasks, and what each says.
 struct PlaneCellOnPage {
-    Tier worst = Tier::good;
+    metrics::Tier worst = metrics::Tier::good;
     std::string tip;
 };
 
-void add_task(PlaneCellOnPage& cell, const QosRow& row)
+void add_task(PlaneCellOnPage& cell, const results::QosRow& row)
 {
     cell.worst = std::min(cell.worst, row.judged.tier);
     if (cell.tip.empty()) {
@@ -45,11 +46,11 @@ void add_task(PlaneCellOnPage& cell, const QosRow& row)
 }
 
 /// One algorithm at one loss.
-std::string plane_map(const std::vector<QosRow>& rows, const std::vector<double>& delays,
+std::string plane_map(const std::vector<results::QosRow>& rows, const std::vector<double>& delays,
                       const std::vector<double>& jitters)
 {
     std::vector<PlaneCellOnPage> cells(delays.size() * jitters.size());
-    for (const QosRow& row : rows) {
+    for (const results::QosRow& row : rows) {
         const std::size_t column = index_of(delays, row.delay_ms);
         add_task(cells[index_of(jitters, row.jitter_ms) * delays.size() + column], row);
     }
@@ -71,7 +72,8 @@ std::string plane_map(const std::vector<QosRow>& rows, const std::vector<double>
 std::string legend()
 {
     std::string out = "<p class='legend'>";
-    for (const Tier tier : {Tier::good, Tier::usable, Tier::unusable}) {
+    for (const metrics::Tier tier :
+         {metrics::Tier::good, metrics::Tier::usable, metrics::Tier::unusable}) {
         out += tier_badge(tier) + " ";
     }
     return out + "worst of the tasks; point at a field for its numbers</p>\n";
@@ -79,19 +81,19 @@ std::string legend()
 
 } // namespace
 
-std::optional<Section> qos_section(const Results& results)
+std::optional<Section> qos_section(const results::Results& results)
 {
     if (results.qos.empty()) return std::nullopt;
     Section section{"qos", "What a network must offer",
                     "<p>The whole plane of delay and jitter, once for each loss.</p>\n" + legend()};
-    const auto delays = ascending(results.qos, &QosRow::delay_ms);
-    const auto jitters = ascending(results.qos, &QosRow::jitter_ms);
-    const auto losses = ascending(results.qos, &QosRow::loss_percent);
+    const auto delays = ascending(results.qos, &results::QosRow::delay_ms);
+    const auto jitters = ascending(results.qos, &results::QosRow::jitter_ms);
+    const auto losses = ascending(results.qos, &results::QosRow::loss_percent);
     for (const auto& name : distinct(results.qos, [](const auto& row) { return row.algorithm; })) {
         section.html += fmt::format("<h3>{}</h3>\n<div class='panels tiny'>\n", escaped(name));
         for (const double loss : losses) {
-            std::vector<QosRow> rows;
-            for (const QosRow& row : results.qos) {
+            std::vector<results::QosRow> rows;
+            for (const results::QosRow& row : results.qos) {
                 if (row.algorithm == name && row.loss_percent == loss) rows.push_back(row);
             }
             if (rows.empty()) continue;

@@ -23,7 +23,7 @@ std::optional<double> difference_percent(std::optional<double> real,
 }
 
 /// How far real time is from virtual time; red when that is too far and the run is valid.
-HtmlCell difference_cell(const RealTimeRow& row, std::optional<double> real,
+HtmlCell difference_cell(const results::RealTimeRow& row, std::optional<double> real,
                          std::optional<double> simulated)
 {
     const auto percent = difference_percent(real, simulated);
@@ -32,13 +32,13 @@ HtmlCell difference_cell(const RealTimeRow& row, std::optional<double> real,
     return {fmt::format("{:+.1f} %", *percent), is_far ? "ours missed" : "ours"};
 }
 
-std::string times_table(const std::vector<RealTimeRow>& rows)
+std::string times_table(const std::vector<results::RealTimeRow>& rows)
 {
     HtmlTable table{"Real time over UDP beside virtual time, mm",
                     {"algorithm", "where", "mean<br>real", "mean<br>virtual", "differs",
                      "std<br>real", "std<br>virtual", "differs", "max<br>real", "max<br>virtual",
                      "valid"}};
-    for (const RealTimeRow& row : rows) {
+    for (const results::RealTimeRow& row : rows) {
         const std::string_view style = row.is_valid ? "" : "excluded";
         table.rows.push_back(
             {{escaped(row.algorithm)},
@@ -56,10 +56,10 @@ std::string times_table(const std::vector<RealTimeRow>& rows)
     return html_of(table);
 }
 
-std::string times_bars(const std::vector<RealTimeRow>& rows)
+std::string times_bars(const std::vector<results::RealTimeRow>& rows)
 {
     std::vector<plot::BarGroup> groups;
-    for (const RealTimeRow& row : rows) {
+    for (const results::RealTimeRow& row : rows) {
         if (!row.is_valid || !row.mean_mm || !row.virtual_mean_mm) continue;
         const auto colour = colour_of(row.algorithm);
         groups.push_back({fmt::format("{}, {}", row.algorithm, row.where),
@@ -80,7 +80,7 @@ std::string times_bars(const std::vector<RealTimeRow>& rows)
 
 } // namespace
 
-std::optional<Section> real_time_section(const Results& results)
+std::optional<Section> real_time_section(const results::Results& results)
 {
     if (results.real_time.empty()) return std::nullopt;
     Section section{"real-time", "Real time beside virtual time",

@@ -66,14 +66,14 @@ Json bodies_of(const scene::Description& scene)
     return list;
 }
 
-Json packed(const Replay& replay)
+Json packed(const results::Replay& replay)
 {
     Json columns;
     base::for_each_field(
         [&](const auto& field, const auto&) {
             if (field.key == "time_s") return; // it runs in equal steps
             std::vector<double> column;
-            for (const ReplayRow& row : replay.rows) column.push_back(row.*field.member);
+            for (const results::ReplayRow& row : replay.rows) column.push_back(row.*field.member);
             columns[std::string{field.key}] = packed(column);
         },
         replay.rows.front());
@@ -126,11 +126,11 @@ constexpr std::string_view player = R"html(<div class="player" tabindex="0" role
 
 } // namespace
 
-std::optional<Section> replay_section(const Results& results)
+std::optional<Section> replay_section(const results::Results& results)
 {
     if (results.replays.empty()) return std::nullopt;
     Json replays = Json::array();
-    for (const Replay& replay : results.replays) replays.push_back(packed(replay));
+    for (const results::Replay& replay : results.replays) replays.push_back(packed(replay));
     return Section{"replay", "Look at it",
                    "<p>Both computers hold a copy of the blue cube. Each picture shows one of "
                    "them, with the hand that is there; the dashed outline is where the other has "

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 /// What a page can have, and how to make it.
 struct PartOfPage {
     std::string_view what;
-    std::optional<Section> (*section)(const Results&);
+    std::optional<Section> (*section)(const results::Results&);
     std::string_view command; // up to the folder; empty: it comes with others
     std::string_view subfolder{};
 };
@@ -52,7 +52,7 @@ struct Contents {
 /// What a page is about. A page about one thing does not replace one about another unnoticed.
 enum class Subject : std::uint8_t { experiments, demo, session };
 
-Subject subject_of(const Results& results)
+Subject subject_of(const results::Results& results)
 {
     if (results.demo) return Subject::demo;
     const bool has_sessions_only = !results.sessions.empty() && results.runs.empty();
@@ -69,7 +69,7 @@ std::string_view name_of(Subject subject)
     return "";
 }
 
-Contents contents_of(const Results& results, std::string_view folder)
+Contents contents_of(const results::Results& results, std::string_view folder)
 {
     Contents contents;
     const bool is_of_experiments = subject_of(results) == Subject::experiments;
@@ -84,7 +84,7 @@ Contents contents_of(const Results& results, std::string_view folder)
     return contents;
 }
 
-std::string title_of(const Results& results)
+std::string title_of(const results::Results& results)
 {
     if (results.runs.size() == 1) {
         const auto& manifest = results.runs.front().manifest;
@@ -117,7 +117,7 @@ std::string_view lead_of(Subject subject)
 }
 
 /// Why a run is not valid, a line of HTML for each reason.
-std::string reasons_of(const Run& run)
+std::string reasons_of(const results::Run& run)
 {
     if (run.is_valid()) return "";
     std::string reasons;
@@ -138,10 +138,10 @@ std::string reasons_of(const Run& run)
 }
 
 /// Whether the results count, and why not. Recorded sessions say so themselves.
-std::string validity(const Results& results)
+std::string validity(const results::Results& results)
 {
     std::string reasons;
-    for (const Run& run : results.runs) reasons += reasons_of(run);
+    for (const results::Run& run : results.runs) reasons += reasons_of(run);
     if (!reasons.empty()) {
         return "<div class='banner missed' role='alert'><b>Not valid.</b> These numbers do not "
                "count:<ul>\n" +
@@ -162,7 +162,8 @@ std::string tile(std::size_t count, std::string_view text, std::string_view styl
 }
 
 /// What stands on top: what one sees, and whether it counts.
-std::string head_of(const Results& results, const std::string& title, const Contents& contents)
+std::string head_of(const results::Results& results, const std::string& title,
+                    const Contents& contents)
 {
     const Claims claims = main_claims(results);
     const std::size_t count = claims.calibrated.size() + claims.met.size() + claims.missed.size();
@@ -182,7 +183,7 @@ std::string head_of(const Results& results, const std::string& title, const Cont
     return out + "</ul></nav>\n</header>\n";
 }
 
-std::string page_of(const Results& results, const Contents& contents)
+std::string page_of(const results::Results& results, const Contents& contents)
 {
     const std::string title = title_of(results);
     const Subject subject = subject_of(results);
@@ -215,10 +216,10 @@ std::string_view page_subject(std::string_view page)
     return page.substr(0, page.find('"'));
 }
 
-std::vector<File> report_of(const Results& results, std::string_view folder)
+std::vector<results::File> report_of(const results::Results& results, std::string_view folder)
 {
     Contents contents = contents_of(results, folder);
-    std::vector<File> files{{"report.html", page_of(results, contents)}};
+    std::vector<results::File> files{{"report.html", page_of(results, contents)}};
     for (const Section& section : contents.sections) {
         for (const Figure& one : section.figures) {
             files.push_back({fmt::format("figures/{}.svg", one.name), standalone(one.svg)});

@@ -12,7 +12,8 @@ namespace hapnet::lab::report {
 
 /// The report of a result folder: report.html and figures/*.svg. Equal results give equal
 /// bytes. `folder` is its name, for the commands that the page shows.
-[[nodiscard]] std::vector<File> report_of(const Results& results, std::string_view folder);
+[[nodiscard]] std::vector<results::File> report_of(const results::Results& results,
+                                                   std::string_view folder);
 
 /// What a report.html is about: "experiments", "demo" or "session"; empty when it does not say.
 [[nodiscard]] std::string_view page_subject(std::string_view page);

@@ -50,18 +50,18 @@ std::string title_of_key(std::string key)
 }
 
 /// The words of one value of a manifest; "–" when it is not there.
-std::string words_at(const Run& run, std::string_view key)
+std::string words_at(const results::Run& run, std::string_view key)
 {
     const auto found = run.manifest.find(key);
     return found == run.manifest.end() ? "–" : escaped(words_of(*found));
 }
 
-std::string overview(const std::vector<Run>& runs)
+std::string overview(const std::vector<results::Run>& runs)
 {
     HtmlTable table{"What was run",
                     {"folder", "title", "wall time, s", "simulated, s",
                      "times faster<br>than real time", "sessions", "seeds", "valid"}};
-    for (const Run& run : runs) {
+    for (const results::Run& run : runs) {
         table.rows.push_back(
             {{escaped(run.folder)},
              {words_at(run, "title"), "words"},
@@ -76,7 +76,7 @@ std::string overview(const std::vector<Run>& runs)
 }
 
 /// All that a manifest says; what has lines of its own, such as the configuration, below the rest.
-std::string run_html(const Run& run)
+std::string run_html(const results::Run& run)
 {
     HtmlTable table{run.folder, {"", "value"}};
     std::string texts;
@@ -95,11 +95,11 @@ std::string run_html(const Run& run)
 
 } // namespace
 
-std::optional<Section> runs_section(const Results& results)
+std::optional<Section> runs_section(const results::Results& results)
 {
     if (results.runs.empty()) return std::nullopt;
     Section section{"runs", "How to repeat it", overview(results.runs)};
-    for (const Run& run : results.runs) section.html += run_html(run);
+    for (const results::Run& run : results.runs) section.html += run_html(run);
     return section;
 }
 

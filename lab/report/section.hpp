@@ -31,23 +31,23 @@ struct Section {
 // The sections. nullopt when the folder has no data for one.
 
 /// The demo's own numbers.
-[[nodiscard]] std::optional<Section> demo_section(const Results& results);
-[[nodiscard]] std::optional<Section> replay_section(const Results& results);
+[[nodiscard]] std::optional<Section> demo_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> replay_section(const results::Results& results);
 /// Recorded sessions over time, and their analysis.
-[[nodiscard]] std::optional<Section> session_section(const Results& results);
-[[nodiscard]] std::optional<Section> table1_section(const Results& results);
-[[nodiscard]] std::optional<Section> tasks_section(const Results& results);
+[[nodiscard]] std::optional<Section> session_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> table1_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> tasks_section(const results::Results& results);
 /// Delay and jitter.
-[[nodiscard]] std::optional<Section> fig6a_section(const Results& results);
+[[nodiscard]] std::optional<Section> fig6a_section(const results::Results& results);
 /// Random loss and burst loss.
-[[nodiscard]] std::optional<Section> fig6b_section(const Results& results);
-[[nodiscard]] std::optional<Section> curves_section(const Results& results);
-[[nodiscard]] std::optional<Section> trust_section(const Results& results);
-[[nodiscard]] std::optional<Section> fig7_section(const Results& results);
-[[nodiscard]] std::optional<Section> qos_section(const Results& results);
-[[nodiscard]] std::optional<Section> real_time_section(const Results& results);
-[[nodiscard]] std::optional<Section> claims_section(const Results& results);
-[[nodiscard]] std::optional<Section> runs_section(const Results& results);
+[[nodiscard]] std::optional<Section> fig6b_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> curves_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> trust_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> fig7_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> qos_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> real_time_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> claims_section(const results::Results& results);
+[[nodiscard]] std::optional<Section> runs_section(const results::Results& results);
 
 /// Results that stand against the paper, as lines of HTML.
 struct Claims {
@@ -57,8 +57,8 @@ struct Claims {
 };
 
 /// What Table 1 and the worst of the tasks say.
-[[nodiscard]] Claims main_claims(const Results& results);
+[[nodiscard]] Claims main_claims(const results::Results& results);
 /// What single tasks say.
-[[nodiscard]] Claims task_claims(const Results& results);
+[[nodiscard]] Claims task_claims(const results::Results& results);
 
 } // namespace hapnet::lab::report

@@ -20,15 +20,15 @@ constexpr std::string_view colour_a = "var(--left)";
 constexpr std::string_view colour_b = "var(--right)";
 
 plot::Curve curve_of(std::string_view name, std::string_view colour,
-                     const std::vector<TimedValue>& values)
+                     const std::vector<records::TimedValue>& values)
 {
     std::vector<plot::Point> points;
-    for (const TimedValue& one : values) points.push_back({one.time_s, one.value});
+    for (const records::TimedValue& one : values) points.push_back({one.time_s, one.value});
     return {.name = name, .colour = colour, .points = plot::thinned(points, curve_points_max)};
 }
 
 /// The first and the last time of what is drawn: all plots of a session span the same.
-plot::Range span_of(const SessionCurves& curves)
+plot::Range span_of(const records::SessionCurves& curves)
 {
     plot::Range range;
     for (const auto* values : {&curves.cube_a_mm, &curves.cube_b_mm}) {
@@ -39,7 +39,7 @@ plot::Range span_of(const SessionCurves& curves)
     return range;
 }
 
-std::string validity_of(const Analysis& analysis)
+std::string validity_of(const records::Analysis& analysis)
 {
     std::string out = analysis.valid()
                           ? "<div class='banner met'><b>Valid.</b> Both loops kept their time, and "
@@ -52,7 +52,7 @@ std::string validity_of(const Analysis& analysis)
     return out + (analysis.valid() ? "</div>\n" : "</ul></div>\n");
 }
 
-std::string apart_caption(const Analysis& analysis)
+std::string apart_caption(const records::Analysis& analysis)
 {
     const auto& x = analysis.agreement.discrepancy_x;
     if (!x) return "The two sides were never running together.";
@@ -61,9 +61,9 @@ std::string apart_caption(const Analysis& analysis)
                        shown(1e3 * x->mean, 2), shown(1e3 * x->max, 1));
 }
 
-void add_plots(Section& section, const RecordedSession& session)
+void add_plots(Section& section, const results::RecordedSession& session)
 {
-    const SessionCurves& curves = session.curves;
+    const records::SessionCurves& curves = session.curves;
     const plot::Range time = span_of(curves);
     const auto add = [&](std::string_view name, const plot::PlotTitles& titles,
                          std::span<const plot::Curve> drawn, const std::string& caption) {
@@ -85,7 +85,7 @@ void add_plots(Section& section, const RecordedSession& session)
         "Magnitude of the force that each device was told to apply, after its governor.");
 }
 
-void add_session(Section& section, const RecordedSession& session)
+void add_session(Section& section, const results::RecordedSession& session)
 {
     const auto title = session.task.empty() ? session.name : "Task " + session.task;
     section.html += fmt::format("<h3>{}</h3>\n<p>A is peer {}, B is peer {}", escaped(title),
@@ -98,7 +98,8 @@ void add_session(Section& section, const RecordedSession& session)
                     "zoom; all follow. <span class='zoom-buttons'></span></p>\n";
     add_plots(section, session);
     section.html += "</div>\n<div class='panels'>\n";
-    for (const TextTable& table : tables_of(session.analysis)) section.html += html_of(table);
+    for (const records::TextTable& table : tables_of(session.analysis))
+        section.html += html_of(table);
     section.html += "</div>\n";
     if (const auto clock = clock_text(session.analysis.clock); !clock.empty()) {
         section.html += fmt::format("<p>{}.</p>\n", escaped(clock));
@@ -107,13 +108,13 @@ void add_session(Section& section, const RecordedSession& session)
 
 } // namespace
 
-std::optional<Section> session_section(const Results& results)
+std::optional<Section> session_section(const results::Results& results)
 {
     if (results.sessions.empty()) return std::nullopt;
     Section section{"sessions", results.sessions.size() == 1 ? "The session" : "The sessions",
                     "<p>Times count from the start of the session on A’s clock. Each session ends "
                     "with hands off: then the two copies of the cube should agree again.</p>\n"};
-    for (const RecordedSession& session : results.sessions) add_session(section, session);
+    for (const results::RecordedSession& session : results.sessions) add_session(section, session);
     return section;
 }
 

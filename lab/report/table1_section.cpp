@@ -16,46 +16,54 @@ namespace {
 /// One number of Table 1, ours and the paper's.
 struct Quantity {
     std::string_view name;
-    double Table1Row::*ours;
-    std::optional<double> Table1Row::*papers;
-    Band Table1Bands::*band;
+    double results::Table1Row::*ours;
+    std::optional<double> results::Table1Row::*papers;
+    results::Band results::Table1Bands::*band;
 };
 
 constexpr std::array quantities{
-    Quantity{"mean", &Table1Row::mean_mm, &Table1Row::paper_mean_mm, &Table1Bands::mean_mm},
-    Quantity{"std", &Table1Row::std_mm, &Table1Row::paper_std_mm, &Table1Bands::std_mm},
-    Quantity{"max", &Table1Row::max_mm, &Table1Row::paper_max_mm, &Table1Bands::max_mm}};
+    Quantity{"mean", &results::Table1Row::mean_mm, &results::Table1Row::paper_mean_mm,
+             &results::Table1Bands::mean_mm},
+    Quantity{"std", &results::Table1Row::std_mm, &results::Table1Row::paper_std_mm,
+             &results::Table1Bands::std_mm},
+    Quantity{"max", &results::Table1Row::max_mm, &results::Table1Row::paper_max_mm,
+             &results::Table1Bands::max_mm}};
 
-HtmlCell measured_cell(double value, const std::optional<Band>& band)
+HtmlCell measured_cell(double value, const std::optional<results::Band>& band)
 {
     const bool is_outside = band && !band->holds(value);
     return {shown(value, 2), is_outside ? "ours missed" : "ours"};
 }
 
-HtmlCell band_cell(const std::optional<Band>& band)
+HtmlCell band_cell(const std::optional<results::Band>& band)
 {
     if (!band) return {"–", "band"};
     return {fmt::format("{} to {}", shown(band->low, 2), shown(band->high, 2)), "band"};
 }
 
-Spread spread_of(const Table1Row& row) { return {row.mean_mm, row.min_mm, row.max_mm, row.std_mm}; }
-
-/// Where the numbers of a row agree; nullopt when there is nothing to hold them against.
-std::optional<Table1Bands> bands_of(const Results& results, const Table1Row& row)
+metrics::Spread spread_of(const results::Table1Row& row)
 {
-    std::optional<Spread> base;
-    for (const Table1Row& other : results.table1) {
-        if (other.algorithm == "base") base = spread_of(other);
-    }
-    return table1_bands(row.algorithm, base);
+    return {row.mean_mm, row.min_mm, row.max_mm, row.std_mm};
 }
 
-std::optional<Band> band_of(const std::optional<Table1Bands>& bands, Band Table1Bands::*band)
+/// Where the numbers of a row agree; nullopt when there is nothing to hold them against.
+std::optional<results::Table1Bands> bands_of(const results::Results& results,
+                                             const results::Table1Row& row)
+{
+    std::optional<metrics::Spread> base;
+    for (const results::Table1Row& other : results.table1) {
+        if (other.algorithm == "base") base = spread_of(other);
+    }
+    return results::table1_bands(row.algorithm, base);
+}
+
+std::optional<results::Band> band_of(const std::optional<results::Table1Bands>& bands,
+                                     results::Band results::Table1Bands::*band)
 {
     return bands ? std::optional{(*bands).*band} : std::nullopt;
 }
 
-std::string table_of(const Results& results)
+std::string table_of(const results::Results& results)
 {
     HtmlTable table{"|x at L − x at R| of the cube in task P1, mm: this run, the paper, and from "
                     "where to where it agrees",
@@ -64,7 +72,7 @@ std::string table_of(const Results& results)
         table.heads.insert(table.heads.end(), {std::string{quantity.name}, "paper", "band"});
     }
     table.heads.insert(table.heads.end(), {"min", "verdict"});
-    for (const Table1Row& row : results.table1) {
+    for (const results::Table1Row& row : results.table1) {
         const auto bands = bands_of(results, row);
         std::vector<HtmlCell> cells{{escaped(row.algorithm)}};
         for (const Quantity& quantity : quantities) {
@@ -80,10 +88,10 @@ std::string table_of(const Results& results)
 }
 
 /// Ours beside the paper's, one group for each algorithm.
-std::string bars_of(const Results& results, const Quantity& quantity)
+std::string bars_of(const results::Results& results, const Quantity& quantity)
 {
     std::vector<plot::BarGroup> groups;
-    for (const Table1Row& row : results.table1) {
+    for (const results::Table1Row& row : results.table1) {
         plot::BarGroup group{row.algorithm, {}};
         const auto colour = colour_of(row.algorithm);
         if (const auto paper = row.*quantity.papers) {
@@ -111,7 +119,7 @@ std::string bars_of(const Results& results, const Quantity& quantity)
 
 } // namespace
 
-std::optional<Section> table1_section(const Results& results)
+std::optional<Section> table1_section(const results::Results& results)
 {
     if (results.table1.empty()) return std::nullopt;
     Section section{"table1", "Table 1: how far the two copies are apart"};
@@ -127,7 +135,7 @@ std::optional<Section> table1_section(const Results& results)
     return section;
 }
 
-std::optional<Section> tasks_section(const Results& results)
+std::optional<Section> tasks_section(const results::Results& results)
 {
     if (results.tasks.empty()) return std::nullopt;
     HtmlTable table{"Closed-loop tasks: worst of the seeds; discrepancy mean and std: mean over "
@@ -140,7 +148,7 @@ std::optional<Section> tasks_section(const Results& results)
         return shown(share ? std::optional{100.0 * *share} : std::nullopt, 1);
     };
     for (const std::string& task : distinct(results.tasks, [](const auto& r) { return r.task; })) {
-        for (const TaskRow& row : results.tasks) {
+        for (const results::TaskRow& row : results.tasks) {
             if (row.task != task) continue;
             table.rows.push_back({{escaped(task)},
                                   {escaped(row.algorithm), "name"},

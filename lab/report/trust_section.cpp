@@ -22,12 +22,12 @@ struct Way {
     friend bool operator==(const Way&, const Way&) = default;
 };
 
-Way way_of(const SensitivityRow& row) { return {row.filter_order, row.hand}; }
+Way way_of(const results::SensitivityRow& row) { return {row.filter_order, row.hand}; }
 
-const SensitivityRow* row_of(const std::vector<SensitivityRow>& rows, const SensitivityRow& like,
-                             const Way& way)
+const results::SensitivityRow* row_of(const std::vector<results::SensitivityRow>& rows,
+                                      const results::SensitivityRow& like, const Way& way)
 {
-    for (const SensitivityRow& row : rows) {
+    for (const results::SensitivityRow& row : rows) {
         if (row.algorithm == like.algorithm && row.task == like.task && way_of(row) == way) {
             return &row;
         }
@@ -35,7 +35,7 @@ const SensitivityRow* row_of(const std::vector<SensitivityRow>& rows, const Sens
     return nullptr;
 }
 
-std::string ways_table(const std::vector<SensitivityRow>& rows)
+std::string ways_table(const std::vector<results::SensitivityRow>& rows)
 {
     const std::string caption =
         fmt::format("Limit of {}, {}, by the order of the 20 Hz filter and the hands",
@@ -47,7 +47,7 @@ std::string ways_table(const std::vector<SensitivityRow>& rows)
             fmt::format("order {}<br>{}", plain(way.filter_order), escaped(way.hand)));
     }
     std::vector<std::pair<std::string, std::string>> seen;
-    for (const SensitivityRow& like : rows) {
+    for (const results::SensitivityRow& like : rows) {
         const std::pair key{like.algorithm, like.task};
         if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
         seen.push_back(key);
@@ -55,7 +55,7 @@ std::string ways_table(const std::vector<SensitivityRow>& rows)
         plot::Range range;
         bool is_open = false;
         for (const Way& way : ways) {
-            const SensitivityRow* row = row_of(rows, like, way);
+            const results::SensitivityRow* row = row_of(rows, like, way);
             cells.push_back(
                 {row == nullptr ? "–" : escaped((row->is_open() ? "> " : "") + plain(row->limit))});
             if (row == nullptr) continue;
@@ -73,7 +73,7 @@ std::string ways_table(const std::vector<SensitivityRow>& rows)
 }
 
 /// The hands in the order of their strokes: nominal first.
-std::vector<std::string> hands_of(const std::vector<SensitivityRow>& rows)
+std::vector<std::string> hands_of(const std::vector<results::SensitivityRow>& rows)
 {
     auto hands = distinct(rows, [](const auto& row) { return row.hand; });
     std::stable_partition(hands.begin(), hands.end(),
@@ -84,10 +84,10 @@ std::vector<std::string> hands_of(const std::vector<SensitivityRow>& rows)
 /// The least limit over the tasks, by algorithm, hand and order.
 using Least = std::map<std::tuple<std::string, std::string, double>, double>;
 
-std::string ways_plot(const std::vector<SensitivityRow>& rows)
+std::string ways_plot(const std::vector<results::SensitivityRow>& rows)
 {
     Least least;
-    for (const SensitivityRow& row : rows) {
+    for (const results::SensitivityRow& row : rows) {
         const auto key = std::tuple{row.algorithm, row.hand, static_cast<double>(row.filter_order)};
         const auto [found, is_new] = least.emplace(key, row.limit);
         if (!is_new) found->second = std::min(found->second, row.limit);
@@ -116,7 +116,7 @@ std::string ways_plot(const std::vector<SensitivityRow>& rows)
                           {.size = {440.0, 250.0}, .y = {0.0, 0.0}});
 }
 
-std::string strokes_caption(const std::vector<SensitivityRow>& rows)
+std::string strokes_caption(const std::vector<results::SensitivityRow>& rows)
 {
     constexpr std::array<std::string_view, 3> names{"solid", "dashed", "dotted"};
     std::string out = "Least of the tasks. Hands: ";
@@ -130,7 +130,7 @@ std::string strokes_caption(const std::vector<SensitivityRow>& rows)
 
 } // namespace
 
-std::optional<Section> trust_section(const Results& results)
+std::optional<Section> trust_section(const results::Results& results)
 {
     if (results.sensitivity.empty()) return std::nullopt;
     Section section{"trust", "How far a limit can be trusted",
@@ -142,8 +142,8 @@ std::optional<Section> trust_section(const Results& results)
     std::string tables;
     const auto names = distinct(results.sensitivity, [](const auto& r) { return r.impairment; });
     for (const std::string& name : names) {
-        std::vector<SensitivityRow> rows;
-        for (const SensitivityRow& row : results.sensitivity) {
+        std::vector<results::SensitivityRow> rows;
+        for (const results::SensitivityRow& row : results.sensitivity) {
             if (row.impairment == name) rows.push_back(row);
         }
         section.add_figure("trust-" + name, ways_plot(rows), strokes_caption(rows));

@@ -57,36 +57,36 @@ std::string impairment_text(std::string_view impairment)
     return std::string{found_in(known, impairment, impairment)};
 }
 
-std::string_view claim_text(Claim claim) { return base::name_of(claim); }
+std::string_view claim_text(results::Claim claim) { return base::name_of(claim); }
 
-std::string claim_badge(Claim claim)
+std::string claim_badge(results::Claim claim)
 {
-    if (claim == Claim::none) return "";
+    if (claim == results::Claim::none) return "";
     return fmt::format("<span class='badge {0}'>{0}</span>", claim_text(claim));
 }
 
-std::string_view tier_symbol(Tier tier)
+std::string_view tier_symbol(metrics::Tier tier)
 {
     switch (tier) {
-    case Tier::unusable: return "×";
-    case Tier::usable: return "○";
-    case Tier::good: return "●";
+    case metrics::Tier::unusable: return "×";
+    case metrics::Tier::usable: return "○";
+    case metrics::Tier::good: return "●";
     }
     return "";
 }
 
-std::string tier_badge(Tier tier)
+std::string tier_badge(metrics::Tier tier)
 {
     return fmt::format("<span class='badge tier-{0}'>{1} {0}</span>", to_text(tier),
                        tier_symbol(tier));
 }
 
-std::string_view tier_colour(Tier tier)
+std::string_view tier_colour(metrics::Tier tier)
 {
     switch (tier) {
-    case Tier::unusable: return "var(--unusable)";
-    case Tier::usable: return "var(--usable)";
-    case Tier::good: return "var(--good)";
+    case metrics::Tier::unusable: return "var(--unusable)";
+    case metrics::Tier::usable: return "var(--usable)";
+    case metrics::Tier::good: return "var(--good)";
     }
     return "";
 }
@@ -121,14 +121,14 @@ std::string html_of(const HtmlTable& table)
     return out + "</tbody></table></div>\n";
 }
 
-std::string html_of(const TextTable& table)
+std::string html_of(const records::TextTable& table)
 {
     HtmlTable html{table.caption, {escaped(table.unit)}};
     for (const std::string& head : table.heads) html.heads.push_back(escaped(head));
-    const auto has_note = [](const TextTable::Row& row) { return !row.note.empty(); };
+    const auto has_note = [](const records::TextTable::Row& row) { return !row.note.empty(); };
     const bool has_notes = std::any_of(table.rows.begin(), table.rows.end(), has_note);
     if (has_notes) html.heads.emplace_back();
-    for (const TextTable::Row& row : table.rows) {
+    for (const records::TextTable::Row& row : table.rows) {
         std::vector<HtmlCell> cells{{escaped(row.name)}};
         for (const std::string& cell : row.cells) cells.push_back({escaped(cell)});
         cells.resize(table.heads.size() + 1);

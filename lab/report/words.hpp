@@ -27,11 +27,11 @@ namespace hapnet::lab::report {
 /// "delay", "burst loss"; an unknown name stays as it is.
 [[nodiscard]] std::string impairment_text(std::string_view impairment);
 
-[[nodiscard]] std::string_view claim_text(Claim claim); // "calibrated"
-[[nodiscard]] std::string claim_badge(Claim claim);     // as HTML; empty for none
-[[nodiscard]] std::string_view tier_symbol(Tier tier);
-[[nodiscard]] std::string tier_badge(Tier tier); // as HTML
-[[nodiscard]] std::string_view tier_colour(Tier tier);
+[[nodiscard]] std::string_view claim_text(results::Claim claim); // "calibrated"
+[[nodiscard]] std::string claim_badge(results::Claim claim);     // as HTML; empty for none
+[[nodiscard]] std::string_view tier_symbol(metrics::Tier tier);
+[[nodiscard]] std::string tier_badge(metrics::Tier tier); // as HTML
+[[nodiscard]] std::string_view tier_colour(metrics::Tier tier);
 
 /// The colour of an algorithm, the same all over the page; of what a person need not tell apart
 /// the same.
@@ -68,7 +68,7 @@ struct HtmlTable {
 [[nodiscard]] std::string html_of(const HtmlTable& table);
 
 /// The same of what a terminal shows as text, with its remarks below.
-[[nodiscard]] std::string html_of(const TextTable& table);
+[[nodiscard]] std::string html_of(const records::TextTable& table);
 
 /// A figure with its caption, which is HTML.
 [[nodiscard]] std::string figure(std::string_view svg, std::string_view caption);

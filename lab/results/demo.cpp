@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
@@ -72,12 +72,12 @@ bool accounts_for_all(const SessionFiles& task)
            accounts_for_all(task.emulator.value("down", Json::object()));
 }
 
-TextTable against_paper(const DemoRun& run)
+records::TextTable against_paper(const DemoRun& run)
 {
     const auto measured = [&](const std::string& key) {
-        return number_text(number(run.p1.analysis, "/discrepancy_x_mm/" + key), 2);
+        return records::number_text(number(run.p1.analysis, "/discrepancy_x_mm/" + key), 2);
     };
-    const auto shown = [](double value) { return number_text(value, 2); };
+    const auto shown = [](double value) { return records::number_text(value, 2); };
     const PaperRow paper = paper_row();
     return {
         "Table 1 of the paper, \"No Time Delay Compensation\", and task P1 here",
@@ -101,11 +101,12 @@ struct Quantity {
     double tolerance = 0.0;
 };
 
-TextTable::Row row_of(const Quantity& quantity, const Json& p1, const Json& t3)
+records::TextTable::Row row_of(const Quantity& quantity, const Json& p1, const Json& t3)
 {
     const auto a = number(p1, quantity.pointer), b = number(t3, quantity.pointer);
-    TextTable::Row row{quantity.name,
-                       {number_text(a, quantity.decimals), number_text(b, quantity.decimals)}};
+    records::TextTable::Row row{
+        quantity.name,
+        {records::number_text(a, quantity.decimals), records::number_text(b, quantity.decimals)}};
     if (!quantity.wanted) return row;
     const bool is_met = is_near(a, *quantity.wanted, quantity.tolerance) &&
                         is_near(b, *quantity.wanted, quantity.tolerance);
@@ -114,9 +115,9 @@ TextTable::Row row_of(const Quantity& quantity, const Json& p1, const Json& t3)
     return row;
 }
 
-TextTable both_tasks(const DemoRun& run)
+records::TextTable both_tasks(const DemoRun& run)
 {
-    TextTable table{"Both tasks", "both tasks", {"P1", "T3"}, {}, {}, cell_width};
+    records::TextTable table{"Both tasks", "both tasks", {"P1", "T3"}, {}, {}, cell_width};
     for (const Quantity& quantity : {
              Quantity{"cubes apart, mean, mm", "/discrepancy_x_mm/mean", 2},
              Quantity{"cubes apart, max, mm", "/discrepancy_x_mm/max", 2},
@@ -171,14 +172,14 @@ Json configuration_of(const SessionFiles& task)
 
 } // namespace
 
-std::vector<TextTable> demo_tables(const DemoRun& run)
+std::vector<records::TextTable> demo_tables(const DemoRun& run)
 {
     return {against_paper(run), both_tasks(run)};
 }
 
 std::string demo_table(const DemoRun& run)
 {
-    const TextTable paper = against_paper(run);
+    const records::TextTable paper = against_paper(run);
     auto out = fmt::format("{}\n{}\n{}\n", paper.caption, to_text(paper), to_text(both_tasks(run)));
     const auto reasons = invalid_because(run);
     if (reasons.empty()) return out + "The run is valid: it kept its own timing budget.\n";
@@ -209,4 +210,4 @@ Json demo_manifest(const DemoRun& run, const Circumstances& circumstances)
     return manifest;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

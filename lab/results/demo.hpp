@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 /// The demo of the paper's main job: task P1 and then T3 under 160 ms.
 struct DemoRun {
@@ -19,7 +19,7 @@ struct DemoRun {
 };
 
 /// What the demo measured: beside the paper's Table 1, and of both tasks.
-[[nodiscard]] std::vector<TextTable> demo_tables(const DemoRun& run);
+[[nodiscard]] std::vector<records::TextTable> demo_tables(const DemoRun& run);
 
 /// The same as lines of text, and whether the run counts.
 [[nodiscard]] std::string demo_table(const DemoRun& run);
@@ -32,4 +32,4 @@ struct DemoRun {
 [[nodiscard]] nlohmann::ordered_json demo_manifest(const DemoRun& run,
                                                    const Circumstances& circumstances);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 /// A file of a result folder: as it was read, with a path that a person finds it by, or to be
 /// written, with its path in the folder.
@@ -13,4 +13,4 @@ struct File {
     std::string text;
 };
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

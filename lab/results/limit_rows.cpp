@@ -7,35 +7,36 @@
 
 #include <tuple>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
 /// The limit that a search found, in one task or in the worst of them.
 struct TaskLimit {
     std::string_view algorithm;
-    Impairment impairment{};
+    experiment::Impairment impairment{};
     std::string_view task;
-    Limit limit{};
+    experiment::Limit limit{};
 };
 
 /// Less, and found rather than not.
-bool is_worse(const Limit& a, const Limit& b)
+bool is_worse(const experiment::Limit& a, const experiment::Limit& b)
 {
     return std::tuple{a.level, !a.ever_failed} < std::tuple{b.level, !b.ever_failed};
 }
 
 /// The tasks of an algorithm and impairment, and after them the worst.
-std::vector<TaskLimit> limits_of(const Experiment& experiment, std::span<const JobResult> results)
+std::vector<TaskLimit> limits_of(const experiment::Experiment& experiment,
+                                 std::span<const experiment::JobResult> results)
 {
     const auto jobs = make_jobs(experiment);
     std::vector<TaskLimit> limits;
     std::optional<TaskLimit> worst;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        const auto* job = std::get_if<SearchJob>(&jobs[i]);
+        const auto* job = std::get_if<experiment::SearchJob>(&jobs[i]);
         if (job == nullptr) continue;
         const std::string_view algorithm = experiment.algorithms[job->algorithm].name;
-        const Limit& limit = std::get<SearchResult>(results[i]).limit;
+        const experiment::Limit& limit = std::get<experiment::SearchResult>(results[i]).limit;
         limits.push_back({algorithm, job->range.impairment, name_of(job->task), limit});
         if (!worst || is_worse(limit, worst->limit)) {
             worst = TaskLimit{algorithm, job->range.impairment, worst_task, limit};
@@ -47,9 +48,15 @@ std::vector<TaskLimit> limits_of(const Experiment& experiment, std::span<const J
     return limits;
 }
 
-FoundLimit in_unit(const Limit& limit) { return {in_units(limit.level), limit.ever_failed}; }
+FoundLimit in_unit(const experiment::Limit& limit)
+{
+    return {in_units(limit.level), limit.ever_failed};
+}
 
-Bound bound_of(const Limit& limit) { return limit.ever_failed ? Bound::found : Bound::open; }
+Bound bound_of(const experiment::Limit& limit)
+{
+    return limit.ever_failed ? Bound::found : Bound::open;
+}
 
 std::optional<FoundLimit> base_of(const std::vector<TaskLimit>& limits, const TaskLimit& like)
 {
@@ -64,8 +71,8 @@ std::optional<FoundLimit> base_of(const std::vector<TaskLimit>& limits, const Ta
 
 } // namespace
 
-std::vector<LimitRow> make_limit_rows(const Experiment& experiment,
-                                      std::span<const JobResult> results)
+std::vector<LimitRow> make_limit_rows(const experiment::Experiment& experiment,
+                                      std::span<const experiment::JobResult> results)
 {
     std::vector<LimitRow> rows;
     const auto limits = limits_of(experiment, results);
@@ -83,16 +90,18 @@ std::vector<LimitRow> make_limit_rows(const Experiment& experiment,
     return rows;
 }
 
-std::vector<CurveRow> make_curve_rows(const Experiment& experiment, const Criteria& criteria,
-                                      std::span<const JobResult> results)
+std::vector<CurveRow> make_curve_rows(const experiment::Experiment& experiment,
+                                      const metrics::Criteria& criteria,
+                                      std::span<const experiment::JobResult> results)
 {
     std::vector<CurveRow> rows;
     const auto jobs = make_jobs(experiment);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        const auto* job = std::get_if<SearchJob>(&jobs[i]);
+        const auto* job = std::get_if<experiment::SearchJob>(&jobs[i]);
         if (job == nullptr) continue;
-        const Impairment impairment = job->range.impairment;
-        for (const CurvePoint& point : std::get<SearchResult>(results[i]).curve) {
+        const experiment::Impairment impairment = job->range.impairment;
+        for (const experiment::CurvePoint& point :
+             std::get<experiment::SearchResult>(results[i]).curve) {
             Judged judged = make_judged(summarize(std::span{&point.scores, 1}, criteria), criteria);
             judged.tier = point.tier;
             rows.push_back({.algorithm = experiment.algorithms[job->algorithm].name,
@@ -107,16 +116,16 @@ std::vector<CurveRow> make_curve_rows(const Experiment& experiment, const Criter
     return rows;
 }
 
-std::vector<SensitivityRow> make_sensitivity_rows(const Experiment& experiment,
-                                                  const Sensitivity& sensitivity,
-                                                  std::span<const JobResult> results)
+std::vector<SensitivityRow> make_sensitivity_rows(const experiment::Experiment& experiment,
+                                                  const experiment::Sensitivity& sensitivity,
+                                                  std::span<const experiment::JobResult> results)
 {
     std::vector<SensitivityRow> rows;
     const auto jobs = make_jobs(experiment);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        const auto* job = std::get_if<SensitivityJob>(&jobs[i]);
+        const auto* job = std::get_if<experiment::SensitivityJob>(&jobs[i]);
         if (job == nullptr) continue;
-        const auto& limits = std::get<SensitivityResult>(results[i]).limits;
+        const auto& limits = std::get<experiment::SensitivityResult>(results[i]).limits;
         for (std::size_t order = 0; order < limits.size(); ++order) {
             rows.push_back({.algorithm = experiment.algorithms[job->algorithm].name,
                             .impairment = std::string{name_of(job->range.impairment)},
@@ -131,4 +140,4 @@ std::vector<SensitivityRow> make_sensitivity_rows(const Experiment& experiment,
     return rows;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -8,13 +8,13 @@
 #include <chrono>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json seeds_of(const Experiment& experiment)
+Json seeds_of(const experiment::Experiment& experiment)
 {
     Json seeds = Json::array();
     for (std::uint32_t i = 0; i < experiment.seeds; ++i) {
@@ -50,7 +50,7 @@ Json manifest_head(const Circumstances& circumstances)
     return head;
 }
 
-Json make_manifest(const Experiment& experiment, const Circumstances& circumstances,
+Json make_manifest(const experiment::Experiment& experiment, const Circumstances& circumstances,
                    const RunOutcome& outcome)
 {
     const double simulated_s =
@@ -73,4 +73,4 @@ Json make_manifest(const Experiment& experiment, const Circumstances& circumstan
     return manifest;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

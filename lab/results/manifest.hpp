@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 /// What happened around a run. Its results do not depend on it.
 struct Circumstances {
@@ -35,8 +35,8 @@ struct RunOutcome {
 };
 
 /// manifest.json of an experiment's folder of results.
-[[nodiscard]] nlohmann::ordered_json make_manifest(const Experiment& experiment,
+[[nodiscard]] nlohmann::ordered_json make_manifest(const experiment::Experiment& experiment,
                                                    const Circumstances& circumstances,
                                                    const RunOutcome& outcome);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
@@ -15,7 +15,7 @@ namespace {
 struct PaperAlgorithm {
     std::string_view name;
     PaperRow table1;
-    std::array<double, impairments.size()> limits;
+    std::array<double, experiment::impairments.size()> limits;
 };
 
 constexpr std::array paper_algorithms{
@@ -47,7 +47,7 @@ enum class ToBase : std::uint8_t { any, near, at_least, more, less };
 /// Where a limit agrees.
 struct LimitRule {
     std::string_view algorithm;
-    Impairment impairment;
+    experiment::Impairment impairment;
     std::string_view text; // for people
     Band band{};
     ToBase to_base = ToBase::any;
@@ -60,26 +60,27 @@ constexpr double no_end = std::numeric_limits<double>::infinity();
 // base: delay within 5 %, random loss within 1, burst loss within 5 of 100, which the paper's own
 // limits are apart; jitter up to the most that the paper tried.
 constexpr std::array limit_rules{
-    LimitRule{"base", Impairment::delay, "152 to 168", {152.0, 168.0}},
-    LimitRule{"base", Impairment::jitter, "15 or more", {15.0, no_end}},
-    LimitRule{"base", Impairment::random_loss, "92 to 94", {92.0, 94.0}},
-    LimitRule{"base", Impairment::burst_loss, "35 to 45", {35.0, 45.0}},
-    LimitRule{"sep", Impairment::delay, "base’s ± 5 %", {}, ToBase::near, 0.05, 0.0},
-    LimitRule{"sep", Impairment::jitter, "15 or more", {15.0, no_end}},
-    LimitRule{"sep", Impairment::random_loss, "base’s ± 1", {}, ToBase::near, 0.0, 1.0},
-    LimitRule{"sep", Impairment::burst_loss, "base’s or more", {}, ToBase::at_least},
+    LimitRule{"base", experiment::Impairment::delay, "152 to 168", {152.0, 168.0}},
+    LimitRule{"base", experiment::Impairment::jitter, "15 or more", {15.0, no_end}},
+    LimitRule{"base", experiment::Impairment::random_loss, "92 to 94", {92.0, 94.0}},
+    LimitRule{"base", experiment::Impairment::burst_loss, "35 to 45", {35.0, 45.0}},
+    LimitRule{"sep", experiment::Impairment::delay, "base’s ± 5 %", {}, ToBase::near, 0.05, 0.0},
+    LimitRule{"sep", experiment::Impairment::jitter, "15 or more", {15.0, no_end}},
+    LimitRule{"sep", experiment::Impairment::random_loss, "base’s ± 1", {}, ToBase::near, 0.0, 1.0},
+    LimitRule{"sep", experiment::Impairment::burst_loss, "base’s or more", {}, ToBase::at_least},
     LimitRule{"dead-reckoning",
-              Impairment::delay,
+              experiment::Impairment::delay,
               "130 to 155, less than base",
               {130.0, 155.0},
               ToBase::less},
-    LimitRule{"dead-reckoning", Impairment::jitter, "3 to 6", {3.0, 6.0}},
+    LimitRule{"dead-reckoning", experiment::Impairment::jitter, "3 to 6", {3.0, 6.0}},
     LimitRule{"dead-reckoning",
-              Impairment::random_loss,
+              experiment::Impairment::random_loss,
               "60 to 85, less than base",
               {60.0, 85.0},
               ToBase::less},
-    LimitRule{"dead-reckoning", Impairment::burst_loss, "more than base", {}, ToBase::more}};
+    LimitRule{
+        "dead-reckoning", experiment::Impairment::burst_loss, "more than base", {}, ToBase::more}};
 
 const LimitRule* rule_of(std::string_view algorithm, std::string_view impairment)
 {
@@ -122,7 +123,7 @@ std::optional<PaperRow> paper_table1(std::string_view algorithm)
     return paper == nullptr ? std::nullopt : std::optional{paper->table1};
 }
 
-std::optional<double> paper_limit(std::string_view algorithm, Impairment impairment)
+std::optional<double> paper_limit(std::string_view algorithm, experiment::Impairment impairment)
 {
     const PaperAlgorithm* paper = paper_of(algorithm);
     if (paper == nullptr) return std::nullopt;
@@ -130,7 +131,7 @@ std::optional<double> paper_limit(std::string_view algorithm, Impairment impairm
 }
 
 std::optional<Table1Bands> table1_bands(std::string_view algorithm,
-                                        const std::optional<Spread>& base_mm)
+                                        const std::optional<metrics::Spread>& base_mm)
 {
     const auto paper = paper_table1(algorithm);
     if (!paper) return std::nullopt;
@@ -145,8 +146,8 @@ std::optional<Table1Bands> table1_bands(std::string_view algorithm,
                        is_base ? around(paper->max_mm, share) : dead_reckoning_max_mm};
 }
 
-Claim table1_verdict(std::string_view algorithm, const Spread& mm,
-                     const std::optional<Spread>& base_mm)
+Claim table1_verdict(std::string_view algorithm, const metrics::Spread& mm,
+                     const std::optional<metrics::Spread>& base_mm)
 {
     if (paper_of(algorithm) == nullptr) return Claim::none;
     const auto bands = table1_bands(algorithm, base_mm);
@@ -162,15 +163,16 @@ std::string_view limit_band(std::string_view algorithm, std::string_view impairm
     return rule == nullptr ? std::string_view{} : rule->text;
 }
 
-LimitStatus limit_status(std::string_view algorithm, Impairment impairment, const FoundLimit& found,
-                         const std::optional<FoundLimit>& base)
+LimitStatus limit_status(std::string_view algorithm, experiment::Impairment impairment,
+                         const FoundLimit& found, const std::optional<FoundLimit>& base)
 {
     const LimitRule* rule = rule_of(algorithm, name_of(impairment));
     if (rule == nullptr) return LimitStatus::none;
     if (!agrees(*rule, found, base)) return LimitStatus::predicted_missed;
-    const bool was_calibrated_on = algorithm == "base" && (impairment == Impairment::delay ||
-                                                           impairment == Impairment::random_loss);
+    const bool was_calibrated_on =
+        algorithm == "base" && (impairment == experiment::Impairment::delay ||
+                                impairment == experiment::Impairment::random_loss);
     return was_calibrated_on ? LimitStatus::calibrated : LimitStatus::predicted_met;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 // What the paper says, and what counts as agreeing with it. Algorithms go by their names.
 
@@ -25,7 +25,8 @@ struct PaperRow {
 [[nodiscard]] std::optional<PaperRow> paper_table1(std::string_view algorithm);
 
 /// The number in the paper's Fig. 6, in the impairment's unit.
-[[nodiscard]] std::optional<double> paper_limit(std::string_view algorithm, Impairment impairment);
+[[nodiscard]] std::optional<double> paper_limit(std::string_view algorithm,
+                                                experiment::Impairment impairment);
 
 /// From low to high, ends included.
 struct Band {
@@ -46,13 +47,13 @@ struct Table1Bands {
 };
 
 /// nullopt when there is nothing to hold the algorithm against.
-[[nodiscard]] std::optional<Table1Bands> table1_bands(std::string_view algorithm,
-                                                      const std::optional<Spread>& base_mm);
+[[nodiscard]] std::optional<Table1Bands>
+table1_bands(std::string_view algorithm, const std::optional<metrics::Spread>& base_mm);
 
 /// Claim::none: the paper has no such algorithm. `mm` is what was measured of the algorithm,
 /// `base_mm` of base. The paper's row of base was calibrated on.
-[[nodiscard]] Claim table1_verdict(std::string_view algorithm, const Spread& mm,
-                                   const std::optional<Spread>& base_mm);
+[[nodiscard]] Claim table1_verdict(std::string_view algorithm, const metrics::Spread& mm,
+                                   const std::optional<metrics::Spread>& base_mm);
 
 /// A limit as it was found, in the impairment's unit.
 struct FoundLimit {
@@ -67,8 +68,8 @@ struct FoundLimit {
 /// LimitStatus::none: the paper has no such algorithm. `base` is the limit of base in the same
 /// task, without which what is relative to it is missed. Delay and random loss of base were
 /// calibrated on. A limit never reached within its range meets no band that ends above.
-[[nodiscard]] LimitStatus limit_status(std::string_view algorithm, Impairment impairment,
-                                       const FoundLimit& found,
+[[nodiscard]] LimitStatus limit_status(std::string_view algorithm,
+                                       experiment::Impairment impairment, const FoundLimit& found,
                                        const std::optional<FoundLimit>& base);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -15,7 +15,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
@@ -64,19 +64,20 @@ private:
 };
 
 /// A spread as `analyse` writes it.
-std::optional<Spread> spread_in(const Json& json)
+std::optional<metrics::Spread> spread_in(const Json& json)
 {
     Written written{json, "the analysis"};
-    const Spread spread{written.at<double>("/mean"), written.at<double>("/min"),
-                        written.at<double>("/max"), written.at<double>("/std")};
+    const metrics::Spread spread{written.at<double>("/mean"), written.at<double>("/min"),
+                                 written.at<double>("/max"), written.at<double>("/std")};
     if (written.missing()) return std::nullopt;
     return spread;
 }
 
-std::optional<Spread> in_mm(const std::optional<Spread>& metres)
+std::optional<metrics::Spread> in_mm(const std::optional<metrics::Spread>& metres)
 {
     if (!metres) return std::nullopt;
-    return Spread{1e3 * metres->mean, 1e3 * metres->min, 1e3 * metres->max, 1e3 * metres->std};
+    return metrics::Spread{1e3 * metres->mean, 1e3 * metres->min, 1e3 * metres->max,
+                           1e3 * metres->std};
 }
 
 std::vector<std::string> objections_to(const SessionFiles& session)
@@ -98,7 +99,8 @@ std::string_view verdict_on(const RealTimeResult& result)
 
 } // namespace
 
-base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFile& open)
+base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
+                                            const base::OpenFile& open)
 {
     Written peer{session.files.peer, "hapnet-peer"};
     Written emulator{session.files.emulator, "hapnet-emulator"};
@@ -107,7 +109,7 @@ base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFi
     const auto algorithm = peer.at<std::string>("/algorithm_toml");
     const auto person = peer.at<std::string>("/operator_toml");
     const auto profile = emulator.at<std::string>("/profile");
-    Setting setting;
+    virtual_time::Setting setting;
     setting.length = base::from_seconds(peer.at<double>("/duration_s"));
     setting.seed = base::Seed{emulator.at<std::uint64_t>("/seed")};
     setting.players[0].seed = base::Seed{peer.at<std::uint64_t>("/session/seed")};
@@ -126,7 +128,7 @@ base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFi
     const auto text_of_person = [&](const std::string&) {
         return base::Result<std::string>{person};
     };
-    for (PlayerSetting& player : setting.players) {
+    for (virtual_time::PlayerSetting& player : setting.players) {
         player.algorithm = parts.take(peer::parse_algorithm(algorithm, "the peer's algorithm"));
         player.person = parts.take(device::load_operator("the/peer's operator", text_of_person));
     }
@@ -144,12 +146,12 @@ std::optional<double> RealTimeResult::difference_percent() const
     return std::abs(of_mean) >= std::abs(of_std) ? of_mean : of_std;
 }
 
-RealTimeResult result_of(const RealTimeSession& session, const Trace& twin)
+RealTimeResult result_of(const RealTimeSession& session, const virtual_time::Trace& twin)
 {
     return {.algorithm = session.files.peer.value("algorithm", "?"),
             .where = session.where,
             .real_mm = spread_in(session.files.analysis.value("discrepancy_x_mm", Json{})),
-            .virtual_mm = in_mm(metrics_of(twin).discrepancy_m),
+            .virtual_mm = in_mm(metrics::metrics_of(twin).discrepancy_m),
             .invalid_because = objections_to(session.files)};
 }
 
@@ -184,12 +186,12 @@ std::string real_time_table(std::span<const RealTimeResult> results)
     std::string table = fmt::format(row, "|x_L - x_R|, mm", "where", "mean", "std", "max",
                                     "real time against virtual time");
     const auto line = [&](const RealTimeResult& result, std::string_view where,
-                          const std::optional<Spread>& spread, std::string_view note) {
-        const auto cell = [&](double Spread::*part) {
+                          const std::optional<metrics::Spread>& spread, std::string_view note) {
+        const auto cell = [&](double metrics::Spread::*part) {
             return spread ? fmt::format("{:.2f}", (*spread).*part) : std::string{"-"};
         };
-        table += fmt::format(row, result.algorithm, where, cell(&Spread::mean), cell(&Spread::std),
-                             cell(&Spread::max), note);
+        table += fmt::format(row, result.algorithm, where, cell(&metrics::Spread::mean),
+                             cell(&metrics::Spread::std), cell(&metrics::Spread::max), note);
     };
     for (const RealTimeResult& result : results) {
         line(result, "virtual", result.virtual_mm, "");
@@ -218,4 +220,4 @@ Json real_time_manifest(std::span<const RealTimeResult> results, const Circumsta
     return manifest;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 // Sessions that the programs played in real time, beside the same sessions in virtual time.
 
@@ -29,15 +29,15 @@ struct RealTimeSession {
 /// The session in virtual time that has the same task, hands, algorithm, scene, seeds, length and
 /// conditions. Scenes that are files are asked from `open`. Fails when the files do not say, or
 /// when it was no simulated hand.
-[[nodiscard]] base::Result<Setting> twin_of(const RealTimeSession& session,
-                                            const base::OpenFile& open);
+[[nodiscard]] base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
+                                                          const base::OpenFile& open);
 
 /// |x_L - x_R| of one session in real and in virtual time, in mm.
 struct RealTimeResult {
     std::string algorithm;
     std::string where;
-    std::optional<Spread> real_mm;
-    std::optional<Spread> virtual_mm;
+    std::optional<metrics::Spread> real_mm;
+    std::optional<metrics::Spread> virtual_mm;
     /// Why the session in real time does not count, for people; empty: it does.
     std::vector<std::string> invalid_because;
 
@@ -48,7 +48,8 @@ struct RealTimeResult {
 };
 
 /// `twin` is what twin_of() gives, played.
-[[nodiscard]] RealTimeResult result_of(const RealTimeSession& session, const Trace& twin);
+[[nodiscard]] RealTimeResult result_of(const RealTimeSession& session,
+                                       const virtual_time::Trace& twin);
 
 /// real_time.csv.
 [[nodiscard]] std::string real_time_csv(std::span<const RealTimeResult> results);
@@ -59,4 +60,4 @@ struct RealTimeResult {
 [[nodiscard]] nlohmann::ordered_json real_time_manifest(std::span<const RealTimeResult> results,
                                                         const Circumstances& circumstances);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

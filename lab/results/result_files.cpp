@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
@@ -19,18 +19,19 @@ namespace {
 struct Group {
     std::string_view algorithm;
     device::Task task{};
-    std::vector<Scores> scores{};
+    std::vector<metrics::Scores> scores{};
     std::string_view rows{}; // of the first seed
 };
 
 /// The results of single sessions, by algorithm and task; each point of a grid begins anew.
-std::vector<Group> groups_of(const Experiment& experiment, std::span<const JobResult> results)
+std::vector<Group> groups_of(const experiment::Experiment& experiment,
+                             std::span<const experiment::JobResult> results)
 {
     const auto jobs = make_jobs(experiment);
     std::vector<Group> groups;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        const auto& job = std::get<SessionJob>(jobs[i]);
-        const auto& result = std::get<SessionResult>(results[i]);
+        const auto& job = std::get<experiment::SessionJob>(jobs[i]);
+        const auto& result = std::get<experiment::SessionResult>(results[i]);
         if (job.spec.setting.seed.value() == experiment.first_seed) {
             groups.push_back(
                 {experiment.algorithms[job.algorithm].name, job.task, {}, result.rows});
@@ -40,12 +41,13 @@ std::vector<Group> groups_of(const Experiment& experiment, std::span<const JobRe
     return groups;
 }
 
-Spread in_mm(const Spread& metres)
+metrics::Spread in_mm(const metrics::Spread& metres)
 {
     return {1e3 * metres.mean, 1e3 * metres.min, 1e3 * metres.max, 1e3 * metres.std};
 }
 
-std::optional<Spread> base_in_mm(const std::vector<Group>& groups, const Criteria& criteria)
+std::optional<metrics::Spread> base_in_mm(const std::vector<Group>& groups,
+                                          const metrics::Criteria& criteria)
 {
     for (const Group& group : groups) {
         if (group.algorithm != "base" || group.task != device::Task::p1) continue;
@@ -61,10 +63,10 @@ std::optional<double> in_thousandths(std::optional<double> value)
 }
 
 Table1Row table1_row(const Group& group, const Summary& summary,
-                     const std::optional<Spread>& base_mm)
+                     const std::optional<metrics::Spread>& base_mm)
 {
     const auto paper = paper_table1(group.algorithm);
-    const Spread mm = in_mm(summary.typical_m.value_or(Spread{}));
+    const metrics::Spread mm = in_mm(summary.typical_m.value_or(metrics::Spread{}));
     Table1Row row{.algorithm = std::string{group.algorithm},
                   .mean_mm = mm.mean,
                   .min_mm = mm.min,
@@ -80,7 +82,7 @@ Table1Row table1_row(const Group& group, const Summary& summary,
     return row;
 }
 
-TaskRow task_row(const Group& group, const Summary& summary, const Criteria& criteria)
+TaskRow task_row(const Group& group, const Summary& summary, const metrics::Criteria& criteria)
 {
     const Judged judged = make_judged(summary, criteria);
     TaskRow row{.algorithm = std::string{group.algorithm},
@@ -111,7 +113,7 @@ std::vector<ReplayRow> parse_rows(std::string_view rows)
 }
 
 /// Which command wrote the criteria.
-std::string origin_of(const Experiment& experiment)
+std::string origin_of(const experiment::Experiment& experiment)
 {
     std::vector<std::string_view> tasks;
     for (const device::Task task : experiment.tasks) tasks.push_back(name_of(task));
@@ -121,11 +123,11 @@ std::string origin_of(const Experiment& experiment)
 }
 
 struct ResultsOf {
-    const Experiment& experiment;
-    const Criteria& criteria;
-    std::span<const JobResult> results;
+    const experiment::Experiment& experiment;
+    const metrics::Criteria& criteria;
+    std::span<const experiment::JobResult> results;
 
-    base::Result<std::vector<File>> operator()(const Table1&) const
+    base::Result<std::vector<File>> operator()(const experiment::Table1&) const
     {
         const auto groups = groups_of(experiment, results);
         const auto base_mm = base_in_mm(groups, criteria);
@@ -147,7 +149,7 @@ struct ResultsOf {
         return files;
     }
 
-    base::Result<std::vector<File>> operator()(const Limits& limits) const
+    base::Result<std::vector<File>> operator()(const experiment::Limits& limits) const
     {
         std::vector<File> files;
         files.push_back({"limits.csv", base::csv_text(make_limit_rows(experiment, results))});
@@ -161,7 +163,7 @@ struct ResultsOf {
         return files;
     }
 
-    base::Result<std::vector<File>> operator()(const Trajectories&) const
+    base::Result<std::vector<File>> operator()(const experiment::Trajectories&) const
     {
         std::vector<TrajectoryRow> rows;
         for (const Group& group : groups_of(experiment, results)) {
@@ -172,14 +174,14 @@ struct ResultsOf {
         return std::vector<File>{{"trajectories.csv", base::csv_text(rows)}};
     }
 
-    base::Result<std::vector<File>> operator()(const ImpairmentGrid& grid) const
+    base::Result<std::vector<File>> operator()(const experiment::ImpairmentGrid& grid) const
     {
         const auto groups = groups_of(experiment, results);
         const auto points = grid_points(grid);
         const std::size_t groups_per_point = groups.size() / points.size();
         std::vector<QosRow> rows;
         for (std::size_t i = 0; i < groups.size(); ++i) {
-            const GridPoint& point = points[i / groups_per_point];
+            const experiment::GridPoint& point = points[i / groups_per_point];
             rows.push_back(
                 {.algorithm = std::string{groups[i].algorithm},
                  .task = std::string{name_of(groups[i].task)},
@@ -191,16 +193,16 @@ struct ResultsOf {
         return std::vector<File>{{"qos.csv", base::csv_text(rows)}};
     }
 
-    base::Result<std::vector<File>> operator()(const Calibration&) const
+    base::Result<std::vector<File>> operator()(const experiment::Calibration&) const
     {
-        std::vector<Scores> scores;
-        for (const JobResult& result : results) {
-            const auto& session = std::get<SessionResult>(result);
+        std::vector<metrics::Scores> scores;
+        for (const experiment::JobResult& result : results) {
+            const auto& session = std::get<experiment::SessionResult>(result);
             scores.push_back(scores_of(session.metrics, session.perfect));
         }
         const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
         const auto rest = std::span{scores}.subspan(half.size());
-        return calibrated({half, rest}, criteria).map([this](const Criteria& found) {
+        return calibrated({half, rest}, criteria).map([this](const metrics::Criteria& found) {
             return std::vector<File>{
                 {"criteria.toml", origin_of(experiment) + print_criteria(found)}};
         });
@@ -209,11 +211,11 @@ struct ResultsOf {
 
 } // namespace
 
-base::Result<std::vector<File>> make_result_files(const Experiment& experiment,
-                                                  const Criteria& criteria,
-                                                  std::span<const JobResult> results)
+base::Result<std::vector<File>> make_result_files(const experiment::Experiment& experiment,
+                                                  const metrics::Criteria& criteria,
+                                                  std::span<const experiment::JobResult> results)
 {
     return std::visit(ResultsOf{experiment, criteria, results}, experiment.kind);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

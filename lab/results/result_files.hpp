@@ -8,12 +8,12 @@
 #include <span>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 /// What an experiment found, as files: equal results, equal bytes. `results` are those of
 /// make_jobs(experiment), in that order. The error: sessions that nothing can be calibrated on.
-[[nodiscard]] base::Result<std::vector<File>> make_result_files(const Experiment& experiment,
-                                                                const Criteria& criteria,
-                                                                std::span<const JobResult> results);
+[[nodiscard]] base::Result<std::vector<File>>
+make_result_files(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
+                  std::span<const experiment::JobResult> results);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
@@ -38,7 +38,8 @@ Outcome add_run(const File& file, Results& results)
     Run run{folder_of(file.path), std::move(json), std::nullopt};
     const auto criteria = run.manifest.find("criteria");
     if (criteria != run.manifest.end() && criteria->is_string()) {
-        auto parsed = parse_criteria(criteria->get<std::string>(), file.path + ": criteria");
+        auto parsed =
+            metrics::parse_criteria(criteria->get<std::string>(), file.path + ": criteria");
         if (!parsed) return tl::unexpected{parsed.error()};
         run.criteria = *parsed;
     }
@@ -176,7 +177,7 @@ bool Run::is_valid() const
     return found != manifest.end() && found->is_boolean() && found->get<bool>();
 }
 
-std::optional<Criteria> Results::criteria() const
+std::optional<metrics::Criteria> Results::criteria() const
 {
     if (runs.empty()) return std::nullopt;
     const auto first = runs.front().criteria;
@@ -188,9 +189,9 @@ std::optional<Criteria> Results::criteria() const
 base::Result<void> add_session(Results& results, const std::string& name, const record::Record& a,
                                const record::Record& b)
 {
-    const auto analysis = analyse(a, b);
+    const auto analysis = records::analyse(a, b);
     if (!analysis) return tl::unexpected{analysis.error()};
-    const auto session = common_session(a, b);
+    const auto session = records::common_session(a, b);
     if (!session) return tl::unexpected{session.error()};
     const auto task_or = [&](std::string_view otherwise) {
         return session->task.empty() ? std::string{otherwise} : session->task;
@@ -247,4 +248,4 @@ base::Result<Results> read_results(std::span<const File> files)
     return results;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -15,13 +15,13 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 /// How some of the results came about: a manifest.json.
 struct Run {
     std::string folder; // where it stands, as the path of the file says
     nlohmann::ordered_json manifest;
-    std::optional<Criteria> criteria; // by which it judged; nullopt: it does not say
+    std::optional<metrics::Criteria> criteria; // by which it judged; nullopt: it does not say
 
     [[nodiscard]] bool is_valid() const;
 };
@@ -33,8 +33,8 @@ struct RecordedSession {
     std::string algorithm; // empty: the record does not say
     std::int64_t peer_a = 0;
     std::int64_t peer_b = 0;
-    Analysis analysis;
-    SessionCurves curves;
+    records::Analysis analysis;
+    records::SessionCurves curves;
 };
 
 /// All that a result folder holds, its subfolders' results joined.
@@ -53,7 +53,7 @@ struct Results {
     std::optional<DemoRun> demo;
 
     /// By which all runs judged; nullopt when they do not say, or differ.
-    [[nodiscard]] std::optional<Criteria> criteria() const;
+    [[nodiscard]] std::optional<metrics::Criteria> criteria() const;
 };
 
 /// Adds the session that two records share, and its replay: both sides as the player shows them.
@@ -70,4 +70,4 @@ struct Results {
 /// for one algorithm, it is an error that both are there.
 [[nodiscard]] base::Result<Results> read_results(std::span<const File> files);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
@@ -18,7 +18,7 @@ tl::unexpected<base::Error> fail_at_row(const File& file, std::size_t index, std
 
 } // namespace
 
-std::vector<ReplayRow> make_replay_rows(const Trace& trace, std::uint32_t rows_per_s)
+std::vector<ReplayRow> make_replay_rows(const virtual_time::Trace& trace, std::uint32_t rows_per_s)
 {
     constexpr double mm = 1e3;
     std::vector<ReplayRow> rows;
@@ -27,7 +27,7 @@ std::vector<ReplayRow> make_replay_rows(const Trace& trace, std::uint32_t rows_p
     const auto every = static_cast<std::size_t>(std::max<std::int64_t>(interval / trace.tick, 1));
     for (std::size_t i = 0; i < trace.sides[0].size(); i += every) {
         const auto time = trace.begin + static_cast<std::int64_t>(i) * trace.tick;
-        const Sample &l = trace.sides[0][i], &r = trace.sides[1][i];
+        const virtual_time::Sample &l = trace.sides[0][i], &r = trace.sides[1][i];
         rows.push_back({.time_s = base::to_seconds(time),
                         .lx = mm * l.body.x(),
                         .ly = mm * l.body.y(),
@@ -98,4 +98,4 @@ base::Result<Replay> read_replay(const File& file)
     return replay;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

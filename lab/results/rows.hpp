@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 // The rows of the files of a result folder: docs/use/experiments.md says what each column means.
 // Names end with the unit. What a task does not exercise is nullopt. Each struct is written and
@@ -81,7 +81,7 @@ struct TaskRow {
     std::optional<double> force_step_n{};
     std::optional<double> drag_n{};
     std::optional<double> energy_mj{};
-    Tier tier{};
+    metrics::Tier tier{};
     std::string limited_by;
 };
 constexpr auto fields_of(base::Tag<TaskRow>)
@@ -160,7 +160,7 @@ struct Judged {
     std::optional<double> vibration_mm{};
     std::optional<double> stiffness_ratio{};
     std::optional<double> force_vibration_n{};
-    Tier tier{};
+    metrics::Tier tier{};
 };
 constexpr auto fields_of(base::Tag<Judged>)
 {
@@ -286,7 +286,8 @@ constexpr auto fields_of(base::Tag<ReplayRow>)
 }
 
 /// Samples of a trace as rows, `rows_per_s` a second or all when there are fewer.
-[[nodiscard]] std::vector<ReplayRow> make_replay_rows(const Trace& trace, std::uint32_t rows_per_s);
+[[nodiscard]] std::vector<ReplayRow> make_replay_rows(const virtual_time::Trace& trace,
+                                                      std::uint32_t rows_per_s);
 
 /// The rows as CSV without a header.
 [[nodiscard]] std::string to_lines(const std::vector<ReplayRow>& rows);
@@ -309,4 +310,4 @@ struct Replay {
 /// Algorithm and task stand in the file's name.
 [[nodiscard]] base::Result<Replay> read_replay(const File& file);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

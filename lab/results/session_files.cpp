@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/results/session_files.hpp"
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 std::vector<std::string> SessionFiles::invalid_because() const
 {
@@ -16,4 +16,4 @@ std::vector<std::string> SessionFiles::invalid_because() const
     return reasons;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

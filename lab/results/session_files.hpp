@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 /// The result files of one session over real UDP, as the programs wrote them.
 struct SessionFiles {
@@ -20,4 +20,4 @@ struct SessionFiles {
     [[nodiscard]] std::vector<std::string> invalid_because() const;
 };
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
@@ -19,27 +19,30 @@ void lower(std::optional<double>& worst, std::optional<double> value)
     if (value) worst = std::min(worst.value_or(*value), *value);
 }
 
-std::optional<double> vibration_at(const std::optional<ByOrder>& values, FilterOrder order)
+std::optional<double> vibration_at(const std::optional<metrics::ByOrder>& values,
+                                   metrics::FilterOrder order)
 {
     return values ? std::optional{at_order(*values, order)} : std::nullopt;
 }
 
-void raise(std::optional<ByOrder>& worst, const std::optional<ByOrder>& values)
+void raise(std::optional<metrics::ByOrder>& worst, const std::optional<metrics::ByOrder>& values)
 {
     if (!values) return;
-    const ByOrder so_far = worst.value_or(*values);
-    worst = ByOrder{std::max(so_far.first, values->first), std::max(so_far.second, values->second),
-                    std::max(so_far.fourth, values->fourth)};
+    const metrics::ByOrder so_far = worst.value_or(*values);
+    worst = metrics::ByOrder{std::max(so_far.first, values->first),
+                             std::max(so_far.second, values->second),
+                             std::max(so_far.fourth, values->fourth)};
 }
 
 /// A session that is in every respect as bad as the worst of all.
-Scores worst_of(std::span<const Scores> all)
+metrics::Scores worst_of(std::span<const metrics::Scores> all)
 {
-    Scores worst = all.front();
-    for (const Scores& scores : all.subspan(1)) {
+    metrics::Scores worst = all.front();
+    for (const metrics::Scores& scores : all.subspan(1)) {
         worst.scored_share = std::min(worst.scored_share, scores.scored_share);
         raise(worst.vibration_m, scores.vibration_m);
-        lower(worst.stiffness_ratio[judged_press], scores.stiffness_ratio[judged_press]);
+        lower(worst.stiffness_ratio[metrics::judged_press],
+              scores.stiffness_ratio[metrics::judged_press]);
         raise(worst.force_discrepancy, scores.force_discrepancy);
         raise(worst.force_vibration_n, scores.force_vibration_n);
         raise(worst.force_vibration_added_n, scores.force_vibration_added_n);
@@ -50,11 +53,11 @@ Scores worst_of(std::span<const Scores> all)
     return worst;
 }
 
-std::optional<Spread> mean_spread(std::span<const Scores> all)
+std::optional<metrics::Spread> mean_spread(std::span<const metrics::Scores> all)
 {
-    Spread sum;
+    metrics::Spread sum;
     double count = 0.0;
-    for (const Scores& scores : all) {
+    for (const metrics::Scores& scores : all) {
         if (!scores.discrepancy_m) continue;
         sum.mean += scores.discrepancy_m->mean;
         sum.min += scores.discrepancy_m->min;
@@ -63,29 +66,29 @@ std::optional<Spread> mean_spread(std::span<const Scores> all)
         count += 1.0;
     }
     if (count == 0.0) return std::nullopt;
-    return Spread{sum.mean / count, sum.min / count, sum.max / count, sum.std / count};
+    return metrics::Spread{sum.mean / count, sum.min / count, sum.max / count, sum.std / count};
 }
 
 } // namespace
 
-Summary summarize(std::span<const Scores> scores, const Criteria& criteria)
+Summary summarize(std::span<const metrics::Scores> scores, const metrics::Criteria& criteria)
 {
     Summary summary{mean_spread(scores), {}, {}, worst_of(scores)};
-    for (const Scores& one : scores) {
+    for (const metrics::Scores& one : scores) {
         if (one.discrepancy_m) raise(summary.discrepancy_max_m, one.discrepancy_m->max);
         if (one.force_steps) raise(summary.force_step_n, one.force_steps->largest_n);
     }
-    const Judgement judgement = judge(summary.worst, criteria);
+    const metrics::Judgement judgement = judge(summary.worst, criteria);
     summary.tier = judgement.tier;
     const auto& reasons = judgement.failures.empty() ? judgement.shortcomings : judgement.failures;
     summary.limited_by = fmt::format("{}", fmt::join(reasons, "; "));
     return summary;
 }
 
-Judged make_judged(const Summary& summary, const Criteria& criteria)
+Judged make_judged(const Summary& summary, const metrics::Criteria& criteria)
 {
     const auto vibration_m = vibration_at(summary.worst.vibration_m, criteria.filter_order);
-    Judged judged{.stiffness_ratio = summary.worst.stiffness_ratio[judged_press],
+    Judged judged{.stiffness_ratio = summary.worst.stiffness_ratio[metrics::judged_press],
                   .force_vibration_n =
                       vibration_at(summary.worst.force_vibration_n, criteria.filter_order),
                   .tier = summary.tier};
@@ -94,4 +97,4 @@ Judged make_judged(const Summary& summary, const Criteria& criteria)
     return judged;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

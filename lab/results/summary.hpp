@@ -9,22 +9,24 @@
 #include <span>
 #include <string>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 /// What the sessions of all seeds say together.
 struct Summary {
-    std::optional<Spread> typical_m{}; // the means over the seeds of the discrepancy's figures
+    std::optional<metrics::Spread>
+        typical_m{}; // the means over the seeds of the discrepancy's figures
     std::optional<double> discrepancy_max_m{}; // the largest of any seed
     std::optional<double> force_step_n{};      // as well
-    Scores worst{};                            // in every respect as bad as that of the worst seed
-    Tier tier = Tier::good;                    // of the worst
+    metrics::Scores worst{};                   // in every respect as bad as that of the worst seed
+    metrics::Tier tier = metrics::Tier::good;  // of the worst
     std::string limited_by{};                  // what keeps it from the next tier
 };
 
 /// A task's scores by seed; at least one.
-[[nodiscard]] Summary summarize(std::span<const Scores> scores, const Criteria& criteria);
+[[nodiscard]] Summary summarize(std::span<const metrics::Scores> scores,
+                                const metrics::Criteria& criteria);
 
 /// What is judged of the worst, by the filter that the criteria judge by; the mean is the typical.
-[[nodiscard]] Judged make_judged(const Summary& summary, const Criteria& criteria);
+[[nodiscard]] Judged make_judged(const Summary& summary, const metrics::Criteria& criteria);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

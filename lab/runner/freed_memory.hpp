@@ -4,7 +4,7 @@
 
 #include <malloc.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::runner {
 
 /// Lets the program keep the memory that it has freed. The trace of a session is 8 MB: to give it
 /// back to the system and get it anew, page by page, takes an eighth of the time in which the
@@ -17,4 +17,4 @@ inline void keep_freed_memory()
     mallopt(M_TRIM_THRESHOLD, unused_max);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::runner

@@ -9,7 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::runner {
 
 namespace {
 
@@ -69,4 +69,4 @@ void ProgressLine::finish()
     is_open_ = false;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::runner

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace hapnet::lab {
+namespace hapnet::lab::runner {
 
 /// "412/~1300 sessions (31 %), 41.2/s, 22 s left": the total is what the jobs that are done make
 /// likely. `reused` sessions took no time.
@@ -30,4 +30,4 @@ private:
     bool is_over_ = false; // the last has been shown
 };
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::runner

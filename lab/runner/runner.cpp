@@ -16,7 +16,7 @@
 #include <thread>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::runner {
 
 namespace {
 
@@ -28,7 +28,8 @@ constexpr base::Duration look_interval = 20ms;
 /// The threads of a run and what they share.
 class WorkerPool {
 public:
-    WorkerPool(const Experiment& experiment, const Criteria& criteria, const Runner& runner)
+    WorkerPool(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
+               const Runner& runner)
         : experiment_{experiment},
           criteria_{criteria},
           runner_{runner},
@@ -51,13 +52,13 @@ public:
     }
 
     /// nullopt when it was stopped.
-    base::Result<std::optional<std::vector<JobResult>>> results()
+    base::Result<std::optional<std::vector<experiment::JobResult>>> results()
     {
         join();
         if (thrown_) std::rethrow_exception(thrown_);
         if (error_) return base::fail(*error_);
         if (jobs_done_ < jobs_.size()) return std::nullopt;
-        std::vector<JobResult> all;
+        std::vector<experiment::JobResult> all;
         for (auto& result : results_) all.push_back(*std::move(result));
         return std::optional{std::move(all)};
     }
@@ -81,10 +82,12 @@ private:
 
     void run_one(std::size_t index)
     {
-        const PlaySession play = [this](const SessionSpec& spec) -> base::Result<PlayedSession> {
+        const experiment::PlaySession play =
+            [this](const experiment::SessionSpec& spec) -> base::Result<experiment::PlayedSession> {
             if (stop_) return base::fail("stopped");
-            return runner_.store.played(
-                spec, [this](const SessionSpec& one) { return runner_.play(one, stop_); });
+            return runner_.store.played(spec, [this](const experiment::SessionSpec& one) {
+                return runner_.play(one, stop_);
+            });
         };
         auto result = run_job(jobs_[index], experiment_, criteria_, play);
         if (result) {
@@ -103,11 +106,12 @@ private:
         }
     }
 
-    const Experiment& experiment_;
-    const Criteria& criteria_;
+    const experiment::Experiment& experiment_;
+    const metrics::Criteria& criteria_;
     const Runner& runner_;
-    std::vector<Job> jobs_;
-    std::vector<std::optional<JobResult>> results_; // each written by the thread of its job
+    std::vector<experiment::Job> jobs_;
+    std::vector<std::optional<experiment::JobResult>>
+        results_; // each written by the thread of its job
     std::atomic<bool> stop_ = false;
     std::atomic<std::size_t> next_ = 0;
     std::atomic<std::size_t> jobs_done_ = 0;
@@ -120,18 +124,19 @@ private:
 
 } // namespace
 
-base::Result<PlayedSession> play_in_virtual_time(const SessionSpec& spec,
-                                                 const std::atomic<bool>& stop)
+base::Result<experiment::PlayedSession> play_in_virtual_time(const experiment::SessionSpec& spec,
+                                                             const std::atomic<bool>& stop)
 {
-    return play(spec.setting, &stop).map([&](const Trace& trace) {
-        return PlayedSession{metrics_of(trace), to_lines(make_replay_rows(trace, spec.rows_per_s))};
+    return play(spec.setting, &stop).map([&](const virtual_time::Trace& trace) {
+        return experiment::PlayedSession{
+            metrics::metrics_of(trace),
+            to_lines(results::make_replay_rows(trace, spec.rows_per_s))};
     });
 }
 
-base::Result<std::optional<std::vector<JobResult>>> run_all(const Experiment& experiment,
-                                                            const Criteria& criteria,
-                                                            const Runner& runner,
-                                                            net::StopSignal& stop)
+base::Result<std::optional<std::vector<experiment::JobResult>>>
+run_all(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
+        const Runner& runner, net::StopSignal& stop)
 {
     WorkerPool crew{experiment, criteria, runner};
     while (!crew.is_over()) {
@@ -147,4 +152,4 @@ base::Result<std::optional<std::vector<JobResult>>> run_all(const Experiment& ex
     return results;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::runner

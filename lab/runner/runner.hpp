@@ -10,15 +10,15 @@
 #include <functional>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::runner {
 
 /// Plays one session; gives up soon after `stop` became true, and then fails.
-using StoppablePlay =
-    std::function<base::Result<PlayedSession>(const SessionSpec&, const std::atomic<bool>& stop)>;
+using StoppablePlay = std::function<base::Result<experiment::PlayedSession>(
+    const experiment::SessionSpec&, const std::atomic<bool>& stop)>;
 
 /// Plays a session on this thread, in virtual time.
-[[nodiscard]] base::Result<PlayedSession> play_in_virtual_time(const SessionSpec& spec,
-                                                               const std::atomic<bool>& stop);
+[[nodiscard]] base::Result<experiment::PlayedSession>
+play_in_virtual_time(const experiment::SessionSpec& spec, const std::atomic<bool>& stop);
 
 /// How far a run has come.
 struct RunProgress {
@@ -39,8 +39,8 @@ struct Runner {
 /// The results of all jobs, in their order: the same for any number of threads. nullopt when `stop`
 /// was requested before the end; the sessions played until then are in the store. Throws what a
 /// thread has thrown.
-[[nodiscard]] base::Result<std::optional<std::vector<JobResult>>>
-run_all(const Experiment& experiment, const Criteria& criteria, const Runner& runner,
-        net::StopSignal& stop);
+[[nodiscard]] base::Result<std::optional<std::vector<experiment::JobResult>>>
+run_all(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
+        const Runner& runner, net::StopSignal& stop);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::runner

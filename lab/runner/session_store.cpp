@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::runner {
 
 namespace {
 
@@ -34,15 +34,15 @@ Json header_of(const FolderIdentity& identity)
     return {{"format", store_format}, {"kind", identity.kind}, {"title", identity.title}};
 }
 
-std::optional<PlayedSession> played_from(const Json& line)
+std::optional<experiment::PlayedSession> played_from(const Json& line)
 {
     if (!line.contains("metrics") || !line.value("rows", Json("")).is_string()) return std::nullopt;
-    auto metrics = metrics_from(nlohmann::json(line["metrics"]));
+    auto metrics = metrics::metrics_from(nlohmann::json(line["metrics"]));
     if (!metrics) return std::nullopt;
-    return PlayedSession{*std::move(metrics), line.value("rows", std::string{})};
+    return experiment::PlayedSession{*std::move(metrics), line.value("rows", std::string{})};
 }
 
-Json line_of(const std::string& key, const PlayedSession& played)
+Json line_of(const std::string& key, const experiment::PlayedSession& played)
 {
     Json line{{"key", key}, {"metrics", to_json(played.metrics)}};
     if (!played.rows.empty()) line["rows"] = played.rows;
@@ -134,7 +134,8 @@ void SessionStore::append(const std::string& line) const
     }
 }
 
-base::Result<PlayedSession> SessionStore::played(const SessionSpec& spec, const PlaySession& play)
+base::Result<experiment::PlayedSession> SessionStore::played(const experiment::SessionSpec& spec,
+                                                             const experiment::PlaySession& play)
 {
     const auto key = key_of(spec, program_);
     {
@@ -146,7 +147,7 @@ base::Result<PlayedSession> SessionStore::played(const SessionSpec& spec, const 
         }
         being_played_.insert(key);
     }
-    const auto leave = [this, &key](const base::Result<PlayedSession>& played) {
+    const auto leave = [this, &key](const base::Result<experiment::PlayedSession>& played) {
         const std::lock_guard lock{mutex_};
         being_played_.erase(key);
         changed_.notify_all();
@@ -171,4 +172,4 @@ SessionStore::Counts SessionStore::counts() const
     return counts_;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::runner

@@ -14,7 +14,7 @@
 #include <set>
 #include <string>
 
-namespace hapnet::lab {
+namespace hapnet::lab::runner {
 
 /// What an experiment's folder of results is about. Another experiment's sessions would mix.
 struct FolderIdentity {
@@ -38,8 +38,8 @@ public:
 
     /// What is known of a session, or else what comes of `play`. Throws std::system_error when it
     /// cannot be kept.
-    [[nodiscard]] base::Result<PlayedSession> played(const SessionSpec& spec,
-                                                     const PlaySession& play);
+    [[nodiscard]] base::Result<experiment::PlayedSession>
+    played(const experiment::SessionSpec& spec, const experiment::PlaySession& play);
 
     struct Counts {
         std::size_t played = 0;
@@ -63,10 +63,10 @@ private:
 
     mutable std::mutex mutex_; // over all below
     std::condition_variable changed_;
-    std::map<std::string, PlayedSession> sessions_;
+    std::map<std::string, experiment::PlayedSession> sessions_;
     std::set<std::string> from_before_; // those that this run has not asked for yet
     std::set<std::string> being_played_;
     Counts counts_;
 };
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::runner

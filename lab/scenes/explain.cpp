@@ -9,7 +9,7 @@
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::scenes {
 
 namespace {
 
@@ -172,4 +172,4 @@ std::string to_table(const Explanation& explanation)
     return text;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::scenes

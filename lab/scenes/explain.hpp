@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::scenes {
 
 /// A tick that would cost less than the one chosen, and what it cannot do for the scene.
 struct CheaperTick {
@@ -51,4 +51,4 @@ struct Explanation {
 /// An explanation for people: lines of text.
 [[nodiscard]] std::string to_table(const Explanation& explanation);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::scenes

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 namespace {
 
@@ -141,4 +141,4 @@ base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop)
     return *std::move(trace);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

@@ -10,7 +10,7 @@
 #include <atomic>
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 /// Plays a session from the first hello to its end in virtual time, on the cores that the daemons
 /// run. A pure function of the setting. Fails when the scene cannot be shared, or when `stop`
@@ -23,4 +23,4 @@ namespace hapnet::lab {
 [[nodiscard]] std::optional<Trace> play_out(VirtualWorld& world,
                                             const std::atomic<bool>* stop = nullptr);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

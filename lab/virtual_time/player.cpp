@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 namespace {
 
@@ -71,4 +71,4 @@ Sample VirtualPlayer::sample() const
             .remote_touching = tick.remote_touching};
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 /// Which side of a session a player is, and in which run of its program.
 struct PlayerId {
@@ -52,4 +52,4 @@ public:
     std::vector<peer::Event> events; // all so far
 };
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

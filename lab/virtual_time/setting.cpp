@@ -10,7 +10,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 base::Result<void> validate(const Setting& setting)
 {
@@ -39,4 +39,4 @@ base::Result<void> validate(const Setting& setting)
     return {};
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

@@ -18,7 +18,7 @@
 #include <memory>
 #include <optional>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 /// One side of a session in virtual time.
 struct PlayerSetting {
@@ -48,4 +48,4 @@ struct Setting {
 /// An error when no session can be played with this setting; its message says what to do.
 [[nodiscard]] base::Result<void> validate(const Setting& setting);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/virtual_time/trace.hpp"
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 Sample between(const Sample& earlier, const Sample& later, double share)
 {
@@ -18,4 +18,4 @@ Sample between(const Sample& earlier, const Sample& later, double share)
     return sample;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

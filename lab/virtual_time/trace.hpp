@@ -10,7 +10,7 @@
 #include <chrono>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 /// One side in one tick: its copy of the scene, its hand and its motors.
 struct Sample {
@@ -41,4 +41,4 @@ struct Trace {
 /// are the earlier sample's; with share 0 all of it is the earlier sample.
 [[nodiscard]] Sample between(const Sample& earlier, const Sample& later, double share);
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

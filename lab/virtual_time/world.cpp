@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 namespace {
 
@@ -111,4 +111,4 @@ void VirtualWorld::play(std::size_t side)
     }
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 
 /// Pairs of players and the links between them on one timeline, which jumps from deadline to
 /// deadline: to the next tick of any player, or to the next step of a profile. A datagram that is
@@ -95,4 +95,4 @@ private:
     std::vector<Side> sides_; // two of each pair
 };
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

@@ -40,14 +40,14 @@ constexpr int ticks_after_the_end = 60; // a governor's fade
 /// Watched like that of a session: the self-test is what a device's first force comes from.
 class TestLoop {
 public:
-    TestLoop(SelfTest& test, device::Rig& rig, Watchdog& watchdog)
+    TestLoop(SelfTest& test, device::Rig& rig, loop::Watchdog& watchdog)
         : test_{test}, rig_{rig}, watchdog_{watchdog}
     {}
 
     void run()
     {
         const net::CrashStack stack;
-        const ZeroForceAtTheEnd zero{rig_.device(), watchdog_};
+        const loop::ZeroForceAtTheEnd zero{rig_.device(), watchdog_};
         std::ignore = net::request_real_time(test_priority);
         if (rig_.device().capabilities().pacing == device::Pacing::device) {
             rig_.device().pace([this] { return tick(), !is_over(); });
@@ -70,7 +70,7 @@ private:
     {
         const base::TimePoint now = net::monotonic_now();
         watchdog_.beat(now);
-        WatchedRig watched{rig_, watchdog_};
+        loop::WatchedRig watched{rig_, watchdog_};
         if (watchdog_.take_fault()) {
             rig_.governor().latch({device::Fault::timeout, device::Trip::loop});
         }
@@ -88,7 +88,7 @@ private:
 
     SelfTest& test_;
     device::Rig& rig_;
-    Watchdog& watchdog_;
+    loop::Watchdog& watchdog_;
     base::Force applied_;
     bool is_ending_ = false;
     int ticks_left_ = ticks_after_the_end;
@@ -151,7 +151,7 @@ base::Result<int> run(const SelfTestCommand& command)
     if (command.device.is_simulated()) {
         rig.device().on_cue({.start = net::monotonic_now(), .hands_on = {}, .seed = base::Seed{}});
     }
-    Watchdog watchdog{rig.device(), &crash};
+    loop::Watchdog watchdog{rig.device(), &crash};
     TestLoop loop{test, rig, watchdog};
     accompany(loop, stop);
     test.stop();

@@ -10,7 +10,7 @@
 #include <readerwriterqueue/readerwritercircularbuffer.h>
 #include <variant>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 /// An event that a person should be told of, and when it happened.
 struct TimedEvent {
@@ -20,7 +20,7 @@ struct TimedEvent {
 
 /// Likewise for the device.
 struct TimedDeviceNews {
-    DeviceNews news;
+    monitor::DeviceNews news;
     base::TimePoint at;
 };
 
@@ -57,4 +57,4 @@ private:
     std::atomic<std::uint64_t> lost_{0};
 };
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

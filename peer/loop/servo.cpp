@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 namespace {
 
@@ -18,7 +18,9 @@ constexpr base::Duration session_noted_every{std::chrono::seconds{1}};
 
 } // namespace
 
-Servo::Servo(const Parts& parts) : parts_{parts}, reporter_{recovery_of(parts.rig.device())} {}
+Servo::Servo(const Parts& parts)
+    : parts_{parts}, reporter_{monitor::recovery_of(parts.rig.device())}
+{}
 
 void Servo::run()
 {
@@ -199,4 +201,4 @@ void Servo::note_session(base::TimePoint now)
     parts_.journal.put(*noted_);
 }
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

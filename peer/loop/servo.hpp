@@ -13,7 +13,7 @@
 
 #include <atomic>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 /// The 1 kHz loop. Each tick receives datagrams, steps its Side, sends datagrams and writes the
 /// journal, in this order. It runs at a fixed rate, waking at absolute times. A device that sets
@@ -70,7 +70,7 @@ private:
     void describe(ServoStatus& status) const;
 
     Parts parts_;
-    DeviceReporter reporter_;
+    monitor::DeviceReporter reporter_;
     LoopCounters counters_;
     std::optional<base::TimePoint> first_tick_;
     base::TimePoint last_tick_;
@@ -83,4 +83,4 @@ private:
     std::atomic<bool> done_{false};
 };
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

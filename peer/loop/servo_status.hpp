@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 /// How punctual the loop was, and what its socket met.
 struct LoopCounters {
@@ -45,4 +45,4 @@ struct ServoStatus {
     net::RealTime real_time;
 };
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 /// One thread requests a value from another, which fills it in when it comes by. Neither waits for
 /// the other and nothing is allocated: the one slot belongs to the filler from the request until it
@@ -50,4 +50,4 @@ private:
     Value value_{};
 };
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

@@ -12,7 +12,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <thread>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 namespace {
 
@@ -51,7 +51,8 @@ private:
 void supervise(const Supervised& supervised, const std::string& ready)
 {
     const auto& [servo, monitor, stop, control_session] = supervised;
-    const base::Duration every = control_session != nullptr ? ControlSession::every : drain_every;
+    const base::Duration every =
+        control_session != nullptr ? monitor::ControlSession::every : drain_every;
     ServoThread thread{servo};
     bool is_announced = false;
     try {
@@ -83,4 +84,4 @@ void supervise(const Supervised& supervised, const std::string& ready)
     monitor.finish();
 }
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

@@ -9,14 +9,14 @@
 
 #include <string>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 /// A servo and the parts that run beside it.
 struct Supervised {
     Servo& servo;
-    Monitor& monitor;
+    monitor::Monitor& monitor;
     net::StopSignal& stop;
-    ControlSession* control_session = nullptr; // null: there is no control socket
+    monitor::ControlSession* control_session = nullptr; // null: there is no control socket
 };
 
 /// Runs the servo on a thread of its own and watches it from this one until it has ended; SIGINT,
@@ -25,4 +25,4 @@ struct Supervised {
 /// force.
 void supervise(const Supervised& supervised, const std::string& ready);
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

@@ -10,7 +10,7 @@
 #include <span>
 #include <tuple>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 namespace {
 
@@ -78,4 +78,4 @@ void Watchdog::halt_for_good()
     crash_->acknowledge();
 }
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <thread>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 /// The action after a silence of the loop.
 enum class Alarm : std::uint8_t {
@@ -77,4 +77,4 @@ private:
     std::thread thread_;        // last: it uses the others
 };
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 /// A rig for one tick of a watched loop, made before the device is read. A force that it applies
 /// never outlasts a halt by the watchdog in the same tick.
@@ -41,4 +41,4 @@ private:
     std::uint64_t halts_before_;
 };
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

@@ -4,7 +4,7 @@
 
 #include "peer/loop/watchdog.hpp"
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 
 /// On every way out of a loop's scope: tells the device zero force, three times because a wire may
 /// lose one, and ends the watch over the loop.
@@ -28,4 +28,4 @@ private:
     Watchdog& watchdog_;
 };
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

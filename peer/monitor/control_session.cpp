@@ -7,7 +7,7 @@
 
 #include <utility>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 
 namespace {
 
@@ -35,7 +35,7 @@ control::Subject ControlSession::subject()
 
 void ControlSession::serve(base::TimePoint now)
 {
-    if (ServoStatus newer; parts_.servo.take_status(newer)) status_ = newer;
+    if (loop::ServoStatus newer; parts_.servo.take_status(newer)) status_ = newer;
     if (!next_request_ || base::is_due(next_request_, now)) {
         parts_.servo.request_status();
         next_request_ = now + request_every;
@@ -43,4 +43,4 @@ void ControlSession::serve(base::TimePoint now)
     if (status_) parts_.server.serve(subject_, now, std::nullopt);
 }
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

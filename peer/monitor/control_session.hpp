@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 
 /// Answers the clients of the control socket. The loop does the same with and without clients: it
 /// fills in its status every 50 ms, and the monitoring thread does everything else here.
@@ -20,9 +20,9 @@ public:
     /// All outlive it.
     struct Parts {
         control::Server& server;
-        Servo& servo;
+        loop::Servo& servo;
         const Options& options;
-        const Journal& journal;
+        const loop::Journal& journal;
         const Monitor& monitor;
         std::string device; // its description
         Recovery recovery{};
@@ -46,8 +46,8 @@ private:
 
     Parts parts_;
     control::Subject subject_;
-    std::optional<ServoStatus> status_; // the newest
+    std::optional<loop::ServoStatus> status_; // the newest
     std::optional<base::TimePoint> next_request_;
 };
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

@@ -4,7 +4,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::optional<DeviceNews> DeviceReporter::look(device::CalibrationStep calibrati
     return std::nullopt;
 }
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 
 /// The ways in which the holder of a device can end its fault.
 struct Recovery {
@@ -51,4 +51,4 @@ private:
     std::optional<base::TimePoint> calibration_told_;
 };
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

@@ -8,7 +8,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 
 namespace {
 
@@ -57,7 +57,8 @@ std::string_view describe(Event event)
     return "";
 }
 
-Monitor::Monitor(Journal& journal, std::optional<record::Writer> writer, std::uint16_t peer_id)
+Monitor::Monitor(loop::Journal& journal, std::optional<record::Writer> writer,
+                 std::uint16_t peer_id)
     : journal_{journal},
       writer_{std::move(writer)},
       peer_id_{peer_id},
@@ -69,10 +70,10 @@ void Monitor::drain()
     while (const auto entry = journal_.take()) {
         if (const auto* row = std::get_if<record::Row>(&*entry)) {
             take(*row);
-        } else if (const auto* event = std::get_if<TimedEvent>(&*entry)) {
+        } else if (const auto* event = std::get_if<loop::TimedEvent>(&*entry)) {
             tell(event->at, describe(event->event));
         } else {
-            const auto& [news, at] = std::get<TimedDeviceNews>(*entry);
+            const auto& [news, at] = std::get<loop::TimedDeviceNews>(*entry);
             tell(at, describe(news));
         }
     }
@@ -150,4 +151,4 @@ void Monitor::finish()
     line_open_ = false;
 }
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

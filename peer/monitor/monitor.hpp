@@ -9,7 +9,7 @@
 #include <optional>
 #include <system_error>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 
 /// The values in the status line.
 struct StatusLine {
@@ -25,7 +25,7 @@ struct StatusLine {
 class Monitor {
 public:
     /// `writer` may be empty.
-    Monitor(Journal& journal, std::optional<record::Writer> writer, std::uint16_t peer_id);
+    Monitor(loop::Journal& journal, std::optional<record::Writer> writer, std::uint16_t peer_id);
 
     /// Reads everything in the journal. When the record cannot be written any more (a full disk),
     /// it says so once and goes on without it.
@@ -43,7 +43,7 @@ private:
     void tell(base::TimePoint at, std::string_view words);
     void say(std::string_view text);
 
-    Journal& journal_;
+    loop::Journal& journal_;
     std::optional<record::Writer> writer_;
     std::exception_ptr record_failure_;
     std::uint16_t peer_id_;
@@ -57,4 +57,4 @@ private:
 /// An event in words for a person.
 [[nodiscard]] std::string_view describe(Event event);
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

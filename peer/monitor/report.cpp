@@ -10,7 +10,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 
 namespace {
 
@@ -26,13 +26,13 @@ json microseconds(std::optional<base::Duration> duration)
     return base::to_seconds(*duration) * 1e6;
 }
 
-double missed_share(const LoopCounters& loop)
+double missed_share(const loop::LoopCounters& loop)
 {
     const auto all = static_cast<double>(loop.ticks + loop.missed);
     return all > 0.0 ? static_cast<double>(loop.missed) / all : 0.0;
 }
 
-json tick_json(const LoopCounters& loop)
+json tick_json(const loop::LoopCounters& loop)
 {
     return {{"count", loop.ticks},
             {"missed", loop.missed},
@@ -82,7 +82,7 @@ json session_json(const Run& run)
 
 json governor_json(const Run& run)
 {
-    const ServoStatus& status = run.status;
+    const loop::ServoStatus& status = run.status;
     const device::GovernorCounters& c = status.governor;
     const device::RigCounters& device = status.device;
     return {{"state", device::name_of(status.governor_state)},
@@ -122,7 +122,7 @@ json governor_json(const Run& run)
 /// The reason why the run is not valid as a measurement; "" when it is.
 std::string_view why_not_valid(const Run& run)
 {
-    const LoopCounters& loop = run.status.loop;
+    const loop::LoopCounters& loop = run.status.loop;
     const auto p99 = loop.late.quantile(0.99);
     const bool is_punctual =
         p99 && *p99 <= late_budget && missed_share(loop) <= missed_share_budget;
@@ -136,14 +136,17 @@ std::string_view why_not_valid(const Run& run)
 
 using Ordered = nlohmann::ordered_json;
 
-bool is_at_fault(const ServoStatus& status) { return status.fault.fault != device::Fault::none; }
+bool is_at_fault(const loop::ServoStatus& status)
+{
+    return status.fault.fault != device::Fault::none;
+}
 
-bool is_calibrating(const ServoStatus& status)
+bool is_calibrating(const loop::ServoStatus& status)
 {
     return status.calibration != device::CalibrationStep::done;
 }
 
-std::string_view words_on_phase(const ServoStatus& status)
+std::string_view words_on_phase(const loop::ServoStatus& status)
 {
     switch (status.phase) {
     case record::Phase::waiting:
@@ -160,13 +163,13 @@ std::string_view words_on_phase(const ServoStatus& status)
 }
 
 /// The most important state: a fault, the calibration or the session, in this order.
-std::string_view state_of(const ServoStatus& status)
+std::string_view state_of(const loop::ServoStatus& status)
 {
     if (is_at_fault(status)) return "fault";
     return is_calibrating(status) ? "calibrating" : record::name_of(status.phase);
 }
 
-std::string says(const ServoStatus& status, const Recovery& recovery)
+std::string says(const loop::ServoStatus& status, const Recovery& recovery)
 {
     DeviceNews news{status.calibration, status.fault, false, recovery};
     if (is_at_fault(status)) return describe(news);
@@ -184,7 +187,7 @@ Ordered shown_session(const Run& run)
             {"at_s", base::to_seconds(run.status.at - session->start)}};
 }
 
-Ordered shown_fault(const ServoStatus& status)
+Ordered shown_fault(const loop::ServoStatus& status)
 {
     if (!is_at_fault(status)) return nullptr;
     return {{"fault", device::name_of(status.fault.fault)},
@@ -240,7 +243,7 @@ json statistics_json(const Run& run)
 Ordered show_json(const Run& run, const Recovery& recovery)
 {
     const Options& options = run.options;
-    const ServoStatus& status = run.status;
+    const loop::ServoStatus& status = run.status;
     return {{"program", "hapnet-peer"},
             {"version", base::version()},
             {"peer_id", options.id},
@@ -264,7 +267,7 @@ Ordered show_json(const Run& run, const Recovery& recovery)
 
 std::string summary(const Run& run)
 {
-    const LoopCounters& loop = run.status.loop;
+    const loop::LoopCounters& loop = run.status.loop;
     const Counters& c = run.status.messages;
     const auto p99 = loop.late.quantile(0.99);
     std::string text =
@@ -303,4 +306,4 @@ std::string_view describe(wire::ByeReason reason)
     return "";
 }
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

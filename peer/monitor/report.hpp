@@ -10,13 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 
 /// The input of all reports.
 struct Run {
     const Options& options;
-    const ServoStatus& status;
-    const Journal& journal;
+    const loop::ServoStatus& status;
+    const loop::Journal& journal;
     std::string device;
     bool is_record_whole = true;
 };
@@ -37,4 +37,4 @@ struct Run {
 /// A refusal in words, with what to do about it.
 [[nodiscard]] std::string_view describe(wire::ByeReason reason);
 
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

@@ -161,8 +161,8 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
     const net::CrashStack stack;
     net::UdpSocket socket{net::resolve(net::parse_host_port(asked.listen).value())};
     device::Rig rig{std::make_unique<RecordingOmni>(asked, pipe), device::GovernorLimits{}};
-    peer::Journal journal;
-    peer::Monitor monitor{journal, std::nullopt, 1};
+    peer::loop::Journal journal;
+    peer::monitor::Monitor monitor{journal, std::nullopt, 1};
     peer::Settings settings;
     settings.introduction = {.id = 1,
                              .nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U),
@@ -170,16 +170,17 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
                              .seed = 1,
                              .task = wire::TaskName::from_text("P1").value()};
     peer::Side side{settings};
-    peer::Watchdog watchdog{rig.device(), &crash};
-    peer::Servo servo{{side, rig, socket, net::resolve(net::parse_host_port(asked.remote).value()),
-                       journal, watchdog}};
+    peer::loop::Watchdog watchdog{rig.device(), &crash};
+    peer::loop::Servo servo{{side, rig, socket,
+                             net::resolve(net::parse_host_port(asked.remote).value()), journal,
+                             watchdog}};
     const peer::Options unused;
     std::optional<control::Server> server;
-    std::optional<peer::ControlSession> control_session;
+    std::optional<peer::monitor::ControlSession> control_session;
     if (!asked.control.empty()) {
-        server.emplace(asked.control, peer::ControlSession::limits);
-        control_session.emplace(
-            peer::ControlSession::Parts{*server, servo, unused, journal, monitor, "recorded"});
+        server.emplace(asked.control, peer::monitor::ControlSession::limits);
+        control_session.emplace(peer::monitor::ControlSession::Parts{*server, servo, unused,
+                                                                     journal, monitor, "recorded"});
     }
     peer::supervise({servo, monitor, stop, control_session ? &*control_session : nullptr}, "");
     return 0;

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace hapnet;
     std::string text;
     for (const std::uint8_t byte : std::span{data, size}) text += static_cast<char>(byte);
-    const auto netem = emulator::parse_netem(text);
+    const auto netem = hapnet::emulator::tools::parse_netem(text);
     if (!netem) return 0;
     emulator::Profile profile;
     profile.path = {netem->conditions, {}};

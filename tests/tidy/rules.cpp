@@ -226,4 +226,63 @@ std::vector<std::string> dead_files(const std::vector<SourceFile>& tree)
     return complaints;
 }
 
+namespace {
+
+/// "lab/metrics/json.hpp" -> "hapnet::lab::metrics", the longest that it may have.
+std::string namespace_for(const std::string& path)
+{
+    std::string name = "hapnet";
+    for (std::size_t begin = 0, end; (end = path.find('/', begin)) != std::string::npos;
+         begin = end + 1) {
+        const std::string folder = path.substr(begin, end - begin);
+        if (folder != "proto" && folder != "core") name += "::" + folder;
+    }
+    return name;
+}
+
+} // namespace
+
+std::vector<std::string> wrong_namespaces(const SourceFile& file)
+{
+    if (!file.is_cpp() || file.is_in("tests")) return {};
+    constexpr std::string_view opening = "namespace hapnet";
+    const std::string longest = namespace_for(file.path) + "::";
+    std::vector<std::string> complaints;
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+        const std::string& line = file.lines[i];
+        if (!line.starts_with(opening)) continue;
+        const std::string name = line.substr(10, line.find_first_of(" {", 10) - 10);
+        // What is nested deeper than the folder is the file's own affair.
+        if ((name + "::").starts_with(longest) || longest.starts_with(name + "::")) continue;
+        complaints.push_back(
+            at(i, name + " in a folder for " + longest.substr(0, longest.size() - 2)));
+    }
+    return complaints;
+}
+
+std::vector<std::string> unmirrored_tests(const std::vector<SourceFile>& tree)
+{
+    constexpr std::string_view folder = "tests/unit/", ending = "_test.cpp";
+    std::set<std::string> tested;
+    for (const SourceFile& file : tree) {
+        if (file.is_cpp() && !file.is_in("tests"))
+            tested.insert(file.path.substr(0, file.path.rfind('.')));
+    }
+    std::vector<std::string> complaints;
+    for (const SourceFile& file : tree) {
+        if (!file.path.starts_with(folder) || !file.path.ends_with(ending)) continue;
+        std::string name =
+            file.path.substr(folder.size(), file.path.size() - folder.size() - ending.size());
+        const std::size_t base = name.rfind('/') + 1;
+        while (!tested.contains(name)) {
+            const std::size_t last = name.rfind('_');
+            if (last == std::string::npos || last < base) break;
+            name.resize(last);
+        }
+        if (!tested.contains(name))
+            complaints.push_back(file.path + ": called as no file it tests");
+    }
+    return complaints;
+}
+
 } // namespace hapnet::tidy

@@ -27,4 +27,12 @@ namespace hapnet::tidy {
 /// Sources that no CMakeLists.txt of the tree builds, and headers that no file includes.
 [[nodiscard]] std::vector<std::string> dead_files(const std::vector<SourceFile>& tree);
 
+/// Namespaces that are not called as their folder: in lab/metrics and below it hapnet::lab::metrics
+/// is right. A folder may share the namespace of the one above; `proto` and `core` are in no name.
+[[nodiscard]] std::vector<std::string> wrong_namespaces(const SourceFile& file);
+
+/// Unit tests that are not called as the file they test: that of a/b/c.cpp is
+/// tests/unit/a/b/c_test.cpp, and one of its aspects tests/unit/a/b/c_ASPECT_test.cpp.
+[[nodiscard]] std::vector<std::string> unmirrored_tests(const std::vector<SourceFile>& tree);
+
 } // namespace hapnet::tidy

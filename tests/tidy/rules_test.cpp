@@ -184,5 +184,32 @@ TEST(DeadFiles, AreSourcesThatNothingBuildsAndHeadersThatNothingIncludes)
     EXPECT_EQ(complaints[2].find("lab/main.cpp"), 0U);
 }
 
+TEST(Namespaces, AreThoseOfTheFolderOrOfOneAbove)
+{
+    const auto complaints = [](const char* path, const std::string& name) {
+        return wrong_namespaces(source_file(path, "namespace " + name + " {\n")).size();
+    };
+    EXPECT_EQ(complaints("lab/metrics/json.hpp", "hapnet::lab::metrics"), 0U);
+    EXPECT_EQ(complaints("scene/rigid/step.hpp", "hapnet::scene"), 0U);
+    EXPECT_EQ(complaints("emulator/core/link.hpp", "hapnet::emulator"), 0U);
+    EXPECT_EQ(complaints("proto/base/time.hpp", "hapnet::base::literals"), 0U);
+    EXPECT_EQ(complaints("lab/metrics/json.hpp", "hapnet::lab::results"), 1U);
+    EXPECT_EQ(complaints("lab/metrics/json.hpp", "hapnet::lab_tools"), 1U);
+    EXPECT_EQ(complaints("peer/core/side.hpp", "hapnet::device"), 1U);
+}
+
+TEST(UnitTests, AreCalledAsAFileOrAsOneOfItsAspects)
+{
+    const auto complaints = [](const char* test) {
+        return unmirrored_tests({source_file("scene/rigid/free_flight.cpp", ""),
+                                 source_file("scene/rigid/step.hpp", ""), source_file(test, "")})
+            .size();
+    };
+    EXPECT_EQ(complaints("tests/unit/scene/rigid/free_flight_test.cpp"), 0U);
+    EXPECT_EQ(complaints("tests/unit/scene/rigid/step_at_rest_test.cpp"), 0U);
+    EXPECT_EQ(complaints("tests/unit/scene/rigid/flight_test.cpp"), 1U);
+    EXPECT_EQ(complaints("tests/unit/scene/step_test.cpp"), 1U);
+}
+
 } // namespace
 } // namespace hapnet::tidy

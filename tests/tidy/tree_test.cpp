@@ -58,6 +58,13 @@ TEST(Tree, HasNoDeadFile)
     for (const std::string& complaint : dead_files(tree())) ADD_FAILURE() << complaint;
 }
 
+TEST(Tree, NamespacesAreCalledAsTheirFolders) { expect_none(wrong_namespaces); }
+
+TEST(Tree, UnitTestsAreCalledAsTheFilesTheyTest)
+{
+    for (const std::string& complaint : unmirrored_tests(tree())) ADD_FAILURE() << complaint;
+}
+
 // The pages.
 
 const SourceFile& file_at(std::string_view path)

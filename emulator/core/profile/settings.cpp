@@ -3,6 +3,7 @@
 #include "emulator/core/profile/settings.hpp"
 
 #include "emulator/core/profile/laws.hpp"
+#include "emulator/core/profile/setting_hints.hpp"
 #include "proto/base/ensure.hpp"
 #include "proto/base/fields.hpp"
 
@@ -193,10 +194,15 @@ base::Result<Setting> parse_setting(std::string_view key, std::string_view value
         return base::fail(
             fmt::format("{}: unknown setting: {}", key, suggestion(name, setting_keys)));
     }
-    const auto node = base::parse_option(value, false);
-    if (!node) return base::fail(fmt::format("{}: {}", key, node.error().message));
+    const std::string text = with_unit(name, value);
+    const auto refuse = [&](const std::string& why) {
+        return base::fail(fmt::format("{}: {}", key, explained(name, text, why)));
+    };
+    const auto node = base::parse_option(text, false);
+    if (!node) return refuse(node.error().message);
     read_setting(name, *node, setting.settings, reading);
-    if (!reading.is_good()) return base::fail(*reading.complaint());
+    // The complaint begins with the key, as with the place in a file.
+    if (!reading.is_good()) return refuse(reading.complaint()->substr(key.size() + 2));
     return setting;
 }
 

@@ -12,7 +12,7 @@
 #include <numeric>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::vector<TestResult> verify_delays(const Conditions& conditions, std::span<co
     return {test_same_law(delays, drawn(conditions, delays.size()), alpha)};
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 /// The tests that apply to the delays that were drawn: a constant one exactly, others against as
 /// many draws of another seed, and neighbours against their correlation. Correlated delays need the
@@ -21,4 +21,4 @@ namespace hapnet::emulator {
                                                     std::optional<base::Duration> spacing,
                                                     double alpha);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -125,4 +125,4 @@ TestResult test_correlation(std::span<const double> scores, double rho, double a
     return result;
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 // Tests of delays. The first two are for independent draws: of correlated ones test the
 // innovations, or take some far enough apart.
@@ -39,4 +39,4 @@ using Distribution = std::function<double(double)>;
 /// (z[i+1] - rho z[i]) / sqrt(1 - rho^2) against z[i]. `rho`: expected, |rho| < 1.
 [[nodiscard]] TestResult test_correlation(std::span<const double> scores, double rho, double alpha);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

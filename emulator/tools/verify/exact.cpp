@@ -9,7 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -121,4 +121,4 @@ TestResult test_order(std::span<const base::TimePoint> departures)
         "neighbours");
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

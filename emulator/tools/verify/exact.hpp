@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 // Tests of laws that leave nothing, or little, to chance.
 
@@ -35,4 +35,4 @@ namespace hapnet::emulator {
 /// Whether datagrams, in the order of their numbers, left in that order.
 [[nodiscard]] TestResult test_order(std::span<const base::TimePoint> departures);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

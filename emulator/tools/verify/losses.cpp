@@ -8,7 +8,7 @@
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -182,4 +182,4 @@ TestResult test_unrelated(const PairTally& tally, double memory, double alpha)
     return result;
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -6,7 +6,7 @@
 #include "emulator/tools/verify/result.hpp"
 #include "emulator/tools/verify/tally.hpp"
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 // Tests of losses. alpha: see by_chance().
 
@@ -34,4 +34,4 @@ namespace hapnet::emulator {
 /// how much the two are correlated with their own pasts, datagram by datagram.
 [[nodiscard]] TestResult test_unrelated(const PairTally& tally, double memory, double alpha);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

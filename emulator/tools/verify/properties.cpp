@@ -11,7 +11,7 @@
 #include <iterator>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -148,4 +148,4 @@ std::vector<TestResult> verify_losses(const std::vector<LossLaw>& laws, const Lo
     return results;
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

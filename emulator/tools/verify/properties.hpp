@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 /// What is known of the losses of a direction: entry n is that of datagram n.
 struct LossRecord {
@@ -36,4 +36,4 @@ struct LossRecord {
                                                     std::optional<base::Duration> spacing,
                                                     double alpha);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

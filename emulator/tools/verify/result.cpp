@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 std::string_view to_text(Outcome outcome)
 {
@@ -37,4 +37,4 @@ TestResult unable(std::string name, std::string sentence)
     return {std::move(name), 0.0, {}, Outcome::unable, std::move(sentence)};
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 enum class Outcome : std::uint8_t {
     passed,
@@ -34,4 +34,4 @@ struct TestResult {
 
 [[nodiscard]] TestResult unable(std::string name, std::string sentence);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

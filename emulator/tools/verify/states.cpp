@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -55,4 +55,4 @@ TestResult test_losses_in_state(const LossesInState& losses, std::span<const Los
                      alpha);
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

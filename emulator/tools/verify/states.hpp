@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 // Tests of the states of a chain: one per datagram, without a gap.
 
@@ -22,4 +22,4 @@ namespace hapnet::emulator {
                                               std::span<const LossState> states,
                                               std::span<const std::uint8_t> lost, double alpha);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -10,7 +10,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 double normal_two_sided(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 
@@ -66,4 +66,4 @@ double anderson_darling_tail(double a_square)
 
 double normal_score(double u) { return boost::math::quantile(boost::math::normal{}, u); }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 // How probable a deviation at least as large is, when the law holds.
 
@@ -29,4 +29,4 @@ namespace hapnet::emulator {
 /// The quantile of the standard normal law, 0 < u < 1.
 [[nodiscard]] double normal_score(double u);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/tools/verify/tally.hpp"
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 void LossTally::add(bool is_lost)
 {
@@ -26,4 +26,4 @@ void LossTally::end_run()
     ++runs_[run_ - 1];
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

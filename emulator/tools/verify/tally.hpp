@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 /// Counts of a sequence of losses, as far as the tests need them. Takes one datagram after the
 /// other and keeps none.
@@ -61,4 +61,4 @@ struct PairTally {
     }
 };
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::string to_text(const Verification& verification)
     return text;
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

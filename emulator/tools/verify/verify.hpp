@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 /// What a run was meant to do: the same from its first datagram to its last.
 struct Claim {
@@ -43,4 +43,4 @@ struct Verification {
 /// One line per test, and one with the verdict.
 [[nodiscard]] std::string to_text(const Verification& verification);
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

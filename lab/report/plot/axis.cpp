@@ -6,7 +6,7 @@
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab::plot {
+namespace hapnet::lab::report::plot {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::string escaped(std::string_view text)
     return out;
 }
 
-} // namespace hapnet::lab::plot
+} // namespace hapnet::lab::report::plot

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab::plot {
+namespace hapnet::lab::report::plot {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::string svg_bars(const PlotTitles& titles, const std::vector<BarGroup>& grou
     return out + "</svg>\n";
 }
 
-} // namespace hapnet::lab::plot
+} // namespace hapnet::lab::report::plot

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab::plot {
+namespace hapnet::lab::report::plot {
 
 std::string svg_heat_map(const PlotTitles& titles, const HeatMap& map, Size size)
 {
@@ -39,4 +39,4 @@ std::string svg_heat_map(const PlotTitles& titles, const HeatMap& map, Size size
     return out + "</svg>\n";
 }
 
-} // namespace hapnet::lab::plot
+} // namespace hapnet::lab::report::plot

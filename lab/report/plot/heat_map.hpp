@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hapnet::lab::plot {
+namespace hapnet::lab::report::plot {
 
 /// One field of a heat map. The symbol says the same as the colour, for those who see no colours.
 struct HeatCell {
@@ -29,4 +29,4 @@ struct HeatMap {
 /// A heat map as one SVG element.
 [[nodiscard]] std::string svg_heat_map(const PlotTitles& titles, const HeatMap& map, Size size);
 
-} // namespace hapnet::lab::plot
+} // namespace hapnet::lab::report::plot

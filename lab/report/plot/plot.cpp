@@ -6,7 +6,7 @@
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
-namespace hapnet::lab::plot {
+namespace hapnet::lab::report::plot {
 
 namespace {
 
@@ -157,4 +157,4 @@ std::string svg_plot(const PlotTitles& titles, std::span<const Curve> curves,
     return out + "</svg>\n";
 }
 
-} // namespace hapnet::lab::plot
+} // namespace hapnet::lab::report::plot

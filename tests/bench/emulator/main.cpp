@@ -94,9 +94,9 @@ std::string plot_of(const Accuracy& accuracy)
     constexpr std::array colours{"#7fbf7b", "#1b7837", "#00441b", "#b2182b", "#2166ac"};
     constexpr int steps = 400;
     constexpr double error_us_max = 200.0;
-    std::vector<lab::plot::Curve> curves;
+    std::vector<lab::report::plot::Curve> curves;
     for (const Distribution& one : accuracy.distributions) {
-        lab::plot::Curve curve{one.subject, colours[curves.size() % colours.size()], {}};
+        lab::report::plot::Curve curve{one.subject, colours[curves.size() % colours.size()], {}};
         for (int i = 0; i <= steps; ++i) {
             const double limit_us = error_us_max * i / steps;
             const auto below = std::upper_bound(one.errors.begin(), one.errors.end(),
@@ -107,7 +107,7 @@ std::string plot_of(const Accuracy& accuracy)
         }
         curves.push_back(std::move(curve));
     }
-    return lab::plot::svg_plot(
+    return lab::report::plot::svg_plot(
         {"Error against a configured delay of 10 ms, 1000 datagrams per second",
          "later than configured by at most (us)", "share of datagrams (%)"},
         curves);

@@ -25,12 +25,12 @@ scene::Description scene_for(device::Task task)
     return scene::load_scene(std::string{device::scene_of(task)}, no_file).value();
 }
 
-lab::Trace trace_of(const Session& session)
+lab::virtual_time::Trace trace_of(const Session& session)
 {
     if (session.steps_a_read == 0) return lab::play(session.setting).value();
-    lab::VirtualWorld world{session.setting};
+    lab::virtual_time::VirtualWorld world{session.setting};
     for (const std::size_t side : {0U, 1U}) {
-        const lab::PlayerSetting& player = session.setting.players.at(side);
+        const lab::virtual_time::PlayerSetting& player = session.setting.players.at(side);
         world.side(side).rig = device::Rig{
             std::make_unique<SteppedHand>(device::Performer{.task = session.setting.task,
                                                             .options = session.setting.task_options,
@@ -50,7 +50,7 @@ Session session_of(device::Task task, std::string_view algorithm)
     session.setting.scene = scene_for(task);
     session.setting.profile.path.up.delay = emulator::constant(paper_delay);
     session.setting.profile.path.down.delay = emulator::constant(paper_delay);
-    for (lab::PlayerSetting& player : session.setting.players) {
+    for (lab::virtual_time::PlayerSetting& player : session.setting.players) {
         player.algorithm = peer::algorithm_named(algorithm).value();
     }
     return session;
@@ -59,13 +59,13 @@ Session session_of(device::Task task, std::string_view algorithm)
 Result played(const Session& session)
 {
     const auto begin = std::chrono::steady_clock::now();
-    lab::Trace trace = trace_of(session);
+    lab::virtual_time::Trace trace = trace_of(session);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
     base::ensure(!trace.sides[0].empty());
     return {std::move(trace), wall.count()};
 }
 
-Figures figures_of(const lab::Trace& trace)
+Figures figures_of(const lab::virtual_time::Trace& trace)
 {
     std::vector<double> apart_mm;
     apart_mm.reserve(trace.sides[0].size());

@@ -12,7 +12,7 @@ namespace hapnet::bench {
 
 /// A session to be played, by whose hands.
 struct Session {
-    lab::Setting setting;
+    lab::virtual_time::Setting setting;
     int steps_a_read = 0; // of the hands; 0: exact ones, as everywhere else
 };
 
@@ -21,7 +21,7 @@ struct Session {
 
 /// What came of it, and how long it took.
 struct Result {
-    lab::Trace trace;
+    lab::virtual_time::Trace trace;
     double wall_s = 0.0;
 
     /// The wall time of one second of a session's.
@@ -35,6 +35,6 @@ struct Figures {
     double std = 0.0;
     double max = 0.0;
 };
-[[nodiscard]] Figures figures_of(const lab::Trace& trace);
+[[nodiscard]] Figures figures_of(const lab::virtual_time::Trace& trace);
 
 } // namespace hapnet::bench

@@ -43,7 +43,7 @@ const char* colour_of(std::string_view subject)
 /// One panel: the points of one scenario, which lie next to each other.
 std::string panel_of(std::span<const WorkPoint> points)
 {
-    std::vector<lab::plot::Curve> curves;
+    std::vector<lab::report::plot::Curve> curves;
     for (const WorkPoint& point : points) {
         if (curves.empty() || curves.back().name != point.subject) {
             curves.push_back({point.subject, colour_of(point.subject), {}});
@@ -52,9 +52,9 @@ std::string panel_of(std::span<const WorkPoint> points)
             {point.ns_per_simulated_ms, std::max(point.error, drawn_error_min)});
     }
     const std::string title = points.front().scenario + ", tick 4 to 0.25 ms";
-    return lab::plot::svg_plot(
+    return lab::report::plot::svg_plot(
         {title, "cost, ns per simulated ms", points.front().metric}, curves,
-        {.scales = {lab::plot::Scale::logarithmic, lab::plot::Scale::logarithmic}});
+        {.scales = {lab::report::plot::Scale::logarithmic, lab::report::plot::Scale::logarithmic}});
 }
 
 /// The power of the tick with which the errors grow, between the longest and the shortest.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/options.hpp"
 
+#include "emulator/core/profile/setting_hints.hpp"
 #include "emulator/scenario.hpp"
-#include "emulator/setting_hints.hpp"
 #include "tests/support/cli/help_faults.hpp"
 
 #include <filesystem>

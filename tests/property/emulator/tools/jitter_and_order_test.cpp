@@ -6,7 +6,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 namespace {
 
 using namespace std::chrono_literals;
@@ -108,4 +108,4 @@ TEST(Predict, AWideJitterThatKeepsTheOrderIsWarnedOf)
 }
 
 } // namespace
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

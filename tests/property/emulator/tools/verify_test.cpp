@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 
 namespace {
 
@@ -297,4 +297,4 @@ TEST(DelayTests, MeasureTheCorrelationOfANormalChain)
     EXPECT_EQ(test_correlation(scores, 0.0, alpha).outcome, Outcome::failed);
 }
 
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 namespace {
 
 /// A record as nobody would leave it behind, but as a file may hold it: times, forces and
@@ -60,4 +60,4 @@ TEST(Analysis, OfAnyTwoReadableRecordsIsJsonWithoutNanAndCsvOfOneLineForARow)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 namespace {
 
 using namespace std::chrono_literals;
@@ -161,4 +161,4 @@ TEST(Play, LosesNoDatagramThatTheEmulatorWouldKeep)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

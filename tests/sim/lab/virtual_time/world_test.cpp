@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::virtual_time {
 namespace {
 
 using namespace std::chrono_literals;
@@ -143,4 +143,4 @@ TEST(VirtualWorld, GivesEqualPairsEqualBits)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::virtual_time

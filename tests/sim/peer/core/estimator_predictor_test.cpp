@@ -18,17 +18,17 @@ struct Means {
 
 Means means_of(device::Task task, base::Duration delay, const peer::Algorithm& algorithm)
 {
-    Setting setting;
+    virtual_time::Setting setting;
     setting.task = task;
     setting.length = 16s;
     setting.profile.path.up.delay.law = emulator::ConstantLaw{delay};
     setting.profile.path.down = setting.profile.path.up;
-    for (PlayerSetting& player : setting.players) player.algorithm = algorithm;
-    const Trace trace = play(setting).value();
+    for (virtual_time::PlayerSetting& player : setting.players) player.algorithm = algorithm;
+    const virtual_time::Trace trace = play(setting).value();
     const std::size_t count = trace.sides[0].size();
     Means means;
     for (std::size_t i = 0; i < count; ++i) {
-        const Sample& left = trace.sides[0][i];
+        const virtual_time::Sample& left = trace.sides[0][i];
         means.apart_mm += 1e3 * std::abs(left.body.x() - trace.sides[1][i].body.x());
         means.force_n += base::norm(left.on_hand);
     }

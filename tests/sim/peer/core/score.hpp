@@ -11,9 +11,9 @@
 
 namespace hapnet::sim {
 
-using World = lab::VirtualWorld;
-using Player = lab::VirtualPlayer;
-using lab::Setting;
+using World = lab::virtual_time::VirtualWorld;
+using Player = lab::virtual_time::VirtualPlayer;
+using lab::virtual_time::Setting;
 
 /// |x_A - x_B| of the cubes, metres.
 [[nodiscard]] inline double discrepancy_x(const World& world)

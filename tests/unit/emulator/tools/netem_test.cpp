@@ -5,7 +5,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
-namespace hapnet::emulator {
+namespace hapnet::emulator::tools {
 namespace {
 
 using namespace std::chrono_literals;
@@ -129,4 +129,4 @@ TEST(Netem, WhatCannotBeDoneIsRefusedByItsWord)
 }
 
 } // namespace
-} // namespace hapnet::emulator
+} // namespace hapnet::emulator::tools

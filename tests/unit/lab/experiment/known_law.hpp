@@ -8,12 +8,12 @@
 #include <atomic>
 #include <chrono>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 /// Vibration up to 0.95 mm is usable, by whatever filter.
-inline Criteria known_criteria()
+inline metrics::Criteria known_criteria()
 {
-    Criteria criteria;
+    metrics::Criteria criteria;
     criteria.usable.vibration_max_m = {.first = 0.95e-3, .second = 0.95e-3, .fourth = 0.95e-3};
     return criteria;
 }
@@ -36,10 +36,12 @@ inline PlayedSession known_session(const SessionSpec& spec)
     PlayedSession played;
     played.metrics.task = spec.setting.task;
     played.metrics.scored_s = 27.0;
-    played.metrics.body_vibration_m[0] = ByOrder{vibration_m, vibration_m / 2.0, vibration_m / 5.0};
-    played.metrics.discrepancy_m = Spread{1e-4 * delay_ms(spec), 0.0, 3e-4 * delay_ms(spec), 1e-4};
+    played.metrics.body_vibration_m[0] =
+        metrics::ByOrder{vibration_m, vibration_m / 2.0, vibration_m / 5.0};
+    played.metrics.discrepancy_m =
+        metrics::Spread{1e-4 * delay_ms(spec), 0.0, 3e-4 * delay_ms(spec), 1e-4};
     if (spec.rows_per_s > 0) played.rows = "0.0000,1,2,3,4,5,6,7,8,9,10,11,12,13,14\n";
     return played;
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -101,45 +101,60 @@ TEST(Levels, ImpairBothWaysOnTopOfWhatIsThere)
 
 TEST(Paper, Table1IsMetWithinItsBandsAndNotBeyond)
 {
-    const Spread base{13.25, 0.0, 44.5, 10.57};
-    EXPECT_EQ(table1_verdict("base", base, base), Claim::calibrated);
-    EXPECT_EQ(table1_verdict("base", {15.2, 0.0, 46.0, 10.99}, {}), Claim::missed); // 10 %: 15.168
-    EXPECT_EQ(table1_verdict("sep", {13.6, 0.0, 45.0, 10.6}, base), Claim::met);
-    EXPECT_EQ(table1_verdict("sep", {13.7, 0.0, 45.0, 10.6}, base), Claim::missed); // 3 %: 13.65
-    EXPECT_EQ(table1_verdict("sep", base, {}), Claim::missed);
-    EXPECT_EQ(table1_verdict("dead-reckoning", {3.8, 0.0, 41.0, 4.4}, base), Claim::met);
-    EXPECT_EQ(table1_verdict("dead-reckoning", {3.3, 0.0, 66.0, 3.8}, base), Claim::missed);
-    EXPECT_EQ(table1_verdict("mine", base, base), Claim::none);
+    const metrics::Spread base{13.25, 0.0, 44.5, 10.57};
+    EXPECT_EQ(results::table1_verdict("base", base, base), results::Claim::calibrated);
+    EXPECT_EQ(results::table1_verdict("base", {15.2, 0.0, 46.0, 10.99}, {}),
+              results::Claim::missed); // 10 %: 15.168
+    EXPECT_EQ(results::table1_verdict("sep", {13.6, 0.0, 45.0, 10.6}, base), results::Claim::met);
+    EXPECT_EQ(results::table1_verdict("sep", {13.7, 0.0, 45.0, 10.6}, base),
+              results::Claim::missed); // 3 %: 13.65
+    EXPECT_EQ(results::table1_verdict("sep", base, {}), results::Claim::missed);
+    EXPECT_EQ(results::table1_verdict("dead-reckoning", {3.8, 0.0, 41.0, 4.4}, base),
+              results::Claim::met);
+    EXPECT_EQ(results::table1_verdict("dead-reckoning", {3.3, 0.0, 66.0, 3.8}, base),
+              results::Claim::missed);
+    EXPECT_EQ(results::table1_verdict("mine", base, base), results::Claim::none);
 }
 
 TEST(Paper, LimitsAreCalibratedMetOrMissed)
 {
     using enum Impairment;
-    const FoundLimit base_delay{160.0, true};
-    EXPECT_EQ(limit_status("base", delay, base_delay, {}), LimitStatus::calibrated);
-    EXPECT_EQ(limit_status("base", delay, {150.0, true}, {}), LimitStatus::predicted_missed);
-    EXPECT_EQ(limit_status("base", delay, {160.0, false}, {}), LimitStatus::predicted_missed);
-    EXPECT_EQ(limit_status("base", random_loss, {92.0, true}, {}), LimitStatus::calibrated);
-    EXPECT_EQ(limit_status("base", burst_loss, {45.0, true}, {}), LimitStatus::predicted_met);
-    EXPECT_EQ(limit_status("base", jitter, {20.0, false}, {}), LimitStatus::predicted_met);
-    EXPECT_EQ(limit_status("base", jitter, {14.5, true}, {}), LimitStatus::predicted_missed);
-    EXPECT_EQ(limit_status("sep", delay, {165.0, true}, base_delay), LimitStatus::predicted_met);
+    const results::FoundLimit base_delay{160.0, true};
+    EXPECT_EQ(limit_status("base", delay, base_delay, {}), results::LimitStatus::calibrated);
+    EXPECT_EQ(results::limit_status("base", delay, {150.0, true}, {}),
+              results::LimitStatus::predicted_missed);
+    EXPECT_EQ(results::limit_status("base", delay, {160.0, false}, {}),
+              results::LimitStatus::predicted_missed);
+    EXPECT_EQ(results::limit_status("base", random_loss, {92.0, true}, {}),
+              results::LimitStatus::calibrated);
+    EXPECT_EQ(results::limit_status("base", burst_loss, {45.0, true}, {}),
+              results::LimitStatus::predicted_met);
+    EXPECT_EQ(results::limit_status("base", jitter, {20.0, false}, {}),
+              results::LimitStatus::predicted_met);
+    EXPECT_EQ(results::limit_status("base", jitter, {14.5, true}, {}),
+              results::LimitStatus::predicted_missed);
+    EXPECT_EQ(limit_status("sep", delay, {165.0, true}, base_delay),
+              results::LimitStatus::predicted_met);
     EXPECT_EQ(limit_status("sep", delay, {320.0, false}, base_delay),
-              LimitStatus::predicted_missed);
-    EXPECT_EQ(limit_status("sep", burst_loss, {40.0, true}, FoundLimit{40.0, true}),
-              LimitStatus::predicted_met);
+              results::LimitStatus::predicted_missed);
+    EXPECT_EQ(limit_status("sep", burst_loss, {40.0, true}, results::FoundLimit{40.0, true}),
+              results::LimitStatus::predicted_met);
     EXPECT_EQ(limit_status("dead-reckoning", delay, {150.0, true}, base_delay),
-              LimitStatus::predicted_met);
-    EXPECT_EQ(limit_status("dead-reckoning", delay, {150.0, true}, FoundLimit{150.0, true}),
-              LimitStatus::predicted_missed);
-    EXPECT_EQ(limit_status("dead-reckoning", jitter, {6.0, true}, {}), LimitStatus::predicted_met);
-    EXPECT_EQ(limit_status("dead-reckoning", jitter, {6.0, false}, {}),
-              LimitStatus::predicted_missed);
-    EXPECT_EQ(limit_status("dead-reckoning", random_loss, {80.0, true}, FoundLimit{93.0, true}),
-              LimitStatus::predicted_met);
-    EXPECT_EQ(limit_status("dead-reckoning", burst_loss, {95.0, false}, FoundLimit{40.0, true}),
-              LimitStatus::predicted_met);
-    EXPECT_EQ(limit_status("mine", delay, base_delay, base_delay), LimitStatus::none);
+              results::LimitStatus::predicted_met);
+    EXPECT_EQ(
+        limit_status("dead-reckoning", delay, {150.0, true}, results::FoundLimit{150.0, true}),
+        results::LimitStatus::predicted_missed);
+    EXPECT_EQ(results::limit_status("dead-reckoning", jitter, {6.0, true}, {}),
+              results::LimitStatus::predicted_met);
+    EXPECT_EQ(results::limit_status("dead-reckoning", jitter, {6.0, false}, {}),
+              results::LimitStatus::predicted_missed);
+    EXPECT_EQ(
+        limit_status("dead-reckoning", random_loss, {80.0, true}, results::FoundLimit{93.0, true}),
+        results::LimitStatus::predicted_met);
+    EXPECT_EQ(
+        limit_status("dead-reckoning", burst_loss, {95.0, false}, results::FoundLimit{40.0, true}),
+        results::LimitStatus::predicted_met);
+    EXPECT_EQ(limit_status("mine", delay, base_delay, base_delay), results::LimitStatus::none);
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

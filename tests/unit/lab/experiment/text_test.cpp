@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::experiment {
 
 namespace {
 
@@ -150,7 +150,7 @@ TEST(CriteriaText, ThePapersAreTheDefault)
     };
     const auto paper = load_criteria("paper", no_file);
     ASSERT_TRUE(paper) << paper.error().message;
-    EXPECT_EQ(*paper, Criteria{});
+    EXPECT_EQ(*paper, metrics::Criteria{});
     const auto misspelt = load_criteria("papr", no_file);
     ASSERT_FALSE(misspelt);
     expect_words(misspelt.error().message, {"'papr'", "did you mean 'paper'?"});
@@ -170,4 +170,4 @@ TEST(ExperimentText, ANameThatIsNeitherAFileNorAnExperimentIsNamed)
     EXPECT_EQ(missing.error().message, "cannot open mine.toml");
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::experiment

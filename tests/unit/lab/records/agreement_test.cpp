@@ -4,7 +4,7 @@
 
 #include "tests/unit/lab/records/recording.hpp"
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 namespace {
 
 // Sums of some thousand numbers near 0.01 in double precision.
@@ -194,4 +194,4 @@ TEST(Agreement, OverlapIsWholeWhenNothingIsMissing)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

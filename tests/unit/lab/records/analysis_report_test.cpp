@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 namespace {
 
 using nlohmann::json;
@@ -131,4 +131,4 @@ TEST(Csv, ShowsAMessageAndLeavesCellsEmptyForWhatIsNone)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

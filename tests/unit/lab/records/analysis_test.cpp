@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 namespace {
 
 std::string refusal(Recording& a, Recording& b)
@@ -194,4 +194,4 @@ TEST(Verdict, IsNotValidWhenAPositionIsNotFinite)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -4,7 +4,7 @@
 
 #include "tests/unit/lab/records/recording.hpp"
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 namespace {
 
 /// The cube at 1 mm per millisecond, the device at 1 N per second.
@@ -47,4 +47,4 @@ TEST(SessionCurves, CompareBothCopiesAtEqualTimesOnTheClockOfA)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -6,7 +6,7 @@
 
 #include <initializer_list>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 namespace {
 
 /// What B records when these sequences reach it in this order, each 10 ms after it was sent.
@@ -73,13 +73,13 @@ TEST(Path, HasNeitherLossNorDelayWhenNothingCame)
 TEST(Path, DelayRunsFromTheSendersStampToTheKernelsStamp)
 {
     const Path path = after_delays({10ms, 30ms, 20ms});
-    EXPECT_EQ(path.delay, (Quantiles{.p50 = 20ms, .p99 = 30ms, .max = 30ms}));
+    EXPECT_EQ(path.delay, (metrics::Quantiles{.p50 = 20ms, .p99 = 30ms, .max = 30ms}));
 }
 
 TEST(Path, JitterIsTheDifferenceOfTheDelaysOfMessagesReceivedOneAfterAnother)
 {
     const Path path = after_delays({10ms, 13ms, 11ms, 12ms});
-    EXPECT_EQ(path.jitter, (Quantiles{.p50 = 2ms, .p99 = 3ms, .max = 3ms}));
+    EXPECT_EQ(path.jitter, (metrics::Quantiles{.p50 = 2ms, .p99 = 3ms, .max = 3ms}));
 }
 
 TEST(Path, JitterNeedsTwoMessages) { EXPECT_FALSE(after_delays({10ms}).jitter); }
@@ -88,9 +88,10 @@ TEST(Path, P99LeavesTheWorstOfAHundredOut)
 {
     std::vector<base::Duration> values(99, 1ms);
     values.push_back(9ms);
-    EXPECT_EQ(quantiles_of(values), (Quantiles{.p50 = 1ms, .p99 = 1ms, .max = 9ms}));
+    EXPECT_EQ(metrics::quantiles_of(values),
+              (metrics::Quantiles{.p50 = 1ms, .p99 = 1ms, .max = 9ms}));
     values.push_back(9ms);
-    EXPECT_EQ(quantiles_of(values)->p99, 9ms);
+    EXPECT_EQ(metrics::quantiles_of(values)->p99, 9ms);
 }
 
 TEST(Path, DelaysBothWaysAreRightWhenTheClocksAreApart)
@@ -147,4 +148,4 @@ TEST(Path, WasSentWhatCameEvenIfTheSendersRecordEndsEarly)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

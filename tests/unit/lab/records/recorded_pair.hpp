@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 /// Those of an Omni, as far as a session can meet them.
 [[nodiscard]] inline device::GovernorLimits limits_of_recorded_pair()
@@ -135,4 +135,4 @@ private:
     record::Record record_;
 };
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -3,7 +3,7 @@
 #include "lab/records/recorded_trace.hpp"
 #include "tests/unit/lab/records/recording.hpp"
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 namespace {
 
 /// A peer whose cube moves at 1 m/s from x = `from` at T0, and which wakes so late.
@@ -23,7 +23,7 @@ Recording moving(int id, double from, base::Duration woken_late = 0ms)
     return recording;
 }
 
-Trace trace_between(Recording& a, Recording& b)
+virtual_time::Trace trace_between(Recording& a, Recording& b)
 {
     const auto session = common_session(a.content(), b.content());
     EXPECT_TRUE(session);
@@ -34,7 +34,7 @@ TEST(RecordedTrace, HoldsWhatBothSidesDidWhileBothWereRunning)
 {
     auto a = moving(1, 0.0);
     auto b = moving(2, -0.16);
-    const Trace trace = trace_between(a, b);
+    const virtual_time::Trace trace = trace_between(a, b);
     EXPECT_EQ(trace.task, device::Task::t3);
     EXPECT_EQ(trace.tick, 1ms);
     EXPECT_EQ(trace.begin, 0ms);
@@ -53,7 +53,7 @@ TEST(RecordedTrace, TakesBothSidesAtTheSameTimes)
 {
     auto a = moving(1, 0.0);
     auto b = moving(2, 0.0, 300us);
-    const Trace trace = trace_between(a, b);
+    const virtual_time::Trace trace = trace_between(a, b);
     EXPECT_EQ(trace.begin, 300us); // when both had begun
     ASSERT_EQ(trace.sides[0].size(), 2999U);
     for (std::size_t i = 0; i < trace.sides[0].size(); ++i) {
@@ -76,7 +76,7 @@ TEST(RecordedTrace, DoesNotCountTimeWithoutRowsAsOverlap)
     auto b = moving(2, 0.0);
     auto& rows = b.content().ticks;
     rows.erase(rows.begin() + 1000, rows.begin() + 1599); // 600 ms from row to row
-    const Trace trace = trace_between(a, b);
+    const virtual_time::Trace trace = trace_between(a, b);
     ASSERT_EQ(trace.sides[0].size(), 3000U);
     EXPECT_NEAR(trace.overlap, 0.8, 1e-12);
     EXPECT_NEAR(trace.sides[1][1300].body.x(), 1.3, 1e-12);
@@ -87,10 +87,10 @@ TEST(RecordedTrace, IsEmptyWhenOneSideNeverRan)
     auto a = moving(1, 0.0);
     Recording b{2};
     b.session(6s).ticks(0s, 6s, Phase::waiting);
-    const Trace trace = trace_between(a, b);
+    const virtual_time::Trace trace = trace_between(a, b);
     EXPECT_TRUE(trace.sides[0].empty());
     EXPECT_EQ(trace.overlap, 0.0);
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 
 using namespace std::chrono_literals;
 using record::Phase;
@@ -93,4 +93,4 @@ private:
     return [x](record::TickRow& row, base::Duration) { row.cube = {{x, 0.0, 0.0}}; };
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace hapnet::lab {
+namespace hapnet::lab::records {
 namespace {
 
 double strongest(const Replayed& replayed)
@@ -278,4 +278,4 @@ TEST(ReplayOfADamagedRecord, SurvivesEveryBitOfATickAndOfAMessage)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::records

@@ -11,7 +11,7 @@ namespace {
 TEST(Report, HasASectionExactlyIfTheFolderHasItsData)
 {
     struct Expected {
-        File file;
+        results::File file;
         std::string section;
     };
     const std::vector<Expected> expected{
@@ -57,7 +57,7 @@ TEST(Report, ShowsNumbersBesideThePapersWithTheirBandsAndMissesInRed)
 
 TEST(Report, EndsACurveWhereTheFirstTaskFailsAndKeepsTheOthersForThemselves)
 {
-    File curves = sample_curves();
+    results::File curves = sample_curves();
     curves.text += "base,delay,T2,120,ms,1,6.8,0.30,0.5,0.0200,usable\n";
     const std::string page = page_of({curves});
     const auto details = page.find("<summary>Each task on its own");
@@ -100,10 +100,11 @@ TEST(Report, SortsWhatStandsAgainstThePaperByTheFilesAlone)
 
 TEST(Report, EscapesWhatComesFromFiles)
 {
-    std::vector<File> files{{"r/<b>/manifest.json", R"({"title": "<img src=x>", "valid": false,
+    std::vector<results::File> files{
+        {"r/<b>/manifest.json", R"({"title": "<img src=x>", "valid": false,
             "<img src=x>": "<img src=x>", "invalid_because": ["<img src=x>"],
             "configuration": "<img src=x>"})"}};
-    for (File file : whole_sample()) {
+    for (results::File file : whole_sample()) {
         for (std::size_t at = 0; (at = file.text.find("T1", at)) != std::string::npos;) {
             file.text.replace(at, 2, "<img src=x>");
         }
@@ -116,7 +117,7 @@ TEST(Report, EscapesWhatComesFromFiles)
     const std::string page = text_of(out, "report.html");
     EXPECT_FALSE(holds(page, "<img"));
     EXPECT_TRUE(holds(page, "&lt;img src=x&gt;"));
-    for (const File& file : out) {
+    for (const results::File& file : out) {
         EXPECT_FALSE(holds(file.path, "<") || holds(file.path, "..")) << file.path;
         EXPECT_FALSE(file.path.ends_with(".svg") && holds(file.text, "<img")) << file.path;
     }
@@ -156,7 +157,7 @@ TEST(Report, MarksTheWorstOfTheTasksInThePlane)
 
 TEST(Report, CarriesTheReplayAsJsonThatCannotCloseItsElement)
 {
-    File replay = sample_replay();
+    results::File replay = sample_replay();
     replay.path = "r/replay/<!--<script>-T3.csv";
     EXPECT_TRUE(holds(page_of({replay}), R"("algorithm":"\u003c!--\u003cscript>")"));
     EXPECT_TRUE(holds(page_of({sample_replay()}), R"("lx":{"step":)"));

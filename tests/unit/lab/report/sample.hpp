@@ -13,7 +13,7 @@ namespace hapnet::lab::report {
 
 // A small result folder "r" as experiments write it.
 
-inline File sample_manifest()
+inline results::File sample_manifest()
 {
     return {"r/table1/manifest.json",
             R"({"command": "scripts/table1.sh --out r/table1", "version": "0.4.0",
@@ -23,7 +23,7 @@ inline File sample_manifest()
                 "simulated_s": 1260.0, "speed_ratio": 612.25})"};
 }
 
-inline File sample_table1()
+inline results::File sample_table1()
 {
     return {"r/table1/table1.csv",
             "algorithm,mean_mm,min_mm,max_mm,std_mm,paper_mean_mm,paper_max_mm,paper_std_mm,"
@@ -33,7 +33,7 @@ inline File sample_table1()
             "dead-reckoning,3.402,0.000,66.610,4.190,3.341,58.850,3.840,missed\n"};
 }
 
-inline File sample_tasks()
+inline results::File sample_tasks()
 {
     return {"r/table1/tasks.csv",
             "algorithm,task,seeds,mean_mm,std_mm,max_mm,vibration_mm,stiffness_ratio,"
@@ -43,7 +43,7 @@ inline File sample_tasks()
             "\"stiffness 0.11, not 0.77\"\n"};
 }
 
-inline File sample_limits()
+inline results::File sample_limits()
 {
     return {"r/fig6a/limits.csv", "algorithm,impairment,task,limit,bound,unit,paper_limit,status\n"
                                   "base,delay,T1,320,>,ms,160,predicted-missed\n"
@@ -52,13 +52,13 @@ inline File sample_limits()
                                   "dead-reckoning,jitter,worst,2.5,=,ms,5,predicted-missed\n"};
 }
 
-inline File sample_loss_limits()
+inline results::File sample_loss_limits()
 {
     return {"r/fig6b/limits.csv", "algorithm,impairment,task,limit,bound,unit,paper_limit,status\n"
                                   "base,burst-loss,worst,95,>,of_100,40,predicted-missed\n"};
 }
 
-inline File sample_curves()
+inline results::File sample_curves()
 {
     return {"r/fig6a/curves.csv",
             "algorithm,impairment,task,level,unit,seed,mean_mm,vibration_mm,stiffness_ratio,"
@@ -67,7 +67,7 @@ inline File sample_curves()
             "base,delay,T1,80,ms,1,6.8,1.20,,0.0200,unusable\n"};
 }
 
-inline File sample_conventions()
+inline results::File sample_conventions()
 {
     return {"r/fig6a/limits_by_convention.csv",
             "algorithm,impairment,task,filter_order,hand,limit,bound,unit\n"
@@ -75,7 +75,7 @@ inline File sample_conventions()
             "base,delay,T1,4,nominal,182,>,ms\n"};
 }
 
-inline File sample_trajectories()
+inline results::File sample_trajectories()
 {
     return {"r/fig7/trajectories.csv",
             "algorithm,time_s,cube_l_mm,cube_r_mm,hand_l_mm,hand_r_mm,force_l_n,force_r_n\n"
@@ -83,7 +83,7 @@ inline File sample_trajectories()
             "sep,0.005,1.0,-3.0,-24,25,0.1,-0.1\n"};
 }
 
-inline File sample_qos()
+inline results::File sample_qos()
 {
     return {"r/qos/qos.csv", "algorithm,task,delay_ms,jitter_ms,loss_percent,mean_mm,vibration_mm,"
                              "stiffness_ratio,force_vibration_n,tier\n"
@@ -92,7 +92,7 @@ inline File sample_qos()
                              "base,T1,160,5,0,13,0.500,,0.0400,unusable\n"};
 }
 
-inline File sample_real_time()
+inline results::File sample_real_time()
 {
     return {"r/table1/real_time.csv",
             "algorithm,where,mean_mm,std_mm,max_mm,virtual_mean_mm,virtual_std_mm,virtual_max_mm,"
@@ -101,7 +101,7 @@ inline File sample_real_time()
             "base,namespaces,9.99,10.60,44.6,13.61,10.68,47.25,-26.6,false,late ticks\n"};
 }
 
-inline File sample_replay()
+inline results::File sample_replay()
 {
     return {"r/table1/replay/dead-reckoning-T3.csv",
             "time_s,lx,ly,lz,lhx,lhy,lhz,lfx,rx,ry,rz,rhx,rhy,rhz,rfx\n"
@@ -109,7 +109,7 @@ inline File sample_replay()
             "0.01,1,0,0,-24,0,0,-0.5,-3,0,0,25,0,0,0.5\n"};
 }
 
-inline std::vector<File> whole_sample()
+inline std::vector<results::File> whole_sample()
 {
     return {sample_manifest(),    sample_table1(),    sample_tasks(),       sample_limits(),
             sample_loss_limits(), sample_curves(),    sample_conventions(), sample_trajectories(),
@@ -117,22 +117,22 @@ inline std::vector<File> whole_sample()
 }
 
 /// The files of the report of these; must be readable.
-inline std::vector<File> report_files(const std::vector<File>& files)
+inline std::vector<results::File> report_files(const std::vector<results::File>& files)
 {
     const auto results = read_results(files);
     EXPECT_TRUE(results) << results.error().message;
-    return results ? report_of(*results, "r") : std::vector<File>{};
+    return results ? report_of(*results, "r") : std::vector<results::File>{};
 }
 
-inline std::string text_of(const std::vector<File>& files, std::string_view path)
+inline std::string text_of(const std::vector<results::File>& files, std::string_view path)
 {
-    for (const File& file : files) {
+    for (const results::File& file : files) {
         if (file.path == path) return file.text;
     }
     return "";
 }
 
-inline std::string page_of(const std::vector<File>& files)
+inline std::string page_of(const std::vector<results::File>& files)
 {
     return text_of(report_files(files), "report.html");
 }

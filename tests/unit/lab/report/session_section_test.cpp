@@ -13,23 +13,23 @@ struct TwoRecords {
     TwoRecords()
     {
         a.content().config.update({{"task", "T3"}, {"algorithm", "<base>"}});
-        a.session(1s).ticks(0s, 1s, Phase::running, cube_at(0.010));
-        b.session(1s).ticks(0s, 1s, Phase::running, cube_at(0.035));
+        a.session(1s).ticks(0s, 1s, record::Phase::running, records::cube_at(0.010));
+        b.session(1s).ticks(0s, 1s, record::Phase::running, records::cube_at(0.035));
     }
 
-    Recording a{1};
-    Recording b{2};
+    records::Recording a{1};
+    records::Recording b{2};
 };
 
-Results results_of(TwoRecords& records)
+results::Results results_of(TwoRecords& records)
 {
-    Results results;
+    results::Results results;
     const auto added = add_session(results, "", records.a.content(), records.b.content());
     EXPECT_TRUE(added) << added.error().message;
     return results;
 }
 
-std::string page_of(const Results& results)
+std::string page_of(const results::Results& results)
 {
     return text_of(report_of(results, "r"), "report.html");
 }
@@ -37,7 +37,7 @@ std::string page_of(const Results& results)
 TEST(SessionSection, ShowsThePlayerTheDistanceTheForcesAndTheAnalysisOfTwoRecords)
 {
     TwoRecords records;
-    const Results results = results_of(records);
+    const results::Results results = results_of(records);
     const std::string page = page_of(results);
     EXPECT_TRUE(holds(page, "<h1>A recorded session of task T3</h1>"));
     EXPECT_TRUE(holds(page, "<section id='replay'"));
@@ -60,9 +60,9 @@ TEST(SessionSection, SaysWhetherTheSessionIsValidAndWhyNot)
 {
     TwoRecords records;
     EXPECT_TRUE(holds(page_of(results_of(records)), "<b>Valid.</b>"));
-    Recording late{2};
-    late.session(1s).ticks(500ms, 1s, Phase::running, cube_at(0.0));
-    Results results;
+    records::Recording late{2};
+    late.session(1s).ticks(500ms, 1s, record::Phase::running, records::cube_at(0.0));
+    results::Results results;
     ASSERT_TRUE(add_session(results, "late", records.a.content(), late.content()));
     const std::string page = page_of(results);
     EXPECT_TRUE(holds(page, "<b>Not valid.</b>"));
@@ -71,11 +71,11 @@ TEST(SessionSection, SaysWhetherTheSessionIsValidAndWhyNot)
 
 TEST(SessionSection, IsThereWithoutAPlayerWhenTheTwoNeverPlayedTogether)
 {
-    Recording a{1};
-    Recording b{2};
+    records::Recording a{1};
+    records::Recording b{2};
     a.session(1s).ticks(0s, 1s);
     b.session(1s);
-    Results results;
+    results::Results results;
     ASSERT_TRUE(add_session(results, "", a.content(), b.content()));
     const std::string page = page_of(results);
     EXPECT_FALSE(holds(page, "<section id='replay'"));
@@ -84,9 +84,9 @@ TEST(SessionSection, IsThereWithoutAPlayerWhenTheTwoNeverPlayedTogether)
 
 TEST(SessionSection, RefusesRecordsThatDoNotBelongTogether)
 {
-    Recording a{1};
-    Recording b{1};
-    Results results;
+    records::Recording a{1};
+    records::Recording b{1};
+    results::Results results;
     EXPECT_FALSE(add_session(results, "", a.content(), b.content()));
     EXPECT_TRUE(results.sessions.empty());
 }
@@ -101,9 +101,9 @@ TEST(SessionSection, ThePlayerShowsTheSceneOfTheRecord)
 TEST(DemoSection, PutsTheDemosTablesOnTopOfTheSessionsAndKeepsThemInTheirScrollingFrames)
 {
     TwoRecords records;
-    Results results = results_of(records);
-    SessionFiles task{.analysis = {{"discrepancy_x_mm", {{"mean", 13.5}}}}};
-    results.demo = DemoRun{task, task};
+    results::Results results = results_of(records);
+    results::SessionFiles task{.analysis = {{"discrepancy_x_mm", {{"mean", 13.5}}}}};
+    results.demo = results::DemoRun{task, task};
     results.runs.push_back(
         {"r", Json{{"kind", "demo"}, {"command", "demo.sh --out <here & there>"}}, std::nullopt});
     const std::string page = page_of(results);

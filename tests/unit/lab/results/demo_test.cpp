@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -114,4 +114,4 @@ TEST(DemoReport, MissingNumbersAreDashesAndNoSuccess)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

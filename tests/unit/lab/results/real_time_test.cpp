@@ -10,7 +10,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 namespace {
 
 using namespace std::chrono_literals;
@@ -43,8 +43,8 @@ RealTimeResult measured()
 {
     return {.algorithm = "base",
             .where = "loopback",
-            .real_mm = Spread{.mean = 13.5, .min = 0.0, .max = 44.0, .std = 10.5},
-            .virtual_mm = Spread{.mean = 13.6, .min = 0.0, .max = 47.0, .std = 10.7},
+            .real_mm = metrics::Spread{.mean = 13.5, .min = 0.0, .max = 44.0, .std = 10.5},
+            .virtual_mm = metrics::Spread{.mean = 13.6, .min = 0.0, .max = 47.0, .std = 10.7},
             .invalid_because{}};
 }
 
@@ -110,7 +110,7 @@ TEST(RealTime, ThatIsNotValidSaysWhyAndIsExcluded)
     RealTimeSession session = as_written();
     session.files.analysis["invalid_because"] = {"a: 0.70 % of the ticks missed, more than 0.5 %"};
     session.files.emulator["valid"] = false;
-    const RealTimeResult result = result_of(session, Trace{});
+    const RealTimeResult result = result_of(session, virtual_time::Trace{});
     EXPECT_FALSE(result.valid());
     EXPECT_FALSE(result.difference_percent());
     const std::array results{measured(), result};
@@ -130,10 +130,10 @@ TEST(RealTime, WithoutASessionTogetherIsNotValid)
 {
     RealTimeSession session = as_written();
     session.files.analysis["discrepancy_x_mm"] = nullptr;
-    const RealTimeResult result = result_of(session, Trace{});
+    const RealTimeResult result = result_of(session, virtual_time::Trace{});
     EXPECT_EQ(result.invalid_because,
               std::vector<std::string>{"the two were never in session together"});
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-namespace hapnet::lab {
+namespace hapnet::lab::results {
 
 namespace {
 
@@ -26,37 +26,42 @@ step = "50ms"
 resolution = "1ms"
 )";
 
-Experiment experiment_of(std::string_view text)
+experiment::Experiment experiment_of(std::string_view text)
 {
-    auto experiment = parse_experiment(text, "test.toml");
+    auto experiment = experiment::parse_experiment(text, "test.toml");
     EXPECT_TRUE(experiment) << experiment.error().message;
     return *std::move(experiment);
 }
 
 /// All jobs one after another, by the known law.
-std::map<std::string, std::string> results(const Experiment& experiment, const PlaySession& play)
+std::map<std::string, std::string> results(const experiment::Experiment& experiment,
+                                           const experiment::PlaySession& play)
 {
-    std::vector<JobResult> findings;
-    for (const Job& part : make_jobs(experiment)) {
-        findings.push_back(*run_job(part, experiment, known_criteria(), play));
+    std::vector<experiment::JobResult> findings;
+    for (const experiment::Job& part : make_jobs(experiment)) {
+        findings.push_back(*run_job(part, experiment, experiment::known_criteria(), play));
     }
     std::map<std::string, std::string> files;
-    auto written = make_result_files(experiment, known_criteria(), findings);
+    auto written = make_result_files(experiment, experiment::known_criteria(), findings);
     for (auto& file : *written) files[file.path] = file.text;
     return files;
 }
 
-base::Result<PlayedSession> play_known(const SessionSpec& spec) { return known_session(spec); }
+base::Result<experiment::PlayedSession> play_known(const experiment::SessionSpec& spec)
+{
+    return known_session(spec);
+}
 
 } // namespace
 
 TEST(Results, LimitsAreThoseOfTheLawByTaskAndOfTheWorst)
 {
-    const auto files = results(experiment_of(delay_limits), [](const SessionSpec& spec) {
-        PlayedSession played = known_session(spec);
-        if (spec.setting.task == device::Task::t3) played.metrics.body_vibration_m[0].reset();
-        return base::Result<PlayedSession>{played};
-    });
+    const auto files =
+        results(experiment_of(delay_limits), [](const experiment::SessionSpec& spec) {
+            experiment::PlayedSession played = known_session(spec);
+            if (spec.setting.task == device::Task::t3) played.metrics.body_vibration_m[0].reset();
+            return base::Result<experiment::PlayedSession>{played};
+        });
     // 0.95 mm / (1.02 * 9.99 um) is 93.2: the third seed decides.
     EXPECT_EQ(files.at("limits.csv"),
               "algorithm,impairment,task,limit,bound,unit,paper_limit,status\n"
@@ -72,10 +77,11 @@ TEST(Results, LimitsAreThoseOfTheLawByTaskAndOfTheWorst)
 TEST(Results, ACellStopsAtItsFirstFailingSeedInSeedOrder)
 {
     std::set<std::pair<double, std::uint64_t>> sessions;
-    const auto files = results(experiment_of(delay_limits), [&](const SessionSpec& spec) {
-        sessions.insert({delay_ms(spec), spec.setting.seed.value()});
-        return base::Result<PlayedSession>{known_session(spec)};
-    });
+    const auto files =
+        results(experiment_of(delay_limits), [&](const experiment::SessionSpec& spec) {
+            sessions.insert({delay_ms(spec), spec.setting.seed.value()});
+            return base::Result<experiment::PlayedSession>{known_session(spec)};
+        });
     EXPECT_TRUE(sessions.contains({50.0, 3}));
     EXPECT_TRUE(sessions.contains({100.0, 1}));
     EXPECT_FALSE(sessions.contains({100.0, 2}));
@@ -102,9 +108,9 @@ tasks = ["T1"]
 seeds = 1
 )");
     std::map<std::string, int> sessions;
-    const auto files = results(experiment, [&](const SessionSpec& spec) {
+    const auto files = results(experiment, [&](const experiment::SessionSpec& spec) {
         ++sessions[key_of(spec, "test")];
-        return base::Result<PlayedSession>{known_session(spec)};
+        return base::Result<experiment::PlayedSession>{known_session(spec)};
     });
     EXPECT_EQ(files.at("limits_by_convention.csv")
                   .substr(0, files.at("limits_by_convention.csv").find("dead")),
@@ -171,7 +177,7 @@ loss = ["50%"]
 
 TEST(Rows, ThinATraceToTheRowsThatAreWanted)
 {
-    Trace trace;
+    virtual_time::Trace trace;
     trace.begin = std::chrono::milliseconds{2};
     for (auto& side : trace.sides) side.resize(25);
     trace.sides[1][10].body = base::Position{{0.0123, 0.0, -0.5}};
@@ -188,10 +194,10 @@ TEST(Rows, ThinATraceToTheRowsThatAreWanted)
 TEST(SessionKeys, TellApartAllThatASessionFollowsFrom)
 {
     const auto experiment = experiment_of(delay_limits);
-    const NamedAlgorithm& base = experiment.algorithms[0];
-    const NamedAlgorithm& other = experiment.algorithms[1];
+    const experiment::NamedAlgorithm& base = experiment.algorithms[0];
+    const experiment::NamedAlgorithm& other = experiment.algorithms[1];
     std::set<std::string> keys;
-    const auto add = [&](const SessionSpec& spec, std::string_view program = "this") {
+    const auto add = [&](const experiment::SessionSpec& spec, std::string_view program = "this") {
         keys.insert(key_of(spec, program));
     };
     const auto spec =
@@ -201,12 +207,12 @@ TEST(SessionKeys, TellApartAllThatASessionFollowsFrom)
     add(make_session_spec(experiment, {base, experiment.hands, device::Task::t3, 1}, {}));
     add(make_session_spec(experiment, {base, experiment.hands, device::Task::t1, 2}, {}));
     add(make_session_spec(experiment, {other, experiment.hands, device::Task::t1, 1}, {}));
-    Hands firm = experiment.hands;
+    experiment::Hands firm = experiment.hands;
     firm.right = *device::operator_named("firm");
     add(make_session_spec(experiment, {base, firm, device::Task::t1, 1}, {}));
     add(make_session_spec(experiment, {base, experiment.hands, device::Task::t1, 1},
-                          impaired({}, Impairment::delay, {1})));
-    SessionSpec changed = spec;
+                          impaired({}, experiment::Impairment::delay, {1})));
+    experiment::SessionSpec changed = spec;
     changed.setting.length += std::chrono::nanoseconds{1};
     add(changed);
     changed = spec;
@@ -222,4 +228,4 @@ TEST(SessionKeys, TellApartAllThatASessionFollowsFrom)
     EXPECT_EQ(key_of(perfect_twin(spec), "this"), key_of(spec, "this"));
 }
 
-} // namespace hapnet::lab
+} // namespace hapnet::lab::results

@@ -5,13 +5,13 @@
 namespace hapnet::lab::report {
 namespace {
 
-std::string complaint(const std::vector<File>& files)
+std::string complaint(const std::vector<results::File>& files)
 {
     const auto results = read_results(files);
     return results ? "" : results.error().message;
 }
 
-File changed(File file, std::string_view from, std::string_view to)
+results::File changed(results::File file, std::string_view from, std::string_view to)
 {
     const auto at = file.text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
@@ -28,7 +28,7 @@ TEST(Results, JoinTheFilesOfSubfoldersWithBaseFirst)
     EXPECT_EQ(results->limits[2].impairment, "burst-loss");
     EXPECT_TRUE(results->limits[2].is_open());
     EXPECT_EQ(results->table1[2].std_mm, 4.19);
-    EXPECT_EQ(results->table1[2].verdict, Claim::missed);
+    EXPECT_EQ(results->table1[2].verdict, results::Claim::missed);
     EXPECT_EQ(results->tasks[0].limited_by, "stiffness 0.11, not 0.77");
     EXPECT_EQ(results->tasks[0].drag_n, std::nullopt);
     ASSERT_EQ(results->replays.size(), 1U);
@@ -42,7 +42,7 @@ TEST(Results, JoinTheFilesOfSubfoldersWithBaseFirst)
 
 TEST(Results, NameFileAndLineAndWhatWasExpected)
 {
-    const File table1 = sample_table1(), limits = sample_limits();
+    const results::File table1 = sample_table1(), limits = sample_limits();
     EXPECT_EQ(complaint({changed(table1, "13.620", "13,620")}),
               "r/table1/table1.csv:3: expected 9 cells as in the header, found 10");
     EXPECT_EQ(complaint({changed(table1, "13.620", "")}),
@@ -67,11 +67,11 @@ TEST(Results, TimesMustIncreaseAndThoseOfAReplayEqually)
 {
     EXPECT_EQ(complaint({changed(sample_trajectories(), "0.005", "0.000")}),
               "r/fig7/trajectories.csv:3: time_s: expected more than 0, found 0");
-    const File replay = sample_replay();
+    const results::File replay = sample_replay();
     EXPECT_EQ(complaint({changed(replay, "0.01,1", "0.00,1")}),
               "r/table1/replay/dead-reckoning-T3.csv:2: time_s: expected equal steps and so "
               "0.0000, found 0.0000");
-    File longer = replay;
+    results::File longer = replay;
     longer.text += "0.05,1,0,0,-24,0,0,-0.5,-3,0,0,25,0,0,0.5\n";
     EXPECT_EQ(complaint({longer}),
               "r/table1/replay/dead-reckoning-T3.csv:3: time_s: expected equal steps and so "
@@ -80,7 +80,7 @@ TEST(Results, TimesMustIncreaseAndThoseOfAReplayEqually)
 
 TEST(Results, OfTwoFoldersMustNotContradictEachOther)
 {
-    File other = sample_table1();
+    results::File other = sample_table1();
     other.path = "r/table1-quick/table1.csv";
     EXPECT_EQ(complaint({sample_table1(), other}),
               "table1.csv has 'base' twice, perhaps in two folders: report one at a time");
@@ -88,20 +88,20 @@ TEST(Results, OfTwoFoldersMustNotContradictEachOther)
 
 TEST(Results, AreOfTheNamesThatExperimentsWriteAndNoOthers)
 {
-    EXPECT_TRUE(is_result_file("r/limits.csv"));
-    EXPECT_TRUE(is_result_file("replay/base-T1.csv"));
-    EXPECT_FALSE(is_result_file("r/notes.csv"));
-    EXPECT_FALSE(is_result_file("r/sessions.jsonl"));
-    const auto results = read_results(std::vector<File>{{"r/notes.csv", "\"broken"}});
+    EXPECT_TRUE(results::is_result_file("r/limits.csv"));
+    EXPECT_TRUE(results::is_result_file("replay/base-T1.csv"));
+    EXPECT_FALSE(results::is_result_file("r/notes.csv"));
+    EXPECT_FALSE(results::is_result_file("r/sessions.jsonl"));
+    const auto results = read_results(std::vector<results::File>{{"r/notes.csv", "\"broken"}});
     EXPECT_TRUE(results && results->table1.empty());
 }
 
 TEST(Results, KnowTheCriteriaOnlyWhenAllRunsAgreeOnThem)
 {
     const auto manifest = [](std::string path, std::string_view ratio) {
-        return File{std::move(path),
-                    R"({"valid": true, "criteria": "[usable]\nstiffness_ratio_min = )" +
-                        std::string{ratio} + R"("})"};
+        return results::File{std::move(path),
+                             R"({"valid": true, "criteria": "[usable]\nstiffness_ratio_min = )" +
+                                 std::string{ratio} + R"("})"};
     };
     const auto one = read_results(std::vector{manifest("a/manifest.json", "0.2")});
     ASSERT_TRUE(one) << one.error().message;

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace hapnet::lab::runner_test {
+namespace hapnet::lab::runner::runner_test {
 
 namespace {
 
@@ -46,7 +46,7 @@ protected:
     net::StopSignal stop;
 };
 
-Experiment known_limits(const std::vector<std::string>& settings = {})
+experiment::Experiment known_limits(const std::vector<std::string>& settings = {})
 {
     return *parse_experiment(R"(
 kind = "limits"
@@ -61,7 +61,8 @@ resolution = "5ms"
                              "test.toml", {false, settings});
 }
 
-base::Result<PlayedSession> play_known(const SessionSpec& spec, const std::atomic<bool>&)
+base::Result<experiment::PlayedSession> play_known(const experiment::SessionSpec& spec,
+                                                   const std::atomic<bool>&)
 {
     return known_session(spec);
 }
@@ -71,7 +72,8 @@ Runner runner_of(SessionStore& store, unsigned jobs)
     return {store, play_known, jobs, [](const RunProgress&) {}};
 }
 
-std::string limits_of(const Experiment& experiment, const std::vector<JobResult>& findings)
+std::string limits_of(const experiment::Experiment& experiment,
+                      const std::vector<experiment::JobResult>& findings)
 {
     return make_result_files(experiment, known_criteria(), findings)->front().text;
 }
@@ -102,7 +104,7 @@ TEST_F(SessionFile, GivesTheSameResultsForAnyNumberOfJobsAndPlaysNoSessionTwice)
 
 TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
 {
-    const auto run = [&](const Experiment& experiment) {
+    const auto run = [&](const experiment::Experiment& experiment) {
         const auto store = open();
         const auto findings = run_all(experiment, known_criteria(), runner_of(*store, 2), stop);
         EXPECT_TRUE(findings && *findings);
@@ -163,8 +165,8 @@ TEST_F(SessionFile, KeepsWhatWasPlayedBeforeASessionFailed)
     const auto store = open();
     Runner runner = runner_of(*store, 1);
     std::size_t played = 0;
-    runner.play = [&](const SessionSpec& spec,
-                      const std::atomic<bool>&) -> base::Result<PlayedSession> {
+    runner.play = [&](const experiment::SessionSpec& spec,
+                      const std::atomic<bool>&) -> base::Result<experiment::PlayedSession> {
         if (++played > 5) return base::fail("the scene cannot be shared");
         return known_session(spec);
     };
@@ -178,7 +180,8 @@ TEST_F(SessionFile, PassesOnWhatAThreadHasThrown)
 {
     const auto store = open();
     Runner runner = runner_of(*store, 2);
-    runner.play = [](const SessionSpec&, const std::atomic<bool>&) -> base::Result<PlayedSession> {
+    runner.play = [](const experiment::SessionSpec&,
+                     const std::atomic<bool>&) -> base::Result<experiment::PlayedSession> {
         throw std::runtime_error{"disk full"};
     };
     EXPECT_THROW(std::ignore = run_all(known_limits(), known_criteria(), runner, stop),
@@ -194,4 +197,4 @@ TEST(ProgressText, SaysHowMuchIsLeftOnceAPartIsDone)
     EXPECT_EQ(progress_text({10, 10, {60, 40}}, 6s), "100/100 sessions (100 %), 10.0/s");
 }
 
-} // namespace hapnet::lab::runner_test
+} // namespace hapnet::lab::runner::runner_test

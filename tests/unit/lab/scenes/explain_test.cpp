@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace hapnet::lab {
+namespace hapnet::lab::scenes {
 namespace {
 
 using namespace std::chrono_literals;
@@ -73,4 +73,4 @@ TEST(Explain, JsonHasTheSameFeaturesAndTicks)
 }
 
 } // namespace
-} // namespace hapnet::lab
+} // namespace hapnet::lab::scenes

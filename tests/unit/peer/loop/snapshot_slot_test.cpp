@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 namespace {
 
 /// Larger than anything that is written at once.
@@ -58,4 +58,4 @@ TEST(SnapshotSlot, IsWholeAcrossThreads)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

@@ -8,7 +8,7 @@
 #include <semaphore>
 #include <thread>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 namespace {
 
 using namespace std::chrono_literals;
@@ -100,4 +100,4 @@ TEST(Watchdog, NoticesTheNextSilenceAsWell)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

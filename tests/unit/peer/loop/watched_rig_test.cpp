@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <memory>
 
-namespace hapnet::peer {
+namespace hapnet::peer::loop {
 namespace {
 
 /// A device that the force reaches late: not before it has been let go of.
@@ -55,4 +55,4 @@ TEST(WatchedRig, TakesBackAForceThatReachedTheDeviceAfterItsHalt)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::loop

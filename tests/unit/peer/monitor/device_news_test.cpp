@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 namespace {
 
 using namespace std::chrono_literals;
@@ -167,4 +167,4 @@ TEST(FaultAtTheEnd, IsOneThatNobodyHasEnded)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 namespace {
 
 /// No file of this process may grow beyond that, as on a full disk.
@@ -49,7 +49,7 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
     std::exception_ptr failure;
     bool was_whole_at_first = false;
     {
-        Journal journal;
+        loop::Journal journal;
         Monitor monitor{journal, record::Writer{path, nlohmann::json::object()}, 1};
         was_whole_at_first = monitor.record_failure() == nullptr;
         const FileSizeLimit limit{16'384};
@@ -72,4 +72,4 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

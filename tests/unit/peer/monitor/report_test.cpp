@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-namespace hapnet::peer {
+namespace hapnet::peer::monitor {
 namespace {
 
 using namespace std::chrono_literals;
@@ -18,8 +18,8 @@ struct Shown : testing::Test {
     [[nodiscard]] std::string says() const { return show()["says"]; }
 
     Options options;
-    ServoStatus status;
-    Journal journal;
+    loop::ServoStatus status;
+    loop::Journal journal;
 };
 
 TEST_F(Shown, SaysThatItWaitsForTheOther)
@@ -63,4 +63,4 @@ TEST_F(Shown, SaysAFaultAndItsCureBeforeAllElse)
 }
 
 } // namespace
-} // namespace hapnet::peer
+} // namespace hapnet::peer::monitor

@@ -52,8 +52,8 @@ TEST(Laws, PassEveryTestThatAppliesToThem)
 {
     for (const LossLaw& law : laws()) {
         const auto record = simulated(law, packets());
-        for (const TestResult& result : verify_losses({law}, record, spacing, alpha)) {
-            EXPECT_NE(result.outcome, Outcome::failed)
+        for (const tools::TestResult& result : verify_losses({law}, record, spacing, alpha)) {
+            EXPECT_NE(result.outcome, tools::Outcome::failed)
                 << name_of(law) << ": " << result.name << ": " << result.sentence;
         }
     }
@@ -64,7 +64,7 @@ TEST(Laws, LoseWhatTheirTheoryStates)
     for (const LossLaw& law : laws()) {
         const auto theory = theory_of(law, {spacing, packets()});
         const auto record = simulated(law, packets());
-        LossTally tally;
+        tools::LossTally tally;
         for (const auto lost : record.lost) tally.add(lost != 0);
         const auto n = static_cast<double>(tally.datagrams());
         const double share = static_cast<double>(tally.losses()) / n;

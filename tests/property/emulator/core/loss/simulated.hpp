@@ -24,11 +24,11 @@ inline std::uint64_t packets()
 }
 
 /// What one law does to datagrams that come 1 ms apart.
-inline LossRecord simulated(const LossLaw& law, std::uint64_t count, std::uint64_t seed = 42,
-                            const std::string& direction = "up")
+inline tools::LossRecord simulated(const LossLaw& law, std::uint64_t count, std::uint64_t seed = 42,
+                                   const std::string& direction = "up")
 {
     LossProcess process{law, base::Seed{seed}.stream(direction + "/loss")};
-    LossRecord record{.lost = {}, .states = {{}}};
+    tools::LossRecord record{.lost = {}, .states = {{}}};
     record.lost.reserve(count);
     record.states[0].reserve(count);
     for (std::uint64_t n = 0; n < count; ++n) {

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "lab/report/plot/plot.hpp"
+#include "tests/unit/lab/report/plot/holds.hpp"
 
+#include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace hapnet::lab::plot {
+namespace hapnet::lab::report::plot {
 namespace {
 
 std::string plot_of(const std::vector<Point>& points)
@@ -61,5 +63,43 @@ TEST(Plot, DividesALogarithmicAxisIntoWholeDecadesAndLeavesOutWhatHasNoLogarithm
     }
 }
 
+TEST(Plot, ShowsTheLevelThatACurveIsHeldAgainstAndWhereItFails)
+{
+    const std::array curves{
+        Curve{.name = "a", .colour = "#123456", .points = {{0.0, 0.0}, {10.0, 1.0}}}};
+    const std::string svg = svg_plot(
+        {"t", "x", "y"}, curves, {.levels = {{2.0, "usable"}}, .crosses = {{{5.0, 1.0}, "#9"}}});
+    EXPECT_TRUE(holds(svg, ">usable</text>"));
+    EXPECT_TRUE(holds(svg, "885.0,135.0 ")) << "the level, at 2, is the top: " << svg;
+    EXPECT_TRUE(holds(svg, "<path d='M472.5 135.0m-6-6l12 12m0-12l-12 12' stroke='#9'"));
+}
+
+TEST(Plot, EscapesTitlesAndNames)
+{
+    const std::array curves{Curve{.name = "<b>", .colour = "#123456"}};
+    const std::string svg = svg_plot({"a & b", "'", "\""}, curves);
+    EXPECT_TRUE(holds(svg, ">&lt;b&gt;</text>"));
+    EXPECT_TRUE(holds(svg, "aria-label='a &amp; b'"));
+}
+
+TEST(Thinned, KeepsEveryPeakAndTheOrder)
+{
+    std::vector<Point> points;
+    for (int i = 0; i < 10'000; ++i) points.push_back({static_cast<double>(i), 0.0});
+    points[5001].y = 7.0;
+    points[5002].y = -7.0;
+    const auto kept = thinned(points, 100);
+    EXPECT_LE(kept.size(), 102U);
+    double low = 0.0, high = 0.0;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        low = std::min(low, kept[i].y);
+        high = std::max(high, kept[i].y);
+        EXPECT_TRUE(i == 0 || kept[i - 1].x < kept[i].x);
+    }
+    EXPECT_EQ(low, -7.0);
+    EXPECT_EQ(high, 7.0);
+    EXPECT_EQ(thinned(points, 10'000).size(), 10'000U);
+}
+
 } // namespace
-} // namespace hapnet::lab::plot
+} // namespace hapnet::lab::report::plot

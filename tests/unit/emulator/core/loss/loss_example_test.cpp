@@ -146,12 +146,12 @@ TEST(GrowingGap, IsVerifiedByThePropertiesThatItStates)
     const GrowingGap law{3, 2};
     auto lost = example_losses(law, 1000);
     const auto verify = [&] {
-        return verify_properties(law.properties({.count = lost.size()}), lost, {}, 1e-6);
+        return tools::verify_properties(law.properties({.count = lost.size()}), lost, {}, 1e-6);
     };
     ASSERT_EQ(verify().size(), 1U);
-    EXPECT_EQ(verify()[0].outcome, Outcome::passed);
+    EXPECT_EQ(verify()[0].outcome, tools::Outcome::passed);
     lost[500] ^= 1U;
-    EXPECT_EQ(verify()[0].outcome, Outcome::failed);
+    EXPECT_EQ(verify()[0].outcome, tools::Outcome::failed);
 }
 
 TEST(GrowingGap, SaysWhatIsImpossible)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "emulator/setting_hints.hpp"
+#include "emulator/core/profile/setting_hints.hpp"
 
 #include "proto/base/text.hpp"
 
@@ -54,13 +54,6 @@ constexpr std::array examples{
     LawExample{"delay", "trace", R"({ law = "trace", file = "delays.csv" })"},
 };
 
-/// Without its direction.
-std::string_view setting_name(std::string_view key)
-{
-    const auto dot = key.rfind('.');
-    return dot == std::string_view::npos ? key : key.substr(dot + 1);
-}
-
 /// The first example that a word of the value calls for.
 std::string_view example_for(std::string_view name, std::string_view value)
 {
@@ -85,16 +78,15 @@ std::string_view law_example(std::string_view name, std::string_view law)
     return "";
 }
 
-std::string understood(std::string_view key, const std::string& value)
+std::string with_unit(std::string_view name, std::string_view value)
 {
     const bool is_number =
-        !value.empty() && value.find_first_not_of("0123456789") == std::string::npos;
-    return setting_name(key) == "mtu" && is_number ? value + "B" : value;
+        !value.empty() && value.find_first_not_of("0123456789") == std::string_view::npos;
+    return fmt::format("{}{}", value, name == "mtu" && is_number ? "B" : "");
 }
 
-std::string explained(std::string_view key, const std::string& value, const std::string& why)
+std::string explained(std::string_view name, const std::string& value, const std::string& why)
 {
-    const std::string_view name = setting_name(key);
     if (value.starts_with('{') || value.starts_with('[')) {
         return fmt::format("'{}': {}", value, why);
     }
@@ -110,8 +102,9 @@ std::string explained(std::string_view key, const std::string& value, const std:
                           (name == "delay" || name == "loss" || name == "duplicate" ||
                            name == "corrupt" || name == "reorder");
     if (is_netem) {
-        return fmt::format("'{0}': a sentence of tc-netem goes to --netem \"{1} {0}\"", value,
-                           name);
+        return fmt::format("'{0}': a sentence of tc-netem is taken by hapnet-emulator --netem "
+                           "\"{1} {0}\"",
+                           value, name);
     }
     if (why.find(value) != std::string::npos) return why;
     return fmt::format("'{}': {}", value, why);

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
-namespace hapnet::emulator::profile_text_test {
+namespace hapnet::emulator::text_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -204,6 +204,16 @@ TEST(ProfileText, ASettingReadsWithoutQuotesAndItsErrorsNameIt)
               "up.los: unknown setting: did you mean 'loss'?");
 }
 
+TEST(ProfileText, ANearMissIsTakenOrAnsweredWithWhatToWrite)
+{
+    const auto mtu = parse_setting("up.mtu", "1500", {});
+    ASSERT_TRUE(mtu) << mtu.error().message;
+    EXPECT_EQ(mtu->settings.patch.mtu, parse_setting("up.mtu", "1500B", {})->settings.patch.mtu);
+    EXPECT_EQ(parse_setting("up.loss", "gilbert", {}).error().message,
+              "up.loss: 'gilbert': a law is written as a table: '{ law = \"gilbert\", share = "
+              "\"2%\", mean_burst = 5.0 }'");
+}
+
 TEST(ProfileText, ASmallShareIsPrintedAsShortAsItWasWritten)
 {
     for (const char* text : {"0.05%", "0.005%", "93%", "7%", "0.1%", "0%", "100%"}) {
@@ -229,4 +239,4 @@ TEST(ProfileText, QuantitiesOfDataHaveUnits)
 }
 
 } // namespace
-} // namespace hapnet::emulator::profile_text_test
+} // namespace hapnet::emulator::text_test

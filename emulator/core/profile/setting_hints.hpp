@@ -9,16 +9,18 @@ namespace hapnet::emulator {
 
 // Near misses of settings: values that are written as other tools take them.
 
-/// The value as parse_setting() takes it: "1500" of mtu is "1500B".
-[[nodiscard]] std::string understood(std::string_view key, const std::string& value);
+// `name` is that of a setting without its direction: "loss".
+
+/// The value with the unit that everybody leaves out: "1500" of mtu is "1500B".
+[[nodiscard]] std::string with_unit(std::string_view name, std::string_view value);
 
 /// `why` a value was refused, with the value if it is not quoted there, and with what to write
 /// where the value is a near miss.
-[[nodiscard]] std::string explained(std::string_view key, const std::string& value,
+[[nodiscard]] std::string explained(std::string_view name, const std::string& value,
                                     const std::string& why);
 
 /// How a law is written, by its name or a word that other tools have for it; "" where the setting
-/// has no such law. `name` is that of a setting without its direction: "loss".
+/// has no such law.
 [[nodiscard]] std::string_view law_example(std::string_view name, std::string_view law);
 
 } // namespace hapnet::emulator

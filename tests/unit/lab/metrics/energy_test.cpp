@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/metrics/columns.hpp"
+#include "lab/metrics/energy.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace hapnet::lab::metrics {
+namespace {
+
+TEST(EnergyTaken, IsTheDeepestDeficitOfBothTogether)
+{
+    // Alone the right hand has got 3 J; together they have got 1 J, after the second tick.
+    EXPECT_EQ(energy_taken_of(std::vector{1.0, 1.0, 2.0}, std::vector{0.0, -3.0, 0.0}), 1.0);
+    EXPECT_EQ(energy_taken_of(std::vector{1.0, -0.5}, std::vector{0.0, 0.0}), 0.0);
+    EXPECT_FALSE(energy_taken_of({}, {}));
+}
+
+TEST(EnergyTaken, OfASampledSpringIsWhatItsSamplingMakesUp)
+{
+    std::vector<virtual_time::Sample> side(201);
+    for (std::size_t i = 0; i < side.size(); ++i) {
+        const double depth =
+            0.00005 * std::min<double>(static_cast<double>(i), 200.0 - static_cast<double>(i));
+        side[i].hip.value.x = depth;
+        side[i].on_hand.value.x = -500.0 * depth;
+    }
+    const Columns columns = columns_of(side);
+    // The force of a tick is that of its beginning: a tick of pressing stores half of 500 N/m *
+    // (50 um)^2 too little, one of releasing gives back as much too much.
+    const double made_up = 200 * 0.5 * 500.0 * 0.00005 * 0.00005;
+    EXPECT_NEAR(*energy_taken_of(columns.work, std::vector<double>(201, 0.0)), made_up, 1e-12);
+}
+
+} // namespace
+} // namespace hapnet::lab::metrics
