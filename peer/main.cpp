@@ -134,7 +134,7 @@ int conclude(const monitor::Run& run, const device::Governor& governor,
     net::tell(summary(run));
     if (const auto reason = run.status.refusal) {
         say(fmt::format("refused: the other peer cannot play with this one: {}",
-                        describe(*reason)));
+                        monitor::describe(*reason)));
         return net::exit_failed;
     }
     if (const std::string fault = monitor::fault_at_the_end(governor); !fault.empty()) {

@@ -57,7 +57,7 @@ base::Result<int> run(const ExportCommand& command)
     const auto zero = records::csv_zero(*record);
     const auto print_rows = [&](const std::string& header, const auto& rows) {
         print(header + '\n');
-        for (const auto& row : rows) print(csv_line(row, zero) + '\n');
+        for (const auto& row : rows) print(records::csv_line(row, zero) + '\n');
     };
     switch (command.rows) {
     case ExportRows::ticks: print_rows(records::tick_csv_header(), record->ticks); break;

@@ -37,11 +37,11 @@ TEST(Criteria, ReadBackAsTheyWerePrinted)
 
 TEST(Criteria, OfThePaperAreWhatIsBuiltIn)
 {
-    const auto read = load_criteria("paper", {});
+    const auto read = experiment::load_criteria("paper", {});
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(*read, Criteria{});
     // Under the line that says which run wrote it.
-    const std::string_view text = built_in_criteria().front().text;
+    const std::string_view text = experiment::built_in_criteria().front().text;
     EXPECT_EQ(print_criteria(*read), text.substr(text.find('\n') + 1));
 }
 

@@ -6,6 +6,7 @@
 namespace hapnet::lab::report {
 namespace {
 
+using namespace std::chrono_literals;
 using Json = nlohmann::ordered_json;
 
 /// A session of two peers: the copies are 25 mm apart for as long as it lasts.
