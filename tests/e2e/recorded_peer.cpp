@@ -182,7 +182,8 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
         control_session.emplace(peer::monitor::ControlSession::Parts{*server, servo, unused,
                                                                      journal, monitor, "recorded"});
     }
-    peer::supervise({servo, monitor, stop, control_session ? &*control_session : nullptr}, "");
+    peer::loop::supervise({servo, monitor, stop, control_session ? &*control_session : nullptr},
+                          "");
     return 0;
 }
 

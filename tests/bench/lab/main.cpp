@@ -26,7 +26,7 @@ base::Result<int> measure(const Options& options)
     pin(1);
     if (!set_fifo(1))
         net::say(program, "SCHED_FIFO is not allowed here: whatever else runs counts");
-    lab::keep_freed_memory(); // as hapnet-lab does
+    lab::runner::keep_freed_memory(); // as hapnet-lab does
 
     std::vector<Row> rows = measure_speed(options.quick ? 5 : 21);
     const auto points = measure_run_time_error(options.quick);

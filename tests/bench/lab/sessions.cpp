@@ -27,7 +27,7 @@ scene::Description scene_for(device::Task task)
 
 lab::virtual_time::Trace trace_of(const Session& session)
 {
-    if (session.steps_a_read == 0) return lab::play(session.setting).value();
+    if (session.steps_a_read == 0) return lab::virtual_time::play(session.setting).value();
     lab::virtual_time::VirtualWorld world{session.setting};
     for (const std::size_t side : {0U, 1U}) {
         const lab::virtual_time::PlayerSetting& player = session.setting.players.at(side);
@@ -38,7 +38,7 @@ lab::virtual_time::Trace trace_of(const Session& session)
                                           session.steps_a_read),
             {.tick = session.setting.tick}};
     }
-    return lab::play_out(world).value();
+    return lab::virtual_time::play_out(world).value();
 }
 
 } // namespace
@@ -73,7 +73,7 @@ Figures figures_of(const lab::virtual_time::Trace& trace)
         const base::Displacement apart = trace.sides[0][i].body - trace.sides[1][i].body;
         apart_mm.push_back(1e3 * std::abs(apart.x()));
     }
-    const auto spread = lab::spread_of(apart_mm);
+    const auto spread = lab::metrics::spread_of(apart_mm);
     base::ensure(spread.has_value());
     return {spread->mean, spread->std, spread->max};
 }

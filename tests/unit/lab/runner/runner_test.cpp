@@ -48,7 +48,7 @@ protected:
 
 experiment::Experiment known_limits(const std::vector<std::string>& settings = {})
 {
-    return *parse_experiment(R"(
+    return *experiment::parse_experiment(R"(
 kind = "limits"
 title = "known"
 seeds = 3
@@ -58,7 +58,7 @@ to = "200ms"
 step = "50ms"
 resolution = "5ms"
 )",
-                             "test.toml", {false, settings});
+                                         "test.toml", {false, settings});
 }
 
 base::Result<experiment::PlayedSession> play_known(const experiment::SessionSpec& spec,
@@ -75,7 +75,9 @@ Runner runner_of(SessionStore& store, unsigned jobs)
 std::string limits_of(const experiment::Experiment& experiment,
                       const std::vector<experiment::JobResult>& findings)
 {
-    return make_result_files(experiment, known_criteria(), findings)->front().text;
+    return results::make_result_files(experiment, experiment::known_criteria(), findings)
+        ->front()
+        .text;
 }
 
 } // namespace
@@ -88,7 +90,8 @@ TEST_F(SessionFile, GivesTheSameResultsForAnyNumberOfJobsAndPlaysNoSessionTwice)
     for (const unsigned jobs : {1U, 2U, 5U}) {
         std::filesystem::remove(path);
         const auto store = open();
-        const auto findings = run_all(experiment, known_criteria(), runner_of(*store, jobs), stop);
+        const auto findings =
+            run_all(experiment, experiment::known_criteria(), runner_of(*store, jobs), stop);
         ASSERT_TRUE(findings && *findings);
         const auto limits = limits_of(experiment, **findings);
         if (jobs == 1) {
@@ -106,7 +109,8 @@ TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
 {
     const auto run = [&](const experiment::Experiment& experiment) {
         const auto store = open();
-        const auto findings = run_all(experiment, known_criteria(), runner_of(*store, 2), stop);
+        const auto findings =
+            run_all(experiment, experiment::known_criteria(), runner_of(*store, 2), stop);
         EXPECT_TRUE(findings && *findings);
         return store->counts();
     };
@@ -121,22 +125,25 @@ TEST_F(SessionFile, ReusesWhatAnEarlierRunHasPlayedAlsoInALargerExperiment)
 
 TEST_F(SessionFile, DoesNotReuseTheSessionsOfAnotherProgram)
 {
-    std::ignore = run_all(known_limits(), known_criteria(), runner_of(*open(), 1), stop);
+    std::ignore =
+        run_all(known_limits(), experiment::known_criteria(), runner_of(*open(), 1), stop);
     const auto store = open("that");
-    std::ignore = run_all(known_limits(), known_criteria(), runner_of(*store, 1), stop);
+    std::ignore = run_all(known_limits(), experiment::known_criteria(), runner_of(*store, 1), stop);
     EXPECT_EQ(store->counts().reused, 0U);
 }
 
 TEST_F(SessionFile, LosesOnlyTheLineThatWasCutOff)
 {
-    std::ignore = run_all(known_limits(), known_criteria(), runner_of(*open(), 1), stop);
+    std::ignore =
+        run_all(known_limits(), experiment::known_criteria(), runner_of(*open(), 1), stop);
     const auto whole = text();
     const auto lines = static_cast<std::size_t>(std::count(whole.begin(), whole.end(), '\n'));
     std::filesystem::resize_file(path, whole.size() - 20);
     for (const std::size_t played : {std::size_t{1}, std::size_t{0}}) {
         const auto store = open();
         EXPECT_EQ(store->damaged_lines(), 1U);
-        const auto findings = run_all(known_limits(), known_criteria(), runner_of(*store, 1), stop);
+        const auto findings =
+            run_all(known_limits(), experiment::known_criteria(), runner_of(*store, 1), stop);
         ASSERT_TRUE(findings && *findings);
         EXPECT_EQ(store->counts().played, played);
         EXPECT_EQ(store->counts().reused, lines - 1 - played); // the first is a header
@@ -170,7 +177,7 @@ TEST_F(SessionFile, KeepsWhatWasPlayedBeforeASessionFailed)
         if (++played > 5) return base::fail("the scene cannot be shared");
         return known_session(spec);
     };
-    const auto findings = run_all(known_limits(), known_criteria(), runner, stop);
+    const auto findings = run_all(known_limits(), experiment::known_criteria(), runner, stop);
     ASSERT_FALSE(findings);
     EXPECT_EQ(findings.error().message, "the scene cannot be shared");
     EXPECT_EQ(store->counts().played, 5U);
@@ -184,7 +191,7 @@ TEST_F(SessionFile, PassesOnWhatAThreadHasThrown)
                      const std::atomic<bool>&) -> base::Result<experiment::PlayedSession> {
         throw std::runtime_error{"disk full"};
     };
-    EXPECT_THROW(std::ignore = run_all(known_limits(), known_criteria(), runner, stop),
+    EXPECT_THROW(std::ignore = run_all(known_limits(), experiment::known_criteria(), runner, stop),
                  std::runtime_error);
 }
 
