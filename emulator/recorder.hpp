@@ -44,7 +44,6 @@ public:
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    [[nodiscard]] bool writes_fates() const { return fates_ != nullptr; }
     [[nodiscard]] bool captures() const { return capture_ != nullptr; }
 
     // For the relay's thread. They neither allocate nor lock nor call the system; nothing happens

@@ -32,7 +32,4 @@ namespace hapnet::emulator {
 [[nodiscard]] TestResult test_bursts(std::span<const std::uint8_t> lost,
                                      const RecurringBursts& law);
 
-/// Whether datagrams, in the order of their numbers, left in that order.
-[[nodiscard]] TestResult test_order(std::span<const base::TimePoint> departures);
-
 } // namespace hapnet::emulator

@@ -150,7 +150,6 @@ TEST_F(RecorderFiles, OnAFullDiskAreReportedAtTheEnd)
 TEST(Recorder, WithoutAFileDoesNothing)
 {
     Recorder recorder{{}};
-    EXPECT_FALSE(recorder.writes_fates());
     EXPECT_FALSE(recorder.captures());
     recorder.on_fate(Direction::up, 0, fate_of(0));
     recorder.on_departure({}, 0us, false);
