@@ -145,7 +145,7 @@ void Recorder::Capture::take(const Part& part)
         payload.insert(payload.end(), chunk.bytes.begin(),
                        chunk.bytes.begin() + static_cast<std::ptrdiff_t>(chunk.count));
     }
-    if (!head || payload.size() < head->observed.bytes.size()) return;
+    if (!head || payload.size() < head->packet.payload.size()) return;
     append(*head);
     head.reset();
 }
@@ -153,19 +153,14 @@ void Recorder::Capture::take(const Part& part)
 void Recorder::Capture::append(const CaptureHeader& complete)
 {
     comment.clear();
-    if (complete.verdict) {
-        append_arrival_comment(comment, *complete.verdict);
-    } else {
+    CapturedPacket packet = complete.packet;
+    if (packet.is_outbound) {
         append_departure_comment(comment, complete.late, complete.is_copy);
+    } else {
+        append_arrival_comment(comment, complete.fate);
     }
-    const Observation& observed = complete.observed;
-    append_packet(bytes, {.side = observed.side,
-                          .is_outbound = !complete.verdict,
-                          .time = observed.at.time_since_epoch() + since_1970,
-                          .from = observed.from,
-                          .to = observed.to,
-                          .payload = payload,
-                          .comment = comment});
+    packet.payload = payload;
+    append_packet(bytes, packet, since_1970, comment);
 }
 
 Recorder::Recorder(const Files& files)
@@ -187,20 +182,20 @@ void Recorder::on_fate(Direction direction, std::uint64_t number, const Fate& fa
     if (!fates_->queue.try_enqueue({fate, number, direction})) fates_lost_.fetch_add(1, relaxed);
 }
 
-void Recorder::on_arrival(const Observation& observed, const Verdict& verdict)
+void Recorder::on_arrival(const CapturedPacket& packet, const Fate& fate)
 {
-    if (capture_) put({.observed = observed, .verdict = verdict, .late = {}, .is_copy = false});
+    if (capture_) put({.packet = packet, .fate = fate, .late = {}, .is_copy = false});
 }
 
-void Recorder::on_departure(const Observation& observed, base::Duration late, bool is_copy)
+void Recorder::on_departure(const CapturedPacket& packet, base::Duration late, bool is_copy)
 {
-    if (capture_) put({.observed = observed, .verdict = {}, .late = late, .is_copy = is_copy});
+    if (capture_) put({.packet = packet, .fate = {}, .late = late, .is_copy = is_copy});
 }
 
 void Recorder::put(const CaptureHeader& header)
 {
     bool fits = capture_->queue.try_enqueue(Part{header});
-    for (auto rest = header.observed.bytes; fits && !rest.empty();) {
+    for (auto rest = header.packet.payload; fits && !rest.empty();) {
         Part part{std::in_place_type<CaptureChunk>};
         auto& chunk = std::get<CaptureChunk>(part);
         chunk.count = std::min(rest.size(), chunk.bytes.size());

@@ -4,7 +4,7 @@
 
 #include "emulator/core/capture/pcapng.hpp"
 #include "emulator/core/conditions.hpp"
-#include "emulator/core/verdict.hpp"
+#include "emulator/core/fate.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/result_file.hpp"
@@ -27,15 +27,6 @@ namespace hapnet::emulator {
 /// An endpoint as a capture writes it.
 [[nodiscard]] UdpAddress udp_address_of(const net::Endpoint& endpoint);
 
-/// A datagram that came or went.
-struct Observation {
-    CaptureSide side = CaptureSide::a; // whose socket it passed
-    base::TimePoint at{};
-    UdpAddress from;
-    UdpAddress to;
-    std::span<const std::byte> bytes;
-};
-
 /// Writes the fates and the capture of a run, on a thread of normal priority. What the relay hands
 /// over goes through bounded queues, which never make it wait; what does not fit is counted.
 class Recorder {
@@ -53,7 +44,6 @@ public:
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    [[nodiscard]] bool writes_fates() const { return fates_ != nullptr; }
     [[nodiscard]] bool captures() const { return capture_ != nullptr; }
 
     // For the relay's thread. They neither allocate nor lock nor call the system; nothing happens
@@ -61,10 +51,10 @@ public:
 
     /// The datagram of this number was given this fate.
     void on_fate(Direction direction, std::uint64_t number, const Fate& fate);
-    /// A datagram arrived, and this becomes of it.
-    void on_arrival(const Observation& observed, const Verdict& verdict);
-    /// A datagram left, so much after it was due.
-    void on_departure(const Observation& observed, base::Duration late, bool is_copy);
+    /// A datagram arrived, and this becomes of it, queues included.
+    void on_arrival(const CapturedPacket& packet, const Fate& fate);
+    /// A datagram left, `late` after it was due.
+    void on_departure(const CapturedPacket& packet, base::Duration late, bool is_copy);
 
     /// How many fates and how many packets are missing in their files: if any, the file is not
     /// complete.
@@ -88,10 +78,10 @@ private:
     };
     /// The beginning of a packet; its bytes follow in chunks.
     // No defaults: Clang 14 needs them before the class that holds this one is complete.
-    struct CaptureHeader {              // NOLINT(cppcoreguidelines-pro-type-member-init)
-        Observation observed;           // its bytes: only how many
-        std::optional<Verdict> verdict; // nullopt: it left
-        base::Duration late;            // when it left
+    struct CaptureHeader {     // NOLINT(cppcoreguidelines-pro-type-member-init)
+        CapturedPacket packet; // its payload: only how many bytes
+        Fate fate;             // of one that arrived
+        base::Duration late;   // of one that left
         bool is_copy;
     };
     struct CaptureChunk {

@@ -105,7 +105,6 @@ public:
         if (size_ == elements_.size()) elements_.emplace_back();
         return elements_[size_++];
     }
-    void take_back() { --size_; }
     void clear() { size_ = 0; }
     /// At most what was reserved.
     void resize(std::size_t size)

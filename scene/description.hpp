@@ -6,6 +6,8 @@
 #include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
@@ -13,14 +15,19 @@
 
 namespace hapnet::scene {
 
-/// How bodies behave where they touch. For two that touch, friction is the geometric mean and
-/// restitution the greater of the two.
+/// How bodies behave where they touch; for two that touch see combined().
 struct Material {
     double friction = 0.0;    // Coulomb's coefficient, 0..friction_max
     double restitution = 0.0; // 0: no bounce, 1: elastic
 
     friend bool operator==(const Material&, const Material&) = default;
 };
+
+/// Of two that touch: friction is the geometric mean and restitution the greater of the two.
+[[nodiscard]] inline Material combined(const Material& a, const Material& b)
+{
+    return {std::sqrt(a.friction * b.friction), std::max(a.restitution, b.restitution)};
+}
 
 /// How a body may rotate: freely, not at all, or about one axis of the world alone.
 enum class Turning : std::uint8_t { free, locked, about_x, about_y, about_z };

@@ -16,8 +16,7 @@ namespace {
 /// Why a vector cannot be taken.
 std::optional<Refusal> objection(const glm::dvec3& v, double most)
 {
-    const bool is_within = std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
-    if (is_within) return std::nullopt; // and no NaN
+    if (is_within(v, most)) return std::nullopt;
     return base::is_finite(v) ? Refusal::out_of_range : Refusal::not_finite;
 }
 

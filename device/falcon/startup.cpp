@@ -18,24 +18,25 @@ constexpr std::uint8_t baud_rate = 3;
 constexpr std::uint8_t data_format = 4;
 constexpr std::uint8_t latency_timer = 9;
 
-constexpr Ask purge_received{reset, 1};
-constexpr Ask purge_sent{reset, 2};
-constexpr Ask dtr_low{modem_control, 0x0100};
-constexpr Ask dtr_high{modem_control, 0x0101};
-constexpr Ask rts_low{modem_control, 0x0200};
+constexpr ChipRequest purge_received{reset, 1};
+constexpr ChipRequest purge_sent{reset, 2};
+constexpr ChipRequest dtr_low{modem_control, 0x0100};
+constexpr ChipRequest dtr_high{modem_control, 0x0101};
+constexpr ChipRequest rts_low{modem_control, 0x0200};
 
-constexpr std::array to_normal{Ask{latency_timer, 1}, Ask{baud_rate, 0x0002}, // 1.5 Mbit/s
+constexpr std::array to_normal{ChipRequest{latency_timer, 1},
+                               ChipRequest{baud_rate, 0x0002}, // 1.5 Mbit/s
                                purge_received, purge_sent};
 constexpr std::array to_loader{purge_received,
                                purge_sent,
-                               Ask{latency_timer, 16},
-                               Ask{baud_rate, 0x4138}, // 9600 bit/s
-                               Ask{data_format, 8},    // 8 bits, no parity, 1 stop bit
-                               Ask{flow_control, 0},
+                               ChipRequest{latency_timer, 16},
+                               ChipRequest{baud_rate, 0x4138}, // 9600 bit/s
+                               ChipRequest{data_format, 8},    // 8 bits, no parity, 1 stop bit
+                               ChipRequest{flow_control, 0},
                                rts_low,
                                dtr_low,
                                dtr_high};
-constexpr std::array to_fast_loader{dtr_low, Ask{baud_rate, 0x0015}}; // 140 kbit/s
+constexpr std::array to_fast_loader{dtr_low, ChipRequest{baud_rate, 0x0015}}; // 140 kbit/s
 
 constexpr std::array hello{std::byte{0x0a}, std::byte{0x43}, std::byte{0x0d}};
 constexpr std::array hello_back{std::byte{0x0a}, std::byte{0x44}, std::byte{0x2c}, std::byte{0x0d}};
@@ -96,10 +97,10 @@ void Startup::say()
     empty_ = 0;
     heard_.clear();
     switch (phase_) {
-    case Phase::greet: step_ = Say{bytes_of(encode(Command{}))}; return;
-    case Phase::call_loader: step_ = Say{bytes_of(hello)}; return;
-    case Phase::call_fast_loader: step_ = Say{bytes_of(fast_hello)}; return;
-    case Phase::load: step_ = Say{{chunk().begin(), chunk().end()}}; return;
+    case Phase::greet: step_ = SendBytes{bytes_of(encode(Command{}))}; return;
+    case Phase::call_loader: step_ = SendBytes{bytes_of(hello)}; return;
+    case Phase::call_fast_loader: step_ = SendBytes{bytes_of(fast_hello)}; return;
+    case Phase::load: step_ = SendBytes{{chunk().begin(), chunk().end()}}; return;
     }
 }
 
@@ -111,9 +112,9 @@ std::span<const std::byte> Startup::chunk() const
 
 void Startup::on_done()
 {
-    if (std::holds_alternative<Say>(step_)) {
+    if (std::holds_alternative<SendBytes>(step_)) {
         step_ = Listen{answer_max};
-    } else if (std::holds_alternative<Ask>(step_)) {
+    } else if (std::holds_alternative<ChipRequest>(step_)) {
         advance();
     }
 }
@@ -131,7 +132,7 @@ void Startup::on_heard(std::span<const std::byte> bytes)
 
 void Startup::on_silence()
 {
-    if (std::holds_alternative<Ask>(step_)) {
+    if (std::holds_alternative<ChipRequest>(step_)) {
         refuse(Fault::communication, "the Falcon's USB chip takes no requests: unplug it and plug "
                                      "it in again, into a port of the computer itself");
     } else if (tries_ < tries_max[static_cast<std::size_t>(phase_)]) {

@@ -17,14 +17,14 @@
 namespace hapnet::device::falcon {
 
 /// A request to the FTDI chip that stands between the bus and the Falcon.
-struct Ask {
+struct ChipRequest {
     std::uint8_t request = 0;
     std::uint16_t value = 0;
 
-    friend bool operator==(const Ask&, const Ask&) = default;
+    friend bool operator==(const ChipRequest&, const ChipRequest&) = default;
 };
 /// Bytes for the Falcon.
-struct Say {
+struct SendBytes {
     std::vector<std::byte> bytes;
 };
 /// Wait for one answer of the chip, which may hold no byte of the Falcon's.
@@ -37,7 +37,7 @@ struct Ready {};
 struct Refused {
     DeviceError error;
 };
-using Step = std::variant<Ask, Say, Listen, Ready, Refused>;
+using Step = std::variant<ChipRequest, SendBytes, Listen, Ready, Refused>;
 
 /// Brings a Falcon from its loader to its running firmware, as libnifalcon does
 /// (src/comm/FalconCommLibUSB.cpp, src/core/FalconFirmware.cpp): asks whether it runs already, else
@@ -51,7 +51,7 @@ public:
 
     [[nodiscard]] const Step& step() const { return step_; }
 
-    /// An Ask or a Say was carried out.
+    /// A ChipRequest or a SendBytes was carried out.
     void on_done();
     /// The bytes from Listen; empty: the chip had none from the Falcon.
     void on_heard(std::span<const std::byte> bytes);
@@ -75,7 +75,8 @@ private:
 
     std::vector<std::byte> firmware_;
     Step step_;
-    std::vector<Ask> plan_; // what prepares this phase and is still to do, the last one first
+    std::vector<ChipRequest>
+        plan_; // what prepares this phase and is still to do, the last one first
     Phase phase_ = Phase::greet;
     PacketFinder finder_;
     std::vector<std::byte> heard_; // since the last Say

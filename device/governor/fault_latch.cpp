@@ -8,22 +8,22 @@ bool FaultLatch::close(const Latched& cause)
 {
     if (is_closed() || cause.fault == Fault::none) return false;
     latched_ = cause;
-    seen_.reset();
+    last_.reset();
     was_out_ = false;
     return true;
 }
 
 bool FaultLatch::on_sample(const Sample& sample, base::Duration passed)
 {
-    const std::optional<Seen> before = seen_;
+    const std::optional<LastSample> before = last_;
     const bool rests = base::norm(sample.velocity) <= rest_speed_max_m_per_s;
-    seen_ = Seen{.pressed = (sample.buttons & 1U) != 0, .presses = sample.presses};
+    last_ = LastSample{.pressed = (sample.buttons & 1U) != 0, .presses = sample.presses};
     was_out_ = was_out_ || !sample.docked;
     if (!before) return false;
-    if (rests) seen_->rest = before->rest + passed;
-    if (sample.docked) seen_->docked = before->docked + passed;
-    const bool docks = was_out_ && seen_->docked >= dock_needed;
-    const bool presses = (seen_->pressed && !before->pressed) || sample.presses != before->presses;
+    if (rests) last_->rest = before->rest + passed;
+    if (sample.docked) last_->docked = before->docked + passed;
+    const bool docks = was_out_ && last_->docked >= dock_needed;
+    const bool presses = (last_->pressed && !before->pressed) || sample.presses != before->presses;
     if (!docks && !(presses && before->rest >= rest_needed)) return false;
     open();
     return true;

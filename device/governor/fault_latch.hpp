@@ -29,7 +29,7 @@ public:
     /// stylus was out of its holder.
     void on_bad_sample(const Sample& sample)
     {
-        seen_.reset();
+        last_.reset();
         was_out_ = was_out_ || !sample.docked;
     }
 
@@ -40,7 +40,7 @@ public:
     static constexpr base::Duration dock_needed{std::chrono::milliseconds{50}};
 
 private:
-    struct Seen {
+    struct LastSample {
         bool pressed = false;
         std::uint16_t presses = 0;
         base::Duration docked{}; // without a break
@@ -48,7 +48,7 @@ private:
     };
 
     Latched latched_;
-    std::optional<Seen> seen_;
+    std::optional<LastSample> last_;
     bool was_out_ = false; // of its holder, at some time since the fault
 };
 

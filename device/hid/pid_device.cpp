@@ -95,8 +95,8 @@ void PidDevice::drain()
     std::array<std::byte, report_bytes_max> report{};
     for (int i = 0; i < reports_per_read_max; ++i) {
         const ReadResult heard = parts_.wire->read(report);
-        if (heard.moved == Moved::nothing) return;
-        if (heard.moved != Moved::yes) {
+        if (heard.moved == TransferResult::nothing) return;
+        if (heard.moved != TransferResult::yes) {
             is_gone_ = true; // a read does not fail but for that
             return;
         }

@@ -17,9 +17,9 @@ constexpr int load_questions_max = 60;
 constexpr int silences_max = 3;
 constexpr int stops_said = 3;
 
-tl::unexpected<DeviceError> refused(Moved moved, const std::string& what)
+tl::unexpected<DeviceError> refused(TransferResult moved, const std::string& what)
 {
-    if (moved == Moved::gone) {
+    if (moved == TransferResult::gone) {
         return device_error(Fault::disconnected,
                             "the device went away: plug it in and start again");
     }
@@ -30,19 +30,19 @@ tl::unexpected<DeviceError> refused(Moved moved, const std::string& what)
 Opened<std::uint32_t> load_effect(Wire& wire, const ForceLayout& layout)
 {
     const Report create = create_report(layout);
-    if (const Moved moved = wire.set_feature(create.all()); moved != Moved::yes) {
+    if (const TransferResult moved = wire.set_feature(create.all()); moved != TransferResult::yes) {
         return refused(moved, "a new effect");
     }
     int silences = 0;
     for (int i = 0; i < load_questions_max && silences < silences_max; ++i) {
         Report answer{layout.block_load.place};
-        const Moved moved = wire.get_feature(answer.all());
-        if (moved == Moved::gone) return refused(moved, "");
-        if (moved != Moved::yes) {
+        const TransferResult moved = wire.get_feature(answer.all());
+        if (moved == TransferResult::gone) return refused(moved, "");
+        if (moved != TransferResult::yes) {
             ++silences;
             continue;
         }
-        const Loaded loaded = read_block_load(layout, answer);
+        const BlockLoadResult loaded = read_block_load(layout, answer);
         if (loaded.load == Load::success) return loaded.block;
         if (loaded.load == Load::full) {
             return device_error(Fault::in_use, "the device has no room for another effect: end the "
@@ -50,7 +50,7 @@ Opened<std::uint32_t> load_effect(Wire& wire, const ForceLayout& layout)
                                                "plug it in again");
         }
     }
-    return refused(Moved::failed, "to make room for an effect");
+    return refused(TransferResult::failed, "to make room for an effect");
 }
 
 class Preparation {
@@ -62,7 +62,7 @@ public:
         Prepared prepared;
         write(control_report(layout_, usage::device_reset));
         write(control_report(layout_, usage::stop_all_effects));
-        for (std::size_t axis = 0; axis < axes && moved_ == Moved::yes; ++axis) {
+        for (std::size_t axis = 0; axis < axes && moved_ == TransferResult::yes; ++axis) {
             const auto block = load_effect(wire_, layout_);
             if (!block) {
                 clean_up(prepared);
@@ -75,7 +75,7 @@ public:
         if (const auto gain = gain_report(layout_)) write(*gain);
         // Some devices enable their actuators by themselves when an effect is set.
         write(control_report(layout_, usage::disable_actuators));
-        if (const Moved moved = moved_; moved != Moved::yes) {
+        if (const TransferResult moved = moved_; moved != TransferResult::yes) {
             clean_up(prepared);
             return refused(moved, "an effect");
         }
@@ -85,13 +85,13 @@ public:
 private:
     void write(const Report& report)
     {
-        if (moved_ == Moved::yes) moved_ = wire_.write(report.all());
+        if (moved_ == TransferResult::yes) moved_ = wire_.write(report.all());
     }
 
     /// As far as the device takes it: each report that it does not take costs 5 s.
     void clean_up(const Prepared& prepared)
     {
-        moved_ = Moved::yes;
+        moved_ = TransferResult::yes;
         for (int i = 0; i < stops_said; ++i) {
             write(control_report(layout_, usage::stop_all_effects));
             write(control_report(layout_, usage::disable_actuators));
@@ -104,7 +104,7 @@ private:
 
     Wire& wire_;
     const ForceLayout& layout_;
-    Moved moved_ = Moved::yes; // of all writes so far
+    TransferResult moved_ = TransferResult::yes; // of all writes so far
 };
 
 } // namespace

@@ -128,7 +128,7 @@ std::optional<Report> free_report(const ForceLayout& layout, std::uint32_t block
     return report;
 }
 
-Loaded read_block_load(const ForceLayout& layout, const Report& report)
+BlockLoadResult read_block_load(const ForceLayout& layout, const Report& report)
 {
     const ForceLayout::BlockLoad& place = layout.block_load;
     if (is_selected(place.status, usage::load_full, report.data())) return {.load = Load::full};

@@ -41,10 +41,10 @@ enum class Axis : std::uint8_t { right, away };
 enum class Load : std::uint8_t { success, full, error };
 
 /// What a Block Load report says of the effect that was asked for last.
-struct Loaded {
+struct BlockLoadResult {
     Load load = Load::error;
     std::uint32_t block = 0; // its place, where there was success
 };
-[[nodiscard]] Loaded read_block_load(const ForceLayout& layout, const Report& report);
+[[nodiscard]] BlockLoadResult read_block_load(const ForceLayout& layout, const Report& report);
 
 } // namespace hapnet::device::hid

@@ -100,10 +100,10 @@ bool send_next(Mailbox& mailbox, PidSender& sender, Wire& wire)
         mailbox.say_done(order);
         return false;
     }
-    const Moved moved = wire.write(report->all());
-    if (moved == Moved::gone) {
+    const TransferResult moved = wire.write(report->all());
+    if (moved == TransferResult::gone) {
         mailbox.say_gone();
-    } else if (moved != Moved::yes) {
+    } else if (moved != TransferResult::yes) {
         mailbox.count_refused();
     } else {
         mailbox.count_sent();

@@ -66,8 +66,8 @@ void SpaceMouse::drain(base::TimePoint now)
     std::array<std::byte, report_bytes_max> report{};
     for (int i = 0; i < reports_per_read_max; ++i) {
         const ReadResult heard = wire_->read(report);
-        if (heard.moved == Moved::nothing) return;
-        if (heard.moved != Moved::yes) {
+        if (heard.moved == TransferResult::nothing) return;
+        if (heard.moved != TransferResult::yes) {
             is_gone_ = true; // a read does not fail but for that
             return;
         }

@@ -9,7 +9,7 @@
 namespace hapnet::device::hid {
 
 /// The result of moving a report.
-enum class Moved : std::uint8_t {
+enum class TransferResult : std::uint8_t {
     yes,
     nothing, // no report was waiting
     failed,  // the device refused it or did not answer
@@ -18,7 +18,7 @@ enum class Moved : std::uint8_t {
 
 /// The result of a read.
 struct ReadResult {
-    Moved moved = Moved::nothing;
+    TransferResult moved = TransferResult::nothing;
     std::size_t size = 0; // bytes, with the ID where reports are numbered
 };
 
@@ -36,11 +36,11 @@ public:
 
     // These always begin with an ID, 0 when reports have none, and wait as long as the system
     // does: the kernel gives up after 5 s.
-    [[nodiscard]] virtual Moved write(std::span<const std::byte> report) = 0;
-    [[nodiscard]] virtual Moved set_feature(std::span<const std::byte> report) = 0;
+    [[nodiscard]] virtual TransferResult write(std::span<const std::byte> report) = 0;
+    [[nodiscard]] virtual TransferResult set_feature(std::span<const std::byte> report) = 0;
     /// Asks for the report whose ID stands first, into the same bytes: only while a device is
     /// opened, as a question that it leaves open holds up all that would stop it.
-    [[nodiscard]] virtual Moved get_feature(std::span<std::byte> report) = 0;
+    [[nodiscard]] virtual TransferResult get_feature(std::span<std::byte> report) = 0;
 };
 
 } // namespace hapnet::device::hid

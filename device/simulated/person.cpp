@@ -93,17 +93,17 @@ Person::Aim Person::aim_of_part(base::TimePoint now)
     return aim;
 }
 
-Person::Effort Person::effort(const Aim& aim, const Feeling& feeling, base::TimePoint now,
+Person::Effort Person::effort(const Aim& aim, const Feedback& feedback, base::TimePoint now,
                               base::Duration elapsed)
 {
     Effort effort{.target = aim.intention.target};
     if (!part_ || part_->is_prescribed) return effort;
     const double toward = part_->script.pressing_toward();
     const Reaction reaction = reactions_.to(
-        {feeling.deviation, -toward * feeling.force.x, aim.intention.pressing_n}, now, elapsed);
+        {feedback.deviation, -toward * feedback.force.x, aim.intention.pressing_n}, now, elapsed);
     effort.target.value.x += toward * reaction.farther_m;
     effort.force =
-        reaction.force - (aim.force_share * hand().stiffness_n_per_m) * feeling.deviation;
+        reaction.force - (aim.force_share * hand().stiffness_n_per_m) * feedback.deviation;
     return effort;
 }
 

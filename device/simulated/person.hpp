@@ -43,7 +43,7 @@ public:
     [[nodiscard]] Aim aim(base::TimePoint now);
 
     /// Its perception: the deviation from its intention, and the device's force.
-    struct Feeling {
+    struct Feedback {
         glm::dvec3 deviation{0.0};
         glm::dvec3 force{0.0};
     };
@@ -53,7 +53,7 @@ public:
         glm::dvec3 force{0.0};
     };
     /// Once per aim().
-    [[nodiscard]] Effort effort(const Aim& aim, const Feeling& feeling, base::TimePoint now,
+    [[nodiscard]] Effort effort(const Aim& aim, const Feedback& feedback, base::TimePoint now,
                                 base::Duration elapsed);
 
     [[nodiscard]] const HandImpedance& hand() const { return role_.person.hand; }

@@ -8,7 +8,7 @@
 
 namespace hapnet::device {
 
-Reaction Reactions::to(const Felt& felt, base::TimePoint now, base::Duration elapsed)
+Reaction Reactions::to(const Perception& felt, base::TimePoint now, base::Duration elapsed)
 {
     Reaction reaction;
     const Reflex& reflex = person_.reflex;
@@ -21,7 +21,7 @@ Reaction Reactions::to(const Felt& felt, base::TimePoint now, base::Duration ela
     return reaction;
 }
 
-double Reactions::farther(const Felt& felt, base::TimePoint now, base::Duration elapsed)
+double Reactions::farther(const Perception& felt, base::TimePoint now, base::Duration elapsed)
 {
     constexpr double farther_max_m = 0.020;
     const Intent& intent = person_.intent;

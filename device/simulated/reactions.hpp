@@ -10,7 +10,7 @@
 namespace hapnet::device {
 
 /// A hand's perception at a moment.
-struct Felt {
+struct Perception {
     glm::dvec3 deviation{0.0};        // of the hand from its intention, metres
     double pressing_n = 0.0;          // the force with which it presses
     std::optional<double> wanted_n{}; // with which it wants to; nullopt: it does not care
@@ -28,10 +28,11 @@ public:
     explicit Reactions(const Operator& person) : person_{person} {}
 
     /// Once per read; `now` never runs backwards.
-    [[nodiscard]] Reaction to(const Felt& felt, base::TimePoint now, base::Duration elapsed);
+    [[nodiscard]] Reaction to(const Perception& felt, base::TimePoint now, base::Duration elapsed);
 
 private:
-    [[nodiscard]] double farther(const Felt& felt, base::TimePoint now, base::Duration elapsed);
+    [[nodiscard]] double farther(const Perception& felt, base::TimePoint now,
+                                 base::Duration elapsed);
 
     Operator person_;
     SignalHistory stretched_;

@@ -3,12 +3,10 @@
 #pragma once
 
 #include "proto/base/fields.hpp"
-#include "proto/base/reading.hpp"
 #include "proto/base/time.hpp"
 
 #include <chrono>
 #include <optional>
-#include <string>
 
 namespace hapnet::device {
 
@@ -44,13 +42,5 @@ constexpr auto fields_of(base::Tag<TaskOptions> /*struct*/)
         base::field("follower_lag", &TaskOptions::follower_lag,
                     base::Time{base::Duration{0}, std::chrono::seconds{1}}, "T3: of R behind L"));
 }
-
-/// Reads the table at `node`, with the keys squeeze, press_depth, press_amplitude,
-/// press_frequency, pace and follower_lag; nullopt when a complaint was made.
-[[nodiscard]] std::optional<TaskOptions> read_task_options(const base::Node& node,
-                                                           base::Reading& reading);
-
-/// TOML that reads back as the same options.
-[[nodiscard]] std::string print_task_options(const TaskOptions& options);
 
 } // namespace hapnet::device

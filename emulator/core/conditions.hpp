@@ -3,9 +3,9 @@
 #pragma once
 
 #include "emulator/core/delay/delay.hpp"
+#include "emulator/core/fate.hpp"
 #include "emulator/core/formats.hpp"
 #include "emulator/core/loss/loss.hpp"
-#include "emulator/core/verdict.hpp"
 #include "proto/base/probability.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"

@@ -16,7 +16,7 @@ DelayLine::DelayLine(std::size_t datagrams_max)
     times_.reserve(datagrams_max);
 }
 
-bool DelayLine::leaves_after(const Entry& a, const Entry& b)
+bool DelayLine::leaves_after(const HeapEntry& a, const HeapEntry& b)
 {
     return a.datagram.due != b.datagram.due ? a.datagram.due > b.datagram.due : a.rank > b.rank;
 }
@@ -24,12 +24,11 @@ bool DelayLine::leaves_after(const Entry& a, const Entry& b)
 void DelayLine::push(const Datagram& datagram)
 {
     base::ensure(!is_full());
-    const Entry entry{datagram, pushed_++};
-    if (in_turn_.empty() || in_turn_.back().datagram.due <= datagram.due) {
-        in_turn_.push(entry);
+    if (in_turn_.empty() || in_turn_.back().due <= datagram.due) {
+        in_turn_.push(datagram);
         return;
     }
-    heap_.push_back(entry);
+    heap_.push_back({datagram, pushed_++});
     std::push_heap(heap_.begin(), heap_.end(), leaves_after);
 }
 
@@ -55,9 +54,9 @@ std::optional<Datagram> DelayLine::pop(base::TimePoint now)
     const auto due = next_due();
     if (!base::is_due(due, now)) return std::nullopt;
     if (!times_.empty() && times_.front() == *due) return pop_sorted();
-    if (heap_.empty() || (!in_turn_.empty() && leaves_after(heap_.front(), in_turn_.front()))) {
-        return in_turn_.pop().datagram;
-    }
+    // Of equal times those in turn were pushed first: what came after one in the heap is due after
+    // the one that was the last in turn then, which is still there.
+    if (heap_.empty() || (!in_turn_.empty() && in_turn_.front().due == *due)) return in_turn_.pop();
     std::pop_heap(heap_.begin(), heap_.end(), leaves_after);
     const Datagram datagram = heap_.back().datagram;
     heap_.pop_back();
@@ -69,10 +68,10 @@ std::optional<base::TimePoint> DelayLine::next_due() const
     const bool are_in_turn = heap_.empty() && times_.empty(); // as a constant delay leaves them
     if (are_in_turn) {
         if (in_turn_.empty()) return std::nullopt;
-        return in_turn_.front().datagram.due;
+        return in_turn_.front().due;
     }
     std::optional<base::TimePoint> due;
-    if (!in_turn_.empty()) due = in_turn_.front().datagram.due;
+    if (!in_turn_.empty()) due = in_turn_.front().due;
     if (!heap_.empty()) due = base::earlier(due, heap_.front().datagram.due);
     if (!times_.empty()) due = base::earlier(due, times_.front());
     return due;

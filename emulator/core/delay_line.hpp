@@ -2,27 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/datagram.hpp"
 #include "emulator/core/ring.hpp"
-#include "emulator/core/slab.hpp"
 #include "proto/base/time.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace hapnet::emulator {
-
-/// A datagram on its way through the emulator.
-struct Datagram {
-    Slab::Slot slot = Slab::no_slot; // no_slot: the bytes are the caller's own
-    bool is_copy = false;
-    std::uint64_t number = 0; // of the datagram in its direction, from 0; a copy has its original's
-    base::TimePoint arrival{};
-    base::TimePoint due{};              // never leaves before
-    std::span<const std::byte> bytes{}; // stay where they are until it has left
-};
 
 /// Holds datagrams until they are due. Those due at the same time leave in the order in which they
 /// were pushed. Memory is taken once, at construction.
@@ -51,18 +40,18 @@ public:
     }
 
 private:
-    struct Entry {
+    struct HeapEntry {
         Datagram datagram;
         std::uint64_t rank = 0; // of its push
     };
-    static bool leaves_after(const Entry& a, const Entry& b);
+    static bool leaves_after(const HeapEntry& a, const HeapEntry& b);
     [[nodiscard]] Datagram pop_sorted();
 
     std::size_t datagrams_max_;
     std::uint64_t pushed_ = 0;
-    Ring<Entry> in_turn_;     // due in the order in which they came: a constant delay needs no heap
-    std::vector<Entry> heap_; // the others
-    Ring<Datagram> sorted_;   // these wait for ...
+    Ring<Datagram> in_turn_; // due in the order in which they came: a constant delay needs no heap
+    std::vector<HeapEntry> heap_;        // due before the last of those when they came
+    Ring<Datagram> sorted_;              // these wait for ...
     std::vector<base::TimePoint> times_; // ... these, a heap
 };
 

@@ -45,28 +45,23 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     last_arrival_ = std::max(arrival, last_arrival_);
     advance(last_arrival_);
     const Packet packet{statistics_.received, bytes.size(), last_arrival_ - setup_.start};
+    const Datagram datagram{
+        .number = packet.number, .arrival = last_arrival_, .due = last_arrival_, .bytes = bytes};
     const Fate fate = fate_of(packet);
-    Admission admission{packet.number, fate, fate.verdict, {}};
+    Admission admission{packet.number, fate, fate.drop, {}};
     ++statistics_.received;
     statistics_.bytes_in += bytes.size();
-    if (is_over_rate(packet, admission.verdict)) {
-        admission.verdict = Drop{DropCause::rate_queue_full};
-    }
-    if (const auto* deliver = std::get_if<Deliver>(&admission.verdict)) {
-        if (passes_untouched(*deliver)) {
-            admission.departure = Datagram{.number = packet.number,
-                                           .arrival = last_arrival_,
-                                           .due = last_arrival_,
-                                           .bytes = bytes};
+    if (is_over_rate(datagram, fate)) admission.drop = DropCause::rate_queue_full;
+    if (!admission.drop) {
+        if (passes_untouched(fate)) {
+            admission.departure = datagram;
             last_due_ = std::max(last_due_, last_arrival_);
             ++statistics_.in_flight;
-        } else if (!hold(bytes, packet.number, *deliver)) {
-            admission.verdict = Drop{DropCause::queue_full};
+        } else if (!hold(datagram, fate)) {
+            admission.drop = DropCause::queue_full;
         }
     }
-    if (const auto* drop = std::get_if<Drop>(&admission.verdict)) {
-        ++statistics_.dropped_by(drop->cause);
-    }
+    if (admission.drop) ++statistics_.dropped_by(*admission.drop);
     if (setup_.has_stream_statistics) stream_statistics_.on_packet(fate);
     return admission;
 }
@@ -78,99 +73,95 @@ Fate Link::fate_of(const Packet& packet)
 
 /// Whether the queue of the rate has no room for it. What will be lost behind the bottleneck takes
 /// its time there all the same; what is too large for the path never comes to it.
-bool Link::is_over_rate(const Packet& packet, const Verdict& verdict)
+bool Link::is_over_rate(const Datagram& datagram, const Fate& fate)
 {
-    if (!bottleneck_.is_on() || verdict == Verdict{Drop{DropCause::mtu}}) return false;
-    if (!bottleneck_.has_room(packet.bytes)) return true;
-    if (std::holds_alternative<Drop>(verdict)) {
-        bottleneck_.push({}, packet.bytes, last_arrival_);
-    }
+    if (!bottleneck_.is_on() || fate.drop == DropCause::mtu) return false;
+    if (!bottleneck_.has_room(datagram.bytes.size())) return true;
+    if (fate.drop) bottleneck_.push(datagram, fate);
     return false;
 }
 
-bool Link::passes_untouched(const Deliver& deliver) const
+bool Link::passes_untouched(const Fate& fate) const
 {
-    return deliver.after == base::Duration{0} && !deliver.copy && deliver.flips.count == 0 &&
-           deliver.displacement == Displacement{} && !bottleneck_.is_on() &&
-           bottleneck_.is_idle() && line_.size() == 0 && displaced_.empty();
+    return fate.delay == base::Duration{0} && !fate.copy_after && fate.flips.count == 0 &&
+           fate.displacement == Displacement{} && !bottleneck_.is_on() && bottleneck_.is_idle() &&
+           line_.size() == 0 && displaced_.empty();
 }
 
-bool Link::hold(std::span<const std::byte> bytes, std::uint64_t number, const Deliver& deliver)
+bool Link::hold(Datagram datagram, const Fate& fate)
 {
-    const auto slot = store(bytes);
-    if (!slot) return false;
-    const auto stored = slab_.bytes(*slot);
-    ++statistics_.in_flight;
-    if (deliver.flips.count > 0) {
-        apply(deliver.flips, stored);
+    if (!store(datagram)) return false;
+    if (fate.flips.count > 0) {
+        apply(fate.flips, slab_.bytes(datagram.slot));
         ++statistics_.corrupted;
     }
-    const Held held{{*slot, false, number, last_arrival_, {}, stored}, deliver};
     if (bottleneck_.is_on() || !bottleneck_.is_idle()) {
-        bottleneck_.push(held, bytes.size(), last_arrival_);
+        bottleneck_.push(datagram, fate);
     } else {
-        schedule(held, last_arrival_);
+        schedule(datagram, fate);
     }
     return true;
 }
 
-std::optional<Slab::Slot> Link::store(std::span<const std::byte> bytes)
+/// Gives the datagram a copy of its bytes that is ours.
+bool Link::store(Datagram& datagram)
 {
-    if (slab_.used() >= setup_.limits.datagrams_max) return std::nullopt;
-    return slab_.store(bytes);
+    if (slab_.used() >= setup_.limits.datagrams_max) return false;
+    const auto slot = slab_.store(datagram.bytes);
+    if (!slot) return false;
+    datagram.slot = *slot;
+    datagram.bytes = slab_.bytes(*slot);
+    ++statistics_.in_flight;
+    return true;
 }
 
-/// Finds the time at which a datagram is to leave that was ready for its delay at `ready`.
-void Link::schedule(const Held& held, base::TimePoint ready)
+/// Finds the time at which a datagram is to leave that was ready for its delay when it was due.
+void Link::schedule(Datagram datagram, const Fate& fate)
 {
-    const Deliver& deliver = held.deliver;
-    Datagram datagram = held.datagram;
-    datagram.due = ready + deliver.after;
+    datagram.due += fate.delay;
     if (conditions_.order == Order::keep) datagram.due = std::max(datagram.due, last_due_);
     last_due_ = std::max(last_due_, datagram.due);
-    const Datagram in_turn = datagram;
-    if (deliver.displacement.places > 0 && displaced_.size() < displaced_max) {
-        displaced_.push_back({datagram, deliver});
-    } else if (deliver.displacement.time > base::Duration{0}) {
-        datagram.due += deliver.displacement.time;
-        line_.push(datagram);
-    } else if (conditions_.order == Order::sorted) {
-        line_.push_sorted(datagram);
+    const auto [places, time] = fate.displacement;
+    if (places > 0 && displaced_.size() < displaced_max) {
+        displaced_.push_back({datagram, fate});
+    } else if (time > base::Duration{0}) {
+        Datagram later = datagram;
+        later.due += time;
+        line_.push(later);
     } else {
-        line_.push(datagram);
+        put(datagram);
     }
-    if (deliver.copy) schedule_copy(in_turn, *deliver.copy);
-    release_displaced(in_turn.number, in_turn.due);
+    if (fate.copy_after) schedule_copy(datagram, *fate.copy_after);
+    release_displaced(datagram.number, datagram.due);
 }
 
-void Link::schedule_copy(const Datagram& original, base::Duration after)
+void Link::schedule_copy(Datagram copy, base::Duration after)
 {
     ++statistics_.duplicated;
-    const auto slot = store(original.bytes);
-    if (!slot) {
+    if (!store(copy)) {
         ++statistics_.dropped_by(DropCause::queue_full);
         return;
     }
-    ++statistics_.in_flight;
-    Datagram copy = original;
-    copy.slot = *slot;
-    copy.bytes = slab_.bytes(*slot);
     copy.is_copy = true;
-    copy.due = original.due + after;
+    copy.due += after;
+    put(copy);
+}
+
+void Link::put(const Datagram& datagram)
+{
     if (conditions_.order == Order::sorted) {
-        line_.push_sorted(copy);
+        line_.push_sorted(datagram);
     } else {
-        line_.push(copy);
+        line_.push(datagram);
     }
 }
 
 /// Lets those follow that waited for the datagram `scheduled`, which leaves at `due`.
 void Link::release_displaced(std::uint64_t scheduled, base::TimePoint due)
 {
-    std::erase_if(displaced_, [&](const Held& waiting) {
-        const auto& [delayed, deliver] = waiting;
-        if (delayed.number + deliver.displacement.places > scheduled) return false;
+    std::erase_if(displaced_, [&](const Queued& waiting) {
         Datagram datagram = waiting.datagram;
+        if (datagram.number + waiting.fate.displacement.places > scheduled) return false;
         datagram.due = std::max(datagram.due, due);
         line_.push(datagram);
         return true;
@@ -187,10 +178,10 @@ std::optional<Datagram> Link::poll(base::TimePoint now)
 void Link::move_on(base::TimePoint now)
 {
     while (const auto sent = bottleneck_.pop(now)) {
-        if (sent->item.datagram.slot != Slab::no_slot) schedule(sent->item, sent->at);
+        if (!sent->fate.drop) schedule(sent->datagram, sent->fate);
     }
     if (displaced_.empty()) return;
-    std::erase_if(displaced_, [&](const Held& waiting) {
+    std::erase_if(displaced_, [&](const Queued& waiting) {
         const auto latest = waiting.datagram.due + displaced_for_max;
         if (latest > now) return false;
         Datagram datagram = waiting.datagram;
@@ -203,7 +194,7 @@ void Link::move_on(base::TimePoint now)
 std::optional<base::TimePoint> Link::next_deadline() const
 {
     auto deadline = base::earlier(line_.next_due(), bottleneck_.next_sent());
-    for (const Held& waiting : displaced_) {
+    for (const Queued& waiting : displaced_) {
         deadline = base::earlier(deadline, waiting.datagram.due + displaced_for_max);
     }
     return deadline;

@@ -4,13 +4,14 @@
 
 #include "emulator/core/bottleneck.hpp"
 #include "emulator/core/conditions.hpp"
+#include "emulator/core/datagram.hpp"
 #include "emulator/core/delay_line.hpp"
+#include "emulator/core/fate.hpp"
 #include "emulator/core/fates/replay.hpp"
 #include "emulator/core/pipeline.hpp"
 #include "emulator/core/slab.hpp"
 #include "emulator/core/statistics.hpp"
 #include "emulator/core/stream_statistics.hpp"
-#include "emulator/core/verdict.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 
@@ -25,8 +26,8 @@ namespace hapnet::emulator {
 /// What became of a datagram on its arrival.
 struct Admission {
     std::uint64_t number = 0;
-    Fate fate;       // as it was drawn, or replayed
-    Verdict verdict; // the fate's, or Drop because a queue was full
+    Fate fate;                     // as it was drawn, or replayed
+    std::optional<DropCause> drop; // the fate's, or because a queue was full
     /// The datagram itself when nothing holds it: no delay, no queue. Send it before
     /// anything that is polled from now on.
     std::optional<Datagram> departure;
@@ -73,19 +74,14 @@ public:
     [[nodiscard]] const StreamStatistics& stream_statistics() const { return stream_statistics_; }
 
 private:
-    /// A datagram and what is still to be done with it.
-    struct Held {
-        Datagram datagram; // no_slot: it will be lost, and only takes time
-        Deliver deliver;
-    };
     [[nodiscard]] Fate fate_of(const Packet& packet);
-    [[nodiscard]] bool is_over_rate(const Packet& packet, const Verdict& verdict);
-    [[nodiscard]] bool passes_untouched(const Deliver& deliver) const;
-    [[nodiscard]] bool hold(std::span<const std::byte> bytes, std::uint64_t number,
-                            const Deliver& deliver);
-    [[nodiscard]] std::optional<Slab::Slot> store(std::span<const std::byte> bytes);
-    void schedule(const Held& held, base::TimePoint ready);
-    void schedule_copy(const Datagram& original, base::Duration after);
+    [[nodiscard]] bool is_over_rate(const Datagram& datagram, const Fate& fate);
+    [[nodiscard]] bool passes_untouched(const Fate& fate) const;
+    [[nodiscard]] bool hold(Datagram datagram, const Fate& fate);
+    [[nodiscard]] bool store(Datagram& datagram);
+    void schedule(Datagram datagram, const Fate& fate);
+    void schedule_copy(Datagram copy, base::Duration after);
+    void put(const Datagram& datagram);
     void release_displaced(std::uint64_t scheduled, base::TimePoint due);
     void advance(base::TimePoint now)
     {
@@ -99,8 +95,8 @@ private:
     Pipeline pipeline_;
     Slab slab_;
     DelayLine line_;
-    Bottleneck<Held> bottleneck_;
-    std::vector<Held> displaced_; // until a later datagram is scheduled (Reordering by places)
+    Bottleneck bottleneck_;
+    std::vector<Queued> displaced_; // until a later datagram is scheduled (Reordering by places)
     base::TimePoint last_arrival_;
     base::TimePoint last_due_ = base::TimePoint::min();
     std::uint64_t beyond_highest_delivered_ = 0; // the highest number that left, plus one

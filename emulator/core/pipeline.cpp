@@ -44,26 +44,25 @@ Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction dire
 Fate Pipeline::on_packet(const Packet& packet)
 {
     Fate fate;
-    std::optional<DropCause> cause;
-    if (is_above_mtu(packet)) cause = DropCause::mtu;
+    if (is_above_mtu(packet)) fate.drop = DropCause::mtu;
     for (std::size_t i = 0; i < loss_.size(); ++i) {
         const auto lost = loss_[i].process.on_packet(packet);
         fate.states[i] = loss_[i].process.state();
-        if (!cause) cause = lost;
+        if (!fate.drop) fate.drop = lost;
     }
-    auto& deliver = std::get<Deliver>(fate.verdict); // drawn in place: this is done a lot
+    // Delays may depend on the ones before: they are drawn for what is lost, too.
+    const auto delay = delay_.on_packet(packet) + jitter_.on_packet(packet);
+    if (fate.drop) return fate;
     if (is_drawn(corrupt_.share, corrupt_stream_, packet.number)) {
-        deliver.flips = draw_flips(packet.number);
+        fate.flips = draw_flips(packet.number);
     }
     if (is_drawn(duplicate_.share, duplicate_stream_, packet.number)) {
-        deliver.copy = draw_copy(packet.number);
+        fate.copy_after = draw_copy(packet.number);
     }
-    const auto after = delay_.on_packet(packet) + jitter_.on_packet(packet);
-    deliver.after = std::max(after, base::Duration{0});
+    fate.delay = std::max(delay, base::Duration{0});
     if (is_drawn(reorder_.share, reorder_stream_, packet.number)) {
-        deliver.displacement = reorder_.displacement;
+        fate.displacement = reorder_.displacement;
     }
-    if (cause) fate.verdict = Drop{*cause};
     return fate;
 }
 

@@ -4,9 +4,9 @@
 
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/delay/delay.hpp"
+#include "emulator/core/fate.hpp"
 #include "emulator/core/loss/loss.hpp"
 #include "emulator/core/packet.hpp"
-#include "emulator/core/verdict.hpp"
 #include "proto/base/random.hpp"
 
 #include <vector>

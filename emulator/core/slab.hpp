@@ -41,16 +41,16 @@ public:
     [[nodiscard]] std::size_t used() const { return used_; }
 
 private:
-    struct Shelf {
+    struct SizeClass {
         std::size_t slot_bytes = 0;
         Slot first = 0;
         std::unique_ptr<std::byte[]> memory; // NOLINT(*-avoid-c-arrays): not filled with zeros
         std::vector<Slot> free;
     };
 
-    [[nodiscard]] Shelf& shelf_of(Slot slot);
+    [[nodiscard]] SizeClass& class_of(Slot slot);
 
-    std::array<Shelf, 3> shelves_;
+    std::array<SizeClass, 3> classes_;
     std::vector<std::uint32_t> lengths_; // by slot
     std::size_t used_ = 0;
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/verdict.hpp"
+#include "emulator/core/fate.hpp"
 #include "proto/base/histogram.hpp"
 #include "proto/base/time.hpp"
 

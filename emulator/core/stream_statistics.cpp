@@ -48,7 +48,7 @@ std::optional<Moments> StreamStatistics::Running::moments() const
 
 void StreamStatistics::on_packet(const Fate& fate)
 {
-    if (const auto* deliver = std::get_if<Deliver>(&fate.verdict)) requested_.add(deliver->after);
+    if (!fate.drop) requested_.add(fate.delay);
 }
 
 void StreamStatistics::on_sent(const Datagram& datagram, base::TimePoint at)

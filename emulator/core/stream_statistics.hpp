@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/delay_line.hpp"
-#include "emulator/core/verdict.hpp"
+#include "emulator/core/datagram.hpp"
+#include "emulator/core/fate.hpp"
 #include "proto/base/histogram.hpp"
 #include "proto/base/time.hpp"
 

@@ -74,8 +74,12 @@ private:
     void on_sent(const Datagram& departure, base::TimePoint at, const net::Endpoint& destination)
     {
         if (recorder_.captures()) {
-            recorder_.on_departure({to_.side, at, udp_address_of(to_.local),
-                                    udp_address_of(destination), departure.bytes},
+            recorder_.on_departure({.side = to_.side,
+                                    .is_outbound = true,
+                                    .at = at,
+                                    .from = udp_address_of(to_.local),
+                                    .to = udp_address_of(destination),
+                                    .payload = departure.bytes},
                                    at - departure.due, departure.is_copy);
         }
         path_.on_sent(direction_, departure, at); // its bytes go
@@ -111,9 +115,15 @@ int Relay::pass(Side& from, Side& to)
         const Admission admission = path_.on_packet(from.direction, datagram.bytes, datagram.at);
         recorder_.on_fate(from.direction, admission.number, admission.fate);
         if (recorder_.captures()) {
-            recorder_.on_arrival({from.side, datagram.at, udp_address_of(datagram.from),
-                                  udp_address_of(from.local), datagram.bytes},
-                                 admission.verdict);
+            Fate fate = admission.fate;
+            fate.drop = admission.drop;
+            recorder_.on_arrival({.side = from.side,
+                                  .is_outbound = false,
+                                  .at = datagram.at,
+                                  .from = udp_address_of(datagram.from),
+                                  .to = udp_address_of(from.local),
+                                  .payload = datagram.bytes},
+                                 fate);
         }
         if (admission.departure) undelayed.add(*admission.departure);
     }

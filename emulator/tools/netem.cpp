@@ -29,7 +29,7 @@ base::Duration scaled(base::Duration duration, double by)
 }
 
 /// What the sentence says, before it is put together.
-struct Said {
+struct NetemSettings {
     base::Duration delay{};
     base::Duration jitter{};
     Probability delay_correlation{};
@@ -47,7 +47,7 @@ struct Said {
 
 /// Whether this share, as netem draws it with a correlation, is another one; says so.
 void warn_of_correlated(std::string_view verb, Probability share, Probability correlation,
-                        Said& said)
+                        NetemSettings& said)
 {
     const double real = netem_correlated_share(share.fraction(), correlation.fraction());
     said.warnings.push_back(fmt::format(
@@ -56,14 +56,14 @@ void warn_of_correlated(std::string_view verb, Probability share, Probability co
         verb, 100.0 * real, base::to_text(share), base::to_text(correlation)));
 }
 
-void read_delay(NetemWords& words, Said& said)
+void read_delay(NetemWords& words, NetemSettings& said)
 {
     said.delay = words.time();
     said.jitter = words.optional_time().value_or(base::Duration{});
     said.delay_correlation = words.optional_share().value_or(Probability{});
 }
 
-void read_random_loss(NetemWords& words, Said& said)
+void read_random_loss(NetemWords& words, NetemSettings& said)
 {
     const auto share = words.share();
     const auto correlation = words.optional_share().value_or(Probability{});
@@ -81,7 +81,7 @@ void read_random_loss(NetemWords& words, Said& said)
     said.loss.push_back(Gilbert{share, burst});
 }
 
-void read_gemodel(NetemWords& words, Said& said)
+void read_gemodel(NetemWords& words, NetemSettings& said)
 {
     GilbertElliott law;
     law.good_to_bad = words.share();
@@ -106,7 +106,7 @@ FourState in_words(double p13, double p31, double p32, double p23, double p14)
             .good_run = 1.0 / p23};
 }
 
-void read_states(NetemWords& words, Said& said)
+void read_states(NetemWords& words, NetemSettings& said)
 {
     const auto p13 = words.share();
     const auto complement = Probability::from_fraction(1.0 - p13.fraction());
@@ -131,7 +131,7 @@ void read_states(NetemWords& words, Said& said)
                                  std::max(p23.fraction(), 1e-9), p14.fraction()));
 }
 
-void read_loss(NetemWords& words, Said& said)
+void read_loss(NetemWords& words, NetemSettings& said)
 {
     if (words.take_if("state")) {
         read_states(words, said);
@@ -148,7 +148,7 @@ void read_loss(NetemWords& words, Said& said)
     }
 }
 
-void read_duplicate(NetemWords& words, Said& said)
+void read_duplicate(NetemWords& words, NetemSettings& said)
 {
     said.duplicate.share = words.share();
     const auto correlation = words.optional_share().value_or(Probability{});
@@ -157,7 +157,7 @@ void read_duplicate(NetemWords& words, Said& said)
                                "not pass it on; here it has none either");
 }
 
-void read_corrupt(NetemWords& words, Said& said)
+void read_corrupt(NetemWords& words, NetemSettings& said)
 {
     said.corrupt.share = words.share();
     const auto correlation = words.optional_share().value_or(Probability{});
@@ -167,7 +167,7 @@ void read_corrupt(NetemWords& words, Said& said)
                                "its own");
 }
 
-void read_reorder(NetemWords& words, Said& said)
+void read_reorder(NetemWords& words, NetemSettings& said)
 {
     said.reorder = words.share();
     const auto correlation = words.optional_share().value_or(Probability{});
@@ -177,7 +177,7 @@ void read_reorder(NetemWords& words, Said& said)
                                "its own");
 }
 
-void read_rate(NetemWords& words, Said& said)
+void read_rate(NetemWords& words, NetemSettings& said)
 {
     constexpr std::int64_t headers = Mtu::header_bytes + 14; // netem counts Ethernet's too
     said.rate.bits_per_second = words.bits_per_second();
@@ -192,26 +192,28 @@ void read_rate(NetemWords& words, Said& said)
 }
 
 /// One option of the sentence, by its first word.
-void read_option(NetemWords& words, Said& said)
+void read_option(NetemWords& words, NetemSettings& said)
 {
     struct Option {
         std::string_view name;
-        void (*read)(NetemWords&, Said&);
+        void (*read)(NetemWords&, NetemSettings&);
     };
     constexpr auto most = std::numeric_limits<std::uint64_t>::max();
     static constexpr std::array<Option, 12> options{{
         {"delay", read_delay},
         {"latency", read_delay},
-        {"distribution", [](NetemWords& from, Said& to) { to.distribution = from.take(); }},
+        {"distribution",
+         [](NetemWords& from, NetemSettings& to) { to.distribution = from.take(); }},
         {"loss", read_loss},
         {"drop", read_loss},
         {"duplicate", read_duplicate},
         {"corrupt", read_corrupt},
         {"reorder", read_reorder},
-        {"gap", [](NetemWords& from, Said& to) { to.gap = from.count(1'000'000); }},
+        {"gap", [](NetemWords& from, NetemSettings& to) { to.gap = from.count(1'000'000); }},
         {"rate", read_rate},
-        {"limit", [](NetemWords& from, Said& to) { to.limit = from.count(1'000'000); }},
-        {"seed", [](NetemWords& from, Said& to) { to.seed = base::Seed{from.count(most)}; }},
+        {"limit", [](NetemWords& from, NetemSettings& to) { to.limit = from.count(1'000'000); }},
+        {"seed",
+         [](NetemWords& from, NetemSettings& to) { to.seed = base::Seed{from.count(most)}; }},
     }};
     const auto word = words.take();
     const auto option = std::find_if(options.begin(), options.end(),
@@ -227,7 +229,7 @@ void read_option(NetemWords& words, Said& said)
 }
 
 /// The jitter, and the delay that goes with it.
-void put_delay(NetemWords& words, Said& said, Conditions& conditions)
+void put_delay(NetemWords& words, NetemSettings& said, Conditions& conditions)
 {
     conditions.delay = constant(said.delay);
     if (said.jitter == base::Duration{0}) {
@@ -271,7 +273,7 @@ void put_delay(NetemWords& words, Said& said, Conditions& conditions)
     }
 }
 
-void put_correlation(NetemWords& words, Said& said, Conditions& conditions)
+void put_correlation(NetemWords& words, NetemSettings& said, Conditions& conditions)
 {
     const double correlation = said.delay_correlation.fraction();
     if (correlation == 0.0 || said.jitter == base::Duration{0}) return;
@@ -285,7 +287,8 @@ void put_correlation(NetemWords& words, Said& said, Conditions& conditions)
         base::to_text(said.delay_correlation)));
 }
 
-void put_order(const Said& said, Conditions& conditions, std::vector<std::string>& warnings)
+void put_order(const NetemSettings& said, Conditions& conditions,
+               std::vector<std::string>& warnings)
 {
     if (said.jitter == base::Duration{0}) return;
     if (said.rate.bits_per_second > 0) {
@@ -298,7 +301,7 @@ void put_order(const Said& said, Conditions& conditions, std::vector<std::string
                           "order = keep with a correlation_time is what most paths do");
 }
 
-void put_reorder(NetemWords& words, Said& said, Conditions& conditions)
+void put_reorder(NetemWords& words, NetemSettings& said, Conditions& conditions)
 {
     if (!said.reorder && said.gap == 1) return;
     if (said.delay == base::Duration{0}) return words.complain("reorder needs a delay");
@@ -320,7 +323,7 @@ void put_reorder(NetemWords& words, Said& said, Conditions& conditions)
                     said.gap > 1 ? "; netem counts the gap, here each is drawn on its own" : ""));
 }
 
-void warn_of_limit(Said& said)
+void warn_of_limit(NetemSettings& said)
 {
     if (said.delay == base::Duration{0}) return;
     const double rate = static_cast<double>(said.limit) / base::to_seconds(said.delay);
@@ -339,7 +342,7 @@ base::Result<NetemProfile> parse_netem(std::string_view sentence)
     NetemWords words{sentence};
     if (words.at_end())
         return base::fail("nothing is said: write delay 80ms loss 1%, for instance");
-    Said said;
+    NetemSettings said;
     while (!words.at_end() && !words.complaint()) read_option(words, said);
     NetemProfile profile;
     Conditions& conditions = profile.conditions;

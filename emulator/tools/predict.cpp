@@ -89,8 +89,7 @@ Prediction predict(const Profile& profile, const Stream& stream, base::Seed seed
         for (const Direction direction : {Direction::up, Direction::down}) {
             const Admission admission = path.on_packet(direction, bytes, now);
             if (admission.departure) path.on_sent(direction, *admission.departure, now);
-            const bool is_lost = std::holds_alternative<Drop>(admission.fate.verdict);
-            (direction == Direction::up ? up : down).add(is_lost);
+            (direction == Direction::up ? up : down).add(admission.fate.drop.has_value());
         }
     }
     while (const auto due = path.next_due()) drain(path, *due);

@@ -29,7 +29,7 @@ constexpr double path_every_s = 0.010;
 constexpr double fallen_m = 0.025; // half the height to which the body is lifted
 
 /// A trace as columns, and where its samples stand in time.
-struct Taken {
+struct TraceColumns {
     Exercise exercise;
     std::array<Columns, 2> sides;
     double tick_s = 0.001;
@@ -60,23 +60,23 @@ struct Taken {
     }
 };
 
-std::optional<Spread> body_discrepancy(const Taken& taken)
+std::optional<Spread> body_discrepancy(const TraceColumns& columns)
 {
-    std::vector<double> distances(taken.count());
+    std::vector<double> distances(columns.count());
     for (std::size_t i = 0; i < distances.size(); ++i) {
-        distances[i] = std::abs(taken.sides[0].body_x[i] - taken.sides[1].body_x[i]);
+        distances[i] = std::abs(columns.sides[0].body_x[i] - columns.sides[1].body_x[i]);
     }
     return spread_of(distances);
 }
 
-std::optional<double> path_rms(const Taken& taken, const Columns& side)
+std::optional<double> path_rms(const TraceColumns& columns, const Columns& side)
 {
-    const auto stride = static_cast<std::size_t>(std::max(1.0, path_every_s / taken.tick_s));
+    const auto stride = static_cast<std::size_t>(std::max(1.0, path_every_s / columns.tick_s));
     double sum = 0.0;
     double count = 0.0;
-    for (std::size_t i = taken.steady(); i < side.body_x.size(); i += stride) {
-        const double time = taken.begin_s + static_cast<double>(i) * taken.tick_s;
-        const double apart = side.body_x[i] - device::path_x(taken.exercise.path_pace * time);
+    for (std::size_t i = columns.steady(); i < side.body_x.size(); i += stride) {
+        const double time = columns.begin_s + static_cast<double>(i) * columns.tick_s;
+        const double apart = side.body_x[i] - device::path_x(columns.exercise.path_pace * time);
         sum += apart * apart;
         count += 1.0;
     }
@@ -84,71 +84,72 @@ std::optional<double> path_rms(const Taken& taken, const Columns& side)
     return std::sqrt(sum / count);
 }
 
-std::optional<double> contact_lost(const Taken& taken, const Columns& side)
+std::optional<double> contact_lost(const TraceColumns& columns, const Columns& side)
 {
     std::vector<double> push;
-    for (const Stretch& stretch : taken.exercise.contact) {
-        const auto part = taken.cut(side.push, stretch);
+    for (const Stretch& stretch : columns.exercise.contact) {
+        const auto part = columns.cut(side.push, stretch);
         push.insert(push.end(), part.begin(), part.end());
     }
     return contact_lost_of(push);
 }
 
-void measure_side(const Taken& taken, std::size_t index, Metrics& metrics)
+void measure_side(const TraceColumns& columns, std::size_t index, Metrics& metrics)
 {
-    const Columns& side = taken.sides[index];
-    const Cutoff above{vibration_above_hz, taken.tick_s};
-    const auto body_x = std::span{side.body_x}.subspan(taken.steady());
-    const auto force = std::span{side.hand_force}.subspan(taken.steady());
-    const auto follows = std::span{side.follows}.subspan(taken.steady());
+    const Columns& side = columns.sides[index];
+    const Cutoff above{vibration_above_hz, columns.tick_s};
+    const auto body_x = std::span{side.body_x}.subspan(columns.steady());
+    const auto force = std::span{side.hand_force}.subspan(columns.steady());
+    const auto follows = std::span{side.follows}.subspan(columns.steady());
     metrics.body_vibration_m[index] = vibration_of(
-        body_x, taken.exercise.by_turns ? follows : std::span<const std::uint8_t>{}, above);
+        body_x, columns.exercise.by_turns ? follows : std::span<const std::uint8_t>{}, above);
     metrics.force_vibration_n[index] = vibration_of(force, {}, above);
     metrics.felt_vibration_n[index] =
-        band_vibration_of(force, above, {felt_below_hz, taken.tick_s});
-    metrics.contact_lost[index] = contact_lost(taken, side);
-    metrics.force_steps[index] = force_steps_of(force, taken.tick_s);
-    if (const auto stop = taken.exercise.stopped_at_m) {
+        band_vibration_of(force, above, {felt_below_hz, columns.tick_s});
+    metrics.contact_lost[index] = contact_lost(columns, side);
+    metrics.force_steps[index] = force_steps_of(force, columns.tick_s);
+    if (const auto stop = columns.exercise.stopped_at_m) {
         double farthest = *stop;
         for (const double x : body_x) farthest = std::max(farthest, x);
         metrics.overshoot_m[index] = farthest - *stop;
     }
-    if (!taken.exercise.along_path) return;
-    metrics.drag_n[index] = drag_of(side, taken.tick_s);
-    metrics.path_rms_m[index] = path_rms(taken, side);
+    if (!columns.exercise.along_path) return;
+    metrics.drag_n[index] = drag_of(side, columns.tick_s);
+    metrics.path_rms_m[index] = path_rms(columns, side);
 }
 
-void measure_presses(const Taken& taken, Metrics& metrics)
+void measure_presses(const TraceColumns& columns, Metrics& metrics)
 {
     for (const device::PressInterval& press : device::press_schedule) {
         const Stretch steady{press.begin_s + 1.0 / press.hertz, press.end_s};
         const auto at = std::find(press_hertz.begin(), press_hertz.end(), press.hertz);
-        if (!taken.covers(steady) || at == press_hertz.end()) continue;
+        if (!columns.covers(steady) || at == press_hertz.end()) continue;
         const std::size_t presser = press.left_presses ? 0 : 1;
-        const Columns& side = taken.sides[presser];
+        const Columns& side = columns.sides[presser];
         metrics.stiffness_n_per_m[static_cast<std::size_t>(at - press_hertz.begin())][presser] =
-            stiffness_of(taken.cut(side.hand_force, steady), taken.cut(side.hip_x, steady),
-                         press.hertz, taken.tick_s);
+            stiffness_of(columns.cut(side.hand_force, steady), columns.cut(side.hip_x, steady),
+                         press.hertz, columns.tick_s);
     }
     Stretch left{device::press_schedule[0].begin_s, device::press_schedule[0].end_s};
     for (const device::PressInterval& press : device::press_schedule) {
         if (press.left_presses) left.end_s = press.end_s;
     }
-    metrics.similarity = similarity_of(taken.cut(taken.sides[0].hand_force, left),
-                                       taken.cut(taken.sides[1].hand_force, left), taken.tick_s);
+    metrics.similarity =
+        similarity_of(columns.cut(columns.sides[0].hand_force, left),
+                      columns.cut(columns.sides[1].hand_force, left), columns.tick_s);
 }
 
-std::optional<double> drops(const Taken& taken)
+std::optional<double> drops(const TraceColumns& columns)
 {
     double count = 0.0;
-    for (const Stretch& stretch : taken.exercise.lifted) {
-        if (!taken.covers(stretch)) return std::nullopt;
+    for (const Stretch& stretch : columns.exercise.lifted) {
+        if (!columns.covers(stretch)) return std::nullopt;
         const auto falls = [&](const Columns& side) {
-            const auto heights = taken.cut(side.body_y, stretch);
+            const auto heights = columns.cut(side.body_y, stretch);
             return std::any_of(heights.begin(), heights.end(),
                                [](double height) { return height < fallen_m; });
         };
-        if (falls(taken.sides[0]) || falls(taken.sides[1])) count += 1.0;
+        if (falls(columns.sides[0]) || falls(columns.sides[1])) count += 1.0;
     }
     return count;
 }
@@ -158,23 +159,23 @@ std::optional<double> drops(const Taken& taken)
 Metrics metrics_of(const virtual_time::Trace& trace)
 {
     base::ensure(trace.sides[0].size() == trace.sides[1].size());
-    const Taken taken{.exercise = exercise_of(trace.task),
-                      .sides = {columns_of(trace.sides[0]), columns_of(trace.sides[1])},
-                      .tick_s = base::to_seconds(trace.tick),
-                      .begin_s = base::to_seconds(trace.begin)};
+    const TraceColumns columns{.exercise = exercise_of(trace.task),
+                               .sides = {columns_of(trace.sides[0]), columns_of(trace.sides[1])},
+                               .tick_s = base::to_seconds(trace.tick),
+                               .begin_s = base::to_seconds(trace.begin)};
     Metrics metrics{.task = trace.task,
-                    .scored_s = static_cast<double>(taken.count()) * taken.tick_s};
-    if (taken.count() == 0) return metrics;
+                    .scored_s = static_cast<double>(columns.count()) * columns.tick_s};
+    if (columns.count() == 0) return metrics;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-        measure_side(taken, side, metrics);
+        measure_side(columns, side, metrics);
     }
-    if (taken.exercise.presses) measure_presses(taken, metrics);
-    if (!taken.exercise.lifted.empty()) metrics.drops = drops(taken);
-    const auto& [left, right] = taken.sides;
-    if (taken.exercise.presses) metrics.force_discrepancy = force_discrepancy_of(left, right);
-    metrics.discrepancy_m = body_discrepancy(taken);
+    if (columns.exercise.presses) measure_presses(columns, metrics);
+    if (!columns.exercise.lifted.empty()) metrics.drops = drops(columns);
+    const auto& [left, right] = columns.sides;
+    if (columns.exercise.presses) metrics.force_discrepancy = force_discrepancy_of(left, right);
+    metrics.discrepancy_m = body_discrepancy(columns);
     metrics.energy_taken_j = energy_taken_of(left.work, right.work);
-    if (taken.exercise.taps) metrics.response_s = response_of(left, right, taken.tick_s);
+    if (columns.exercise.taps) metrics.response_s = response_of(left, right, columns.tick_s);
     return metrics;
 }
 

@@ -15,9 +15,6 @@ struct Spread {
     double max = 0.0;
     double std = 0.0;
 
-    /// The root of their mean square.
-    [[nodiscard]] double rms() const { return std::sqrt(mean * mean + std * std); }
-
     friend bool operator==(const Spread&, const Spread&) = default;
 };
 

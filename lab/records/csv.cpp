@@ -15,19 +15,19 @@ namespace {
 
 /// How people read a vector: unit as the name of a column ends, and that unit per SI unit.
 template <typename V>
-struct Shown;
+struct VectorUnit;
 template <>
-struct Shown<base::Position> {
+struct VectorUnit<base::Position> {
     static constexpr std::string_view unit = "mm";
     static constexpr double scale = 1e3;
 };
 template <>
-struct Shown<base::Velocity> {
+struct VectorUnit<base::Velocity> {
     static constexpr std::string_view unit = "mm_per_s";
     static constexpr double scale = 1e3;
 };
 template <>
-struct Shown<base::Force> {
+struct VectorUnit<base::Force> {
     static constexpr std::string_view unit = "n";
     static constexpr double scale = 1.0;
 };
@@ -43,11 +43,11 @@ struct ColumnNames {
         line += fmt::format(",{}_us", name);
     }
     template <typename V>
-    requires requires { Shown<V>::unit; }
+    requires requires { VectorUnit<V>::unit; }
     void operator()(std::string_view name, const V&) const
     {
         for (const char axis : {'x', 'y', 'z'}) {
-            line += fmt::format(",{}_{}_{}", name, axis, Shown<V>::unit);
+            line += fmt::format(",{}_{}_{}", name, axis, VectorUnit<V>::unit);
         }
     }
     void operator()(std::string_view name, const auto&) const { line += fmt::format(",{}", name); }
@@ -74,11 +74,11 @@ struct Cells {
         line += fmt::format(",{:.3f}", 1e-3 * static_cast<double>(value.count()));
     }
     template <typename V>
-    requires requires { Shown<V>::unit; }
+    requires requires { VectorUnit<V>::unit; }
     void operator()(std::string_view, const V& vector) const
     {
         for (const double part : {vector.x(), vector.y(), vector.z()}) {
-            line += ',' + decimal(Shown<V>::scale * part);
+            line += ',' + decimal(VectorUnit<V>::scale * part);
         }
     }
     void operator()(std::string_view, record::Phase phase) const

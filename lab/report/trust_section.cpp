@@ -15,20 +15,24 @@ using plot::escaped;
 namespace {
 
 /// A way of measuring: the order of the filter and whose hands.
-struct Way {
+struct MeasuringMethod {
     std::uint32_t filter_order = 0;
     std::string hand;
 
-    friend bool operator==(const Way&, const Way&) = default;
+    friend bool operator==(const MeasuringMethod&, const MeasuringMethod&) = default;
 };
 
-Way way_of(const results::SensitivityRow& row) { return {row.filter_order, row.hand}; }
+MeasuringMethod method_of(const results::SensitivityRow& row)
+{
+    return {row.filter_order, row.hand};
+}
 
 const results::SensitivityRow* row_of(const std::vector<results::SensitivityRow>& rows,
-                                      const results::SensitivityRow& like, const Way& way)
+                                      const results::SensitivityRow& like,
+                                      const MeasuringMethod& method)
 {
     for (const results::SensitivityRow& row : rows) {
-        if (row.algorithm == like.algorithm && row.task == like.task && way_of(row) == way) {
+        if (row.algorithm == like.algorithm && row.task == like.task && method_of(row) == method) {
             return &row;
         }
     }
@@ -41,10 +45,10 @@ std::string ways_table(const std::vector<results::SensitivityRow>& rows)
         fmt::format("Limit of {}, {}, by the order of the 20 Hz filter and the hands",
                     impairment_text(rows.front().impairment), unit_text(rows.front().unit));
     HtmlTable table{caption, {"algorithm", "task", "from … to"}};
-    const auto ways = distinct(rows, way_of);
-    for (const Way& way : ways) {
+    const auto methods = distinct(rows, method_of);
+    for (const MeasuringMethod& method : methods) {
         table.heads.push_back(
-            fmt::format("order {}<br>{}", plain(way.filter_order), escaped(way.hand)));
+            fmt::format("order {}<br>{}", plain(method.filter_order), escaped(method.hand)));
     }
     std::vector<std::pair<std::string, std::string>> seen;
     for (const results::SensitivityRow& like : rows) {
@@ -54,8 +58,8 @@ std::string ways_table(const std::vector<results::SensitivityRow>& rows)
         std::vector<HtmlCell> cells;
         plot::Range range;
         bool is_open = false;
-        for (const Way& way : ways) {
-            const results::SensitivityRow* row = row_of(rows, like, way);
+        for (const MeasuringMethod& method : methods) {
+            const results::SensitivityRow* row = row_of(rows, like, method);
             cells.push_back(
                 {row == nullptr ? "–" : escaped((row->is_open() ? "> " : "") + plain(row->limit))});
             if (row == nullptr) continue;

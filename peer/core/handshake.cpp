@@ -41,7 +41,7 @@ std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
                                                    base::TimePoint arrived)
 {
     if (const auto reason = refusal_of(hello)) return reason;
-    if (!heard_ || heard_->nonce != hello.nonce) meet(hello);
+    if (!remote_ || remote_->nonce != hello.nonce) meet(hello);
     if (hello.nonce_heard != self_.nonce) { // it has not heard this run of us yet
         asked_ = true;
         last_heard_ = wire::Echo{hello.sent, {}};
@@ -55,7 +55,7 @@ std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
 
 void Handshake::meet(const wire::Hello& hello)
 {
-    heard_ = Heard{hello.nonce, hello.peer_id};
+    remote_ = RemotePeer{hello.nonce, hello.peer_id};
     clock_.reset();
     last_heard_.reset();
     start_heard_.reset();
@@ -69,12 +69,12 @@ void Handshake::meet(const wire::Hello& hello)
     stayed_ = true;
 }
 
-bool Handshake::is_left() const { return self_.id < heard_->id; }
+bool Handshake::is_left() const { return self_.id < remote_->id; }
 
 std::uint32_t Handshake::number() const
 {
-    return is_left() ? session_number(self_.nonce, heard_->nonce)
-                     : session_number(heard_->nonce, self_.nonce);
+    return is_left() ? session_number(self_.nonce, remote_->nonce)
+                     : session_number(remote_->nonce, self_.nonce);
 }
 
 void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
@@ -141,7 +141,7 @@ std::optional<wire::Hello> Handshake::hello(base::TimePoint now)
     asked_ = false;
     wire::Hello hello;
     hello.nonce = self_.nonce;
-    hello.nonce_heard = heard_ ? heard_->nonce : 0;
+    hello.nonce_heard = remote_ ? remote_->nonce : 0;
     hello.peer_id = self_.id;
     hello.tick_rate_hz = self_.tick_rate_hz;
     hello.scene_hash = self_.scene_hash;

@@ -61,10 +61,10 @@ public:
     [[nodiscard]] const std::optional<Session>& session() const { return session_; }
     [[nodiscard]] std::optional<ClockOffset::Estimate> clock() const { return clock_.estimate(); }
     /// Whether the other side has been heard in this run of it.
-    [[nodiscard]] bool has_met() const { return heard_.has_value(); }
+    [[nodiscard]] bool has_met() const { return remote_.has_value(); }
 
 private:
-    struct Heard {
+    struct RemotePeer {
         std::uint32_t nonce = 0;
         std::uint16_t id = 0;
     };
@@ -78,7 +78,7 @@ private:
     void adopt(const wire::Hello& hello, base::TimePoint arrived);
 
     Introduction self_;
-    std::optional<Heard> heard_;
+    std::optional<RemotePeer> remote_;
     ClockOffset clock_;
     std::optional<wire::Echo> last_heard_; // `age` unused: its arrival is below
     base::TimePoint last_heard_at_;

@@ -18,15 +18,10 @@ namespace {
 constexpr double reach_max_m = 10.0;
 constexpr double speed_max_m_per_s = 1000.0;
 
-bool is_within(const glm::dvec3& v, double most)
-{
-    return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most; // and no NaN
-}
-
 bool is_usable(const Hand& hand)
 {
-    return hand.present && is_within(hand.hip.value, reach_max_m) &&
-           is_within(hand.velocity.value, speed_max_m_per_s);
+    return hand.present && scene::is_within(hand.hip.value, reach_max_m) &&
+           scene::is_within(hand.velocity.value, speed_max_m_per_s);
 }
 
 scene::BodyId shared_body_of(const Settings& settings)
@@ -136,13 +131,13 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived)
     handshake_.on_echo(state.echo, state.sent, arrived);
     const bool taken = remote_.update(state, arrived);
     ++(taken ? counters_.states : counters_.outdated);
-    const Heard heard{.state = state,
-                      .arrived = arrived,
-                      .taken = taken,
-                      .clock = handshake_.clock(),
-                      .tick = settings_.tick,
-                      .force_max_n = force_max_n_};
-    std::visit([&](auto& algorithm) { algorithm.hear(heard); }, settings_.algorithm);
+    const ReceivedState received{.state = state,
+                                 .arrived = arrived,
+                                 .taken = taken,
+                                 .clock = handshake_.clock(),
+                                 .tick = settings_.tick,
+                                 .force_max_n = force_max_n_};
+    std::visit([&](auto& algorithm) { algorithm.hear(received); }, settings_.algorithm);
 }
 
 std::uint32_t Peer::sequence_max(base::TimePoint arrived) const
@@ -159,8 +154,8 @@ bool Peer::is_plausible(const wire::State& state) const
 {
     if (!is_usable({state.hip, state.hip_velocity})) return false;
     const auto& body = state.body;
-    return !body || (body->body == body_ && is_within(body->position.value, reach_max_m) &&
-                     is_within(body->velocity.value, speed_max_m_per_s));
+    return !body || (body->body == body_ && scene::is_within(body->position.value, reach_max_m) &&
+                     scene::is_within(body->velocity.value, speed_max_m_per_s));
 }
 
 void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)

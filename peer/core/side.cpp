@@ -4,6 +4,27 @@
 
 namespace hapnet::peer {
 
+namespace {
+
+/// Calls copy(of_row, of_sample) for each field of a sample that a row keeps.
+template <typename Copy>
+void for_each_kept_field(const Copy& copy)
+{
+    using device::Sample;
+    using record::TickRow;
+    copy(&TickRow::hip, &Sample::hip);
+    copy(&TickRow::hip_velocity, &Sample::velocity);
+    copy(&TickRow::gripping, &Sample::gripping);
+    copy(&TickRow::docked, &Sample::docked);
+    copy(&TickRow::calibrated, &Sample::calibrated);
+    copy(&TickRow::fault, &Sample::fault);
+    copy(&TickRow::buttons, &Sample::buttons);
+    copy(&TickRow::presses, &Sample::presses);
+    copy(&TickRow::sample_sequence, &Sample::sequence);
+}
+
+} // namespace
+
 device::Cue Side::take_cue()
 {
     const Session& session = *peer_.session();
@@ -23,20 +44,15 @@ record::TickRow Side::row(std::uint64_t number, const TickTime& time) const
     row.touching = tick_.touched.touching;
     row.remote_touching = tick_.remote_touching;
     row.remote_fresh = tick_.freshness > 0.0;
-    row.hip = sample_.hip;
-    row.hip_velocity = sample_.velocity;
     row.cube = peer_.position();
     row.cube_velocity = peer_.velocity();
     row.contact = tick_.force;
     row.device = told_;
     row.remote = tick_.remote_force;
-    row.gripping = sample_.gripping;
-    row.docked = sample_.docked;
-    row.calibrated = sample_.calibrated;
-    row.buttons = sample_.buttons;
-    row.fault = static_cast<std::uint8_t>(sample_.fault);
-    row.presses = sample_.presses;
-    row.sample_sequence = static_cast<std::uint16_t>(sample_.sequence);
+    for_each_kept_field([&]<typename Kept, typename Value>(Kept record::TickRow::*of_row,
+                                                           Value device::Sample::*of_sample) {
+        row.*of_row = static_cast<Kept>(sample_.*of_sample);
+    });
     row.governor = static_cast<std::uint8_t>(governor_state_);
     return row;
 }
@@ -44,15 +60,10 @@ record::TickRow Side::row(std::uint64_t number, const TickTime& time) const
 device::Sample sample_of(const record::TickRow& row)
 {
     device::Sample sample;
-    sample.hip = row.hip;
-    sample.velocity = row.hip_velocity;
-    sample.gripping = row.gripping;
-    sample.docked = row.docked;
-    sample.calibrated = row.calibrated;
-    sample.fault = static_cast<device::Fault>(row.fault);
-    sample.buttons = row.buttons;
-    sample.presses = row.presses;
-    sample.sequence = row.sample_sequence;
+    for_each_kept_field([&]<typename Kept, typename Value>(Kept record::TickRow::*of_row,
+                                                           Value device::Sample::*of_sample) {
+        sample.*of_sample = static_cast<Value>(row.*of_row);
+    });
     return sample;
 }
 

@@ -224,19 +224,4 @@ struct UsualFormat<std::vector<T>> : List<UsualFormat<T>> {};
 template <typename T>
 struct UsualFormat<std::optional<T>> : UsualFormat<T> {};
 
-/// What an option of a command line says, by the format of its value: texts need no quotes, a table
-/// or list is written as in TOML. `name` begins the error: "--delay: ...".
-template <typename T, FormatOf<T> Format>
-[[nodiscard]] Result<T> parse_value(const Format& format, std::string_view text,
-                                    const std::string& name, T value = {})
-{
-    Reading reading{name, {}, false};
-    const auto node = parse_option(
-        text, requires { Format::is_bare; });
-    if (!node) return fail(fmt::format("{}: {}", name, node.error().message));
-    format.read(*node, value, reading);
-    if (!reading.is_good()) return fail(*reading.complaint());
-    return value;
-}
-
 } // namespace hapnet::base

@@ -21,13 +21,13 @@ constexpr std::size_t crash_stack_bytes = 65536;
 
 /// What a signal handler can know: nothing is passed to it, so that this has to be global. Set
 /// before the handlers are, and only read by them.
-struct ForTheHandler {
+struct HandlerState {
     std::atomic<int> dying{-1};
     std::atomic<int> in_order{-1};
     std::atomic<bool> has_come{false};
     std::array<struct sigaction, CrashSignal::signals.size()> former{};
 };
-ForTheHandler for_the_handler;
+HandlerState handler_state;
 
 void add_one_to(int counter)
 {
@@ -40,12 +40,12 @@ extern "C" void hapnet_on_crash(int number)
 {
     for (std::size_t i = 0; i < CrashSignal::signals.size(); ++i) {
         if (CrashSignal::signals[i] == number) {
-            sigaction(number, &for_the_handler.former[i], nullptr);
+            sigaction(number, &handler_state.former[i], nullptr);
         }
     }
-    for_the_handler.has_come.store(true, std::memory_order_release);
-    add_one_to(for_the_handler.dying.load(std::memory_order_relaxed));
-    pollfd in_order{for_the_handler.in_order.load(std::memory_order_relaxed), POLLIN, 0};
+    handler_state.has_come.store(true, std::memory_order_release);
+    add_one_to(handler_state.dying.load(std::memory_order_relaxed));
+    pollfd in_order{handler_state.in_order.load(std::memory_order_relaxed), POLLIN, 0};
     constexpr auto patience_ms = std::chrono::milliseconds{20}.count();
     static_assert(CrashSignal::patience == std::chrono::milliseconds{patience_ms});
     poll(&in_order, 1, patience_ms);
@@ -63,16 +63,16 @@ int make_counter()
 
 CrashSignal::CrashSignal() : dying_{make_counter()}, in_order_{make_counter()}
 {
-    base::ensure(for_the_handler.dying.load() < 0); // one at a time
-    for_the_handler.dying = dying_;
-    for_the_handler.in_order = in_order_;
-    for_the_handler.has_come = false;
+    base::ensure(handler_state.dying.load() < 0); // one at a time
+    handler_state.dying = dying_;
+    handler_state.in_order = in_order_;
+    handler_state.has_come = false;
     struct sigaction action {};
     action.sa_handler = hapnet_on_crash;
     action.sa_flags = SA_ONSTACK;
     sigemptyset(&action.sa_mask);
     for (std::size_t i = 0; i < signals.size(); ++i) {
-        struct sigaction& former = for_the_handler.former[i];
+        struct sigaction& former = handler_state.former[i];
         sigaction(signals[i], &action, &former);
         // Of what it was told to ignore, such as SIGQUIT in the background, a program does not die.
         if (former.sa_handler == SIG_IGN) sigaction(signals[i], &former, nullptr);
@@ -82,17 +82,17 @@ CrashSignal::CrashSignal() : dying_{make_counter()}, in_order_{make_counter()}
 CrashSignal::~CrashSignal()
 {
     for (std::size_t i = 0; i < signals.size(); ++i) {
-        sigaction(signals[i], &for_the_handler.former[i], nullptr);
+        sigaction(signals[i], &handler_state.former[i], nullptr);
     }
-    for_the_handler.dying = -1;
-    for_the_handler.in_order = -1;
+    handler_state.dying = -1;
+    handler_state.in_order = -1;
     close(dying_);
     close(in_order_);
 }
 
 bool CrashSignal::has_come() noexcept
 {
-    return for_the_handler.has_come.load(std::memory_order_acquire);
+    return handler_state.has_come.load(std::memory_order_acquire);
 }
 
 void CrashSignal::acknowledge() const { add_one_to(in_order_); }

@@ -142,8 +142,11 @@ Endpoint resolve(const HostPort& where, int family)
     const int code =
         getaddrinfo(where.host.c_str(), std::to_string(where.port).c_str(), &hints, &found);
     if (code != 0) {
+        const std::string_view kind = family == AF_INET    ? "an IPv4 address of "
+                                      : family == AF_INET6 ? "an IPv6 address of "
+                                                           : "";
         throw std::system_error{code, name_lookup(),
-                                fmt::format("cannot look up '{}'", where.host)};
+                                fmt::format("cannot look up {}'{}'", kind, where.host)};
     }
     sockaddr_storage address{};
     std::memcpy(&address, found->ai_addr, found->ai_addrlen);

@@ -44,8 +44,9 @@ struct HostPort {
 /// The same of an address to listen on: ":7001" and "7001" are ports of loopback.
 [[nodiscard]] base::Result<HostPort> parse_listen_address(std::string_view text);
 
-/// Looks up the first address of a host that has the family asked for (AF_UNSPEC: any).
-/// Throws std::system_error naming the host when the name does not resolve.
+/// Looks up the first address of a host that has the family asked for (AF_UNSPEC: any): for a
+/// remote that of the address to listen on, as a socket sends in its own family alone. Throws
+/// std::system_error naming the host when the name does not resolve.
 [[nodiscard]] Endpoint resolve(const HostPort& where, int family = AF_UNSPEC);
 
 /// Throws std::system_error when this machine has no route to `remote`. Sends nothing.

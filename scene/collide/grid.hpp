@@ -37,8 +37,6 @@ public:
         for_overlapping(box, cells_of(box), visit);
     }
 
-    [[nodiscard]] double cell_m() const { return cell_; }
-
 private:
     using Link = std::uint32_t; // an entry: of the body link / cells_each
     static constexpr Link none = ~Link{0};

@@ -65,10 +65,6 @@ public:
     /// that has begun.
     void apply_changes();
     [[nodiscard]] std::span<const PairIndex> pairs_added() const { return pairs_.added(); }
-    [[nodiscard]] std::span<const PairIndex> plane_pairs_added() const
-    {
-        return plane_pairs_.added();
-    }
 
     /// Forgets a body's contacts: it was put elsewhere.
     void forget(BodyId body);

@@ -19,6 +19,12 @@ namespace hapnet::scene {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
+/// Whether no component is larger than `most` or NaN.
+[[nodiscard]] inline bool is_within(const glm::dvec3& v, double most)
+{
+    return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
+}
+
 /// One number per axis: x, y, z. Unlike a glm vector's, its index costs no branch.
 using PerAxis = std::array<double, 3>;
 

@@ -207,7 +207,8 @@ void handle_impact(BoxMotion& box, const Event& event, double tick)
     const Trajectory& trajectory = box.trajectories[i];
     const double closing = -event.side * box.velocity[i];
     const double acceleration = trajectory.acceleration(event.time, trajectory.after(event.time));
-    const double back = box.event_limit_reached ? 0.0 : event.obstacle->restitution * closing;
+    const double back =
+        box.event_limit_reached ? 0.0 : event.obstacle->material.restitution * closing;
     const double pressing = -event.side * acceleration;
     const bool is_over = 2.0 * back <= pressing * tick;
     box.velocity[i] = is_over ? 0.0 : event.side * back;

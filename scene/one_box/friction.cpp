@@ -84,8 +84,8 @@ bool load(BoxMotion& box)
     dry_friction.limit = dry_friction.limit_ramp = 0.0;
     for (const AxisMotion& axis : box.axes) {
         if (!axis.support) continue;
-        dry_friction.limit += axis.support->friction * axis.load;
-        dry_friction.limit_ramp += axis.support->friction * axis.load_ramp;
+        dry_friction.limit += axis.support->material.friction * axis.load;
+        dry_friction.limit_ramp += axis.support->material.friction * axis.load_ramp;
     }
     return dry_friction.limit > 0.0 || dry_friction.limit_ramp > 0.0;
 }

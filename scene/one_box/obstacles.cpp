@@ -12,17 +12,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Obstacle between(const Material& a, const Material& b)
-{
-    Obstacle obstacle;
-    obstacle.friction = std::sqrt(a.friction * b.friction);
-    obstacle.restitution = std::max(a.restitution, b.restitution);
-    return obstacle;
-}
-
 Obstacle plane_obstacle(const PlaneDescription& plane, const BodyProperties& movable)
 {
-    Obstacle obstacle = between(plane.material, movable.material);
+    Obstacle obstacle{.material = combined(plane.material, movable.material)};
     obstacle.is_plane = true;
     obstacle.low.fill(-infinity);
     obstacle.high.fill(infinity);
@@ -45,7 +37,7 @@ Obstacles::Obstacles(const WorldConfig& config, const Bodies& bodies, const Body
     }
     for (const Slot slot : bodies.slot_of) {
         if (bodies.properties[slot].mass > 0.0) continue;
-        Obstacle obstacle = between(bodies.properties[slot].material, movable.material);
+        Obstacle obstacle{.material = combined(bodies.properties[slot].material, movable.material)};
         for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<int>(i);
             const double reach = bodies.properties[slot].half[axis] + movable.half[axis];

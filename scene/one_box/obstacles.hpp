@@ -17,8 +17,7 @@ namespace hapnet::scene {
 struct Obstacle {
     PerAxis low{};
     PerAxis high{};
-    double friction = 0.0; // of the pair
-    double restitution = 0.0;
+    Material material{}; // of the pair
     bool is_plane = false;
     std::size_t normal_axis = 0; // of a plane
 

@@ -6,7 +6,6 @@
 #include "scene/maths/vector.hpp"
 
 #include <cmath>
-#include <cstdint>
 #include <optional>
 
 namespace hapnet::scene {
@@ -42,11 +41,7 @@ struct OutsideVector {
             ++directions;
         }
     }
-    [[nodiscard]] BoxFace face() const
-    {
-        return {static_cast<std::uint8_t>(axis),
-                static_cast<std::int8_t>(away[axis] < 0.0 ? -1 : 1)};
-    }
+    [[nodiscard]] BoxFace face() const { return face_at(axis, away[axis]); }
     [[nodiscard]] bool is_along(std::size_t i) const
     {
         return directions == 0 || (directions == 1 && axis == i);

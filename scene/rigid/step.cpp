@@ -52,11 +52,6 @@ double position_bias(double separation, const Scales& scales)
     return std::min(correction_share * -separation, correction_max * scales.size) * scales.rate;
 }
 
-double friction_of(const Material& a, const Material& b)
-{
-    return std::sqrt(a.friction * b.friction);
-}
-
 std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
 {
     const std::size_t others = bodies.size() - 1 + config.planes.size();
@@ -230,8 +225,9 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, const 
         const BodyProperties& properties = bodies.properties[slot];
         block->a = 0;
         block->b = slot + 1;
-        block->friction = friction_of(properties.material, plane.material);
-        block->restitution = std::max(properties.material.restitution, plane.material.restitution);
+        const Material material = combined(properties.material, plane.material);
+        block->friction = material.friction;
+        block->restitution = material.restitution;
         if (properties.drag > 0.0 && is_supported) {
             integrations_[block->b].drag = properties.drag / properties.mass;
             integrations_[block->b].support_normal = plane.normal;
@@ -268,12 +264,12 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
         const SweptContact swept = collide_pair(state, pair);
         ContactBlock* const block = add_contact(swept.manifold, swept.centres, pair.memory);
         if (block == nullptr) continue;
-        const Material& one = bodies.properties[a].material;
-        const Material& other = bodies.properties[b].material;
+        const Material material =
+            combined(bodies.properties[a].material, bodies.properties[b].material);
         block->a = index_of(a);
         block->b = index_of(b);
-        block->friction = friction_of(one, other);
-        block->restitution = std::max(one.restitution, other.restitution);
+        block->friction = material.friction;
+        block->restitution = material.restitution;
     }
 }
 

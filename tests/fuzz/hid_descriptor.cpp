@@ -30,7 +30,7 @@ void speak(const ForceLayout& layout)
         ensure(set_effect_report(layout, 1, axis).size > 0);
     }
     ensure(create_report(layout).size > 0);
-    const Loaded loaded = read_block_load(layout, Report{layout.block_load.place});
+    const BlockLoadResult loaded = read_block_load(layout, Report{layout.block_load.place});
     ensure(loaded.load != Load::success || loaded.block > 0);
 }
 

@@ -172,8 +172,8 @@ public:
             const Step step = startup_.step();
             if (std::holds_alternative<Ready>(step)) return std::nullopt;
             if (const auto* refused = std::get_if<Refused>(&step)) return refused->error;
-            if (const auto* ask = std::get_if<Ask>(&step)) note(carry_out(*ask));
-            if (const auto* say = std::get_if<Say>(&step)) note(carry_out(*say));
+            if (const auto* ask = std::get_if<ChipRequest>(&step)) note(carry_out(*ask));
+            if (const auto* say = std::get_if<SendBytes>(&step)) note(carry_out(*say));
             if (const auto* listen = std::get_if<Listen>(&step)) carry_out(*listen);
             if (result_ == LIBUSB_ERROR_NO_DEVICE) return error_of(result_, "the Falcon");
         }
@@ -190,13 +190,13 @@ private:
         }
     }
 
-    int carry_out(const Ask& ask)
+    int carry_out(const ChipRequest& ask)
     {
         return libusb_control_transfer(handle_, vendor_request, ask.request, ask.value, 0, nullptr,
                                        0, transfer_max_ms);
     }
 
-    int carry_out(const Say& say)
+    int carry_out(const SendBytes& say)
     {
         std::vector<unsigned char> bytes(say.bytes.size());
         std::transform(say.bytes.begin(), say.bytes.end(), bytes.begin(),

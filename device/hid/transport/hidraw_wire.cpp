@@ -11,10 +11,10 @@ namespace hapnet::device::hid {
 namespace {
 
 /// The result of a call that returns -1 when it fails; errno was 0 before it.
-Moved moved_by(int result)
+TransferResult moved_by(int result)
 {
-    if (result >= 0) return Moved::yes;
-    return errno == ENODEV || errno == ENXIO ? Moved::gone : Moved::failed;
+    if (result >= 0) return TransferResult::yes;
+    return errno == ENODEV || errno == ENXIO ? TransferResult::gone : TransferResult::failed;
 }
 
 const unsigned char* raw(std::span<const std::byte> bytes)
@@ -44,24 +44,24 @@ Opened<std::unique_ptr<Wire>> HidrawWire::open(const std::string& path, std::opt
 ReadResult HidrawWire::read(std::span<std::byte> into)
 {
     const int size = hid_read(handle_.get(), raw(into), into.size());
-    if (size < 0) return {Moved::gone, 0};
-    if (size == 0) return {Moved::nothing, 0};
-    return {Moved::yes, static_cast<std::size_t>(size)};
+    if (size < 0) return {TransferResult::gone, 0};
+    if (size == 0) return {TransferResult::nothing, 0};
+    return {TransferResult::yes, static_cast<std::size_t>(size)};
 }
 
-Moved HidrawWire::write(std::span<const std::byte> report)
+TransferResult HidrawWire::write(std::span<const std::byte> report)
 {
     errno = 0;
     return moved_by(hid_write(handle_.get(), raw(report), report.size()));
 }
 
-Moved HidrawWire::set_feature(std::span<const std::byte> report)
+TransferResult HidrawWire::set_feature(std::span<const std::byte> report)
 {
     errno = 0;
     return moved_by(hid_send_feature_report(handle_.get(), raw(report), report.size()));
 }
 
-Moved HidrawWire::get_feature(std::span<std::byte> report)
+TransferResult HidrawWire::get_feature(std::span<std::byte> report)
 {
     errno = 0;
     return moved_by(hid_get_feature_report(handle_.get(), raw(report), report.size()));

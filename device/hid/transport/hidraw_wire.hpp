@@ -25,9 +25,9 @@ public:
                                                             std::optional<Claim> claim);
 
     [[nodiscard]] ReadResult read(std::span<std::byte> into) override;
-    [[nodiscard]] Moved write(std::span<const std::byte> report) override;
-    [[nodiscard]] Moved set_feature(std::span<const std::byte> report) override;
-    [[nodiscard]] Moved get_feature(std::span<std::byte> report) override;
+    [[nodiscard]] TransferResult write(std::span<const std::byte> report) override;
+    [[nodiscard]] TransferResult set_feature(std::span<const std::byte> report) override;
+    [[nodiscard]] TransferResult get_feature(std::span<std::byte> report) override;
 
 private:
     struct Close {

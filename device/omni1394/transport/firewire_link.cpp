@@ -130,7 +130,7 @@ Opened<std::uint8_t> FirewireLink::allocate_channel(std::uint32_t bytes)
     if (const int error = node_.control(FW_CDEV_IOC_ALLOCATE_ISO_RESOURCE, &wanted); error != 0) {
         return tl::unexpected{error_of(error, what)};
     }
-    while (node_.hear(event_, channel_within) == Heard::event) {
+    while (node_.read(event_, channel_within) == ReadOutcome::event) {
         fw_cdev_event_iso_resource given{};
         if (event_.type() != FW_CDEV_EVENT_ISO_RESOURCE_ALLOCATED ||
             !read_as(given, event_, sizeof given) || given.handle != wanted.handle) {
@@ -176,7 +176,7 @@ Opened<std::size_t> FirewireLink::transact(std::uint32_t code, std::uint64_t add
     if (const int error = node_.control(FW_CDEV_IOC_SEND_REQUEST, &sent); error != 0) {
         return tl::unexpected{error_of(error, what)};
     }
-    while (node_.hear(event_, answer_within) == Heard::event) {
+    while (node_.read(event_, answer_within) == ReadOutcome::event) {
         fw_cdev_event_response answer{};
         constexpr std::size_t data_at = offsetof(fw_cdev_event_response, data);
         if (event_.type() != FW_CDEV_EVENT_RESPONSE || !read_as(answer, event_, data_at) ||
@@ -264,7 +264,7 @@ bool FirewireLink::send(const HostPacket& packet) noexcept
 
 void FirewireLink::count_what_was_sent(base::Duration within) noexcept
 {
-    while (sender_.hear(event_, within) == Heard::event) {
+    while (sender_.read(event_, within) == ReadOutcome::event) {
         within = base::Duration{0};
         const auto sent = headers_of(event_).size() / sizeof(std::uint32_t);
         sending_.fetch_sub(static_cast<int>(sent), std::memory_order_relaxed);
@@ -286,10 +286,10 @@ Arrival FirewireLink::receive(ReceivedPacket& packet) noexcept
     if (at_ < packets_.size) return next_of_event(packet);
     count_what_was_sent(base::Duration{0});
     if (const Arrival arrival = hear_of(node_); arrival != Arrival::nothing) return arrival;
-    switch (receiver_.hear(packets_, base::Duration{0})) {
-    case Heard::gone: packets_.size = 0; return Arrival::gone;
-    case Heard::nothing: packets_.size = 0; return Arrival::nothing;
-    case Heard::event: break;
+    switch (receiver_.read(packets_, base::Duration{0})) {
+    case ReadOutcome::gone: packets_.size = 0; return Arrival::gone;
+    case ReadOutcome::nothing: packets_.size = 0; return Arrival::nothing;
+    case ReadOutcome::event: break;
     }
     const auto headers = headers_of(packets_);
     if (headers.size() < received_bytes) {
@@ -316,10 +316,10 @@ Arrival FirewireLink::next_of_event(ReceivedPacket& packet) noexcept
 
 Arrival FirewireLink::hear_of(const Node& node) noexcept
 {
-    switch (node.hear(event_, base::Duration{0})) {
-    case Heard::gone: return Arrival::gone;
-    case Heard::nothing: return Arrival::nothing;
-    case Heard::event: break;
+    switch (node.read(event_, base::Duration{0})) {
+    case ReadOutcome::gone: return Arrival::gone;
+    case ReadOutcome::nothing: return Arrival::nothing;
+    case ReadOutcome::event: break;
     }
     fw_cdev_event_bus_reset reset{};
     constexpr std::size_t least = offsetof(fw_cdev_event_bus_reset, generation) + 4;

@@ -103,19 +103,19 @@ int Node::control(unsigned long request, void* argument) const noexcept
     return result < 0 ? errno : 0;
 }
 
-Heard Node::hear(Event& event, base::Duration within) const noexcept
+ReadOutcome Node::read(Event& event, base::Duration within) const noexcept
 {
     // read() of such a node waits, whatever it is told: so it is asked first.
     pollfd ready{descriptor_, POLLIN, 0};
     const auto milliseconds = std::chrono::ceil<std::chrono::milliseconds>(within).count();
-    if (::poll(&ready, 1, static_cast<int>(milliseconds)) <= 0) return Heard::nothing;
+    if (::poll(&ready, 1, static_cast<int>(milliseconds)) <= 0) return ReadOutcome::nothing;
     const ssize_t size = ::read(descriptor_, event.bytes.data(), event.bytes.size());
     if (size > 0) {
         event.size = static_cast<std::size_t>(size);
-        return Heard::event;
+        return ReadOutcome::event;
     }
     const bool is_over = size == 0 || (errno != EAGAIN && errno != EINTR);
-    return is_over ? Heard::gone : Heard::nothing;
+    return is_over ? ReadOutcome::gone : ReadOutcome::nothing;
 }
 
 } // namespace hapnet::device::omni1394

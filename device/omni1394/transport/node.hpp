@@ -28,7 +28,7 @@ struct alignas(8) Event {
 };
 
 /// The result of reading an event.
-enum class Heard : std::uint8_t { nothing, event, gone };
+enum class ReadOutcome : std::uint8_t { nothing, event, gone };
 
 /// An open /dev/fwN: thin, and without decisions. The kernel has one isochronous context for each
 /// of these.
@@ -46,7 +46,7 @@ public:
     /// 0, or the kernel's error number.
     [[nodiscard]] int control(unsigned long request, void* argument) const noexcept;
     /// The next event, if one is there within the time.
-    [[nodiscard]] Heard hear(Event& event, base::Duration within) const noexcept;
+    [[nodiscard]] ReadOutcome read(Event& event, base::Duration within) const noexcept;
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
     [[nodiscard]] std::uint32_t generation() const { return generation_; } // of the bus

@@ -29,14 +29,14 @@ std::string first_line_of(const std::filesystem::path& file)
 }
 
 /// One on a bus: its node, and the serial of its bus interface.
-struct Seen {
+struct BusNode {
     std::string node;
     std::string guid;
 };
 
-std::vector<Seen> look_around()
+std::vector<BusNode> look_around()
 {
-    std::vector<Seen> seen;
+    std::vector<BusNode> seen;
     std::error_code error;
     // Units, such as fw1.0, have no vendor of their own.
     for (const auto& entry : std::filesystem::directory_iterator{bus_folder, error}) {
@@ -45,11 +45,11 @@ std::vector<Seen> look_around()
             {"/dev/" + entry.path().filename().string(), first_line_of(entry.path() / "guid")});
     }
     std::sort(seen.begin(), seen.end(),
-              [](const Seen& a, const Seen& b) { return a.node < b.node; });
+              [](const BusNode& a, const BusNode& b) { return a.node < b.node; });
     return seen;
 }
 
-Found found(const Seen& seen)
+Found found(const BusNode& seen)
 {
     Found omni{{.backend = "omni1394",
                 .serial = seen.guid,
@@ -90,7 +90,7 @@ Opened<Profile> profile_in(const std::string& file)
 std::vector<Found> find_omnis()
 {
     std::vector<Found> omnis;
-    for (const Seen& seen : look_around()) omnis.push_back(found(seen));
+    for (const BusNode& seen : look_around()) omnis.push_back(found(seen));
     return omnis;
 }
 
@@ -101,7 +101,7 @@ Opened<std::unique_ptr<Device>> open_omni(const std::string& serial, const Optio
     DeviceError why{Fault::not_found,
                     fmt::format("no FireWire Omni {}is on a bus: {}",
                                 serial.empty() ? "" : serial + " ", describe(Fault::not_found))};
-    for (const Seen& seen : look_around()) {
+    for (const BusNode& seen : look_around()) {
         const Found omni = found(seen);
         if (omni.unusable) {
             why = *omni.unusable; // it may be the one that is meant: it did not say its serial

@@ -19,7 +19,7 @@ constexpr std::uint16_t link_type_raw = 101; // an IPv4 or IPv6 header comes fir
 
 enum Option : std::uint16_t {
     end_of_options = 0,
-    comment = 1,
+    packet_comment = 1,
     interface_name = 2,       // in an interface description
     packet_flags = 2,         // in a packet
     user_application = 4,     // in a section header
@@ -222,11 +222,13 @@ void append_capture_head(std::string& bytes, std::string_view program)
     put_interface(bytes, "side B");
 }
 
-void append_packet(std::string& bytes, const CapturedPacket& packet)
+void append_packet(std::string& bytes, const CapturedPacket& packet, base::Duration since_1970,
+                   std::string_view comment)
 {
     const Block block{bytes, enhanced_packet};
     put(bytes, static_cast<std::uint32_t>(packet.side));
-    const auto time = static_cast<std::uint64_t>(packet.time.count());
+    const auto time =
+        static_cast<std::uint64_t>((packet.at.time_since_epoch() + since_1970).count());
     put(bytes, static_cast<std::uint32_t>(time >> 32));
     put(bytes, static_cast<std::uint32_t>(time));
     const auto lengths_at = bytes.size();
@@ -239,27 +241,26 @@ void append_packet(std::string& bytes, const CapturedPacket& packet)
         bytes[lengths_at + 4 + i] = bytes[lengths_at + i];
     }
     pad(bytes, length);
-    put_option(bytes, comment, packet.comment);
+    put_option(bytes, packet_comment, comment);
     using namespace std::string_view_literals;
     put_option(bytes, packet_flags, packet.is_outbound ? "\2\0\0\0"sv : "\1\0\0\0"sv);
 }
 
-void append_arrival_comment(std::string& text, const Verdict& verdict)
+void append_arrival_comment(std::string& text, const Fate& fate)
 {
-    if (const auto* drop = std::get_if<Drop>(&verdict)) {
+    if (fate.drop) {
         text += "dropped: ";
         const auto start = static_cast<std::ptrdiff_t>(text.size());
-        text += to_text(drop->cause);
+        text += to_text(*fate.drop);
         std::replace(text.begin() + start, text.end(), '_', '-');
         return;
     }
-    const auto& deliver = std::get<Deliver>(verdict);
-    append_delay(text, deliver.after);
-    if (deliver.copy) text += ", copied";
-    if (const int bits = deliver.flips.count; bits > 0) {
+    append_delay(text, fate.delay);
+    if (fate.copy_after) text += ", copied";
+    if (const int bits = fate.flips.count; bits > 0) {
         fmt::format_to(std::back_inserter(text), ", {} bit{} corrupted", bits, bits > 1 ? "s" : "");
     }
-    if (deliver.displacement != Displacement{}) text += ", displaced";
+    if (fate.displacement != Displacement{}) text += ", displaced";
 }
 
 void append_departure_comment(std::string& text, base::Duration late, bool is_copy)

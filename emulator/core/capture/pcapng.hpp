@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/verdict.hpp"
+#include "emulator/core/fate.hpp"
 #include "proto/base/time.hpp"
 
 #include <array>
@@ -27,14 +27,14 @@ struct UdpAddress {
     bool is_v6 = false;
 };
 
+/// A datagram that came or went.
 struct CapturedPacket {
-    CaptureSide side = CaptureSide::a;
-    bool is_outbound = false; // sent by the emulator
-    base::Duration time{};    // since 1970, not negative
+    CaptureSide side = CaptureSide::a; // whose socket it passed
+    bool is_outbound = false;          // sent by the emulator
+    base::TimePoint at{};
     UdpAddress from;
     UdpAddress to;
     std::span<const std::byte> payload; // at most payload_bytes_max
-    std::string_view comment;           // at most 65535 bytes
 
     static constexpr std::size_t payload_bytes_max = 65'527; // over IPv6; 20 less over IPv4
 };
@@ -43,14 +43,16 @@ struct CapturedPacket {
 /// named as what wrote it.
 void append_capture_head(std::string& bytes, std::string_view program);
 
-/// Appends one packet. An IPv4 packet when both addresses are IPv4, or IPv4 in an IPv6 address
-/// (::ffff:1.2.3.4); otherwise IPv6.
-void append_packet(std::string& bytes, const CapturedPacket& packet);
+/// Appends one packet, with a comment of at most 65535 bytes. An IPv4 packet when both addresses
+/// are IPv4, or IPv4 in an IPv6 address (::ffff:1.2.3.4); otherwise IPv6. `since_1970`: of the time
+/// point 0, such that no packet is from before 1970.
+void append_packet(std::string& bytes, const CapturedPacket& packet, base::Duration since_1970,
+                   std::string_view comment);
 
 /// Appends the comment of a datagram that arrived: "dropped: gilbert-elliott", or
 /// "delayed 163.2 ms" (as drawn; below 1 ms in us) and what else becomes of it: ", copied",
 /// ", 1 bit corrupted", ", displaced".
-void append_arrival_comment(std::string& text, const Verdict& verdict);
+void append_arrival_comment(std::string& text, const Fate& fate);
 
 /// Appends the comment of a datagram that left so late: "late 7 us", and ", copy" if it is one.
 void append_departure_comment(std::string& text, base::Duration late, bool is_copy);

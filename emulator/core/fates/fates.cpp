@@ -35,18 +35,18 @@ void append_states(std::string& text, const Fate& fate)
     }
 }
 
-void append_delivery(std::string& text, const Deliver& deliver)
+void append_delivery(std::string& text, const Fate& fate)
 {
-    append_time(text, deliver.after);
+    append_time(text, fate.delay);
     text += ',';
-    if (deliver.copy) append_time(text, *deliver.copy);
+    if (fate.copy_after) append_time(text, *fate.copy_after);
     text += ',';
-    for (std::size_t i = 0; i < deliver.flips.count; ++i) {
+    for (std::size_t i = 0; i < fate.flips.count; ++i) {
         if (i > 0) text += '|';
-        append_number(text, deliver.flips.places[i]);
+        append_number(text, fate.flips.places[i]);
     }
     text += ',';
-    const Displacement& displacement = deliver.displacement;
+    const Displacement& displacement = fate.displacement;
     if (displacement.places > 0) append_number(text, displacement.places);
     text += ',';
     if (displacement.time > base::Duration{0}) append_time(text, displacement.time);
@@ -59,16 +59,15 @@ void append_row(std::string& text, Direction direction, std::uint64_t number, co
     text += to_text(direction);
     text += ',';
     append_number(text, number);
-    const auto* drop = std::get_if<Drop>(&fate.verdict);
-    text += drop != nullptr ? ",drop," : ",deliver,";
-    if (drop != nullptr) text += to_text(drop->cause);
+    text += fate.drop ? ",drop," : ",deliver,";
+    if (fate.drop) text += to_text(*fate.drop);
     text += ',';
     append_states(text, fate);
     text += ',';
-    if (drop != nullptr) {
+    if (fate.drop) {
         text += ",,,,";
     } else {
-        append_delivery(text, std::get<Deliver>(fate.verdict));
+        append_delivery(text, fate);
     }
     text += '\n';
 }
@@ -209,29 +208,29 @@ base::Result<Displacement> displacement_of(const Columns& columns)
     return read;
 }
 
-base::Result<Verdict> delivery_of(const Columns& columns)
+base::Result<Fate> delivery_of(const Columns& columns)
 {
-    Deliver deliver;
+    Fate fate;
     if (!columns[cause].empty())
         return base::fail("cause: leave it empty, only a drop has a cause");
-    const auto after = time_of(columns[delay], "delay_ns");
-    if (!after) return tl::unexpected{after.error()};
-    deliver.after = *after;
+    const auto drawn = time_of(columns[delay], "delay_ns");
+    if (!drawn) return tl::unexpected{drawn.error()};
+    fate.delay = *drawn;
     if (!columns[copy].empty()) {
         const auto offset = time_of(columns[copy], "copy_after_ns");
         if (!offset) return tl::unexpected{offset.error()};
-        deliver.copy = *offset;
+        fate.copy_after = *offset;
     }
     const auto inverted = flips_of(columns[flips]);
     if (!inverted) return tl::unexpected{inverted.error()};
-    deliver.flips = *inverted;
+    fate.flips = *inverted;
     const auto displacement = displacement_of(columns);
     if (!displacement) return tl::unexpected{displacement.error()};
-    deliver.displacement = *displacement;
-    return deliver;
+    fate.displacement = *displacement;
+    return fate;
 }
 
-base::Result<Verdict> drop_of(const Columns& columns)
+base::Result<Fate> drop_of(const Columns& columns)
 {
     const auto why = base::named<DropCause>(columns[cause]);
     if (!why) return base::fail(fmt::format("cause: unknown cause '{}'", columns[cause]));
@@ -240,7 +239,7 @@ base::Result<Verdict> drop_of(const Columns& columns)
             return base::fail("a drop must be empty after its states");
         }
     }
-    return Drop{*why};
+    return Fate{.drop = *why};
 }
 
 base::Result<Fate> fate_of(const Columns& columns)
@@ -250,11 +249,12 @@ base::Result<Fate> fate_of(const Columns& columns)
         return base::fail(
             fmt::format("verdict: expected deliver or drop, found '{}'", columns[verdict]));
     }
-    const auto judged = is_drop ? drop_of(columns) : delivery_of(columns);
-    if (!judged) return tl::unexpected{judged.error()};
+    auto fate = is_drop ? drop_of(columns) : delivery_of(columns);
+    if (!fate) return fate;
     const auto in_states = states_of(columns[states]);
     if (!in_states) return tl::unexpected{in_states.error()};
-    return Fate{*judged, *in_states};
+    fate->states = *in_states;
+    return fate;
 }
 
 /// Adds the fate in `line` to those before it.

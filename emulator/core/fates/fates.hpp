@@ -3,7 +3,7 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
-#include "emulator/core/verdict.hpp"
+#include "emulator/core/fate.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/fate.hpp"
 #include "emulator/core/packet.hpp"
-#include "emulator/core/verdict.hpp"
 
 #include <memory>
 #include <utility>
@@ -20,7 +20,7 @@ public:
 
     [[nodiscard]] Fate on_packet(const Packet& packet) const
     {
-        if (packet.number >= fates_->size()) return {Drop{DropCause::replay_ended}, {}};
+        if (packet.number >= fates_->size()) return {.drop = DropCause::replay_ended};
         return (*fates_)[packet.number];
     }
 

@@ -49,6 +49,31 @@ struct TwoStateSteps {
     }
 };
 
+/// A chain of two states at work, one step per datagram: the model of each law that has steps().
+class TwoStateChain {
+public:
+    TwoStateChain(const TwoStateSteps& steps, const base::RandomStream& stream);
+    template <typename Law>
+    TwoStateChain(const Law& law, const base::RandomStream& stream)
+        : TwoStateChain{law.steps(), stream}
+    {}
+
+    [[nodiscard]] bool on_packet(const Packet& packet, const base::RandomStream& stream);
+    template <typename Law>
+    void change(const Law& law, const base::RandomStream& /*stream*/)
+    {
+        steps_ = law.steps();
+    }
+
+    /// In which the last datagram was judged.
+    [[nodiscard]] LossState state() const { return state_; }
+
+private:
+    TwoStateSteps steps_;
+    bool is_bad_; // the next datagram meets the bad state
+    LossState state_ = LossState::none;
+};
+
 /// Gilbert's model by what one can measure: the share that is lost, and the mean length of a run of
 /// losses in datagrams (>= 1 and > share / (1 - share)).
 struct Gilbert {
@@ -57,7 +82,7 @@ struct Gilbert {
 
     static constexpr DropCause cause = DropCause::gilbert_elliott;
     static constexpr bool is_in_time = false;
-    class Model;
+    using Model = TwoStateChain;
 
     /// bad_to_good = 1 / L and good_to_bad = P / ((1 - P) L), for a share P and a mean burst L.
     [[nodiscard]] TwoStateSteps steps() const;
@@ -87,7 +112,7 @@ struct GilbertElliott {
 
     static constexpr DropCause cause = DropCause::gilbert_elliott;
     static constexpr bool is_in_time = false;
-    class Model;
+    using Model = TwoStateChain;
 
     [[nodiscard]] TwoStateSteps steps() const;
 
@@ -144,57 +169,6 @@ constexpr auto fields_of(base::Tag<TimedGilbertElliott>)
         base::field("loss_good", &TimedGilbertElliott::loss_good, "lost while good"),
         base::field("loss_bad", &TimedGilbertElliott::loss_bad, "lost while bad"));
 }
-
-/// A chain of two states at work, one step per datagram.
-class TwoStateChain {
-public:
-    TwoStateChain(const TwoStateSteps& steps, const base::RandomStream& stream);
-
-    [[nodiscard]] bool on_packet(const Packet& packet, const base::RandomStream& stream);
-    void change(const TwoStateSteps& steps) { steps_ = steps; }
-
-    /// In which the last datagram was judged.
-    [[nodiscard]] LossState state() const { return state_; }
-
-private:
-    TwoStateSteps steps_;
-    bool is_bad_; // the next datagram meets the bad state
-    LossState state_ = LossState::none;
-};
-
-class Gilbert::Model {
-public:
-    Model(const Gilbert& law, const base::RandomStream& stream) : chain_{law.steps(), stream} {}
-
-    [[nodiscard]] bool on_packet(const Packet& packet, const base::RandomStream& stream)
-    {
-        return chain_.on_packet(packet, stream);
-    }
-    void change(const Gilbert& law, const base::RandomStream&) { chain_.change(law.steps()); }
-    [[nodiscard]] LossState state() const { return chain_.state(); }
-
-private:
-    TwoStateChain chain_;
-};
-
-class GilbertElliott::Model {
-public:
-    Model(const GilbertElliott& law, const base::RandomStream& stream) : chain_{law.steps(), stream}
-    {}
-
-    [[nodiscard]] bool on_packet(const Packet& packet, const base::RandomStream& stream)
-    {
-        return chain_.on_packet(packet, stream);
-    }
-    void change(const GilbertElliott& law, const base::RandomStream&)
-    {
-        chain_.change(law.steps());
-    }
-    [[nodiscard]] LossState state() const { return chain_.state(); }
-
-private:
-    TwoStateChain chain_;
-};
 
 /// The first datagram meets the stationary law, whenever it comes.
 class TimedGilbertElliott::Model {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/fate.hpp"
 #include "emulator/core/loss/burst.hpp"
 #include "emulator/core/loss/four_state.hpp"
 #include "emulator/core/loss/gilbert.hpp"
@@ -14,7 +15,6 @@
 #include "emulator/core/loss/theory.hpp"
 #include "emulator/core/loss/trace.hpp"
 #include "emulator/core/packet.hpp"
-#include "emulator/core/verdict.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/fate.hpp"
 #include "emulator/core/packet.hpp"
-#include "emulator/core/verdict.hpp"
 #include "proto/base/fields.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"

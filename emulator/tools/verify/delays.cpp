@@ -34,9 +34,7 @@ Delays delays_of(std::span<const Fate> fates, std::size_t stride)
 {
     Delays delays;
     for (std::size_t i = 0; i < fates.size() && delays.size() < delays_max; i += stride) {
-        if (const auto* deliver = std::get_if<Deliver>(&fates[i].verdict)) {
-            delays.push_back(deliver->after);
-        }
+        if (!fates[i].drop) delays.push_back(fates[i].delay);
     }
     return delays;
 }

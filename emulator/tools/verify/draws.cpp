@@ -22,50 +22,6 @@ TestResult too_few(std::string name)
 
 } // namespace
 
-TestResult test_distribution(std::vector<base::Duration> delays, const Distribution& law,
-                             double alpha)
-{
-    if (delays.size() < delays_min) return too_few("delay law");
-    std::sort(delays.begin(), delays.end());
-    const auto n = static_cast<double>(delays.size());
-    constexpr double half = 0.5; // a nanosecond stands for what was rounded to it
-    double distance = 0.0;
-    for (std::size_t i = 0; i < delays.size();) {
-        std::size_t next = i;
-        while (next < delays.size() && delays[next] == delays[i]) ++next;
-        const double value = base::to_nanoseconds(delays[i]);
-        distance = std::max({distance, std::abs(static_cast<double>(i) / n - law(value - half)),
-                             std::abs(static_cast<double>(next) / n - law(value + half))});
-        i = next;
-    }
-    auto result = by_chance("delay law", distance, kolmogorov_tail(distance, n), alpha);
-    result.sentence =
-        fmt::format("the distribution of {} delays is off by {:.5f} at most (Kolmogorov-Smirnov)",
-                    delays.size(), distance);
-    return result;
-}
-
-TestResult test_tails(std::vector<base::Duration> delays, const Distribution& law, double alpha)
-{
-    if (delays.size() < delays_min) return too_few("delay tails");
-    std::sort(delays.begin(), delays.end());
-    const std::size_t count = delays.size();
-    const auto n = static_cast<double>(count);
-    constexpr double least = 1e-300; // a value that the law cannot have is one beyond any chance
-    double sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double below = std::max(law(base::to_nanoseconds(delays[i])), least);
-        const double above =
-            std::max(1.0 - law(base::to_nanoseconds(delays[count - 1 - i])), least);
-        sum += (2.0 * static_cast<double>(i) + 1.0) * (std::log(below) + std::log(above));
-    }
-    const double a_square = -n - sum / n;
-    auto result = by_chance("delay tails", a_square, anderson_darling_tail(a_square), alpha);
-    result.sentence =
-        fmt::format("A^2 = {:.2f} over {} delays (Anderson-Darling)", a_square, count);
-    return result;
-}
-
 TestResult test_same_law(std::vector<base::Duration> a, std::vector<base::Duration> b, double alpha)
 {
     if (std::min(a.size(), b.size()) < delays_min) return too_few("delay law");
@@ -88,18 +44,6 @@ TestResult test_same_law(std::vector<base::Duration> a, std::vector<base::Durati
                     "apart at most (Kolmogorov-Smirnov)",
                     a.size(), b.size(), distance);
     return result;
-}
-
-std::vector<double> normal_scores(std::span<const base::Duration> delays, const Distribution& law)
-{
-    constexpr double edge = 1e-12; // keeps the extremes finite
-    std::vector<double> scores;
-    scores.reserve(delays.size());
-    for (const base::Duration delay : delays) {
-        scores.push_back(
-            normal_score(std::clamp(law(base::to_nanoseconds(delay)), edge, 1.0 - edge)));
-    }
-    return scores;
 }
 
 TestResult test_correlation(std::span<const double> scores, double rho, double alpha)

@@ -113,12 +113,4 @@ TestResult test_bursts(std::span<const std::uint8_t> lost, const RecurringBursts
         "datagrams");
 }
 
-TestResult test_order(std::span<const base::TimePoint> departures)
-{
-    const std::size_t pairs = departures.empty() ? 0 : departures.size() - 1;
-    return count_deviations(
-        "order", pairs, [&](std::size_t i) { return departures[i + 1] < departures[i]; },
-        "neighbours");
-}
-
 } // namespace hapnet::emulator::tools

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/fate.hpp"
 #include "emulator/core/loss/theory.hpp"
-#include "emulator/core/verdict.hpp"
 #include "emulator/tools/verify/result.hpp"
 #include "proto/base/time.hpp"
 
@@ -31,8 +31,5 @@ namespace hapnet::emulator::tools {
 /// Whether the losses are bursts of one length that return with one period, wherever they begin.
 [[nodiscard]] TestResult test_bursts(std::span<const std::uint8_t> lost,
                                      const RecurringBursts& law);
-
-/// Whether datagrams, in the order of their numbers, left in that order.
-[[nodiscard]] TestResult test_order(std::span<const base::TimePoint> departures);
 
 } // namespace hapnet::emulator::tools

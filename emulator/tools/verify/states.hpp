@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/fate.hpp"
 #include "emulator/core/loss/theory.hpp"
-#include "emulator/core/verdict.hpp"
 #include "emulator/tools/verify/result.hpp"
 
 #include <cstdint>

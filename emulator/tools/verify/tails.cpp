@@ -48,22 +48,6 @@ double kolmogorov_tail(double distance, double n)
     return std::clamp(sum, 0.0, 1.0);
 }
 
-double anderson_darling_tail(double a_square)
-{
-    const double z = a_square;
-    if (!(z > 0.0)) return 1.0;
-    if (z >= 6.0) return std::sqrt(3.0) * std::erfc(std::sqrt(z));
-    if (z < 2.0) {
-        const double series =
-            2.00012 +
-            (0.247105 - (0.0649821 - (0.0347962 - (0.011672 - 0.00168691 * z) * z) * z) * z) * z;
-        return 1.0 - std::exp(-1.2337141 / z) / std::sqrt(z) * series;
-    }
-    const double series =
-        1.0776 - (2.30695 - (0.43424 - (0.082433 - (0.008056 - 0.0003146 * z) * z) * z) * z) * z;
-    return 1.0 - std::exp(-std::exp(series));
-}
-
 double normal_score(double u) { return boost::math::quantile(boost::math::normal{}, u); }
 
 } // namespace hapnet::emulator::tools

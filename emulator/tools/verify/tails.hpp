@@ -22,10 +22,6 @@ namespace hapnet::emulator::tools {
 /// Kolmogorov's limit with Stephens' correction for finite n.
 [[nodiscard]] double kolmogorov_tail(double distance, double n);
 
-/// Of A^2 or more, by the limit for many samples (Marsaglia and Marsaglia 2004; above 6 by
-/// Zolotarev's asymptote sqrt(3) erfc(sqrt(A^2)), within 5 %).
-[[nodiscard]] double anderson_darling_tail(double a_square);
-
 /// The quantile of the standard normal law, 0 < u < 1.
 [[nodiscard]] double normal_score(double u);
 

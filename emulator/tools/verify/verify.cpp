@@ -73,8 +73,7 @@ Results verify_between(const Claim& claim, std::span<const Fate> up, std::span<c
     }
     PairTally tally;
     for (std::size_t i = 0; i < std::min(up.size(), down.size()); ++i) {
-        tally.add(std::holds_alternative<Drop>(up[i].verdict),
-                  std::holds_alternative<Drop>(down[i].verdict));
+        tally.add(up[i].drop.has_value(), down[i].drop.has_value());
     }
     return {test_unrelated(tally, *memory_up * *memory_down, claim.alpha)};
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
-#include "emulator/core/verdict.hpp"
+#include "emulator/core/fate.hpp"
 #include "emulator/tools/verify/result.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"

@@ -6,14 +6,14 @@
 
 namespace hapnet::peer {
 
-void BaseAlgorithm::hear(const Heard& heard)
+void BaseAlgorithm::hear(const ReceivedState& received)
 {
     if (options_.follow != Follow::relative) return;
     if (options_.displacement_from != DisplacementFrom::increments) return;
-    const auto& body = heard.state.body;
-    const bool counts = heard.state.touching || options_.follow_while == FollowWhile::always;
+    const auto& body = received.state.body;
+    const bool counts = received.state.touching || options_.follow_while == FollowWhile::always;
     // What the sender's body moved in its tick; no message holds it, but its velocity tells it.
-    if (heard.taken && body && counts) increments_ += body->velocity * heard.tick;
+    if (received.taken && body && counts) increments_ += body->velocity * received.tick;
 }
 
 void BaseAlgorithm::forget()

@@ -22,7 +22,7 @@ public:
     explicit BaseAlgorithm(const BaseOptions& options) : options_{options} {}
 
     /// Every state of the session, in the order of arrival.
-    void hear(const Heard& heard);
+    void hear(const ReceivedState& received);
     /// Moves the world by one tick.
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     /// The same with the other side as `remote` shows it.

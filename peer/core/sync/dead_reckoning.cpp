@@ -42,20 +42,20 @@ DeadReckoning::DeadReckoning(const DeadReckoningOptions& options)
     : options_{options}, base_{options.base}, delay_{options.horizon_memory}
 {}
 
-void DeadReckoning::hear(const Heard& heard)
+void DeadReckoning::hear(const ReceivedState& received)
 {
-    base_.hear(heard);
-    const auto age = one_way_delay(heard);
+    base_.hear(received);
+    const auto age = one_way_delay(received);
     if (age) delay_.add(*age);
-    if (!heard.taken) return;
-    const auto& body = heard.state.body;
+    if (!received.taken) return;
+    const auto& body = received.state.body;
     if (!body && !newest_) return;
     // A message without a body says that nothing moves it.
     const Fix fix{.place = body ? body->position : newest_->place,
-                  .arrived = heard.arrived,
-                  .sent = heard.state.sent,
+                  .arrived = received.arrived,
+                  .sent = received.state.sent,
                   .age = std::max(base::Duration{0}, age.value_or(base::Duration{0}))};
-    velocity_ = newest_ ? velocity_to(fix, heard.tick) : base::Velocity{};
+    velocity_ = newest_ ? velocity_to(fix, received.tick) : base::Velocity{};
     newest_ = fix;
     has_news_ = true;
 }

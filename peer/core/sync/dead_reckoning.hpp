@@ -91,7 +91,7 @@ public:
     DeadReckoning() : DeadReckoning(DeadReckoningOptions{}) {}
     explicit DeadReckoning(const DeadReckoningOptions& options);
 
-    void hear(const Heard& heard);
+    void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget();
 

@@ -25,14 +25,14 @@ EstimatorPredictor::EstimatorPredictor(const EstimatorPredictorOptions& options)
       hip_{base::to_seconds(options.time_constant)}
 {}
 
-void EstimatorPredictor::hear(const Heard& heard)
+void EstimatorPredictor::hear(const ReceivedState& received)
 {
-    base_.hear(heard);
-    if (const auto age = one_way_delay(heard)) delay_.add(*age);
-    if (!heard.taken) return;
-    const wire::State& state = heard.state;
+    base_.hear(received);
+    if (const auto age = one_way_delay(received)) delay_.add(*age);
+    if (!received.taken) return;
+    const wire::State& state = received.state;
     const bool starts = !has_heard_ || state.sent - hip_.at() > options_.gap_max;
-    sample_ = base::limited(state.contact_force, heard.force_max_n);
+    sample_ = base::limited(state.contact_force, received.force_max_n);
     // A force begins and ends with a step, which is no slope to go on with.
     if (starts || state.touching != touching_) {
         force_.restart(sample_.value, state.sent);
@@ -47,7 +47,7 @@ void EstimatorPredictor::hear(const Heard& heard)
         hip_.add(state.hip.value, state.sent);
     }
     touching_ = state.touching;
-    arrived_ = heard.arrived;
+    arrived_ = received.arrived;
     has_heard_ = true;
 }
 

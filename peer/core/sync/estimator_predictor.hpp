@@ -58,7 +58,7 @@ public:
     EstimatorPredictor() : EstimatorPredictor(EstimatorPredictorOptions{}) {}
     explicit EstimatorPredictor(const EstimatorPredictorOptions& options);
 
-    void hear(const Heard& heard);
+    void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget();
 

@@ -8,10 +8,10 @@
 
 namespace hapnet::peer {
 
-std::optional<base::Duration> one_way_delay(const Heard& heard)
+std::optional<base::Duration> one_way_delay(const ReceivedState& received)
 {
-    if (!heard.clock) return std::nullopt;
-    const base::Duration delay = (heard.arrived - heard.state.sent) + heard.clock->offset;
+    if (!received.clock) return std::nullopt;
+    const base::Duration delay = (received.arrived - received.state.sent) + received.clock->offset;
     if (std::chrono::abs(delay) > believable_delay) return std::nullopt;
     return delay;
 }

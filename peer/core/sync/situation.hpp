@@ -16,7 +16,7 @@ inline constexpr std::uint32_t own_hand = 0;
 
 /// A state of the other side as it arrives, to be told to an algorithm once and at once: several
 /// may arrive between two ticks.
-struct Heard {
+struct ReceivedState {
     const wire::State& state;
     base::TimePoint arrived;
     /// False: it is older than one that was taken, or its duplicate. It tells of the network's
@@ -34,7 +34,7 @@ struct Situation {
     const Remote& remote;   // the other side as last heard
     double freshness = 0.0; // of its state, 0 to 1
     bool yields = false;    // at rest, this peer takes the other's pose (the higher id)
-    base::Duration tick{std::chrono::milliseconds{1}}; // this and what follows: as in Heard
+    base::Duration tick{std::chrono::milliseconds{1}}; // from here on as in ReceivedState
     std::optional<ClockOffset::Estimate> clock{};
     double force_max_n = scene::force_max_n;
 };
@@ -51,7 +51,7 @@ struct Outcome {
 /// The delay of a message from the stamps of both sides; nullopt while the clocks are unknown, or
 /// when it is out of any network's reach (`believable_delay`). A delay that is not the same both
 /// ways shifts it by half the difference, which nothing here can see (RFC 5905).
-[[nodiscard]] std::optional<base::Duration> one_way_delay(const Heard& heard);
+[[nodiscard]] std::optional<base::Duration> one_way_delay(const ReceivedState& received);
 inline constexpr base::Duration believable_delay{std::chrono::seconds{5}};
 
 } // namespace hapnet::peer

@@ -31,42 +31,43 @@ public:
 
     device::hid::ReadResult read(std::span<std::byte> into) override
     {
-        using device::hid::Moved;
-        if (line_.is_gone) return {Moved::gone, 0};
-        if (line_.waiting.empty()) return {Moved::nothing, 0};
+        using device::hid::TransferResult;
+        if (line_.is_gone) return {TransferResult::gone, 0};
+        if (line_.waiting.empty()) return {TransferResult::nothing, 0};
         const auto report = std::exchange(line_.waiting.front(), {});
         line_.waiting.pop_front();
         const std::size_t size = std::min(report.size(), into.size());
         std::copy_n(report.begin(), size, into.begin());
-        return {Moved::yes, size};
+        return {TransferResult::yes, size};
     }
-    device::hid::Moved write(std::span<const std::byte> report) override
+    device::hid::TransferResult write(std::span<const std::byte> report) override
     {
         if (!moves()) return failure();
         line_.pid.on_output(report);
-        return device::hid::Moved::yes;
+        return device::hid::TransferResult::yes;
     }
-    device::hid::Moved set_feature(std::span<const std::byte> report) override
+    device::hid::TransferResult set_feature(std::span<const std::byte> report) override
     {
         if (!moves()) return failure();
         line_.pid.on_feature(report);
-        return device::hid::Moved::yes;
+        return device::hid::TransferResult::yes;
     }
-    device::hid::Moved get_feature(std::span<std::byte> report) override
+    device::hid::TransferResult get_feature(std::span<std::byte> report) override
     {
         ++line_.questions;
         if (!moves() || line_.is_mute) return failure();
         const auto answer = line_.pid.feature(std::to_integer<std::uint8_t>(report[0]));
-        if (!answer || answer->size() > report.size()) return device::hid::Moved::failed;
+        if (!answer || answer->size() > report.size()) return device::hid::TransferResult::failed;
         std::copy(answer->begin(), answer->end(), report.begin());
-        return device::hid::Moved::yes;
+        return device::hid::TransferResult::yes;
     }
 
 private:
     [[nodiscard]] bool moves() const { return !line_.is_gone && !line_.refuses; }
-    [[nodiscard]] device::hid::Moved failure() const
+    [[nodiscard]] device::hid::TransferResult failure() const
     {
-        return line_.is_gone ? device::hid::Moved::gone : device::hid::Moved::failed;
+        return line_.is_gone ? device::hid::TransferResult::gone
+                             : device::hid::TransferResult::failed;
     }
 
     Line& line_;

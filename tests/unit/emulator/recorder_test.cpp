@@ -45,8 +45,8 @@ private:
 
 Fate fate_of(std::uint64_t number)
 {
-    if (number % 3 == 0) return {Drop{DropCause::random_loss}, {}};
-    return {Deliver{.after = number * 1us}, {}};
+    if (number % 3 == 0) return {.drop = DropCause::random_loss};
+    return {.delay = number * 1us};
 }
 
 TEST_F(RecorderFiles, OfFatesHoldAllOfUpAndThenAllOfDownHoweverTheyCame)
@@ -97,12 +97,12 @@ TEST_F(RecorderFiles, OfACaptureHoldEveryPacketWholeWithItsComment)
     const UdpAddress to{{std::byte{11}}, 7001, false};
     for (const std::size_t size : {0U, 1U, 239U, 240U, 241U, 480U, 65'507U}) {
         const std::vector<std::byte> payload(size, std::byte{0x5a});
-        const Observation came{CaptureSide::a, base::TimePoint{1s}, from, to, payload};
-        const Observation left{CaptureSide::b, base::TimePoint{2s}, to, from, payload};
-        recorder.on_arrival(came, fate_of(4).verdict);
+        const CapturedPacket came{CaptureSide::a, false, base::TimePoint{1s}, from, to, payload};
+        const CapturedPacket left{CaptureSide::b, true, base::TimePoint{2s}, to, from, payload};
+        recorder.on_arrival(came, fate_of(4));
         recorder.on_departure(left, 7us, true);
-        append_packet(expected, {CaptureSide::a, false, {}, from, to, payload, "delayed 4 us"});
-        append_packet(expected, {CaptureSide::b, true, {}, to, from, payload, "late 7 us, copy"});
+        append_packet(expected, came, 0s, "delayed 4 us");
+        append_packet(expected, left, 0s, "late 7 us, copy");
     }
     recorder.finish();
     EXPECT_EQ(recorder.capture_lost(), 0U);
@@ -113,11 +113,11 @@ TEST_F(RecorderFiles, LackExactlyWhatWasCountedAsLost)
 {
     Recorder recorder{{{}, path("capture.pcapng")}};
     const std::vector<std::byte> payload(65'507);
-    const Observation observed{CaptureSide::a, base::TimePoint{1s}, {}, {}, payload};
+    const CapturedPacket left{CaptureSide::a, true, base::TimePoint{1s}, {}, {}, payload};
     // Each needs a 480th of the queue, and copying is faster than writing with checksums.
     std::uint64_t handed_over = 0;
     for (; handed_over < 20'000 && recorder.capture_lost() == 0; ++handed_over) {
-        recorder.on_departure(observed, 0us, false);
+        recorder.on_departure(left, 0us, false);
     }
     EXPECT_GT(recorder.capture_lost(), 0U);
     recorder.finish();
@@ -150,7 +150,6 @@ TEST_F(RecorderFiles, OnAFullDiskAreReportedAtTheEnd)
 TEST(Recorder, WithoutAFileDoesNothing)
 {
     Recorder recorder{{}};
-    EXPECT_FALSE(recorder.writes_fates());
     EXPECT_FALSE(recorder.captures());
     recorder.on_fate(Direction::up, 0, fate_of(0));
     recorder.on_departure({}, 0us, false);

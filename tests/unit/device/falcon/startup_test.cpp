@@ -33,7 +33,7 @@ Bytes report()
 
 /// A conversation: what was asked and said is noted, what is heard comes from a function.
 struct Conversation {
-    std::vector<Ask> asked;
+    std::vector<ChipRequest> asked;
     std::vector<Bytes> said;
     int steps = 0;
 
@@ -42,10 +42,10 @@ struct Conversation {
     {
         for (; steps < 100'000; ++steps) {
             const Step step = startup.step();
-            if (const auto* ask = std::get_if<Ask>(&step)) {
+            if (const auto* ask = std::get_if<ChipRequest>(&step)) {
                 asked.push_back(*ask);
                 startup.on_done();
-            } else if (const auto* say = std::get_if<Say>(&step)) {
+            } else if (const auto* say = std::get_if<SendBytes>(&step)) {
                 said.push_back(say->bytes);
                 startup.on_done();
             } else if (std::holds_alternative<Listen>(step)) {
@@ -95,7 +95,7 @@ TEST(FalconStartup, LeavesAFirmwareAloneThatAnswers)
     const Step end =
         conversation.play(Startup{firmware_of(100)}, [](const Bytes&) { return report(); });
     EXPECT_TRUE(std::holds_alternative<Ready>(end));
-    EXPECT_EQ(conversation.asked, (std::vector<Ask>{{9, 1}, {3, 2}, {0, 1}, {0, 2}}));
+    EXPECT_EQ(conversation.asked, (std::vector<ChipRequest>{{9, 1}, {3, 2}, {0, 1}, {0, 2}}));
     ASSERT_EQ(conversation.said.size(), 1U);
     EXPECT_TRUE(std::ranges::equal(conversation.said.front(), encode(Command{})));
 }
@@ -105,25 +105,25 @@ TEST(FalconStartup, LoadsTheFirmwareAsTheDescriptionSays)
     Conversation conversation;
     const Step end = conversation.play(Startup{firmware_of(130)}, Loader{130});
     EXPECT_TRUE(std::holds_alternative<Ready>(end));
-    EXPECT_EQ(conversation.asked, (std::vector<Ask>{{9, 1},
-                                                    {3, 2},
-                                                    {0, 1},
-                                                    {0, 2}, // is it running?
-                                                    {0, 1},
-                                                    {0, 2},
-                                                    {9, 16},
-                                                    {3, 0x4138},
-                                                    {4, 8},
-                                                    {2, 0},
-                                                    {1, 0x0200},
-                                                    {1, 0x0100},
-                                                    {1, 0x0101},
-                                                    {1, 0x0100},
-                                                    {3, 0x0015},
-                                                    {9, 1},
-                                                    {3, 2},
-                                                    {0, 1},
-                                                    {0, 2}})); // now?
+    EXPECT_EQ(conversation.asked, (std::vector<ChipRequest>{{9, 1},
+                                                            {3, 2},
+                                                            {0, 1},
+                                                            {0, 2}, // is it running?
+                                                            {0, 1},
+                                                            {0, 2},
+                                                            {9, 16},
+                                                            {3, 0x4138},
+                                                            {4, 8},
+                                                            {2, 0},
+                                                            {1, 0x0200},
+                                                            {1, 0x0100},
+                                                            {1, 0x0101},
+                                                            {1, 0x0100},
+                                                            {3, 0x0015},
+                                                            {9, 1},
+                                                            {3, 2},
+                                                            {0, 1},
+                                                            {0, 2}})); // now?
     const auto& said = conversation.said;
     ASSERT_EQ(said.size(), 10U + 1 + 1 + 3 + 1); // greetings, two hellos, chunks, a greeting
     EXPECT_EQ(said[10], hello);
@@ -217,7 +217,7 @@ TEST(FalconStartup, EndsWhateverItHears)
 TEST(FalconStartup, SaysSoWhenTheChipTakesNoRequest)
 {
     Startup startup{{}};
-    ASSERT_TRUE(std::holds_alternative<Ask>(startup.step()));
+    ASSERT_TRUE(std::holds_alternative<ChipRequest>(startup.step()));
     startup.on_silence();
     const auto* refused = std::get_if<Refused>(&startup.step());
     ASSERT_NE(refused, nullptr);

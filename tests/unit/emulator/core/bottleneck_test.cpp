@@ -4,9 +4,12 @@
 
 #include "proto/base/random.hpp"
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -21,10 +24,22 @@ constexpr base::TimePoint start{1h};
 /// 1 Mbit/s, 25 bytes of overhead, 1000 bytes of queue: 100 bytes of payload take 1 ms.
 constexpr Rate megabit{1'000'000, 25, 1000};
 
-std::vector<std::pair<int, base::TimePoint>> all_of(Bottleneck<int>& line)
+using Sent = std::vector<std::pair<std::uint64_t, base::TimePoint>>;
+
+constexpr std::array<std::byte, 1000> payload{};
+
+/// Datagram `number`, of `bytes` bytes, arrives at `now`.
+void push(Bottleneck& line, std::uint64_t number, std::size_t bytes, base::TimePoint now)
 {
-    std::vector<std::pair<int, base::TimePoint>> sent;
-    while (const auto one = line.pop(start + 1h)) sent.emplace_back(one->item, one->at);
+    line.push({.number = number, .arrival = now, .bytes = std::span{payload}.first(bytes)}, {});
+}
+
+Sent all_of(Bottleneck& line)
+{
+    Sent sent;
+    while (const auto one = line.pop(start + 1h)) {
+        sent.emplace_back(one->datagram.number, one->datagram.due);
+    }
     return sent;
 }
 
@@ -32,33 +47,32 @@ std::vector<std::pair<int, base::TimePoint>> all_of(Bottleneck<int>& line)
 
 TEST(Bottleneck, TakesTheTimeOfTheBitsWithTheirOverhead)
 {
-    Bottleneck<int> line{megabit, 8};
-    line.push(1, 100, start);
+    Bottleneck line{megabit, 8};
+    push(line, 1, 100, start);
     EXPECT_EQ(line.next_sent(), start + 1ms);
     EXPECT_FALSE(line.pop(start + 1ms - 1ns));
-    EXPECT_EQ(line.pop(start + 1ms)->at, start + 1ms);
+    EXPECT_EQ(line.pop(start + 1ms)->datagram.due, start + 1ms);
     EXPECT_FALSE(line.next_sent());
 }
 
 TEST(Bottleneck, SendsOneAfterTheOther)
 {
-    Bottleneck<int> line{megabit, 8};
-    line.push(1, 100, start);
-    line.push(2, 100, start + 500us);
-    line.push(3, 225, start + 500us);
-    EXPECT_EQ(all_of(line), (std::vector<std::pair<int, base::TimePoint>>{
-                                {1, start + 1ms}, {2, start + 2ms}, {3, start + 4ms}}));
+    Bottleneck line{megabit, 8};
+    push(line, 1, 100, start);
+    push(line, 2, 100, start + 500us);
+    push(line, 3, 225, start + 500us);
+    EXPECT_EQ(all_of(line), (Sent{{1, start + 1ms}, {2, start + 2ms}, {3, start + 4ms}}));
 }
 
 TEST(Bottleneck, HasRoomForItsQueueBesidesTheOneBeingSent)
 {
-    Bottleneck<int> line{{1'000'000, 25, 250}, 8};
+    Bottleneck line{{1'000'000, 25, 250}, 8};
     EXPECT_TRUE(line.has_room(65'507)); // an idle line takes anything
-    line.push(1, 100, start);
-    line.push(2, 100, start);
+    push(line, 1, 100, start);
+    push(line, 2, 100, start);
     EXPECT_TRUE(line.has_room(100));
     EXPECT_FALSE(line.has_room(101));
-    line.push(3, 100, start);
+    push(line, 3, 100, start);
     EXPECT_FALSE(line.has_room(0));
     EXPECT_TRUE(line.pop(start + 1ms));
     EXPECT_TRUE(line.has_room(100));
@@ -66,37 +80,35 @@ TEST(Bottleneck, HasRoomForItsQueueBesidesTheOneBeingSent)
 
 TEST(Bottleneck, HasNoRoomBeyondTheNumberItWasMadeFor)
 {
-    Bottleneck<int> line{{1'000'000, 25, 1'000'000}, 2};
-    line.push(1, 100, start);
-    line.push(2, 100, start);
+    Bottleneck line{{1'000'000, 25, 1'000'000}, 2};
+    push(line, 1, 100, start);
+    push(line, 2, 100, start);
     EXPECT_FALSE(line.has_room(0));
 }
 
 TEST(Bottleneck, CountsTheBitsAlreadySentWhenTheRateChanges)
 {
-    Bottleneck<int> line{megabit, 8};
-    line.push(1, 100, start); // 1000 bits
-    line.push(2, 100, start);
+    Bottleneck line{megabit, 8};
+    push(line, 1, 100, start); // 1000 bits
+    push(line, 2, 100, start);
     line.change({2'000'000, 25, 1000}, start + 400us); // 600 bits are left, at twice the rate
-    EXPECT_EQ(all_of(line), (std::vector<std::pair<int, base::TimePoint>>{{1, start + 700us},
-                                                                          {2, start + 1200us}}));
+    EXPECT_EQ(all_of(line), (Sent{{1, start + 700us}, {2, start + 1200us}}));
 }
 
 TEST(Bottleneck, LetsAllGoWhenTheRateIsTakenAway)
 {
-    Bottleneck<int> line{megabit, 8};
-    line.push(1, 100, start);
-    line.push(2, 100, start);
+    Bottleneck line{megabit, 8};
+    push(line, 1, 100, start);
+    push(line, 2, 100, start);
     line.change({}, start + 400us);
-    EXPECT_EQ(all_of(line), (std::vector<std::pair<int, base::TimePoint>>{{1, start + 400us},
-                                                                          {2, start + 400us}}));
+    EXPECT_EQ(all_of(line), (Sent{{1, start + 400us}, {2, start + 400us}}));
 }
 
 TEST(Bottleneck, RoundsOnceAndNotOncePerDatagram)
 {
     // 8 bits at 3 bit/s: 2.666... s each, so that three of them take 8 s to the nanosecond.
-    Bottleneck<int> line{{3, 0, 1000}, 8};
-    for (const int item : {1, 2, 3}) line.push(item, 1, start);
+    Bottleneck line{{3, 0, 1000}, 8};
+    for (const std::uint64_t number : {1U, 2U, 3U}) push(line, number, 1, start);
     const auto sent = all_of(line);
     EXPECT_EQ(sent[0].second, start + 2'666'666'667ns);
     EXPECT_EQ(sent[1].second, start + 5'333'333'334ns);
@@ -109,7 +121,7 @@ TEST(Bottleneck, FollowsLindleysRecursionToTheNanosecondForAnyArrivals)
     // period its beginning plus all its bits, rounded up once.
     constexpr std::uint64_t bits_per_second = 142'857'143;
     const auto chance = base::Seed{3}.stream("arrivals");
-    Bottleneck<std::uint64_t> line{{bits_per_second, 0, 1U << 30}, 4096};
+    Bottleneck line{{bits_per_second, 0, 1U << 30}, 4096};
     std::vector<base::TimePoint> expected;
     auto busy_since = start;
     std::uint64_t bits = 0;
@@ -117,9 +129,9 @@ TEST(Bottleneck, FollowsLindleysRecursionToTheNanosecondForAnyArrivals)
     std::size_t sent = 0;
     for (std::uint64_t n = 0; n < 5000; ++n) {
         now += base::Duration{static_cast<std::int64_t>(chance.below(60'000, n))};
-        while (const auto one = line.pop(now)) ASSERT_EQ(one->at, expected.at(sent++));
+        while (const auto one = line.pop(now)) ASSERT_EQ(one->datagram.due, expected.at(sent++));
         const std::size_t bytes = 1 + chance.below(1000, n, 1);
-        line.push(n, bytes, now);
+        push(line, n, bytes, now);
         if (n == 0 || expected.back() <= now) {
             busy_since = now;
             bits = 0;

@@ -75,7 +75,7 @@ TEST(Link, HoldsADatagramUntilItsDelayHasPassedAndNotANanosecondLonger)
 {
     Link link = link_of({.delay = constant(160ms)});
     const Admission admission = link.on_packet(payload, start);
-    EXPECT_EQ(admission.fate.verdict, Verdict{Deliver{.after = 160ms}});
+    EXPECT_EQ(admission.fate, Fate{.delay = 160ms});
     EXPECT_FALSE(admission.departure);
     EXPECT_EQ(link.next_deadline(), start + 160ms);
     EXPECT_FALSE(link.poll(start + 160ms - 1ns));
@@ -145,7 +145,7 @@ TEST(Link, DropsAndCountsWhatExceedsItsBound)
     Link link = link_of({.delay = constant(1s)}, {.datagrams_max = 2});
     link.on_packet(payload, start);
     link.on_packet(payload, start);
-    EXPECT_EQ(link.on_packet(payload, start).verdict, Verdict{Drop{DropCause::queue_full}});
+    EXPECT_EQ(link.on_packet(payload, start).drop, DropCause::queue_full);
     EXPECT_EQ(link.statistics().dropped_by(DropCause::queue_full), 1U);
     EXPECT_EQ(link.statistics().in_flight, 2U);
 }
@@ -198,7 +198,7 @@ TEST(Link, KeepsOrderByTheLaterOfOwnDelayAndPredecessor)
     for (int i = 0; i < 50; ++i) {
         const auto arrival = start + i * 1ms;
         const auto admission = link.on_packet(payload, arrival);
-        const auto own = std::get<Deliver>(admission.fate.verdict).after;
+        const auto own = admission.fate.delay;
         previous = std::max(previous, arrival + own);
         const auto departure = link.poll(start + 1h);
         ASSERT_TRUE(departure);
@@ -222,7 +222,7 @@ TEST(Link, NumbersWhatItLosesToo)
     for (std::uint64_t number = 0; number < 3; ++number) {
         const Admission admission = link.on_packet(payload, start);
         EXPECT_EQ(admission.number, number);
-        EXPECT_EQ(admission.fate.verdict, Verdict{Drop{DropCause::random_loss}});
+        EXPECT_EQ(admission.fate, Fate{.drop = DropCause::random_loss});
     }
     EXPECT_EQ(link.statistics().received, 3U);
     EXPECT_EQ(link.statistics().bytes_in, 3U * 96U);

@@ -14,43 +14,39 @@ using namespace base::literals; // NOLINT(google-build-using-namespace): literal
 
 constexpr base::Seed seed{42};
 
-Verdict first_verdict(const Conditions& conditions, std::size_t bytes = 100)
+Fate first_fate(const Conditions& conditions, std::size_t bytes = 100)
 {
-    return Pipeline{conditions, seed, Direction::up}.on_packet({0, bytes, 0ns}).verdict;
+    return Pipeline{conditions, seed, Direction::up}.on_packet({0, bytes, 0ns});
 }
 
 } // namespace
 
-TEST(Pipeline, ForwardsAtOnceWhenNothingIsAskedOfIt)
-{
-    EXPECT_EQ(first_verdict({}), Verdict{Deliver{}});
-}
+TEST(Pipeline, ForwardsAtOnceWhenNothingIsAskedOfIt) { EXPECT_EQ(first_fate({}), Fate{}); }
 
 TEST(Pipeline, AddsJitterToDelay)
 {
     const Conditions conditions{.delay = constant(100ms), .jitter = constant(60ms)};
-    EXPECT_EQ(first_verdict(conditions), Verdict{Deliver{.after = 160ms}});
+    EXPECT_EQ(first_fate(conditions), Fate{.delay = 160ms});
 }
 
 TEST(Pipeline, CountsANegativeTotalAsZero)
 {
-    EXPECT_EQ(first_verdict({.delay = constant(1ms), .jitter = constant(-2ms)}),
-              Verdict{Deliver{}});
+    EXPECT_EQ(first_fate({.delay = constant(1ms), .jitter = constant(-2ms)}), Fate{});
 }
 
 TEST(Pipeline, TakesTheFirstDropAsFinal)
 {
-    EXPECT_EQ(first_verdict({.loss = {RandomLoss{100_percent}, Burst{1, 1, {}}}}),
-              Verdict{Drop{DropCause::random_loss}});
-    EXPECT_EQ(first_verdict({.loss = {Burst{1, 1, {}}, RandomLoss{100_percent}}}),
-              Verdict{Drop{DropCause::burst_loss}});
+    EXPECT_EQ(first_fate({.loss = {RandomLoss{100_percent}, Burst{1, 1, {}}}}),
+              Fate{.drop = DropCause::random_loss});
+    EXPECT_EQ(first_fate({.loss = {Burst{1, 1, {}}, RandomLoss{100_percent}}}),
+              Fate{.drop = DropCause::burst_loss});
 }
 
 TEST(Pipeline, DropsWhatIsLargerThanTheMtuWithItsHeaders)
 {
     const Conditions conditions{.mtu = {1500}};
-    EXPECT_EQ(first_verdict(conditions, 1472), Verdict{Deliver{}});
-    EXPECT_EQ(first_verdict(conditions, 1473), Verdict{Drop{DropCause::mtu}});
+    EXPECT_EQ(first_fate(conditions, 1472), Fate{});
+    EXPECT_EQ(first_fate(conditions, 1473), Fate{.drop = DropCause::mtu});
 }
 
 TEST(Pipeline, DrawsFromStreamsNamedByDirectionAndStage)
@@ -63,9 +59,8 @@ TEST(Pipeline, DrawsFromStreamsNamedByDirectionAndStage)
     for (std::uint64_t number = 0; number < 100; ++number) {
         const Packet packet{number, 96, 1ms};
         const auto lost = loss.on_packet(packet);
-        const Deliver deliver{.after = 1s + jitter.on_packet(packet)};
-        EXPECT_EQ(pipeline.on_packet(packet).verdict,
-                  lost ? Verdict{Drop{*lost}} : Verdict{deliver});
+        const Fate delivered{.delay = 1s + jitter.on_packet(packet)};
+        EXPECT_EQ(pipeline.on_packet(packet), lost ? Fate{.drop = *lost} : delivered);
     }
 }
 
@@ -74,11 +69,10 @@ TEST(Pipeline, KeepsThePlaceOfALawInItsDrawsWhenAnotherLawIsAddedBeforeIt)
     Pipeline alone{{.loss = {Burst{4, 100, {}}}}, seed, Direction::up};
     Pipeline both{{.loss = {RandomLoss{1_percent}, Burst{4, 100, {}}}}, seed, Direction::up};
     for (std::uint64_t number = 0; number < 1000; ++number) {
-        const auto verdict = both.on_packet({number, 96, 1ms}).verdict;
-        if (verdict == Verdict{Drop{DropCause::random_loss}}) {
-            std::ignore = alone.on_packet({number, 96, 1ms});
-        } else {
-            EXPECT_EQ(verdict, alone.on_packet({number, 96, 1ms}).verdict);
+        const Fate fate = both.on_packet({number, 96, 1ms});
+        const Fate expected = alone.on_packet({number, 96, 1ms});
+        if (fate.drop != DropCause::random_loss) {
+            EXPECT_EQ(fate, expected);
         }
     }
 }
@@ -89,8 +83,7 @@ TEST(Pipeline, DrawsTwoLawsOfOneKindFromStreamsOfTheirOwn)
     Pipeline pipeline{{.loss = {half, half}}, seed, Direction::up};
     int lost = 0;
     for (std::uint64_t number = 0; number < 1000; ++number) {
-        const auto verdict = pipeline.on_packet({number, 96, 1ms}).verdict;
-        lost += std::holds_alternative<Drop>(verdict) ? 1 : 0;
+        lost += pipeline.on_packet({number, 96, 1ms}).drop ? 1 : 0;
     }
     EXPECT_NEAR(lost, 750, 4 * 13.7); // binomial: sd sqrt(1000 * 0.75 * 0.25)
 }
@@ -115,11 +108,11 @@ TEST(Pipeline, GoesOnWithTheSameDrawsAfterAChangeOfSomethingElse)
 TEST(Pipeline, TakesUpAndGivesUpLawsOfLoss)
 {
     Pipeline pipeline{{}, seed, Direction::up};
-    EXPECT_EQ(pipeline.on_packet({0, 1, 0ns}).verdict, Verdict{Deliver{}});
+    EXPECT_EQ(pipeline.on_packet({0, 1, 0ns}), Fate{});
     pipeline.change({.loss = {RandomLoss{100_percent}}});
-    EXPECT_EQ(pipeline.on_packet({1, 1, 0ns}).verdict, Verdict{Drop{DropCause::random_loss}});
+    EXPECT_EQ(pipeline.on_packet({1, 1, 0ns}), Fate{.drop = DropCause::random_loss});
     pipeline.change({});
-    EXPECT_EQ(pipeline.on_packet({2, 1, 0ns}).verdict, Verdict{Deliver{}});
+    EXPECT_EQ(pipeline.on_packet({2, 1, 0ns}), Fate{});
 }
 
 TEST(DropCauses, AllHaveNamesOfTheirOwn)

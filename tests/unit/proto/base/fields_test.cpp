@@ -200,19 +200,6 @@ TEST(Fields, HaveSomethingBetweenTwoValuesWhereAllHave)
     EXPECT_EQ(between(Gait::walk, Gait::trot, 0.5), std::nullopt);
 }
 
-TEST(Formats, ReadOptionsOfACommandLineWithoutQuotes)
-{
-    EXPECT_EQ(parse_value<Duration>(Time{}, "15ms", "--x"), Duration{15ms});
-    EXPECT_EQ(parse_value<std::uint32_t>(Count{1, 9}, "4", "--x"), 4U);
-    EXPECT_EQ(parse_value<std::uint32_t>(Count{1, 9}, "40", "--x").error().message,
-              "--x: expected a whole number from 1 to 9, not 40");
-    EXPECT_EQ(parse_value<bool>(Flag{}, "true", "--x"), true);
-    EXPECT_EQ(parse_value<Gait>(Choice{}, "trot", "--x"), Gait::trot);
-    EXPECT_EQ(parse_value<Duration>(Time{}, "15", "--x").error().message,
-              "--x: '15' is not a duration: write a number and its unit, such as 160ms, 15us or "
-              "1.5s");
-}
-
 } // namespace
 } // namespace fields_test
 } // namespace hapnet::base

@@ -36,20 +36,20 @@ private:
 
 Fate random_fate(Draws& draws)
 {
-    Fate fate{Drop{drop_causes[draws.below(drop_causes.size())]}, {}};
+    Fate fate{.drop = drop_causes[draws.below(drop_causes.size())]};
     const auto states = draws.below(loss_laws_max + 1);
     for (std::uint32_t i = 0; i < states; ++i)
         fate.states[i] = static_cast<LossState>(draws.below(7));
     if (draws.below(3) == 0) return fate;
-    Deliver deliver{.after = draws.time()};
-    if (draws.below(3) == 0) deliver.copy = draws.time();
-    deliver.flips.count = static_cast<std::uint8_t>(draws.below(Flips::most + 1));
-    for (std::uint32_t i = 0; i < deliver.flips.count; ++i) {
-        deliver.flips.places[i] = draws.below(0xffff'ffff) >> draws.below(32);
+    fate.drop.reset();
+    fate.delay = draws.time();
+    if (draws.below(3) == 0) fate.copy_after = draws.time();
+    fate.flips.count = static_cast<std::uint8_t>(draws.below(Flips::most + 1));
+    for (std::uint32_t i = 0; i < fate.flips.count; ++i) {
+        fate.flips.places[i] = draws.below(0xffff'ffff) >> draws.below(32);
     }
-    if (draws.below(3) == 0) deliver.displacement.places = draws.below(1000);
-    if (draws.below(3) == 0) deliver.displacement.time = draws.time();
-    fate.verdict = deliver;
+    if (draws.below(3) == 0) fate.displacement.places = draws.below(1000);
+    if (draws.below(3) == 0) fate.displacement.time = draws.time();
     return fate;
 }
 

@@ -39,7 +39,7 @@ UdpAddress mapped(std::uint8_t last, std::uint16_t port)
 std::string arrival_comment(const Fate& fate)
 {
     std::string text;
-    append_arrival_comment(text, fate.verdict);
+    append_arrival_comment(text, fate);
     return text;
 }
 
@@ -52,20 +52,18 @@ std::string departure_comment(base::Duration late, bool is_copy)
 
 TEST(Comments, SayWhatBecomesOfADatagram)
 {
-    EXPECT_EQ(arrival_comment({Drop{DropCause::gilbert_elliott}, {}}), "dropped: gilbert-elliott");
-    EXPECT_EQ(arrival_comment({Deliver{}, {}}), "delayed 0.0 ms");
-    EXPECT_EQ(arrival_comment({Deliver{.after = 15us}, {}}), "delayed 15 us");
-    EXPECT_EQ(arrival_comment({Deliver{.after = 999'500ns}, {}}), "delayed 1.0 ms");
-    EXPECT_EQ(arrival_comment({Deliver{.after = 163'249us}, {}}), "delayed 163.2 ms");
-    Deliver deliver{.after = 163'250us, .copy = 0ns};
-    deliver.flips.count = 1;
-    deliver.displacement.places = 3;
-    EXPECT_EQ(arrival_comment({deliver, {}}),
-              "delayed 163.3 ms, copied, 1 bit corrupted, displaced");
-    deliver.flips.count = 2;
-    deliver.displacement = {0, 1ms};
-    EXPECT_EQ(arrival_comment({deliver, {}}),
-              "delayed 163.3 ms, copied, 2 bits corrupted, displaced");
+    EXPECT_EQ(arrival_comment({.drop = DropCause::gilbert_elliott}), "dropped: gilbert-elliott");
+    EXPECT_EQ(arrival_comment({}), "delayed 0.0 ms");
+    EXPECT_EQ(arrival_comment({.delay = 15us}), "delayed 15 us");
+    EXPECT_EQ(arrival_comment({.delay = 999'500ns}), "delayed 1.0 ms");
+    EXPECT_EQ(arrival_comment({.delay = 163'249us}), "delayed 163.2 ms");
+    Fate fate{.delay = 163'250us, .copy_after = 0ns};
+    fate.flips.count = 1;
+    fate.displacement.places = 3;
+    EXPECT_EQ(arrival_comment(fate), "delayed 163.3 ms, copied, 1 bit corrupted, displaced");
+    fate.flips.count = 2;
+    fate.displacement = {0, 1ms};
+    EXPECT_EQ(arrival_comment(fate), "delayed 163.3 ms, copied, 2 bits corrupted, displaced");
 }
 
 TEST(Comments, SayHowLateADatagramLeft)
@@ -104,17 +102,17 @@ TEST(Capture, IsUnderstoodByTshark)
     const std::vector<std::byte> large(CapturedPacket::payload_bytes_max - 20, std::byte{0xa5});
     // The words of this one add up to a checksum of 0, which UDP writes as 0xffff.
     const std::vector<std::byte> zero_sum{std::byte{0xb5}, std::byte{0x1f}};
-    const auto time = 1'700'000'000s + 123'456'789ns;
+    const base::TimePoint time{1'700'000'000s + 123'456'789ns};
     std::string bytes;
     append_capture_head(bytes, "hapnet-emulator 1.0");
     const auto a = CaptureSide::a;
     const auto b = CaptureSide::b;
-    append_packet(bytes, {a, false, time, v4(1, 7000), v4(9, 7001), hello, "delayed 160.0 ms"});
-    append_packet(bytes, {b, true, time + 1ns, v4(9, 7002), v4(2, 7000), large, "late 7 us"});
-    append_packet(bytes, {b, false, time, v6(1, 7000), v6(9, 7001), hello, "dropped: outage"});
-    append_packet(bytes, {a, true, time, mapped(1, 7000), v4(9, 7001), {}, "late 0 us"});
-    append_packet(bytes, {a, true, time, mapped(1, 7000), v6(9, 7001), hello, "late 1 us"});
-    append_packet(bytes, {a, false, time, v4(1, 7000), v4(9, 7001), zero_sum, "x"});
+    append_packet(bytes, {a, false, time, v4(1, 7000), v4(9, 7001), hello}, 0s, "delayed 160.0 ms");
+    append_packet(bytes, {b, true, time + 1ns, v4(9, 7002), v4(2, 7000), large}, 0s, "late 7 us");
+    append_packet(bytes, {b, false, time, v6(1, 7000), v6(9, 7001), hello}, 0s, "dropped: outage");
+    append_packet(bytes, {a, true, time, mapped(1, 7000), v4(9, 7001), {}}, 0s, "late 0 us");
+    append_packet(bytes, {a, true, time, mapped(1, 7000), v6(9, 7001), hello}, 0s, "late 1 us");
+    append_packet(bytes, {a, false, time, v4(1, 7000), v4(9, 7001), zero_sum}, 0s, "x");
     const auto printed = dissected(bytes);
     if (!printed) GTEST_SKIP() << "tshark is not installed";
     const std::string second = "1700000000.123456789";

@@ -11,18 +11,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Fate delivered_after(base::Duration after) { return {Deliver{.after = after}, {}}; }
-
 Fate with_everything()
 {
-    Deliver deliver{.after = 163'200'000ns, .copy = 0ns};
-    deliver.flips = {{7, 4'294'967'295}, 2};
-    deliver.displacement = {3, 5ms};
-    return {deliver, {LossState::none, LossState::bad, LossState::none, LossState::lost_in_gap}};
+    return {.delay = 163'200'000ns,
+            .copy_after = 0ns,
+            .flips = {{7, 4'294'967'295}, 2},
+            .displacement = {3, 5ms},
+            .states = {LossState::none, LossState::bad, LossState::none, LossState::lost_in_gap}};
 }
 
-const Fates some{{delivered_after(160ms), {Drop{DropCause::gilbert_elliott}, {LossState::bad}}},
-                 {with_everything()}};
+const Fates some{
+    {Fate{.delay = 160ms}, {.drop = DropCause::gilbert_elliott, .states = {LossState::bad}}},
+    {with_everything()}};
 
 const std::string some_text = std::string{fates_header} +
                               "\nup,0,deliver,,,160000000,,,,\n"
@@ -51,7 +51,7 @@ TEST(Fates, AreAppendedWithoutAllocationOnceTheBufferIsLargeEnough)
 TEST(Fates, OfEveryCauseAreRead)
 {
     Fates fates;
-    for (const DropCause cause : drop_causes) fates.down.push_back({Drop{cause}, {}});
+    for (const DropCause cause : drop_causes) fates.down.push_back({.drop = cause});
     EXPECT_EQ(parse_fates(to_text(fates)).value(), fates);
 }
 
@@ -122,7 +122,7 @@ TEST(Replay, GivesEachDatagramTheFateOfItsNumberAndDropsWhatComesAfterTheLast)
     const Replay replay{std::make_shared<const std::vector<Fate>>(some.up)};
     EXPECT_EQ(replay.on_packet({.number = 1}), some.up[1]);
     EXPECT_EQ(replay.on_packet({.number = 0}), some.up[0]);
-    EXPECT_EQ(replay.on_packet({.number = 2}), (Fate{Drop{DropCause::replay_ended}, {}}));
+    EXPECT_EQ(replay.on_packet({.number = 2}), (Fate{.drop = DropCause::replay_ended}));
 }
 
 } // namespace

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <variant>
 
 namespace hapnet::emulator {
 
@@ -75,26 +74,6 @@ struct Displacement {
     friend bool operator==(const Displacement&, const Displacement&) = default;
 };
 
-/// To be delivered `after` so long, which is not negative.
-struct Deliver {
-    base::Duration after{};
-    std::optional<base::Duration> copy{}; // a copy leaves so much after the original
-    Flips flips{};
-    Displacement displacement{};
-
-    friend bool operator==(const Deliver&, const Deliver&) = default;
-};
-
-/// Not to be delivered.
-struct Drop {
-    DropCause cause;
-
-    friend bool operator==(const Drop&, const Drop&) = default;
-};
-
-/// What is to become of a datagram.
-using Verdict = std::variant<Deliver, Drop>;
-
 /// In which state a law of loss judged a datagram.
 enum class LossState : std::uint8_t {
     none, // the law has no states
@@ -115,11 +94,17 @@ constexpr auto names_of(base::Tag<LossState>)
 /// The most laws of loss that one direction may have.
 inline constexpr std::size_t loss_laws_max = 8;
 
-/// A verdict and how it came about. A pure function of the seed, the direction, the conditions and
-/// the numbers of the datagrams, and for laws that depend on time of the arrivals; what the
-/// queues make of it is not part of it.
+/// What is to become of a datagram: delivered, or dropped for a cause. A pure function of the seed,
+/// the direction, the conditions and the numbers of the datagrams, and for laws that depend on time
+/// of the arrivals; what the queues make of it is not part of it.
 struct Fate {
-    Verdict verdict;
+    std::optional<DropCause> drop{}; // nullopt: it is delivered
+    // Of a delivered one; of a dropped one all of these are as they stand here.
+    base::Duration delay{};                     // before queues and the order policy; not negative
+    std::optional<base::Duration> copy_after{}; // a copy leaves this long after the original
+    Flips flips{};
+    Displacement displacement{};
+
     std::array<LossState, loss_laws_max> states{}; // of the laws, in the order of their list
 
     friend bool operator==(const Fate&, const Fate&) = default;

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/fate.hpp"
+#include "emulator/core/slab.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hapnet::emulator {
+
+// One datagram is described by a value of its own at each stop of its way:
+//
+//   net::Received   proto/net       bytes, sender and receive stamp, from the socket
+//   Packet          packet.hpp      what a stage of the pipeline may know: number, size, arrival
+//   Fate            fate.hpp        what the stages have drawn for it
+//   Admission       link.hpp        what the link answers on its arrival
+//   Queued          here            it waits in the bottleneck or for others to overtake it
+//   Datagram        here            it waits for its time in the delay line, or leaves
+//   CapturedPacket  capture/        it passes a socket, as a capture file has it
+
+/// A datagram that the link holds, or hands back to be sent.
+struct Datagram {
+    Slab::Slot slot = Slab::no_slot; // no_slot: the bytes are the caller's own
+    bool is_copy = false;
+    std::uint64_t number = 0; // of the datagram in its direction, from 0; a copy has its original's
+    base::TimePoint arrival{};
+    base::TimePoint due{};              // never leaves before
+    std::span<const std::byte> bytes{}; // stay where they are until it has left
+};
+
+/// A datagram whose time of leaving is not known yet.
+struct Queued {
+    Datagram datagram; // due: when its last bit left the bottleneck, or its own time without others
+    Fate fate;         // dropped: it only takes time in the bottleneck, its bytes are gone
+    std::size_t line_bytes = 0; // that the bottleneck has to send
+};
+
+} // namespace hapnet::emulator
