@@ -68,7 +68,10 @@ public:
     [[nodiscard]] const Node* find(std::string_view key);
     /// Complains when it is not there.
     [[nodiscard]] const Node* require(std::string_view key);
-    /// To be called once all keys have been asked for.
+    /// finish() is to complain that this key is not there.
+    void miss(std::string_view key) { missing_.push_back(key); }
+    /// To be called once all keys have been asked for. A misspelt key is a better complaint than
+    /// the missing one that it was to be.
     void finish() const;
 
     [[nodiscard]] Place place() const { return place_; }
@@ -79,6 +82,7 @@ private:
     Place place_;
     Reading& reading_;
     std::vector<std::string_view> known_;
+    std::vector<std::string_view> missing_;
 };
 
 /// Complains that the value is not what is expected: "a text in quotes".

@@ -28,7 +28,7 @@ constexpr auto fields_of(base::Tag<UniformLaw>)
     return base::fields("uniform",
                         base::field("mean", &UniformLaw::mean, any_delay, "middle of the range"),
                         base::field("half_width", &UniformLaw::half_width, delay_width,
-                                    "largest distance from the mean")
+                                    "largest distance from the mean: 5ms is -5ms to +5ms")
                             .required());
 }
 
