@@ -135,17 +135,22 @@ constexpr auto fields_of(base::Tag<Operator> /*struct*/)
         base::field("will", &Operator::intent, "reaction to missing force"));
 }
 
-/// "relaxed", "nominal", "firm": three grips with wander, tremor and intent. "lifelike": the
-/// nominal grip with more of them, force noise and a stretch reflex.
+/// The presets: three grips with wander, tremor and intent; and the nominal grip with more of them,
+/// force noise and a stretch reflex.
+inline constexpr auto operator_names = base::names("relaxed", "nominal", "firm", "lifelike");
 [[nodiscard]] base::Result<Operator> operator_named(std::string_view name);
 
 /// A preset's name, or a table with `preset = "nominal"` and what differs from it; nullopt when a
 /// complaint was made.
 [[nodiscard]] std::optional<Operator> read_operator(const base::Node& node, base::Reading& reading);
 
-/// A preset's name, or a TOML file with the keys of read_operator()'s table: what holds a '/' or
-/// ends in ".toml" is a file.
-[[nodiscard]] base::Result<Operator> load_operator(const std::string& name_or_file,
+/// Reads a whole text with the keys of that table. `source` names it in errors, which begin with
+/// "SOURCE:LINE:COLUMN: ".
+[[nodiscard]] base::Result<Operator> parse_operator(std::string_view text,
+                                                    const std::string& source);
+
+/// The preset of that name, or else the file that `open` gives the text of.
+[[nodiscard]] base::Result<Operator> load_operator(const std::string& file_or_name,
                                                    const base::OpenFile& open);
 
 /// TOML that reads back as the same operator; of every parameter.

@@ -123,12 +123,9 @@ base::Result<Setting> twin_of(const RealTimeSession& session, const base::OpenFi
     setting.task = parts.take(device::task_named(task));
     setting.scene = parts.take(scene::load_scene(scene, open));
     setting.profile = parts.take(emulator::parse_profile(profile, "the emulator's profile", open));
-    const auto text_of_person = [&](const std::string&) {
-        return base::Result<std::string>{person};
-    };
     for (PlayerSetting& player : setting.players) {
         player.algorithm = parts.take(peer::parse_algorithm(algorithm, "the peer's algorithm"));
-        player.person = parts.take(device::load_operator("the/peer's operator", text_of_person));
+        player.person = parts.take(device::parse_operator(person, "the peer's operator"));
     }
     if (parts.error()) return base::fail(*parts.error());
     if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};

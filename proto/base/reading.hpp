@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -84,6 +85,23 @@ private:
     std::vector<std::string_view> known_;
     std::vector<std::string_view> missing_;
 };
+
+/// What `read(document, reading)` makes of a whole text, or the first complaint about it. `source`
+/// names the text in complaints.
+template <typename Read>
+[[nodiscard]] auto parse_text(std::string_view text, const std::string& source, const Read& read)
+    -> Result<std::invoke_result_t<const Read&, const Node&, Reading&>>
+{
+    Reading reading{source};
+    const auto document = parse_document(text);
+    if (!document) {
+        reading.complain(document.error().place, document.error().message);
+        return fail(*reading.complaint());
+    }
+    auto value = read(*document, reading);
+    if (!reading.is_good()) return fail(*reading.complaint());
+    return value;
+}
 
 /// Complains that the value is not what is expected: "a text in quotes".
 void complain_of(const Node& node, std::string_view expected, Reading& reading);

@@ -150,7 +150,7 @@ TEST(AlgorithmText, IsFoundByNameOrInAFile)
 {
     EXPECT_EQ(name_of(load_algorithm("sep", no_file).value()), "sep");
     EXPECT_EQ(load_algorithm("best", no_file).error().message,
-              "unknown algorithm \"best\": did you mean 'base'?");
+              "there is neither a file nor an algorithm 'best': did you mean 'base'?");
     EXPECT_EQ(load_algorithm("dir/best", no_file).error().message, "cannot read dir/best");
     const auto open = [](const std::string&) -> base::Result<std::string> {
         return std::string{"algorithm = \"sep\"\nfade_after = 1"};
@@ -171,7 +171,8 @@ TEST(AlgorithmText, StandsInOtherTextsAsANameOrATable)
     EXPECT_EQ(read("x = \"sep\""), print_algorithm(EstimatorPredictor{}));
     EXPECT_EQ(read("x = { algorithm = \"base\", stale = \"take\" }"),
               print_algorithm(BaseAlgorithm{BaseOptions{.stale = Stale::take}}));
-    EXPECT_EQ(read("x = \"best\""), "e.toml:1:5: unknown algorithm \"best\": did you mean 'base'?");
+    EXPECT_EQ(read("x = \"best\""),
+              "e.toml:1:5: there is neither a file nor an algorithm 'best': did you mean 'base'?");
     EXPECT_EQ(read("x = \"no/such.toml\""), "e.toml:1:5: cannot read no/such.toml");
     EXPECT_EQ(read("x = 3"), "e.toml:1:5: expected the name of an algorithm or a table of its "
                              "parameters, not 3");
