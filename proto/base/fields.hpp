@@ -367,10 +367,13 @@ template <Described T>
         [&](const auto& field, const auto& usual) {
             using Member = std::remove_cvref_t<decltype(usual)>;
             const std::string key = prefix + std::string{field.key};
-            if constexpr (Described<Member>) {
+            using Plain = typename detail::WithoutOptional<Member>::type;
+            if constexpr (Described<Plain>) {
+                Plain own{};
+                if constexpr (!detail::is_optional<Member>) own = usual;
                 auto about = field.about;
                 if (about.ends_with('.')) about.remove_suffix(1);
-                for (KeyRow& inner : key_rows<Member>(key + '.', usual)) {
+                for (KeyRow& inner : key_rows<Plain>(key + '.', own)) {
                     if (!about.empty()) inner.about = fmt::format("{}: {}", about, inner.about);
                     rows.push_back(std::move(inner));
                 }

@@ -6,6 +6,7 @@
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task_options.hpp"
 #include "emulator/core/conditions.hpp"
+#include "lab/experiment/fields.hpp"
 #include "lab/metrics/criteria.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/record/field_types.hpp"
@@ -53,6 +54,13 @@ Rows own_rows()
     return rows;
 }
 
+/// Of the keys that stand in a table of their own.
+template <typename Struct>
+std::string prefix()
+{
+    return lab::has_own_table<Struct> ? fmt::format("{}.", base::described_name<Struct>) : "";
+}
+
 /// The keys of several structs in one table, whose first column names the struct.
 template <typename... Structs>
 std::string grouped(std::string_view heading)
@@ -66,14 +74,15 @@ std::string grouped(std::string_view heading)
             text += fmt::format("| `{}` {}", name, rest.substr(0, rest.find('\n') + 1));
         }
     };
-    (add(base::described_name<Structs>, base::markdown(base::key_rows<Structs>())), ...);
+    (add(base::described_name<Structs>, base::markdown(base::key_rows<Structs>(prefix<Structs>()))),
+     ...);
     return text;
 }
 
-template <typename... Laws>
-std::string laws(const std::variant<Laws...>& /*law*/)
+template <typename... Structs>
+std::string grouped(std::string_view heading, const std::variant<Structs...>& /*of these*/)
 {
-    return grouped<Laws...>("law");
+    return grouped<Structs...>(heading);
 }
 
 template <base::Named Enum>
@@ -123,8 +132,8 @@ const std::vector<KeyTable>& tables()
         {"governor", base::markdown(device::limit_keys())},
         {"operator", rows_of<device::Operator>()},
         {"task-options", rows_of<device::TaskOptions>()},
-        {"delay-laws", laws(emulator::Variation{}.law)},
-        {"loss-laws", laws(emulator::LossLaw{})},
+        {"delay-laws", grouped("law", emulator::Variation{}.law)},
+        {"loss-laws", grouped("law", emulator::LossLaw{})},
         {"stages", grouped<emulator::Mtu, emulator::Rate, emulator::Corruption,
                            emulator::Duplication, emulator::Reordering>("stage")},
         {"scene", rows_of<scene::Description>()},
@@ -132,6 +141,9 @@ const std::vector<KeyTable>& tables()
         {"plane", rows_of<scene::PlaneDescription>()},
         {"body", rows_of<scene::BodyDescription, scene::text::Density>()},
         {"array", rows_of<scene::text::Array>()},
+        {"experiment",
+         base::markdown(base::key_rows<lab::Experiment>("", lab::usual_experiment()))},
+        {"experiment-kinds", grouped("kind", lab::Kind{})},
         {"criteria", rows_of<lab::Criteria>()},
         {"tick-row", byte_table<record::TickRow>()},
         {"message-row", byte_table<record::MessageRow>()},
@@ -146,7 +158,7 @@ const std::set<std::string>& without_table()
     static const std::set<std::string> names{
         "Material", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
         "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "WrittenCorner",
-        "WrittenTorques",
+        "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "Metrics", "Table1Row", "TaskRow", "LimitRow",
         "SensitivityRow", "Judged", "CurveRow", "QosRow", "TrajectoryRow", "RealTimeRow",
@@ -175,6 +187,12 @@ const std::set<std::string>& with_table()
                                              "Density",
                                              "Array",
                                              "Criteria",
+                                             "Experiment",
+                                             "Table1",
+                                             "Limits",
+                                             "Trajectories",
+                                             "ImpairmentGrid",
+                                             "Calibration",
                                              "TickRow",
                                              "MessageRow",
                                              "SessionRow"};
@@ -256,7 +274,7 @@ TEST(KeyTables, LackNoStructThatPeopleWriteAndNoMeaning)
         for (const std::string& line : file.lines) {
             if (line.starts_with("//") || line.find(opening) == std::string::npos) continue;
             const auto name = line.substr(line.find(opening) + opening.size());
-            described.insert(name.substr(0, name.find('>')));
+            described.insert(name.substr(0, name.find(">")));
         }
     }
     for (const std::string& name : described) {
