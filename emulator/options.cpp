@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/options.hpp"
 
+#include "emulator/core/conditions.hpp"
 #include "emulator/presets.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
 
 #include <array>
+#include <cctype>
 #include <spdlog/fmt/fmt.h>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -100,33 +103,44 @@ constexpr const char* verify_exit_codes = R"(  0  no test failed
   1  a test failed
   2  bad usage, or a file that cannot be used)";
 
+/// The words of a parameter's description as a sentence: those of profiles.
+template <auto member>
+std::string words(std::string_view more = "")
+{
+    std::string text{base::about<member>()};
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return fmt::format("{}{} (default 0)", text, more);
+}
+
 /// A condition, and its line in --help.
 struct Condition {
     const char* name;
     const char* type;
-    const char* help;
+    std::string help;
 };
-constexpr std::array listed_conditions{
-    Condition{"delay", "TIME", "Delay every datagram (default 0)"},
-    Condition{"jitter", "TIME",
-              "Draw an offset for each datagram, uniform within this half width: 5ms is -5ms to "
-              "+5ms (default 0)"},
-    Condition{"order", "ORDER",
-              "Whether jitter may reorder. keep (default): never; wide jitter then lengthens the "
-              "mean delay. free: each datagram leaves at its own time. sorted: at the times of "
-              "free, but in order"},
-    Condition{"loss", "SHARE", "Drop this share, each datagram on its own (default 0)"},
-    Condition{"burst-loss", "LOST/OF", "40/100: drop 40 in a row out of every 100 (default 0)"},
-    Condition{"duplicate", "SHARE", "Duplicate this share (default 0)"},
-    Condition{"corrupt", "SHARE", "Flip one bit in this share (default 0)"},
-    Condition{"reorder", "TABLE",
-              "Hold back this share so that later datagrams overtake: '{ share = \"1%\", "
-              "displacement = 3 }'"},
-    Condition{"rate", "RATE",
-              "Limit the bit rate, with a drop-tail queue of 64KiB (default: no limit)"},
-    Condition{"mtu", "SIZE",
-              "Drop datagrams larger than this, IP and UDP headers included (default: none)"},
-};
+
+std::vector<Condition> listed_conditions()
+{
+    const auto burst = fmt::format("LOST: {}; OF: {} (default 0)", base::about<&Burst::lost>(),
+                                   base::about<&Burst::of>());
+    const auto queue =
+        fmt::format("; up to {} wait before it", base::size_text(Rate{}.queue_bytes_max));
+    return {
+        {"delay", "TIME", words<&ConstantLaw::value>()},
+        {"jitter", "TIME", words<&UniformLaw::half_width>()},
+        {"order", "ORDER",
+         "Whether jitter may reorder. keep (default): never; wide jitter then lengthens the mean "
+         "delay. free: each datagram leaves at its own time. sorted: at the times of free, but in "
+         "order"},
+        {"loss", "SHARE", words<&RandomLoss::share>()},
+        {"burst-loss", "LOST/OF", burst},
+        {"duplicate", "SHARE", words<&Duplication::share>()},
+        {"corrupt", "SHARE", words<&Corruption::share>()},
+        {"reorder", "TABLE", words<&Reordering::share>(": '{ share = \"1%\", displacement = 3 }'")},
+        {"rate", "RATE", words<&Rate::bits_per_second>(queue)},
+        {"mtu", "SIZE", words<&Mtu::bytes_max>()},
+    };
+}
 
 constexpr const char* conditions_group = "Conditions, both ways (--up.NAME, --down.NAME: one way)";
 
@@ -150,7 +164,7 @@ void add_conditions(cli::Command& command, ConditionOptions& into, bool own_rate
     command.option("--seed", "NUMBER", "Seed for every random draw (default: the profile's, or 1)",
                    cli::into(into.seed, cli::seed));
     for (const char* prefix : {"", "up.", "down."}) {
-        for (const auto& [name, type, help] : listed_conditions) {
+        for (const auto& [name, type, help] : listed_conditions()) {
             const std::string key = fmt::format("{}{}", prefix, name);
             if (own_rate && key == "rate") continue;
             auto& option = command.option("--" + key, type, help, as_setting(key, into))

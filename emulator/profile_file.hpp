@@ -13,8 +13,7 @@ namespace hapnet::emulator {
 /// is when `beside` is empty.
 [[nodiscard]] std::string path_beside(const std::string& name, const std::string& beside);
 
-/// Reads the profile of a file, or the preset of that name: what holds a '/' or ends in ".toml" is
-/// a file, and so is what exists as one. The error names the file and the line.
+/// Reads the preset of that name, or else a file. The error names the file and the line.
 [[nodiscard]] base::Result<Profile> load_profile(const std::string& file_or_name);
 
 } // namespace hapnet::emulator

@@ -47,24 +47,26 @@ constexpr auto fields_of(base::Tag<GovernorLimits> /*struct*/)
     return base::fields(
         "governor",
         base::field("force_max", &GovernorLimits::force_max_n,
-                    base::Quantity{base::force_kind, 0.0, 40.0}, "peak force"),
+                    base::Quantity{base::force_kind, 0.0, 40.0}, "peak of the force, by its norm"),
         base::field("slew_max", &GovernorLimits::slew_max_n_per_s,
                     base::Quantity{base::force_rate_kind, 100.0, 40'000.0}, // 40 N in a tick
-                    "change of the force"),
+                    "greatest change of the force"),
         base::field("slew_ramping", &GovernorLimits::slew_ramping_n_per_s,
                     base::Quantity{base::force_rate_kind, 1.0, 40'000.0},
-                    "growth of the force while it ramps in"),
+                    "greatest growth of the force while it ramps in from zero"),
         base::field("fade_out", &GovernorLimits::fade_out, base::Time{1ms, 1s},
-                    "from full strength to zero"),
+                    "time from full strength to zero once the permission ends"),
         base::field("ramp_in", &GovernorLimits::ramp_in, base::Time{100ms, 1min},
-                    "from zero to full strength"),
-        base::field("tick", &GovernorLimits::tick, base::Time{100us, 10ms}, "of the loop"),
+                    "time from zero to full strength"),
+        base::field("tick", &GovernorLimits::tick, base::Time{100us, 10ms},
+                    "of the loop; a late tick grants no larger step"),
         base::field("stall_max", &GovernorLimits::stall_max, base::Time{2ms, 100ms},
-                    "a longer gap starts from zero"),
+                    "longest gap of the loop or of the device's samples; after a longer one the "
+                    "force starts from zero"),
         base::field("fault_after", &GovernorLimits::fault_after, base::Time{2ms, 1s},
-                    "a longer silence is a fault"),
+                    "silence of the loop or of the device that is a fault"),
         base::field("heat_time", &GovernorLimits::heat_time, base::Time{1s, 10min},
-                    "in which the motors warm up"));
+                    "time constant of the motors' heat"));
 }
 
 /// An error when no governor can keep to these limits: a rule would never act, or always, or divide

@@ -20,9 +20,9 @@ struct WrittenCorner {
 constexpr auto fields_of(base::Tag<WrittenCorner> /*struct*/)
 {
     constexpr base::Quantity place{base::length_kind, -10.0, 10.0};
-    return base::fields("corner", base::field("x", &WrittenCorner::x_m, place),
-                        base::field("y", &WrittenCorner::y_m, place),
-                        base::field("z", &WrittenCorner::z_m, place));
+    return base::fields("corner", base::field("x", &WrittenCorner::x_m, place, "x"),
+                        base::field("y", &WrittenCorner::y_m, place, "y"),
+                        base::field("z", &WrittenCorner::z_m, place, "z"));
 }
 
 /// The torques of an arm's joints; written as forces at an arm of one metre.
@@ -34,9 +34,9 @@ struct WrittenTorques {
 constexpr auto fields_of(base::Tag<WrittenTorques> /*struct*/)
 {
     constexpr base::Quantity torque{base::force_kind, 1e-6, 100.0};
-    return base::fields("torques", base::field("x", &WrittenTorques::x_nm, torque),
-                        base::field("y", &WrittenTorques::y_nm, torque),
-                        base::field("z", &WrittenTorques::z_nm, torque));
+    return base::fields("torques", base::field("x", &WrittenTorques::x_nm, torque, "first joint"),
+                        base::field("y", &WrittenTorques::y_nm, torque, "second joint"),
+                        base::field("z", &WrittenTorques::z_nm, torque, "third joint"));
 }
 
 /// Limits as they are written: infinite ones are left out.
@@ -53,12 +53,16 @@ constexpr auto fields_of(base::Tag<WrittenLimits> /*struct*/)
     return base::fields(
         "limits", base::part(&WrittenLimits::limits),
         base::field("force_continuous", &WrittenLimits::continuous_n,
-                    base::Quantity{base::force_kind, 0.0, 1000.0}),
-        base::field("speed_max", &WrittenLimits::speed_m_per_s,
-                    base::Quantity{base::speed_kind, 1e-3, 1000.0}),
-        base::field("axes_out", &WrittenLimits::axes, base::Number{0.0, 3.0}), // 0: no motors
-        base::field("workspace_min", &WrittenLimits::low),
-        base::field("workspace_max", &WrittenLimits::high));
+                    base::Quantity{base::force_kind, 0.0, 1000.0},
+                    "force that the motors sustain; without it they do not warm up"),
+        base::field(
+            "speed_max", &WrittenLimits::speed_m_per_s,
+            base::Quantity{base::speed_kind, 1e-3, 1000.0},
+            "speed beyond which a sample is not believed; without it any speed is possible"),
+        base::field("axes_out", &WrittenLimits::axes, base::Number{0.0, 3.0},
+                    "whole number of axes with a motor, in the order x, y, z; 0: no motors"),
+        base::field("workspace_min", &WrittenLimits::low, "lower corner of the workspace"),
+        base::field("workspace_max", &WrittenLimits::high, "upper corner of the workspace"));
 }
 
 std::optional<double> unless_infinite(double value)
@@ -105,6 +109,8 @@ base::Result<std::optional<JointLimits>> read_joints(base::TableReader& table,
 }
 
 } // namespace
+
+std::vector<base::KeyRow> limit_keys() { return base::key_rows<WrittenLimits>(); }
 
 std::string print_limits(const GovernorLimits& limits)
 {

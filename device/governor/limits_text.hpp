@@ -3,11 +3,13 @@
 #pragma once
 
 #include "device/governor/limits.hpp"
+#include "proto/base/fields.hpp"
 #include "proto/base/result.hpp"
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hapnet::device {
 
@@ -22,5 +24,8 @@ namespace hapnet::device {
 [[nodiscard]] base::Result<GovernorLimits> parse_limits(std::string_view text,
                                                         const std::string& source,
                                                         std::span<const Mechanism> mechanisms);
+
+/// The keys of that text but for the joints', for the docs.
+[[nodiscard]] std::vector<base::KeyRow> limit_keys();
 
 } // namespace hapnet::device

@@ -5,7 +5,6 @@
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -22,9 +21,9 @@ Operator person(std::string_view name, const HandImpedance& hand)
     return {.name = std::string{name}, .hand = hand};
 }
 
-Operator lifelike()
+Operator lifelike(std::string_view name)
 {
-    Operator result = person("lifelike", {});
+    Operator result = person(name, {});
     result.wander.amplitude_m = 2.5e-3;
     result.tremor.amplitude_m = 1.5e-4;
     result.force_noise = 3_percent;
@@ -47,15 +46,13 @@ std::uint32_t slice_of(const base::RandomStream& stream, std::uint32_t index, st
 
 base::Result<Operator> operator_named(std::string_view name)
 {
-    const std::array presets{person("relaxed", {0.15, 3.0, 100.0}), person("nominal", {}),
-                             person("firm", {0.25, 10.0, 500.0}), lifelike()};
-    std::array<std::string_view, presets.size()> names;
-    for (std::size_t i = 0; i < presets.size(); ++i) {
-        if (presets[i].name == name) return presets[i];
-        names[i] = presets[i].name;
-    }
+    const auto& [relaxed, nominal, firm, lively] = operator_names;
+    if (name == relaxed) return person(name, {0.15, 3.0, 100.0});
+    if (name == nominal) return person(name, {});
+    if (name == firm) return person(name, {0.25, 10.0, 500.0});
+    if (name == lively) return lifelike(name);
     return base::fail(
-        fmt::format("'{}' is not an operator: {}", name, base::suggestion(name, names)));
+        fmt::format("'{}' is not an operator: {}", name, base::suggestion(name, operator_names)));
 }
 
 Operator varied(const Operator& person, base::Seed seed, std::uint32_t index, std::uint32_t of)

@@ -35,7 +35,7 @@ constexpr auto fields_of(base::Tag<HandImpedance> /*struct*/)
     return base::fields(
         "hand",
         base::field("mass", &HandImpedance::mass_kg, base::Quantity{base::mass_kind, 0.02, 10.0},
-                    "of the hand and its share of the device"),
+                    "of the hand, with the device's 45 g"),
         base::field("damping", &HandImpedance::damping_ns_per_m,
                     base::Quantity{base::damping_kind, 0.0, 100.0}, "of the grip"),
         base::field("stiffness", &HandImpedance::stiffness_n_per_m,
@@ -57,9 +57,10 @@ constexpr auto fields_of(base::Tag<InvoluntaryMotion> /*struct*/)
     return base::fields(
         "involuntary-motion",
         base::field("amplitude", &InvoluntaryMotion::amplitude_m,
-                    base::Quantity{base::length_kind, 0.0, 0.1}, "along x"),
-        base::field("from", &InvoluntaryMotion::least_hertz, frequency, "its lowest frequency"),
-        base::field("to", &InvoluntaryMotion::most_hertz, frequency, "its highest frequency"));
+                    base::Quantity{base::length_kind, 0.0, 0.1},
+                    "amplitude along x, of three sines together"),
+        base::field("from", &InvoluntaryMotion::least_hertz, frequency, "lowest frequency"),
+        base::field("to", &InvoluntaryMotion::most_hertz, frequency, "highest frequency"));
 }
 
 /// The stretch reflex: the hand answers where it was, `delay` ago, off its intention, with `gain`
@@ -74,7 +75,7 @@ constexpr auto fields_of(base::Tag<Reflex> /*struct*/)
 {
     return base::fields("reflex",
                         base::field("gain", &Reflex::gain, base::Number{0.0, 10.0},
-                                    "times the hand's own stiffness; 0: no reflex"),
+                                    "share of the hand's stiffness; 0: no reflex"),
                         base::field("delay", &Reflex::delay,
                                     base::Time{base::Duration{0}, SignalHistory::delay_max},
                                     "from the stretch to the reaction"));
@@ -97,10 +98,10 @@ constexpr auto fields_of(base::Tag<Intent> /*struct*/)
     return base::fields("will",
                         base::field("gain", &Intent::gain_m_per_ns,
                                     base::Quantity{base::mobility_kind, 0.0, 1.0},
-                                    "speed per newton of missing force; 0: no reaction to force"),
+                                    "speed of the intended position per newton; 0: no reaction"),
                         base::field("cutoff", &Intent::cutoff_hertz,
                                     base::Quantity{base::frequency_kind, 0.01, 100.0},
-                                    "of the low-pass on the missing force"),
+                                    "of the low-pass on that force"),
                         base::field("delay", &Intent::delay,
                                     base::Time{base::Duration{0}, SignalHistory::delay_max},
                                     "from the force to the reaction"));
@@ -124,28 +125,32 @@ struct Operator {
 };
 constexpr auto fields_of(base::Tag<Operator> /*struct*/)
 {
-    return base::fields("operator",
-                        base::field("name", &Operator::name, "of the person, in records"),
-                        base::part(&Operator::hand),
-                        base::field("wander", &Operator::wander, "slow involuntary motion"),
-                        base::field("tremor", &Operator::tremor, "fast involuntary motion"),
-                        base::field("force_noise", &Operator::force_noise,
-                                    "standard deviation of the hand's force, as a share of it"),
-                        base::field("reflex", &Operator::reflex, "stretch reflex"),
-                        base::field("will", &Operator::intent, "reaction to a missing force"));
+    return base::fields(
+        "operator", base::field("name", &Operator::name, "for reports and records"),
+        base::part(&Operator::hand), base::field("wander", &Operator::wander, "slow unrest"),
+        base::field("tremor", &Operator::tremor, "fast unrest"),
+        base::field("force_noise", &Operator::force_noise,
+                    "standard deviation of the hand's force relative to that force, 1 to 10 Hz"),
+        base::field("reflex", &Operator::reflex, "stretch reflex"),
+        base::field("will", &Operator::intent, "reaction to missing force"));
 }
 
-/// "relaxed", "nominal", "firm": three grips with wander, tremor and intent. "lifelike": the
-/// nominal grip with more of them, force noise and a stretch reflex.
+/// The presets: three grips with wander, tremor and intent; and the nominal grip with more of them,
+/// force noise and a stretch reflex.
+inline constexpr auto operator_names = base::names("relaxed", "nominal", "firm", "lifelike");
 [[nodiscard]] base::Result<Operator> operator_named(std::string_view name);
 
 /// A preset's name, or a table with `preset = "nominal"` and what differs from it; nullopt when a
 /// complaint was made.
 [[nodiscard]] std::optional<Operator> read_operator(const base::Node& node, base::Reading& reading);
 
-/// A preset's name, or a TOML file with the keys of read_operator()'s table: what holds a '/' or
-/// ends in ".toml" is a file.
-[[nodiscard]] base::Result<Operator> load_operator(const std::string& name_or_file,
+/// Reads a whole text with the keys of that table. `source` names it in errors, which begin with
+/// "SOURCE:LINE:COLUMN: ".
+[[nodiscard]] base::Result<Operator> parse_operator(std::string_view text,
+                                                    const std::string& source);
+
+/// The preset of that name, or else the file that `open` gives the text of.
+[[nodiscard]] base::Result<Operator> load_operator(const std::string& file_or_name,
                                                    const base::OpenFile& open);
 
 /// TOML that reads back as the same operator; of every parameter.

@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "device/simulated/operator.hpp"
 
+#include "proto/base/built_in.hpp"
+
+#include <span>
+#include <spdlog/fmt/fmt.h>
+#include <vector>
+
 namespace hapnet::device {
 
 namespace {
@@ -36,22 +42,23 @@ std::optional<Operator> read_operator(const base::Node& node, base::Reading& rea
     return person;
 }
 
-base::Result<Operator> load_operator(const std::string& name_or_file, const base::OpenFile& open)
+base::Result<Operator> parse_operator(std::string_view text, const std::string& source)
 {
-    const bool is_file =
-        name_or_file.find('/') != std::string::npos || name_or_file.ends_with(".toml");
-    if (!is_file) return operator_named(name_or_file);
-    const auto text = open(name_or_file);
-    if (!text) return tl::unexpected{text.error()};
-    base::Reading reading{name_or_file};
-    const auto document = base::parse_document(*text);
-    if (!document) {
-        reading.complain(document.error().place, document.error().message);
-        return base::fail(*reading.complaint());
+    return base::parse_text(text, source, [](const base::Node& node, base::Reading& reading) {
+        return read_operator(node, reading).value_or(Operator{});
+    });
+}
+
+base::Result<Operator> load_operator(const std::string& file_or_name, const base::OpenFile& open)
+{
+    std::vector<base::BuiltInText> presets;
+    for (const std::string_view name : operator_names) {
+        presets.push_back({name, fmt::format("preset = {}", base::quoted(name))});
     }
-    auto person = read_operator(*document, reading);
-    if (!person) return base::fail(*reading.complaint());
-    return *std::move(person);
+    const std::span<const base::BuiltInText> all{presets};
+    const auto found = base::find_text(file_or_name, all, "an operator", open);
+    if (!found) return tl::unexpected{found.error()};
+    return parse_operator(found->text, found->source);
 }
 
 std::string print_operator(const Operator& person) { return base::field_lines(person); }

@@ -47,7 +47,9 @@ struct Duplication {
 constexpr auto fields_of(base::Tag<Duplication>)
 {
     return base::fields(
-        "duplicate", base::field("share", &Duplication::share, "copied").required(),
+        "duplicate",
+        base::field("share", &Duplication::share, "share of the datagrams that is sent twice")
+            .required(),
         base::field("spread", &Duplication::spread, "longest time from the original to its copy"));
 }
 
@@ -60,10 +62,14 @@ struct Reordering {
 };
 constexpr auto fields_of(base::Tag<Reordering>)
 {
-    return base::fields("reorder", base::field("share", &Reordering::share, "held back").required(),
-                        base::field("displacement", &Reordering::displacement, DisplacementFormat{},
-                                    "how far behind its turn")
-                            .required());
+    return base::fields(
+        "reorder",
+        base::field("share", &Reordering::share,
+                    "share of the datagrams that is held back, so that later ones overtake")
+            .required(),
+        base::field("displacement", &Reordering::displacement, DisplacementFormat{},
+                    "number of later datagrams that overtake it, or the time by which it is late")
+            .required());
 }
 
 /// `bits` bits of a share of the datagrams are inverted; 1 <= bits <= Flips::most.
@@ -75,9 +81,12 @@ struct Corruption {
 };
 constexpr auto fields_of(base::Tag<Corruption>)
 {
-    return base::fields("corrupt", base::field("share", &Corruption::share, "corrupted").required(),
-                        base::field("bits", &Corruption::bits, base::Count{1, Flips::most},
-                                    "inverted in each of them"));
+    return base::fields(
+        "corrupt",
+        base::field("share", &Corruption::share, "share of the datagrams with inverted bits")
+            .required(),
+        base::field("bits", &Corruption::bits, base::Count{1, Flips::most},
+                    "inverted in each of them"));
 }
 
 /// Datagrams larger than `bytes_max` with their IP and UDP headers are dropped; 0: no limit.
@@ -90,9 +99,10 @@ struct Mtu {
 };
 constexpr auto fields_of(base::Tag<Mtu>)
 {
-    return base::fields("mtu", base::field("limit", &Mtu::bytes_max, base::Size{},
-                                           "largest datagram, with its IP and UDP headers")
-                                   .required());
+    return base::fields(
+        "mtu", base::field("limit", &Mtu::bytes_max, base::Size{},
+                           "largest datagram that passes, with its IP and UDP headers; 0: no limit")
+                   .required());
 }
 
 /// A bottleneck that sends so many bits a second, one datagram after the other, from a queue that
@@ -108,11 +118,13 @@ constexpr auto fields_of(base::Tag<Rate>)
 {
     return base::fields(
         "rate",
-        base::field("limit", &Rate::bits_per_second, base::BitRate{}, "of the bottleneck; 0: none")
+        base::field("limit", &Rate::bits_per_second, base::BitRate{},
+                    "bit rate of the bottleneck; 0: no bottleneck")
             .required(),
-        base::field("overhead", &Rate::overhead_bytes, base::Size{}, "added to each payload"),
+        base::field("overhead", &Rate::overhead_bytes, base::Size{},
+                    "added to each payload for the headers"),
         base::field("queue", &Rate::queue_bytes_max, base::Size{},
-                    "that may wait before the bottleneck"));
+                    "waiting room before the bottleneck; a datagram that does not fit is dropped"));
 }
 
 // Whether a stage can do what it says; the error says what would be right.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/options.hpp"
 
-#include "lab/experiment/read_kind.hpp"
+#include "lab/experiment/fields.hpp"
 #include "lab/experiment/text.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"

@@ -2,19 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/experiment/experiment.hpp"
 
+#include "lab/experiment/fields.hpp"
+
 namespace hapnet::lab::experiment {
-
-namespace {
-
-struct KindName {
-    std::string_view operator()(const Table1&) const { return "table1"; }
-    std::string_view operator()(const Limits&) const { return "limits"; }
-    std::string_view operator()(const Trajectories&) const { return "trajectories"; }
-    std::string_view operator()(const ImpairmentGrid&) const { return "plane"; }
-    std::string_view operator()(const Calibration&) const { return "calibration"; }
-};
-
-} // namespace
 
 std::string name_of(const Hands& hands)
 {
@@ -22,6 +12,20 @@ std::string name_of(const Hands& hands)
     return hands.left.name + "/" + hands.right.name;
 }
 
-std::string_view name_of(const Kind& kind) { return std::visit(KindName{}, kind); }
+std::vector<SearchRange> ranges_of(const Limits& limits)
+{
+    std::vector<SearchRange> ranges;
+    base::for_each_field(
+        [&](const auto& /*field*/, const auto& range) {
+            if (range) ranges.push_back(*range);
+        },
+        limits.ranges);
+    return ranges;
+}
+
+std::string_view name_of(const Kind& kind)
+{
+    return std::visit([]<typename One>(const One&) { return base::described_name<One>; }, kind);
+}
 
 } // namespace hapnet::lab::experiment

@@ -50,6 +50,22 @@ struct SearchRange {
     friend bool operator==(const SearchRange&, const SearchRange&) = default;
 };
 
+/// The range of an impairment that is known before.
+template <Impairment what>
+struct RangeOf : SearchRange {
+    RangeOf() : SearchRange{what, {}, {}, {}, {}} {}
+};
+
+/// The impairments to be searched.
+struct SearchRanges {
+    std::optional<RangeOf<Impairment::delay>> delay{};
+    std::optional<RangeOf<Impairment::jitter>> jitter{};
+    std::optional<RangeOf<Impairment::random_loss>> random_loss{};
+    std::optional<RangeOf<Impairment::burst_loss>> burst_loss{};
+
+    friend bool operator==(const SearchRanges&, const SearchRanges&) = default;
+};
+
 /// How sensitive the limits are to the way of measuring: with which filters and hands they are to
 /// be searched again. In a text [convention].
 struct Sensitivity {
@@ -73,11 +89,14 @@ struct Table1 {
 
 /// Fig. 6: up to which level of each impairment a task can be done.
 struct Limits {
-    std::vector<SearchRange> ranges{};
+    SearchRanges ranges{};
     std::optional<Sensitivity> sensitivity{};
 
     friend bool operator==(const Limits&, const Limits&) = default;
 };
+
+/// In the order of the impairments.
+[[nodiscard]] std::vector<SearchRange> ranges_of(const Limits& limits);
 
 /// Fig. 7: what cubes, hands and forces did over time; the first seed of the first task.
 struct Trajectories {

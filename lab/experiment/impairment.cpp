@@ -14,18 +14,7 @@ namespace {
 
 constexpr std::int64_t thousand = 1000;
 constexpr std::uint32_t burst_period = 100; // messages
-
-struct ImpairmentWords {
-    std::string_view name;
-    std::string_view unit;
-};
-
-const ImpairmentWords& words_of(Impairment impairment)
-{
-    static constexpr std::array<ImpairmentWords, impairments.size()> words{
-        {{"delay", "ms"}, {"jitter", "ms"}, {"random-loss", "percent"}, {"burst-loss", "of_100"}}};
-    return words[static_cast<std::size_t>(impairment)];
-}
+constexpr base::Time level_time{base::Duration{0}, std::chrono::seconds{10}};
 
 base::Duration duration_of(ImpairmentLevel level)
 {
@@ -42,11 +31,9 @@ base::Probability share_of(ImpairmentLevel level)
 void read_time_level(const base::Node& node, ImpairmentLevel& target, base::Reading& reading)
 {
     base::Duration value{};
-    base::read_value(node, value, reading);
+    level_time.read(node, value, reading);
     const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(value);
-    if (value < base::Duration{0} || whole != value || value > std::chrono::seconds{10}) {
-        return reading.complain(node.place, "a level is from 0 to 10s, in whole microseconds");
-    }
+    if (whole != value) return reading.complain(node.place, "a level is in whole microseconds");
     target = {whole.count()};
 }
 
@@ -65,12 +52,9 @@ void read_share_level(const base::Node& node, ImpairmentLevel& target, base::Rea
 
 void read_burst_level(const base::Node& node, ImpairmentLevel& target, base::Reading& reading)
 {
-    const auto count = base::count_of(node, burst_period);
-    if (!count) {
-        return base::complain_of(
-            node, fmt::format("a number of messages from 0 to {}", burst_period), reading);
-    }
-    target = {static_cast<std::int64_t>(*count) * thousand};
+    std::uint32_t count = 0;
+    base::Count{0, burst_period}.read(node, count, reading);
+    target = {static_cast<std::int64_t>(count) * thousand};
 }
 
 void impair(emulator::Conditions& conditions, Impairment impairment, ImpairmentLevel level)
@@ -94,8 +78,12 @@ void impair(emulator::Conditions& conditions, Impairment impairment, ImpairmentL
 
 } // namespace
 
-std::string_view name_of(Impairment impairment) { return words_of(impairment).name; }
-std::string_view unit_of(Impairment impairment) { return words_of(impairment).unit; }
+std::string_view unit_of(Impairment impairment)
+{
+    constexpr std::array<std::string_view, impairments.size()> units{"ms", "ms", "percent",
+                                                                     "of_100"};
+    return units[static_cast<std::size_t>(impairment)];
+}
 
 std::string to_text(ImpairmentLevel level)
 {
@@ -108,8 +96,8 @@ std::string to_text(ImpairmentLevel level)
 
 double in_units(ImpairmentLevel level) { return static_cast<double>(level.thousandths) / thousand; }
 
-void read_level(const base::Node& node, Impairment impairment, ImpairmentLevel& target,
-                base::Reading& reading)
+void LevelFormat::read(const base::Node& node, ImpairmentLevel& target,
+                       base::Reading& reading) const
 {
     switch (impairment) {
     case Impairment::delay:
@@ -119,11 +107,22 @@ void read_level(const base::Node& node, Impairment impairment, ImpairmentLevel& 
     }
 }
 
-std::string level_text(ImpairmentLevel level, Impairment impairment)
+std::string LevelFormat::print(ImpairmentLevel level) const
 {
     if (impairment == Impairment::burst_loss) return to_text(level);
     if (impairment == Impairment::random_loss) return base::quoted(to_text(level) + "%");
     return base::value_text(duration_of(level));
+}
+
+std::string LevelFormat::describe() const
+{
+    switch (impairment) {
+    case Impairment::delay:
+    case Impairment::jitter: return level_time.describe();
+    case Impairment::random_loss: return base::Share{}.describe();
+    case Impairment::burst_loss: return base::Count{0, burst_period}.describe();
+    }
+    return {};
 }
 
 emulator::Path impaired(const emulator::Path& ground, Impairment impairment, ImpairmentLevel level)

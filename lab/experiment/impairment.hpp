@@ -3,6 +3,8 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
+#include "proto/base/formats.hpp"
+#include "proto/base/names.hpp"
 #include "proto/base/reading.hpp"
 #include "proto/base/result.hpp"
 
@@ -19,8 +21,11 @@ enum class Impairment : std::uint8_t { delay, jitter, random_loss, burst_loss };
 inline constexpr std::array impairments{Impairment::delay, Impairment::jitter,
                                         Impairment::random_loss, Impairment::burst_loss};
 
-/// "delay", "jitter", "random-loss", "burst-loss"
-[[nodiscard]] std::string_view name_of(Impairment impairment);
+constexpr auto names_of(base::Tag<Impairment> /*enum*/)
+{
+    return base::names("delay", "jitter", "random-loss", "burst-loss");
+}
+using base::name_of;
 
 /// What its levels count: "ms", "percent" or "of_100" (messages lost in a row of every 100).
 [[nodiscard]] std::string_view unit_of(Impairment impairment);
@@ -37,11 +42,14 @@ struct ImpairmentLevel {
 [[nodiscard]] std::string to_text(ImpairmentLevel level);
 [[nodiscard]] double in_units(ImpairmentLevel level);
 
-/// Reads "160ms", "93%" or a number of messages from 0 to 100; complains of anything else.
-void read_level(const base::Node& node, Impairment impairment, ImpairmentLevel& target,
-                base::Reading& reading);
-/// TOML that reads back as the same level.
-[[nodiscard]] std::string level_text(ImpairmentLevel level, Impairment impairment);
+/// A level as it is written: "160ms", "93%" or a number of messages from 0 to 100.
+struct LevelFormat {
+    Impairment impairment{};
+
+    void read(const base::Node& node, ImpairmentLevel& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(ImpairmentLevel level) const;
+    [[nodiscard]] std::string describe() const;
+};
 
 /// The path `ground` with so much of the impairment, the same both ways. ImpairmentLevel 0 leaves
 /// `ground` as it is. Jitter of J is uniform from 0 to 2 J, of mean J, each datagram on its own:

@@ -98,7 +98,7 @@ private:
                          const std::function<void(SearchJob)>& use) const
     {
         for (std::size_t i = 0; i < experiment.algorithms.size(); ++i) {
-            for (const SearchRange& range : limits.ranges) {
+            for (const SearchRange& range : ranges_of(limits)) {
                 for (const device::Task task : tasks) use({i, task, range});
             }
         }

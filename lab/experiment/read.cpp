@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/text.hpp"
+#include "lab/experiment/fields.hpp"
 #include "lab/experiment/patch.hpp"
-#include "lab/experiment/read_kind.hpp"
 #include "lab/experiment/text.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/base/built_in.hpp"
@@ -20,39 +20,6 @@ using base::Node;
 using base::Reading;
 using base::TableReader;
 
-constexpr base::Duration duration_min = std::chrono::seconds{5};
-constexpr base::Duration duration_max = std::chrono::minutes{10};
-constexpr base::Duration tick_min = std::chrono::microseconds{100};
-constexpr base::Duration tick_max = std::chrono::milliseconds{10};
-
-const std::vector<std::string>& usual_algorithms()
-{
-    static const std::vector<std::string> names{"base", "sep", "dead-reckoning"};
-    return names;
-}
-
-void read_between(const Node* node, base::Duration& target, base::Duration least,
-                  std::pair<base::Duration, Reading&> most)
-{
-    if (node == nullptr) return;
-    base::Duration value = target;
-    base::read_value(*node, value, most.second);
-    if (value < least || value > most.first) {
-        return most.second.complain(node->place, fmt::format("from {} to {} is possible here",
-                                                             base::value_text(least),
-                                                             base::value_text(most.first)));
-    }
-    target = value;
-}
-
-/// Whether it can stand in a CSV and in the name of a file.
-bool is_plain(std::string_view name)
-{
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                       "0123456789-_";
-    return !name.empty() && name.find_first_not_of(plain) == std::string_view::npos;
-}
-
 /// A table of its own under [algorithm], whose kind is its name if it says no other.
 std::optional<peer::Algorithm> read_own_algorithm(const std::string& name, const Node& node,
                                                   Reading& reading)
@@ -67,34 +34,26 @@ std::optional<peer::Algorithm> read_own_algorithm(const std::string& name, const
     return peer::read_algorithm(table, reading);
 }
 
-void read_algorithms(TableReader& table, Experiment& experiment)
+/// The algorithms that are named: those of [algorithm], or else the built-in ones.
+void read_algorithms(TableReader& table, std::vector<NamedAlgorithm>& algorithms)
 {
     Reading& reading = table.reading();
-    std::vector<std::string> names = usual_algorithms();
     const Node* list = table.find("algorithms");
-    if (list != nullptr) names = read_texts(*list, reading);
     const Node* own = table.find("algorithm");
     static const Node::Table none;
     const auto* tables = own == nullptr ? &none : std::get_if<Node::Table>(&own->value);
     if (tables == nullptr) return base::complain_of(*own, "[algorithm.NAME]", reading);
-    for (const std::string& name : names) {
-        if (!is_plain(name)) {
-            return reading.complain(list == nullptr ? table.place() : list->place,
-                                    "a name has letters, digits, - and _ only");
-        }
-        const auto entry = std::find_if(tables->begin(), tables->end(),
-                                        [&](const base::Entry& one) { return one.key == name; });
+    for (auto& [name, algorithm] : algorithms) {
+        const auto entry = std::ranges::find(*tables, name, &base::Entry::key);
         if (entry != tables->end()) {
-            const auto algorithm = read_own_algorithm(name, entry->value, reading);
-            if (algorithm) experiment.algorithms.push_back({name, *algorithm});
-            continue;
+            const auto read = read_own_algorithm(name, entry->value, reading);
+            if (read) algorithm = *read;
+        } else if (auto built_in = peer::algorithm_named(name)) {
+            algorithm = *std::move(built_in);
+        } else {
+            reading.complain(list == nullptr ? table.place() : list->place,
+                             built_in.error().message);
         }
-        auto algorithm = peer::algorithm_named(name);
-        if (!algorithm) {
-            return reading.complain(list == nullptr ? table.place() : list->place,
-                                    algorithm.error().message);
-        }
-        experiment.algorithms.push_back({name, *std::move(algorithm)});
     }
 }
 
@@ -117,27 +76,28 @@ void read_path(TableReader& table, emulator::Path& path)
     path = *std::move(read_path);
 }
 
+void read_kind(TableReader& table, Kind& kind)
+{
+    const auto read = [&]<typename One>(One& one) {
+        if constexpr (!has_own_table<One>) return base::read_fields(table, one);
+        const auto name = base::described_name<One>;
+        const Node* node = table.find(name);
+        if (node == nullptr) return table.miss(name);
+        base::read_table(*node, one, table.reading());
+    };
+    std::visit(read, kind);
+}
+
 Experiment read_experiment(const Node& document, Reading& reading)
 {
     TableReader table{std::get<Node::Table>(document.value), document.place, reading};
-    Experiment experiment;
-    const Node* kind = table.require("kind");
-    if (const Node* title = table.find("title")) {
-        base::read_value(*title, experiment.title, reading);
-    }
-    read_between(table.find("duration"), experiment.duration, duration_min,
-                 {duration_max, reading});
-    read_between(table.find("tick"), experiment.tick, tick_min, {tick_max, reading});
-    read_positive(table.find("seeds"), experiment.seeds, seeds_max, reading);
-    read_positive(table.find("first_seed"), experiment.first_seed, first_seed_max, reading);
-    read_algorithms(table, experiment);
-    const Node* tasks = table.find("tasks");
-    if (tasks != nullptr) experiment.tasks = read_tasks(*tasks, reading);
-    if (const Node* hands = table.find("hands")) read_hands(*hands, experiment.hands, reading);
+    Experiment experiment = usual_experiment();
+    std::ignore = table.require("kind"); // it decides which keys are known
+    base::read_fields(table, experiment);
+    read_algorithms(table, experiment.algorithms);
     read_path(table, experiment.path);
-    if (kind != nullptr) read_kind(*kind, table, experiment.kind);
-    table.finish(); // a misspelt key is the better complaint than a missing one
-    if (tasks == nullptr) std::ignore = table.require("tasks");
+    read_kind(table, experiment.kind);
+    table.finish();
     return experiment;
 }
 
@@ -165,19 +125,15 @@ base::Result<Experiment> complain_of_settings(Node document, const Overrides& ov
 base::Result<Experiment> parse_experiment(std::string_view text, const std::string& source,
                                           const Overrides& overrides)
 {
-    auto parsed = base::parse_document(text);
-    if (!parsed) {
-        Reading reading{source};
-        reading.complain(parsed.error().place, parsed.error().message);
-        return base::fail(*reading.complaint());
-    }
-    Node document = *std::move(parsed);
-    const Node quick = taken(document, "quick");
-    if (!std::holds_alternative<Node::Table>(quick.value)) {
-        Reading reading{source};
-        base::complain_of(quick, "[quick]", reading);
-        return base::fail(*reading.complaint());
-    }
+    const auto parts = base::parse_text(text, source, [](const Node& whole, Reading& reading) {
+        Node rest = whole;
+        Node quick = taken(rest, "quick");
+        const bool is_table = std::holds_alternative<Node::Table>(quick.value);
+        if (!is_table) base::complain_of(quick, "[quick]", reading);
+        return std::pair{std::move(rest), std::move(quick)};
+    });
+    if (!parts) return tl::unexpected{parts.error()};
+    auto [document, quick] = *parts;
     Node quick_document = document;
     overlay(quick_document, quick);
     if (auto read = read_tree(quick_document, Reading{source}); !read) return read;

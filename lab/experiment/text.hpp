@@ -39,8 +39,7 @@ struct BuiltInExperiment {
 /// All of them, by name.
 [[nodiscard]] std::span<const BuiltInExperiment> built_in_experiments();
 
-/// Reads the built-in experiment of that name, or else the file that `open` gives the text of:
-/// what holds a '/' or ends in ".toml" is a file.
+/// Reads the built-in experiment of that name, or else the file that `open` gives the text of.
 [[nodiscard]] base::Result<Experiment> load_experiment(const std::string& file_or_name,
                                                        const base::OpenFile& open,
                                                        const Overrides& overrides);

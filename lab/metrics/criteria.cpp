@@ -68,16 +68,11 @@ double at_order(const ByOrder& values, FilterOrder order)
 
 base::Result<Criteria> parse_criteria(std::string_view text, const std::string& source)
 {
-    base::Reading reading{source};
-    Criteria criteria;
-    const auto document = base::parse_document(text);
-    if (!document) {
-        reading.complain(document.error().place, document.error().message);
-    } else {
-        base::read_table(*document, criteria, reading);
-    }
-    if (!reading.is_good()) return base::fail(*reading.complaint());
-    return criteria;
+    return base::parse_text(text, source, [](const base::Node& node, base::Reading& reading) {
+        Criteria criteria;
+        base::read_table(node, criteria, reading);
+        return criteria;
+    });
 }
 
 std::string print_criteria(const Criteria& criteria)

@@ -69,9 +69,11 @@ inline constexpr base::Quantity newton_format{base::force_kind, 0.0};
 /// By the order of the filter, as lengths.
 constexpr auto fields_of(base::Tag<ByOrder>)
 {
-    return base::fields("by order", base::field("first", &ByOrder::first, vibration_format),
-                        base::field("second", &ByOrder::second, vibration_format),
-                        base::field("fourth", &ByOrder::fourth, vibration_format));
+    return base::fields(
+        "by order",
+        base::field("first", &ByOrder::first, vibration_format, "with a filter of first order"),
+        base::field("second", &ByOrder::second, vibration_format, "with a filter of second order"),
+        base::field("fourth", &ByOrder::fourth, vibration_format, "with a filter of fourth order"));
 }
 
 constexpr auto fields_of(base::Tag<UsableCriteria>)
@@ -87,8 +89,8 @@ constexpr auto fields_of(base::Tag<UsableCriteria>)
         base::field("force_vibration_max", &Usable::force_vibration_max_n, newton_format,
                     "E, what the network adds of it. A working limit, from no source."),
         base::field("scored_share_min", &Usable::scored_share_min, ratio_format,
-                    "Of the time that both sides would run: a session that hardly took place is "
-                    "none."));
+                    "Of the time that both sides would run: a session that hardly took place does "
+                    "not count."));
 }
 
 constexpr auto fields_of(base::Tag<GoodCriteria>)
@@ -103,8 +105,9 @@ constexpr auto fields_of(base::Tag<GoodCriteria>)
                     "C. The just noticeable difference of force, 7 to 10 % (Pang, Tan and "
                     "Durlach)."),
         base::field("contact_lost_max", &Good::contact_lost_max, ratio_format,
-                    "F and I. Working limits, from no source."),
-        base::field("drag_max", &Good::drag_max_n, newton_format));
+                    "F. A working limit, from no source."),
+        base::field("drag_max", &Good::drag_max_n, newton_format,
+                    "I. A working limit, from no source."));
 }
 
 constexpr auto fields_of(base::Tag<Criteria>)

@@ -3,54 +3,36 @@
 #include "lab/records/csv.hpp"
 
 #include "lab/records/message_view.hpp"
+#include "proto/base/csv.hpp"
 #include "proto/record/fields.hpp"
 
+#include <array>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
+#include <type_traits>
 
 namespace hapnet::lab::records {
 
 namespace {
 
-/// How people read a vector: unit as the name of a column ends, and that unit per SI unit.
+/// How people read a vector: what its columns add to the name, and their unit per SI unit.
 template <typename V>
-struct VectorUnit;
+struct Shown;
 template <>
-struct VectorUnit<base::Position> {
-    static constexpr std::string_view unit = "mm";
+struct Shown<base::Position> {
+    static constexpr std::array suffixes{"_x_mm", "_y_mm", "_z_mm"};
     static constexpr double scale = 1e3;
 };
 template <>
-struct VectorUnit<base::Velocity> {
-    static constexpr std::string_view unit = "mm_per_s";
+struct Shown<base::Velocity> {
+    static constexpr std::array suffixes{"_x_mm_per_s", "_y_mm_per_s", "_z_mm_per_s"};
     static constexpr double scale = 1e3;
 };
 template <>
-struct VectorUnit<base::Force> {
-    static constexpr std::string_view unit = "n";
+struct Shown<base::Force> {
+    static constexpr std::array suffixes{"_x_n", "_y_n", "_z_n"};
     static constexpr double scale = 1.0;
-};
-
-// Columns and cells both start with a comma: the time stands before them.
-
-struct ColumnNames {
-    std::string& line;
-
-    void operator()(std::string_view, const base::TimePoint&) const {} // it is the time
-    void operator()(std::string_view name, const base::Duration&) const
-    {
-        line += fmt::format(",{}_us", name);
-    }
-    template <typename V>
-    requires requires { VectorUnit<V>::unit; }
-    void operator()(std::string_view name, const V&) const
-    {
-        for (const char axis : {'x', 'y', 'z'}) {
-            line += fmt::format(",{}_{}_{}", name, axis, VectorUnit<V>::unit);
-        }
-    }
-    void operator()(std::string_view name, const auto&) const { line += fmt::format(",{}", name); }
 };
 
 std::string decimal(double value)
@@ -65,44 +47,27 @@ std::string seconds(base::Duration duration)
                        nanoseconds % 1'000'000'000);
 }
 
-struct Cells {
-    std::string& line;
-
-    void operator()(std::string_view, const base::TimePoint&) const {}
-    void operator()(std::string_view, base::Duration value) const
-    {
-        line += fmt::format(",{:.3f}", 1e-3 * static_cast<double>(value.count()));
-    }
-    template <typename V>
-    requires requires { VectorUnit<V>::unit; }
-    void operator()(std::string_view, const V& vector) const
-    {
-        for (const double part : {vector.x(), vector.y(), vector.z()}) {
-            line += ',' + decimal(VectorUnit<V>::scale * part);
-        }
-    }
-    void operator()(std::string_view, record::Phase phase) const
-    {
-        line += fmt::format(",{}", name_of(phase));
-    }
-    void operator()(std::string_view, bool value) const { line += value ? ",1" : ",0"; }
-    void operator()(std::string_view, std::uint8_t value) const
-    {
-        line += fmt::format(",{}", value);
-    }
-    void operator()(std::string_view, std::uint16_t value) const
-    {
-        line += fmt::format(",{}", value);
-    }
-    void operator()(std::string_view, std::uint32_t value) const
-    {
-        line += fmt::format(",{}", value);
-    }
-    void operator()(std::string_view, std::uint64_t value) const
-    {
-        line += fmt::format(",{}", value);
-    }
-};
+/// Calls add(name, suffix, cell) for every column but the first, which is the time.
+void for_each_column(const record::TickRow& row, const auto& add)
+{
+    base::for_each_field(
+        [&]<typename Value>(const auto& field, const Value& value) {
+            if constexpr (std::is_same_v<Value, base::Duration>) {
+                add(field.key, "_us",
+                    fmt::format("{:.3f}", 1e-3 * static_cast<double>(value.count())));
+            } else if constexpr (requires { Shown<Value>::scale; }) {
+                const auto& [x, y, z] = Shown<Value>::suffixes;
+                add(field.key, x, decimal(Shown<Value>::scale * value.x()));
+                add(field.key, y, decimal(Shown<Value>::scale * value.y()));
+                add(field.key, z, decimal(Shown<Value>::scale * value.z()));
+            } else if constexpr (std::is_same_v<Value, bool>) {
+                add(field.key, "", value ? "1" : "0");
+            } else if constexpr (!std::is_same_v<Value, base::TimePoint>) {
+                add(field.key, "", base::cell_of(value));
+            }
+        },
+        row);
+}
 
 } // namespace
 
@@ -115,15 +80,19 @@ base::TimePoint csv_zero(const record::Record& record)
 std::string tick_csv_header()
 {
     std::string line = "time_s";
-    const record::TickRow row;
-    for_each_field(row, ColumnNames{line});
+    for_each_column({}, [&](std::string_view name, std::string_view suffix, std::string_view) {
+        line += fmt::format(",{}{}", name, suffix);
+    });
     return line;
 }
 
 std::string csv_line(const record::TickRow& row, base::TimePoint zero)
 {
     std::string line = seconds(row.at() - zero);
-    for_each_field(row, Cells{line});
+    for_each_column(row, [&](std::string_view, std::string_view, std::string_view cell) {
+        line += ',';
+        line += cell;
+    });
     return line;
 }
 

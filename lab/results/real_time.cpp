@@ -125,12 +125,9 @@ base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
     setting.task = parts.take(device::task_named(task));
     setting.scene = parts.take(scene::load_scene(scene, open));
     setting.profile = parts.take(emulator::parse_profile(profile, "the emulator's profile", open));
-    const auto text_of_person = [&](const std::string&) {
-        return base::Result<std::string>{person};
-    };
     for (virtual_time::PlayerSetting& player : setting.players) {
         player.algorithm = parts.take(peer::parse_algorithm(algorithm, "the peer's algorithm"));
-        player.person = parts.take(device::load_operator("the/peer's operator", text_of_person));
+        player.person = parts.take(device::parse_operator(person, "the peer's operator"));
     }
     if (parts.error()) return base::fail(*parts.error());
     if (auto valid = validate(setting); !valid) return tl::unexpected{std::move(valid).error()};
@@ -151,7 +148,7 @@ RealTimeResult result_of(const RealTimeSession& session, const virtual_time::Tra
     return {.algorithm = session.files.peer.value("algorithm", "?"),
             .where = session.where,
             .real_mm = spread_in(session.files.analysis.value("discrepancy_x_mm", Json{})),
-            .virtual_mm = in_mm(metrics::metrics_of(twin).discrepancy_m),
+            .virtual_mm = in_mm(metrics_of(twin).discrepancy_m),
             .invalid_because = objections_to(session.files)};
 }
 

@@ -19,6 +19,12 @@ struct NamedText {
     std::string text;
 };
 
+/// A text that a program carries with it, for those who have no file of it.
+struct BuiltInText {
+    std::string_view name;
+    std::string text;
+};
+
 /// The built-in text of that name, or else the file that `open` gives the text of. `kind` is what
 /// the text describes, for errors: "a scene". BuiltIn has `name`, without .toml, and `text`.
 template <typename BuiltIn>

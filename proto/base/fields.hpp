@@ -169,6 +169,22 @@ inline constexpr auto description = fields_of(Tag<T>{});
 template <Described T>
 inline constexpr std::string_view described_name = description<T>.name;
 
+/// The words about a member: about<&Burst::lost>().
+template <auto wanted>
+[[nodiscard]] constexpr std::string_view about()
+{
+    return []<typename T, typename Value>(Value T::*own) {
+        std::string_view words;
+        const auto look = [&]<typename Member>(const Member& member) {
+            if constexpr (std::is_same_v<decltype(Member::member), Value T::*>) {
+                if (member.member == own) words = member.about;
+            }
+        };
+        std::apply([&](const auto&... member) { (look(member), ...); }, description<T>.members);
+        return words;
+    }(wanted);
+}
+
 /// Calls visit(field, member...) for every field of a T, with that member of each value.
 template <typename Visit, typename First, typename... More>
 constexpr void for_each_field(const Visit& visit, First&& first, More&&... more)
@@ -205,14 +221,15 @@ void read_field(const Field<Struct, Value, Format>& field, const Node& node, Val
     }
 }
 
-/// The fields that stand in a table; the others keep their values. Complains of missing required
-/// ones. The table may have other keys: finish() is left to the caller.
+/// The fields that stand in a table; the others keep their values. The table may have other keys:
+/// finish() is left to the caller, and complains of unknown keys and then of missing ones.
 template <Described T>
 void read_fields(TableReader& table, T& target)
 {
     for_each_field(
         [&](const auto& field, auto& member) {
-            const Node* node = field.is_required ? table.require(field.key) : table.find(field.key);
+            const Node* node = table.find(field.key);
+            if (node == nullptr && field.is_required) table.miss(field.key);
             if (node != nullptr) read_field(field, *node, member, table.reading());
         },
         target);
@@ -319,8 +336,10 @@ std::string field_lines(const T& value, const std::string& prefix)
 struct KeyRow {
     std::string key;
     std::string values;     // what may be written: "a time from 0ms to 10s"
-    std::string by_default; // as it is written; empty: has to be said, or there is none
+    std::string by_default; // as it is written, or "required"; empty: there is none
     std::string about;
+
+    static constexpr std::string_view required = "required";
 };
 
 /// What may be written into a field, for people.
@@ -330,29 +349,40 @@ template <typename Struct, typename Value, typename Format>
     using Plain = typename detail::WithoutOptional<Value>::type;
     std::string text;
     if constexpr (Named<Plain>) {
-        text = fmt::format("{}", fmt::join(names_of_enum<Plain>, ", "));
+        for (const std::string_view name : names_of_enum<Plain>) {
+            text += fmt::format("{}`{}`", text.empty() ? "" : ", ", base::quoted(name));
+        }
     } else {
         text = field.format.describe();
     }
-    if (!field.absent.empty()) text += fmt::format(", or {}", field.absent);
+    if (!field.absent.empty()) text += fmt::format(", or `{}`", base::quoted(field.absent));
     return text;
 }
 
 template <Described T>
-[[nodiscard]] std::vector<KeyRow> key_rows(const std::string& prefix = {})
+[[nodiscard]] std::vector<KeyRow> key_rows(const std::string& prefix = {}, const T& defaults = {})
 {
-    const T defaults{};
     std::vector<KeyRow> rows;
     for_each_field(
         [&](const auto& field, const auto& usual) {
             using Member = std::remove_cvref_t<decltype(usual)>;
             const std::string key = prefix + std::string{field.key};
-            if constexpr (Described<Member>) {
-                auto inner = key_rows<Member>(key + '.');
-                rows.insert(rows.end(), inner.begin(), inner.end());
+            using Plain = typename detail::WithoutOptional<Member>::type;
+            if constexpr (Described<Plain>) {
+                Plain own{};
+                if constexpr (!detail::is_optional<Member>) own = usual;
+                auto about = field.about;
+                if (about.ends_with('.')) about.remove_suffix(1);
+                for (KeyRow& inner : key_rows<Plain>(key + '.', own)) {
+                    if (!about.empty()) inner.about = fmt::format("{}: {}", about, inner.about);
+                    rows.push_back(std::move(inner));
+                }
             } else {
-                auto text = field.is_required ? std::nullopt : field_text(field, usual);
-                rows.push_back({key, allowed(field), text.value_or(""), std::string{field.about}});
+                // What is printed where another member is set has no default there.
+                const bool has_default = !field.is_required && field.printed_if == nullptr;
+                std::string by_default{field.is_required ? KeyRow::required : ""};
+                if (has_default) by_default = field_text(field, usual).value_or("");
+                rows.push_back({key, allowed(field), by_default, std::string{field.about}});
             }
         },
         defaults);

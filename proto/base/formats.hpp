@@ -8,6 +8,7 @@
 #include "proto/base/text.hpp"
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -178,16 +179,17 @@ private:
     read_index(const Node& node, std::span<const std::string_view> names, Reading& reading);
 };
 
-/// The same for each element of a list.
+/// The same for each element of a list, which has `least` at least.
 template <typename Element>
 struct List {
     Element element;
+    std::size_t least = 0;
 
     template <typename T>
     void read(const Node& node, std::vector<T>& target, Reading& reading) const
     {
         const auto* list = std::get_if<Node::List>(&node.value);
-        if (list == nullptr) return complain_of(node, describe(), reading);
+        if (list == nullptr || list->size() < least) return complain_of(node, describe(), reading);
         std::vector<T> values;
         for (const Node& one : *list) element.read(one, values.emplace_back(), reading);
         if (reading.is_good()) target = std::move(values);

@@ -113,6 +113,9 @@ void TableReader::finish() const
         reading_.complain(entry.place, fmt::format("unknown key {}: {}", quoted(entry.key),
                                                    suggestion(entry.key, known_)));
     }
+    for (const std::string_view key : missing_) {
+        reading_.complain(place_, fmt::format("missing key '{}'", key));
+    }
 }
 
 std::string what_it_is(const Node& node)

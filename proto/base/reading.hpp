@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -68,7 +69,10 @@ public:
     [[nodiscard]] const Node* find(std::string_view key);
     /// Complains when it is not there.
     [[nodiscard]] const Node* require(std::string_view key);
-    /// To be called once all keys have been asked for.
+    /// finish() is to complain that this key is not there.
+    void miss(std::string_view key) { missing_.push_back(key); }
+    /// To be called once all keys have been asked for. A misspelt key is a better complaint than
+    /// the missing one that it was to be.
     void finish() const;
 
     [[nodiscard]] Place place() const { return place_; }
@@ -79,7 +83,25 @@ private:
     Place place_;
     Reading& reading_;
     std::vector<std::string_view> known_;
+    std::vector<std::string_view> missing_;
 };
+
+/// What `read(document, reading)` makes of a whole text, or the first complaint about it. `source`
+/// names the text in complaints.
+template <typename Read>
+[[nodiscard]] auto parse_text(std::string_view text, const std::string& source, const Read& read)
+    -> Result<std::invoke_result_t<const Read&, const Node&, Reading&>>
+{
+    Reading reading{source};
+    const auto document = parse_document(text);
+    if (!document) {
+        reading.complain(document.error().place, document.error().message);
+        return fail(*reading.complaint());
+    }
+    auto value = read(*document, reading);
+    if (!reading.is_good()) return fail(*reading.complaint());
+    return value;
+}
 
 /// Complains that the value is not what is expected: "a text in quotes".
 void complain_of(const Node& node, std::string_view expected, Reading& reading);

@@ -16,40 +16,64 @@ namespace hapnet::record {
 constexpr auto fields_of(base::Tag<TickRow>)
 {
     return base::fields(
-        "tick", base::member("tick", &TickRow::tick), base::member("due", &TickRow::due),
-        base::member("late", &TickRow::late),
-        base::member("missed_before", &TickRow::missed_before),
-        base::member("sent_sequence", &TickRow::sent_sequence),
-        base::member("phase", &TickRow::phase), base::member("touching", &TickRow::touching),
-        base::member("remote_touching", &TickRow::remote_touching),
-        base::member("remote_fresh", &TickRow::remote_fresh), base::member("hip", &TickRow::hip),
-        base::member("hip_velocity", &TickRow::hip_velocity), base::member("cube", &TickRow::cube),
-        base::member("cube_velocity", &TickRow::cube_velocity),
-        base::member("contact", &TickRow::contact), base::member("device", &TickRow::device),
-        base::member("remote", &TickRow::remote), base::member("gripping", &TickRow::gripping),
-        base::member("docked", &TickRow::docked), base::member("calibrated", &TickRow::calibrated),
-        base::member("buttons", &TickRow::buttons), base::member("fault", &TickRow::fault),
-        base::member("presses", &TickRow::presses),
-        base::member("sample_sequence", &TickRow::sample_sequence),
-        base::member("governor", &TickRow::governor));
+        "tick", base::member("tick", &TickRow::tick, "number of the tick"),
+        base::member("due", &TickRow::due, "when the loop was to wake"),
+        base::member("late", &TickRow::late,
+                     "how long after `due` it woke; the row's positions and forces hold at `due + "
+                     "late`, when the device was read"),
+        base::member("missed_before", &TickRow::missed_before,
+                     "ticks skipped between the row before and this one"),
+        base::member("sent_sequence", &TickRow::sent_sequence,
+                     "sequence of the state message sent in this tick; 1 is the first of a "
+                     "session, 0: none sent"),
+        base::member("phase", &TickRow::phase, "of the session, as this peer sees it"),
+        base::member("touching", &TickRow::touching, "whether this hand touches the body"),
+        base::member("remote_touching", &TickRow::remote_touching,
+                     "whether the other hand touches it"),
+        base::member("remote_fresh", &TickRow::remote_fresh,
+                     "whether the remote state is young enough to be used"),
+        base::member("hip", &TickRow::hip, "position of the hand"),
+        base::member("hip_velocity", &TickRow::hip_velocity, "its velocity"),
+        base::member("cube", &TickRow::cube, "position of the shared body"),
+        base::member("cube_velocity", &TickRow::cube_velocity, "its velocity"),
+        base::member("contact", &TickRow::contact,
+                     "force of the scene on the hand, before the governor"),
+        base::member("device", &TickRow::device,
+                     "force that the device was told, after the governor"),
+        base::member("remote", &TickRow::remote, "remote contact force as this tick used it"),
+        base::member("gripping", &TickRow::gripping, "whether the hand holds the body"),
+        base::member("docked", &TickRow::docked, "whether the stylus is in its holder"),
+        base::member("calibrated", &TickRow::calibrated,
+                     "whether the device's positions have a meaning"),
+        base::member("buttons", &TickRow::buttons, "bits of the buttons that are held down"),
+        base::member("fault", &TickRow::fault, "of the device"),
+        base::member("presses", &TickRow::presses, "presses of the primary button, counted"),
+        base::member("sample_sequence", &TickRow::sample_sequence,
+                     "lowest bits of a number that grows with every sample of the device"),
+        base::member("governor", &TickRow::governor, "its state after this tick"));
 }
 
 constexpr auto fields_of(base::Tag<MessageRow>)
 {
-    return base::fields("message", base::member("tick", &MessageRow::tick),
-                        base::member("received_at", &MessageRow::received_at),
-                        base::member("size", &MessageRow::size),
-                        base::member("bytes", &MessageRow::bytes));
+    return base::fields(
+        "message", base::member("tick", &MessageRow::tick, "tick that read it from the socket"),
+        base::member("received_at", &MessageRow::received_at, "the kernel's receive stamp"),
+        base::member("size", &MessageRow::size, "length of the datagram; at most 160"),
+        base::member("bytes", &MessageRow::bytes, "the datagram, then zeros"));
 }
 
 constexpr auto fields_of(base::Tag<SessionRow>)
 {
-    return base::fields("session", base::member("start", &SessionRow::start),
-                        base::member("length", &SessionRow::length),
-                        base::member("remote_offset", &SessionRow::remote_offset),
-                        base::member("offset_uncertainty", &SessionRow::offset_uncertainty),
-                        base::member("session", &SessionRow::session),
-                        base::member("seed", &SessionRow::seed));
+    return base::fields(
+        "session",
+        base::member("start", &SessionRow::start, "start of the session on this peer's clock"),
+        base::member("length", &SessionRow::length, "of the session"),
+        base::member("remote_offset", &SessionRow::remote_offset,
+                     "the remote's clock minus this clock"),
+        base::member("offset_uncertainty", &SessionRow::offset_uncertainty,
+                     "bound of the error of `remote_offset`"),
+        base::member("session", &SessionRow::session, "its number, as in the messages"),
+        base::member("seed", &SessionRow::seed, "the seed that counts: that of the lower id"));
 }
 
 /// Calls visit(name, field) for every field of a row.

@@ -6,6 +6,8 @@
 #include "scene/description.hpp"
 #include "scene/text/formats.hpp"
 
+#include <optional>
+
 namespace hapnet::scene {
 
 // The keys of a scene's text, by which it is read and printed: docs/formats/scene.md. They stand
@@ -13,12 +15,12 @@ namespace hapnet::scene {
 
 constexpr auto fields_of(base::Tag<Material>)
 {
-    return base::fields("material",
-                        base::field("friction", &Material::friction,
-                                    base::Number{0.0, friction_max},
-                                    "Coulomb's coefficient; a pair has the geometric mean"),
-                        base::field("restitution", &Material::restitution, base::Number{0.0, 1.0},
-                                    "0: no bounce, 1: elastic; a pair has the greater one"));
+    return base::fields(
+        "material",
+        base::field("friction", &Material::friction, base::Number{0.0, friction_max},
+                    "Coulomb's coefficient; a contact of two bodies has the geometric mean"),
+        base::field("restitution", &Material::restitution, base::Number{0.0, 1.0},
+                    "0: no bounce, 1: elastic; a contact of two bodies has the greater value"));
 }
 
 constexpr auto fields_of(base::Tag<HandDescription>)
@@ -39,27 +41,27 @@ constexpr auto fields_of(base::Tag<HandDescription>)
                     "of the damper between sphere and body")
             .always(),
         base::field("force_max", &HandDescription::force_max_n, text::ForceLimit{},
-                    "limit of one contact")
+                    "limit of the force of one contact")
             .always(),
         base::field("grip_reach", &HandDescription::grip_reach_m,
                     base::Quantity{base::length_kind, 0.0, size_max_m},
-                    "distance to the surface within which a hand can take hold")
+                    "distance from the surface within which a hand takes hold")
             .always(),
         base::field("friction", &HandDescription::friction, base::Number{0.0, friction_max},
-                    "Coulomb's coefficient of a finger, applied by the session"));
+                    "Coulomb's coefficient between finger and body, in a session"));
 }
 
 constexpr auto fields_of(base::Tag<PlaneDescription>)
 {
-    return base::fields(
-        "plane", base::field("name", &PlaneDescription::name),
-        base::field("normal", &PlaneDescription::normal, text::Direction{}, "out of the solid side")
-            .always(),
-        base::field("offset", &PlaneDescription::offset_m,
-                    base::Quantity{base::length_kind, -reach_max_m, reach_max_m},
-                    "distance from the origin along the normal")
-            .always(),
-        base::part(&PlaneDescription::material));
+    return base::fields("plane", base::field("name", &PlaneDescription::name, "for readers"),
+                        base::field("normal", &PlaneDescription::normal, text::Direction{},
+                                    "out of the solid side; of any length")
+                            .always(),
+                        base::field("offset", &PlaneDescription::offset_m,
+                                    base::Quantity{base::length_kind, -reach_max_m, reach_max_m},
+                                    "distance of the surface from the origin along the normal")
+                            .always(),
+                        base::part(&PlaneDescription::material));
 }
 
 constexpr auto fields_of(base::Tag<BodyDescription>)
@@ -68,33 +70,71 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
     constexpr text::PerAxis speed{{base::speed_kind, -speed_max_m_per_s, speed_max_m_per_s}};
     constexpr text::PerAxis turn{{base::turn_kind, -turn_max_rad_per_s, turn_max_rad_per_s}};
     return base::fields(
-        "body", base::field("name", &BodyDescription::name),
-        base::field("fixed", &BodyDescription::movable, text::Fixed{}, "nothing moves it"),
-        base::field("size", &BodyDescription::half, text::Edges{}, "its edges").always(),
-        base::field("position", &BodyDescription::position, place, "of its centre").always(),
-        base::field("orientation", &BodyDescription::orientation, text::Orientation{}),
-        base::field("velocity", &BodyDescription::velocity, speed),
+        "body", base::field("name", &BodyDescription::name, "for readers"),
+        base::field("fixed", &BodyDescription::movable, text::Fixed{},
+                    "it never moves; its mass, velocities, drag and locks are then ignored"),
+        base::field("size", &BodyDescription::half, text::Edges{}, "the edges").required(),
+        base::field("position", &BodyDescription::position, place, "of the centre").always(),
+        base::field("orientation", &BodyDescription::orientation, text::Orientation{},
+                    "a quaternion may have any length"),
+        base::field("velocity", &BodyDescription::velocity, speed, "of the centre"),
         base::field("angular_velocity", &BodyDescription::angular_velocity, turn,
-                    "in the world's frame"),
+                    "about the axes of the world"),
         base::field("mass", &BodyDescription::mass_kg,
                     base::Quantity{base::mass_kind, mass_min_kg, mass_max_kg},
-                    "or `density`; a body that is not fixed has one of them")
+                    "required unless the body is fixed or has a `density`")
             .if_set(&BodyDescription::movable),
-        base::field("turning", &BodyDescription::turning, "how it may rotate"),
+        base::field("turning", &BodyDescription::turning,
+                    "how it may rotate: freely, not at all, or about one axis of the world"),
         base::field("locked", &BodyDescription::locked, text::Axes{},
-                    "axes along which it does not move"),
+                    "axes along which the centre cannot move"),
         base::part(&BodyDescription::material),
         base::field("drag", &BodyDescription::drag_ns_per_m,
                     base::Quantity{base::damping_kind, 0.0, damping_max_ns_per_m},
-                    "viscous friction on the plane that supports it"));
+                    "viscous friction on the plane below it"));
 }
+
+namespace text {
+
+/// What may be written instead of a mass.
+struct Density {
+    std::optional<double> kg_per_m3{};
+};
+constexpr auto fields_of(base::Tag<Density>)
+{
+    // Of the smallest and of the largest mass.
+    return base::fields("density", base::field("density", &Density::kg_per_m3,
+                                               base::Quantity{base::density_kind, 1e-9, 1e18},
+                                               "instead of `mass`"));
+}
+
+/// How many equal bodies there are, and how far apart.
+struct Array {
+    Counts::Value count{1, 1, 1};
+    glm::dvec3 spacing{0.0};
+};
+constexpr auto fields_of(base::Tag<Array>)
+{
+    constexpr PerAxis spacing{{base::length_kind, -reach_max_m, reach_max_m}};
+    return base::fields(
+        "array",
+        base::field("count", &Array::count, Counts{}, "number of bodies along x, y and z")
+            .required(),
+        base::field("spacing", &Array::spacing, spacing, "from the centre of one to the next")
+            .required());
+}
+
+} // namespace text
 
 constexpr auto fields_of(base::Tag<Description>)
 {
     constexpr text::PerAxis gravity{
         {base::acceleration_kind, -gravity_max_m_per_s2, gravity_max_m_per_s2}};
-    return base::fields("scene", base::field("name", &Description::name),
-                        base::field("gravity", &Description::gravity, gravity).always());
+    return base::fields(
+        "scene",
+        base::field("name", &Description::name, "for readers; two peers need not agree on it"),
+        base::field("gravity", &Description::gravity, gravity, "acceleration of all movable bodies")
+            .always());
 }
 
 } // namespace hapnet::scene

@@ -103,6 +103,34 @@ std::string Edges::print(const glm::dvec3& half) const
 
 std::string Edges::describe() const { return edge.describe() + ", or one for each axis"; }
 
+void Counts::read(const Node& node, Value& target, Reading& reading) const
+{
+    const auto* list = std::get_if<Node::List>(&node.value);
+    const auto refuse = [&] {
+        reading.complain(node.place, "count is a list of three, such as [10, 1, 10]: how many "
+                                     "bodies along x, y and z, each 1 at least");
+    };
+    if (list == nullptr || list->size() != target.size()) return refuse();
+    Value value{};
+    for (std::size_t axis = 0; axis < value.size(); ++axis) {
+        const auto along = base::count_of((*list)[axis], std::numeric_limits<std::uint16_t>::max());
+        if (!along || *along == 0) return refuse();
+        value[axis] = static_cast<std::uint32_t>(*along);
+    }
+    target = value;
+}
+
+std::string Counts::print(const Value& value) const
+{
+    return fmt::format("[{}]", fmt::join(value, ", "));
+}
+
+std::string Counts::describe() const
+{
+    return fmt::format("three whole numbers from 1 to {}",
+                       std::numeric_limits<std::uint16_t>::max());
+}
+
 void Direction::read(const Node& node, glm::dvec3& target, Reading& reading) const
 {
     const auto* list = three(node, "a number", reading);
@@ -212,6 +240,6 @@ std::string ForceLimit::print(double value) const
     return std::isinf(value) ? base::quoted("none") : force.print(value);
 }
 
-std::string ForceLimit::describe() const { return force.describe() + ", or none"; }
+std::string ForceLimit::describe() const { return force.describe() + R"(, or `"none"`)"; }
 
 } // namespace hapnet::scene::text

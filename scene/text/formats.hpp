@@ -5,6 +5,8 @@
 #include "proto/base/formats.hpp"
 #include "scene/description.hpp"
 
+#include <array>
+#include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 
@@ -39,11 +41,23 @@ struct Edges {
     [[nodiscard]] std::string describe() const;
 };
 
+/// Three whole numbers, each 1 at least: [10, 1, 10].
+struct Counts {
+    using Value = std::array<std::uint32_t, 3>;
+
+    void read(const base::Node& node, Value& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const Value& value) const;
+    [[nodiscard]] std::string describe() const;
+};
+
 /// Three numbers, not all of them 0; what is kept has the length 1.
 struct Direction {
     void read(const base::Node& node, glm::dvec3& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const glm::dvec3& value) const;
-    [[nodiscard]] std::string describe() const { return "three numbers such as [0, 1, 0]"; }
+    [[nodiscard]] std::string describe() const
+    {
+        return "three numbers such as `[0, 1, 0]`, not all 0";
+    }
 };
 
 /// { axis = [0, 1, 0], angle = "30deg" }, or the parts of a quaternion { w = 1, x = 0, y = 0, z = 0

@@ -6,10 +6,7 @@
 #include "scene/text/fields.hpp"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <spdlog/fmt/fmt.h>
-#include <tuple>
 #include <utility>
 
 namespace hapnet::scene {
@@ -23,25 +20,21 @@ using base::TableReader;
 
 constexpr std::size_t scene_bytes_max = 64U << 20U; // of the most bodies, each on its own
 
-constexpr base::Quantity density_format{base::density_kind, 1e-9,
-                                        1e18}; // of the smallest, the largest mass
-constexpr text::PerAxis spacing_format{{base::length_kind, -reach_max_m, reach_max_m}};
-
 /// What is written as a density, instead of as a mass.
 void read_density(TableReader& table, BodyDescription& body)
 {
-    const Node* density = table.find("density");
-    if (density == nullptr) return;
+    text::Density density;
+    base::read_fields(table, density);
+    if (!density.kg_per_m3) return;
+    const Place place = table.find("density")->place;
     Reading& reading = table.reading();
     if (table.find("mass") != nullptr) {
-        return reading.complain(density->place,
+        return reading.complain(place,
                                 "mass and density exclude each other: leave out one of them");
     }
-    double value = 1.0;
-    density_format.read(*density, value, reading);
-    const double kg = value * 8.0 * body.half.x * body.half.y * body.half.z;
+    const double kg = *density.kg_per_m3 * 8.0 * body.half.x * body.half.y * body.half.z;
     if (!(kg >= mass_min_kg && kg <= mass_max_kg)) {
-        return reading.complain(density->place,
+        return reading.complain(place,
                                 fmt::format("makes a mass of {:.3g} kg: {} to {} is possible", kg,
                                             base::quantity_text(mass_min_kg, base::mass_kind),
                                             base::quantity_text(mass_max_kg, base::mass_kind)));
@@ -59,9 +52,8 @@ BodyDescription read_body_keys(TableReader& table)
 }
 
 /// To be called once all other keys are known: a misspelt one is the better complaint.
-void require_body_keys(TableReader& table, bool is_movable)
+void require_mass(TableReader& table, bool is_movable)
 {
-    std::ignore = table.require("size");
     if (!is_movable || table.find("mass") != nullptr || table.find("density") != nullptr) return;
     table.reading().complain(table.place(), "'mass' or 'density' is missing here: a body that is "
                                             "not fixed has one, such as mass = \"100g\"");
@@ -74,47 +66,27 @@ struct Growing {
     std::vector<Place> plane_places;
 };
 
-/// How many bodies an array has along each axis; all 1 when that is complained of.
-std::array<std::uint32_t, 3> read_count(const Node& node, std::size_t already, Reading& reading)
-{
-    std::array<std::uint32_t, 3> count{1, 1, 1};
-    const auto refuse = [&](std::string_view what) {
-        reading.complain(node.place, what);
-        return std::array<std::uint32_t, 3>{1, 1, 1};
-    };
-    const auto* list = std::get_if<Node::List>(&node.value);
-    constexpr std::string_view expected = "count is a list of three, such as [10, 1, 10]: how many "
-                                          "bodies along x, y and z, each 1 at least";
-    if (list == nullptr || list->size() != 3) return refuse(expected);
-    std::uint64_t product = 1;
-    for (std::size_t axis = 0; axis < count.size(); ++axis) {
-        const auto along = base::count_of((*list)[axis], std::numeric_limits<std::uint16_t>::max());
-        if (!along || *along == 0) return refuse(expected);
-        count[axis] = static_cast<std::uint32_t>(*along);
-        product *= *along;
-    }
-    if (product > bodies_max - std::min<std::size_t>(already, bodies_max)) {
-        return refuse(fmt::format("a scene has at most {} bodies", bodies_max));
-    }
-    return count;
-}
-
 void read_array(TableReader& table, Growing& growing)
 {
     Reading& reading = table.reading();
     auto& bodies = growing.scene.bodies;
     const BodyDescription first = read_body_keys(table);
-    std::array<std::uint32_t, 3> count{1, 1, 1};
-    if (const Node* node = table.find("count")) count = read_count(*node, bodies.size(), reading);
-    glm::dvec3 spacing{0.0};
-    if (const Node* node = table.find("spacing")) spacing_format.read(*node, spacing, reading);
-    const auto [nx, ny, nz] = count;
+    text::Array array;
+    base::read_fields(table, array);
+    const auto [nx, ny, nz] = array.count;
+    const std::uint64_t product = std::uint64_t{nx} * ny * nz;
+    const Node* node = table.find("count");
+    if (node != nullptr &&
+        product > bodies_max - std::min<std::size_t>(bodies.size(), bodies_max)) {
+        return reading.complain(node->place,
+                                fmt::format("a scene has at most {} bodies", bodies_max));
+    }
     std::size_t number = 0;
     for (std::uint32_t y = 0; y < ny; ++y) {
         for (std::uint32_t z = 0; z < nz; ++z) {
             for (std::uint32_t x = 0; x < nx; ++x) {
                 BodyDescription body = first;
-                body.position.value += glm::dvec3{x, y, z} * spacing;
+                body.position.value += glm::dvec3{x, y, z} * array.spacing;
                 if (!body.name.empty()) body.name += fmt::format(" {}", ++number);
                 bodies.push_back(std::move(body));
             }
@@ -175,11 +147,7 @@ void read_bodies(TableReader& table, Growing& growing)
             growing.scene.bodies.push_back(read_body_keys(keys));
         }
         keys.finish();
-        if (is_array) {
-            std::ignore = keys.require("count");
-            std::ignore = keys.require("spacing");
-        }
-        require_body_keys(keys, growing.scene.bodies.back().movable);
+        if (reading.is_good()) require_mass(keys, growing.scene.bodies.back().movable);
         if (!reading.is_good()) return;
         growing.body_places.resize(growing.scene.bodies.size(), node->place);
     }

@@ -57,8 +57,9 @@ TEST(PeerUsage, RefusesWhatItDoesNotKnowNamingIt)
     expect_refusal(run_peer_with({"--operator", "giant"}), 2, {"--operator", "'giant'", "nominal"});
     expect_refusal(run_peer_with({"--device", "replay:/no/such.csv"}), 2,
                    {"--device", "/no/such.csv"});
-    expect_refusal(run_peer_with({"--algorithm", "newest"}), 2,
-                   {"--algorithm", "unknown algorithm \"newest\"", "base, dead-reckoning, sep"});
+    expect_refusal(
+        run_peer_with({"--algorithm", "newest"}), 2,
+        {"--algorithm", "neither a file nor an algorithm 'newest'", "base, dead-reckoning, sep"});
     expect_refusal(run_peer_with({"--device", "omni1394:"}), 2, {"--device", "'omni1394:'", "sim"});
     expect_refusal(run_peer_with({"--scene", "moon"}), 2, {"--scene", "'moon'", "paper"});
 }

@@ -27,7 +27,7 @@ constexpr auto fields_of(base::Tag<ConstantLaw>)
 {
     return base::fields(
         "constant",
-        base::field("value", &ConstantLaw::value, any_delay, "of every datagram").required());
+        base::field("value", &ConstantLaw::value, any_delay, "delay of every datagram").required());
 }
 
 class ConstantLaw::Sampler {

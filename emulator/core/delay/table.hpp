@@ -69,11 +69,12 @@ constexpr auto fields_of(base::Tag<TableLaw>)
 {
     return base::fields(
         "table",
-        base::field("file", &TableLaw::file, "a .dist file of netem, or measured delays")
+        base::field("file", &TableLaw::file,
+                    "a .dist file of netem, which needs `sd`, or measured delays")
             .required(),
-        base::field("mean", &TableLaw::mean, any_delay, "mean; as measured if not given"),
+        base::field("mean", &TableLaw::mean, any_delay, "mean; as measured if neither is given"),
         base::field("sd", &TableLaw::sd, delay_width,
-                    "standard deviation; as measured if not given"));
+                    "standard deviation; as measured if neither is given"));
 }
 
 class TableLaw::Sampler {

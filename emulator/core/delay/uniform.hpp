@@ -25,11 +25,11 @@ struct UniformLaw {
 
 constexpr auto fields_of(base::Tag<UniformLaw>)
 {
-    return base::fields("uniform",
-                        base::field("mean", &UniformLaw::mean, any_delay, "middle of the range"),
-                        base::field("half_width", &UniformLaw::half_width, delay_width,
-                                    "largest distance from the mean")
-                            .required());
+    return base::fields(
+        "uniform", base::field("mean", &UniformLaw::mean, any_delay, "middle of the range"),
+        base::field("half_width", &UniformLaw::half_width, delay_width,
+                    "largest distance of a uniform draw from the mean: 5ms is -5ms to +5ms")
+            .required());
 }
 
 class UniformLaw::Sampler {

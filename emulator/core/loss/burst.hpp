@@ -37,7 +37,8 @@ constexpr auto fields_of(base::Tag<Burst>)
 {
     return base::fields(
         "burst", base::field("lost", &Burst::lost, "datagrams lost in a row").required(),
-        base::field("of", &Burst::of, "datagrams from burst to burst").required(),
+        base::field("of", &Burst::of, "datagrams from the start of one burst to that of the next")
+            .required(),
         base::field("phase", &Burst::phase, "number at which a burst begins; drawn if not given"));
 }
 
@@ -80,7 +81,9 @@ constexpr auto fields_of(base::Tag<TimedBurst>)
     return base::fields(
         "timed-burst",
         base::field("lost", &TimedBurst::lost, TimeOrCount{}, "length of a burst").required(),
-        base::field("every", &TimedBurst::every, "time from burst to burst").required(),
+        base::field("every", &TimedBurst::every,
+                    "time from the start of one burst to that of the next")
+            .required(),
         base::field("phase", &TimedBurst::phase,
                     "time at which a burst begins; drawn if not given"));
 }

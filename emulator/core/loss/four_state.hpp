@@ -57,12 +57,12 @@ struct FourState {
 constexpr auto fields_of(base::Tag<FourState>)
 {
     return base::fields(
-        "four-state", base::field("share", &FourState::share, "lost in all").required(),
+        "four-state", base::field("share", &FourState::share, "share that is lost").required(),
         base::field("burst", &FourState::burst, "mean length of a burst, in datagrams").required(),
-        base::field("density", &FourState::density, "lost within a burst").required(),
-        base::field("isolated", &FourState::isolated, "lost outside of bursts").required(),
+        base::field("density", &FourState::density, "share lost within a burst").required(),
+        base::field("isolated", &FourState::isolated, "share lost outside of bursts").required(),
         base::field("good_run", &FourState::good_run,
-                    "mean good run within a burst, in datagrams"));
+                    "mean run of arrivals within a burst, in datagrams"));
 }
 
 /// The first state is drawn from the stationary law; a change of the numbers keeps the state.

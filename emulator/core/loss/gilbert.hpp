@@ -96,10 +96,11 @@ struct Gilbert {
 
 constexpr auto fields_of(base::Tag<Gilbert>)
 {
-    return base::fields(
-        "gilbert", base::field("share", &Gilbert::share, "lost in all").required(),
-        base::field("mean_burst", &Gilbert::mean_burst, "mean run of losses, in datagrams")
-            .required());
+    return base::fields("gilbert",
+                        base::field("share", &Gilbert::share, "share that is lost").required(),
+                        base::field("mean_burst", &Gilbert::mean_burst,
+                                    "mean run of losses, in datagrams; at least 1")
+                            .required());
 }
 
 /// The chain by its probabilities. It takes one step per datagram; a datagram is judged in the
@@ -127,12 +128,14 @@ constexpr auto fields_of(base::Tag<GilbertElliott>)
 {
     return base::fields(
         "gilbert-elliott",
-        base::field("good_to_bad", &GilbertElliott::good_to_bad, "steps from good to bad")
+        base::field("good_to_bad", &GilbertElliott::good_to_bad,
+                    "probability of a step from good to bad")
             .required(),
-        base::field("bad_to_good", &GilbertElliott::bad_to_good, "steps from bad to good")
+        base::field("bad_to_good", &GilbertElliott::bad_to_good,
+                    "probability of a step from bad to good")
             .required(),
-        base::field("loss_good", &GilbertElliott::loss_good, "lost while good"),
-        base::field("loss_bad", &GilbertElliott::loss_bad, "lost while bad"));
+        base::field("loss_good", &GilbertElliott::loss_good, "share lost in the good state"),
+        base::field("loss_bad", &GilbertElliott::loss_bad, "share lost in the bad state"));
 }
 
 /// The same chain in time instead of in datagrams: it stays good and bad for exponential times of
@@ -166,8 +169,8 @@ constexpr auto fields_of(base::Tag<TimedGilbertElliott>)
             .required(),
         base::field("mean_bad", &TimedGilbertElliott::mean_bad, "mean time in the bad state")
             .required(),
-        base::field("loss_good", &TimedGilbertElliott::loss_good, "lost while good"),
-        base::field("loss_bad", &TimedGilbertElliott::loss_bad, "lost while bad"));
+        base::field("loss_good", &TimedGilbertElliott::loss_good, "share lost in the good state"),
+        base::field("loss_bad", &TimedGilbertElliott::loss_bad, "share lost in the bad state"));
 }
 
 /// The first datagram meets the stationary law, whenever it comes.

@@ -30,7 +30,8 @@ struct PeriodicLoss {
 constexpr auto fields_of(base::Tag<PeriodicLoss>)
 {
     return base::fields(
-        "every", base::field("every", &PeriodicLoss::every, "one lost in this many").required(),
+        "every",
+        base::field("every", &PeriodicLoss::every, "one datagram of this many is lost").required(),
         base::field("phase", &PeriodicLoss::phase, "number of the first that is lost"));
 }
 

@@ -27,8 +27,10 @@ struct RandomLoss {
 
 constexpr auto fields_of(base::Tag<RandomLoss>)
 {
-    return base::fields(
-        "random", base::field("share", &RandomLoss::share, "lost, each on its own").required());
+    return base::fields("random",
+                        base::field("share", &RandomLoss::share,
+                                    "share of the datagrams that is lost, each on its own")
+                            .required());
 }
 
 class RandomLoss::Model {

@@ -65,7 +65,7 @@ constexpr auto fields_of(base::Tag<TraceLoss>)
 {
     return base::fields(
         "trace", base::field("file", &TraceLoss::file,
-                             "a file of 0 (arrived) and 1 (lost), or a table with a column lost")
+                             "a file of 0 (arrived) and 1 (lost), or CSV with a column `lost`")
                      .required());
 }
 

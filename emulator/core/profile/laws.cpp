@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, sizeof...(Laws)> names_of_laws(const std:
     return {base::described_name<Laws>...};
 }
 
-/// The law that { law = "name", ... } names, with its parameters.
+/// The law that { law = "name", ... } names, with its parameters: the last keys to be asked for.
 template <typename... Laws>
 std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwise)
 {
@@ -36,6 +36,7 @@ std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwi
         is_found = true;
         Law law;
         base::read_fields(table, law);
+        table.finish(); // not after an unknown law, which makes all parameters unknown
         if constexpr (requires { law.load(reading); }) {
             const auto loaded = reading.is_good() ? law.load(reading) : base::Result<void>{};
             if (!loaded) reading.complain(table.place(), loaded.error().message);
@@ -73,8 +74,6 @@ Variation read_law_table(const Node& node, const Node::Table& entries, std::opti
     variation.law = read_law(table, variation.law);
     if (time != nullptr) read_value(*time, variation.correlation_time, reading);
     if (order_node != nullptr) order = read_order(*order_node, reading);
-    // After a wrong law all parameters are unknown: that would be a second complaint.
-    if (reading.is_good()) table.finish();
     return variation;
 }
 
@@ -84,7 +83,6 @@ LossLaw read_loss(const Node& node, Reading& reading)
     if (const auto* entries = std::get_if<Node::Table>(&node.value)) {
         TableReader table{*entries, node.place, reading};
         law = read_law(table, law);
-        if (reading.is_good()) table.finish();
     } else if (const auto* text = std::get_if<std::string>(&node.value);
                text != nullptr && text->find('/') != std::string::npos) {
         law = read_burst(node, reading);

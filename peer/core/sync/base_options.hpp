@@ -89,31 +89,42 @@ constexpr auto fields_of(base::Tag<BaseOptions> /*struct*/)
     return base::fields(
         "base",
         base::field("displacement", &BaseOptions::displacement,
-                    "the sign of a remote displacement (A1)"),
-        base::field("displacement_from", &BaseOptions::displacement_from,
-                    "formed by the receiver, or by the sender (A2)"),
+                    "sign of a remote displacement; of use only with a relative follow (A1)"),
+        base::field(
+            "displacement_from", &BaseOptions::displacement_from,
+            "formed by the receiver from two positions, or by the sender as increments (A2)"),
         base::field("follow_while", &BaseOptions::follow_while,
-                    "the other hand touches, or always (A3)"),
-        base::field("follow", &BaseOptions::follow, "where the other body is, or as it moves (A4)"),
-        base::field("bleed", &BaseOptions::bleed, parameter_time,
-                    "time constant of a relative follow's return (A4)")
+                    "a body that this hand leaves alone follows the other side while the other "
+                    "hand touches it, or always (A3)"),
+        base::field(
+            "follow", &BaseOptions::follow,
+            "to where the other side has the body, or by as much as the body moves there (A4)"),
+        base::field(
+            "bleed", &BaseOptions::bleed, parameter_time,
+            "time constant with which a relative follow returns to the other side's position (A4)")
             .absent_as("never"),
         base::field("remote_force_on", &BaseOptions::remote_force_on,
-                    "what the remote force acts on (A5)"),
-        base::field("both_push", &BaseOptions::both_push, "who moves what both push (A6)"),
+                    "what the remote hand's force acts on (A5)"),
+        base::field(
+            "both_push", &BaseOptions::both_push,
+            "force on a body that both hands push: the sum, or the stronger hand's alone (A6)"),
         base::field("hysteresis", &BaseOptions::hysteresis, parameter_time,
-                    "the stronger keeps the body so long, and a round trip at least (A6)"),
+                    "least time for which the stronger hand keeps the body; never less than a "
+                    "round trip (A6)"),
         base::field("stale", &BaseOptions::stale,
-                    "messages that were overtaken, and duplicates (A7)"),
+                    "what to do with overtaken messages and with duplicates (A7)"),
         base::field("let_go_after", &BaseOptions::let_go_after, parameter_time,
-                    "without a message; until then the last one holds (A8)")
+                    "silence after which the remote hand counts as off the body; until then its "
+                    "last state holds (A8)")
             .absent_as("never"),
-        base::field("axes", &BaseOptions::axes, "along which the other side acts (A10)"),
-        base::field("settle_after", &BaseOptions::settle_after, parameter_time,
-                    "both hands are off (A11)")
+        base::field("axes", &BaseOptions::axes,
+                    "directions in which the other side acts on this copy (A10)"),
+        base::field(
+            "settle_after", &BaseOptions::settle_after, parameter_time,
+            "time from the moment both hands let go until the copies begin to agree again (A11)")
             .absent_as("never"),
         base::field("settle_within", &BaseOptions::settle_within, parameter_time,
-                    "to the lower id's place (A11)"));
+                    "duration of that motion to the lower id's position (A11)"));
 }
 
 } // namespace hapnet::peer

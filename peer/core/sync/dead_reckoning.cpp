@@ -35,7 +35,8 @@ std::string HorizonFormat::print(const Horizon& horizon) const
 
 std::string HorizonFormat::describe() const
 {
-    return fmt::format("{}, or {}", fmt::join(horizon_names, ", "), parameter_time.describe());
+    return fmt::format("\"{}\" or {}", fmt::join(horizon_names, "\", \""),
+                       parameter_time.describe());
 }
 
 DeadReckoning::DeadReckoning(const DeadReckoningOptions& options)

@@ -61,23 +61,25 @@ constexpr auto fields_of(base::Tag<DeadReckoningOptions> /*struct*/)
     using Options = DeadReckoningOptions;
     return base::fields(
         "dead-reckoning",
-        base::field("velocity", &Options::velocity, "how far apart two messages are taken to be"),
+        base::field("velocity", &Options::velocity,
+                    "dt: one tick regardless of losses in between, the difference of the arrivals, "
+                    "or of the sender's stamps"),
         base::field("horizon", &Options::horizon, HorizonFormat{},
-                    "how old a message is at its arrival; also a time"),
+                    "H: zero, the path's mean delay, this message's own delay, or a time"),
         base::field("horizon_memory", &Options::horizon_memory, base::Count{1, 1'000'000},
-                    "messages in the mean one-way delay"),
+                    "messages in the mean delay: arithmetic at first, exponential afterwards"),
         base::field("blend_within", &Options::blend_within, parameter_time,
-                    "a new prediction takes over from the last")
+                    "time in which a new prediction takes over from the last one (projective "
+                    "velocity blending, Murphy 2011)")
             .absent_as("none"),
-        base::field("ahead_max", &Options::ahead_max, parameter_time,
-                    "of a prediction, from the sending")
+        base::field("ahead_max", &Options::ahead_max, parameter_time, "limit of t - t_arrived + H")
             .absent_as("none"),
         base::field("speed_max", &Options::speed_max_m_per_s,
-                    base::Quantity{base::speed_kind, 0.0, 1000.0}, "of the estimated velocity"),
+                    base::Quantity{base::speed_kind, 0.0, 1000.0}, "limit of v"),
         base::field("lead_max", &Options::lead_max_m, base::Quantity{base::length_kind, 0.0, 100.0},
-                    "of the prediction before the message's place"),
+                    "limit of the distance from x_k to x^"),
         base::field("gap_max", &Options::gap_max, parameter_time,
-                    "across a longer one there is no velocity"),
+                    "gap between two messages, by the sender's stamps; across a longer one v is 0"),
         base::part(&Options::base));
 }
 

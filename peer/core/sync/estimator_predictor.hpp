@@ -33,20 +33,25 @@ constexpr auto fields_of(base::Tag<EstimatorPredictorOptions> /*struct*/)
     using Options = EstimatorPredictorOptions;
     return base::fields(
         "sep",
-        base::field("time_constant", &Options::time_constant, parameter_time, "of the filters"),
+        base::field("time_constant", &Options::time_constant, parameter_time, "T, of both filters"),
         base::field("force_ahead_max", &Options::force_ahead_max, parameter_time,
-                    "of the force's prediction"),
+                    "`most` for the force"),
         base::field("hip_ahead_beyond_delay", &Options::hip_ahead_beyond_delay, parameter_time,
-                    "and the median delay: of the prediction of the hand's place"),
+                    "`most` for the position is the median delay and this"),
         base::field("fade_after", &Options::fade_after, parameter_time,
-                    "and the median delay: then an old sample is predicted on less"),
-        base::field("fade_within", &Options::fade_within, parameter_time, "down to not at all"),
+                    "age of a sample, beyond the median delay, from which g decreases"),
+        base::field("fade_within", &Options::fade_within, parameter_time,
+                    "time in which g decreases to 0"),
         base::field("force_slew", &Options::force_slew_n_per_s,
-                    base::Quantity{base::force_rate_kind, 0.0, 1e6}, "of the predicted force"),
+                    base::Quantity{base::force_rate_kind, 0.0, 1e6},
+                    "greatest change of the predicted force: half a newton a tick, from which on a "
+                    "step counts as one (metric G)"),
         base::field("hip_slew", &Options::hip_slew_m_per_s,
-                    base::Quantity{base::speed_kind, 0.0, 1000.0}, "of the predicted place"),
+                    base::Quantity{base::speed_kind, 0.0, 1000.0},
+                    "greatest speed of the predicted position: faster than a hand"),
         base::field("gap_max", &Options::gap_max, parameter_time,
-                    "after a longer one the filters start anew"),
+                    "gap between two messages, by the sender's stamps; after a longer one both "
+                    "filters start anew"),
         base::part(&Options::base));
 }
 

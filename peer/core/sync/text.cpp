@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/sync/text.hpp"
 
+#include "proto/base/built_in.hpp"
 #include "proto/base/text.hpp"
 
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <type_traits>
 #include <utility>
@@ -104,25 +106,21 @@ std::optional<Algorithm> read_algorithm(const Node& node, Reading& reading)
 
 base::Result<Algorithm> parse_algorithm(std::string_view text, const std::string& source)
 {
-    Reading reading{source};
-    std::optional<Algorithm> algorithm;
-    if (const auto document = base::parse_document(text)) {
-        algorithm = read_algorithm(*document, reading);
-    } else {
-        reading.complain(document.error().place, document.error().message);
-    }
-    if (!algorithm) return base::fail(*reading.complaint());
-    return *algorithm;
+    return base::parse_text(text, source, [](const Node& node, Reading& reading) {
+        return read_algorithm(node, reading).value_or(Algorithm{});
+    });
 }
 
-base::Result<Algorithm> load_algorithm(const std::string& name_or_file, const base::OpenFile& open)
+base::Result<Algorithm> load_algorithm(const std::string& file_or_name, const base::OpenFile& open)
 {
-    const bool is_file =
-        name_or_file.find('/') != std::string::npos || name_or_file.ends_with(".toml");
-    if (!is_file) return algorithm_named(name_or_file);
-    const auto text = open(name_or_file);
-    if (!text) return tl::unexpected{text.error()};
-    return parse_algorithm(*text, name_or_file);
+    std::vector<base::BuiltInText> plain;
+    for (const std::string_view name : algorithm_names) {
+        plain.push_back({name, fmt::format("algorithm = {}", base::quoted(name))});
+    }
+    const std::span<const base::BuiltInText> all{plain};
+    const auto found = base::find_text(file_or_name, all, "an algorithm", open);
+    if (!found) return tl::unexpected{found.error()};
+    return parse_algorithm(found->text, found->source);
 }
 
 std::string print_algorithm(const Algorithm& algorithm)

@@ -24,9 +24,9 @@ namespace hapnet::peer {
 [[nodiscard]] base::Result<Algorithm> parse_algorithm(std::string_view text,
                                                       const std::string& source);
 
-/// A name ("base", "sep", "dead-reckoning") with all defaults, or a TOML file: what holds a '/' or
-/// ends in ".toml".
-[[nodiscard]] base::Result<Algorithm> load_algorithm(const std::string& name_or_file,
+/// The algorithm of that name ("base", "sep", "dead-reckoning") with all defaults, or else the file
+/// that `open` gives the text of.
+[[nodiscard]] base::Result<Algorithm> load_algorithm(const std::string& file_or_name,
                                                      const base::OpenFile& open);
 
 /// TOML that reads back as the same algorithm; of every parameter, also the defaults.

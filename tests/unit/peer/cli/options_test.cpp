@@ -101,7 +101,7 @@ TEST(PeerOptions, PrintAnAlgorithmWithoutARemote)
     const auto prints = cli::prints_of("hapnet-peer", parse_command_line);
     expect_words(prints({"--print-algorithm", "dr"}).value(), "velocity = ");
     expect_words(refusal_to({"--print-algorithm", "best"}),
-                 "--print-algorithm: unknown algorithm \"best\"");
+                 "--print-algorithm: there is neither a file nor an algorithm 'best'");
     expect_words(prints({"doctor", "--print-udev-rules"}).value(), "SUBSYSTEM");
 }
 

@@ -132,6 +132,8 @@ TEST(Fields, PrintOnlyWhatIsNeededIfAsked)
 TEST(Fields, ComplainWithThePlaceAndTheCure)
 {
     EXPECT_EQ(complaint<Horse>("gait = \"trot\""), "f.toml:1:1: missing key 'name'");
+    EXPECT_EQ(complaint<Horse>("nam = \"B\""),
+              "f.toml:1:1: unknown key \"nam\": did you mean 'name'?");
     EXPECT_EQ(complaint<Horse>("name = \"B\"\ngait = \"trott\""),
               "f.toml:2:8: unknown name \"trott\": did you mean 'trot'?");
     EXPECT_EQ(complaint<Horse>("name = \"B\"\ngait = \"fly\""),
@@ -149,12 +151,17 @@ TEST(Fields, ComplainWithThePlaceAndTheCure)
 
 TEST(Fields, TellPeopleTheirKeys)
 {
-    EXPECT_EQ(markdown(key_rows<Rider>()), "| key | value | default | |\n"
-                                           "|---|---|---|---|\n"
-                                           "| `mass` | a mass from 1kg to 200kg | `\"70kg\"` | of "
-                                           "it |\n"
-                                           "| `reaction` | a time from 1ms to 10s, or never | "
-                                           "`\"never\"` |  |\n");
+    EXPECT_EQ(markdown(key_rows<Rider>()),
+              "| key | value | default | meaning |\n"
+              "|---|---|---|---|\n"
+              "| `mass` | a mass from 1kg to 200kg | `\"70kg\"` | of it |\n"
+              "| `reaction` | a time from 1ms to 10s, or `\"never\"` | `\"never\"` |  |\n");
+    const auto rows = key_rows<Horse>();
+    EXPECT_EQ(rows[0].by_default, KeyRow::required);
+    EXPECT_EQ(rows[1].values, "`\"walk\"`, `\"trot\"`, `\"gallop\"`");
+    EXPECT_EQ(rows[6].key, "rider.mass");
+    EXPECT_EQ(markdown({{"a", "b", "c|d", "two\nlines"}}).substr(54),
+              "| `a` | b | `c\\|d` | two lines |\n");
 }
 
 TEST(Fields, AreTheObjectOfJson)

@@ -129,8 +129,8 @@ TEST(AlgorithmText, PointsAtWhatIsWrongAndSaysWhatWouldBeRight)
     EXPECT_EQ(complaint("algorithm = \"base\"\naxes = 1"),
               "a.toml:2:8: expected one of all, x, not 1");
     EXPECT_EQ(complaint("algorithm = \"dead-reckoning\"\nhorizon = \"one-wya\""),
-              "a.toml:2:11: expected none, one-way, packet-age, or a time from 0ms to 10s, not "
-              "\"one-wya\"");
+              "a.toml:2:11: expected \"none\", \"one-way\", \"packet-age\" or a time from 0ms to "
+              "10s, not \"one-wya\"");
     EXPECT_EQ(complaint("algorithm = \"base\"\nsettle_after = true"),
               "a.toml:2:16: expected a number and its unit, such as 160ms, 15us or 1.5s, not true");
     EXPECT_EQ(complaint("algorithm = \"base\"\nsettle_within = \"11s\""),
@@ -150,7 +150,7 @@ TEST(AlgorithmText, IsFoundByNameOrInAFile)
 {
     EXPECT_EQ(name_of(load_algorithm("sep", no_file).value()), "sep");
     EXPECT_EQ(load_algorithm("best", no_file).error().message,
-              "unknown algorithm \"best\": did you mean 'base'?");
+              "there is neither a file nor an algorithm 'best': did you mean 'base'?");
     EXPECT_EQ(load_algorithm("dir/best", no_file).error().message, "cannot read dir/best");
     const auto open = [](const std::string&) -> base::Result<std::string> {
         return std::string{"algorithm = \"sep\"\nfade_after = 1"};
@@ -171,7 +171,8 @@ TEST(AlgorithmText, StandsInOtherTextsAsANameOrATable)
     EXPECT_EQ(read("x = \"sep\""), print_algorithm(EstimatorPredictor{}));
     EXPECT_EQ(read("x = { algorithm = \"base\", stale = \"take\" }"),
               print_algorithm(BaseAlgorithm{BaseOptions{.stale = Stale::take}}));
-    EXPECT_EQ(read("x = \"best\""), "e.toml:1:5: unknown algorithm \"best\": did you mean 'base'?");
+    EXPECT_EQ(read("x = \"best\""),
+              "e.toml:1:5: there is neither a file nor an algorithm 'best': did you mean 'base'?");
     EXPECT_EQ(read("x = \"no/such.toml\""), "e.toml:1:5: cannot read no/such.toml");
     EXPECT_EQ(read("x = 3"), "e.toml:1:5: expected the name of an algorithm or a table of its "
                              "parameters, not 3");

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "lab/experiment/fields.hpp"
+
+#include <algorithm>
+#include <array>
+#include <spdlog/fmt/fmt.h>
+#include <string_view>
+#include <utility>
+
+namespace hapnet::lab::experiment {
+
+namespace {
+
+using base::Node;
+using base::Reading;
+
+constexpr std::int64_t search_levels_max = 1000;
+
+/// A list of different texts, at least one; or one text alone.
+std::vector<std::string> read_texts(const Node& node, Reading& reading)
+{
+    if (const auto* text = std::get_if<std::string>(&node.value)) return {*text};
+    std::vector<std::string> texts;
+    base::List<base::Text>{{}, 1}.read(node, texts, reading);
+    for (auto text = texts.begin(); text != texts.end(); ++text) {
+        if (std::find(texts.begin(), text, *text) == text) continue;
+        reading.complain(node.place, fmt::format("'{}' is there already", *text));
+    }
+    return texts;
+}
+
+/// Whether it can stand in a CSV and in the name of a file.
+bool is_plain(std::string_view name)
+{
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                       "0123456789-_";
+    return !name.empty() && name.find_first_not_of(plain) == std::string_view::npos;
+}
+
+std::string operator_text(const device::Operator& person)
+{
+    const auto preset = device::operator_named(person.name);
+    if (preset && *preset == person) return base::quoted(person.name);
+    return base::Table{}.print(person);
+}
+
+template <typename... Kinds>
+constexpr auto names_of_kinds(base::Tag<std::variant<Kinds...>> /*kinds*/)
+{
+    return base::names(base::described_name<Kinds>...);
+}
+constexpr auto kind_names = names_of_kinds(base::Tag<Kind>{});
+
+template <typename... Kinds>
+Kind kind_at(std::size_t index, base::Tag<std::variant<Kinds...>> /*kinds*/)
+{
+    return std::array{Kind{Kinds{}}...}.at(index);
+}
+
+} // namespace
+
+void KindFormat::read(const Node& node, Kind& target, Reading& reading) const
+{
+    std::string text;
+    base::read_value(node, text, reading);
+    const auto* const found = std::find(kind_names.begin(), kind_names.end(), text);
+    if (found != kind_names.end()) {
+        target = kind_at(static_cast<std::size_t>(found - kind_names.begin()), base::Tag<Kind>{});
+        return;
+    }
+    reading.complain(node.place, fmt::format("there is no kind of experiment '{}': {}", text,
+                                             base::suggestion(text, kind_names)));
+}
+
+std::string KindFormat::print(const Kind& kind) const { return base::quoted(name_of(kind)); }
+
+std::string KindFormat::describe() const
+{
+    return fmt::format("`\"{}\"`", fmt::join(kind_names, "\"`, `\""));
+}
+
+void AlgorithmNames::read(const Node& node, std::vector<NamedAlgorithm>& target,
+                          Reading& reading) const
+{
+    target.clear();
+    for (std::string& name : read_texts(node, reading)) {
+        if (!is_plain(name)) {
+            return reading.complain(node.place, "a name has letters, digits, - and _ only");
+        }
+        target.push_back({std::move(name), {}});
+    }
+}
+
+std::string AlgorithmNames::print(const std::vector<NamedAlgorithm>& algorithms) const
+{
+    std::vector<std::string> names;
+    for (const NamedAlgorithm& named : algorithms) names.push_back(named.name);
+    return base::List<base::Text>{}.print(names);
+}
+
+void TaskNames::read(const Node& node, std::vector<device::Task>& target, Reading& reading) const
+{
+    target.clear();
+    for (const std::string& name : read_texts(node, reading)) {
+        const auto task = device::task_named(name);
+        if (!task) return reading.complain(node.place, task.error().message);
+        target.push_back(*task);
+    }
+}
+
+std::string TaskNames::print(const std::vector<device::Task>& tasks) const
+{
+    return base::List<base::Choice>{}.print(tasks);
+}
+
+std::string TaskNames::describe() const
+{
+    return fmt::format("a list of different tasks, or one: `\"{}\"`",
+                       fmt::join(base::names_of_enum<device::Task>, "\"`, `\""));
+}
+
+void HandsFormat::read(const Node& node, Hands& target, Reading& reading) const
+{
+    const auto* list = std::get_if<Node::List>(&node.value);
+    if (list != nullptr && list->size() != 2) {
+        return reading.complain(node.place, "one operator for both hands, or a list of two: "
+                                            "[\"nominal\", \"firm\"] of L and of R");
+    }
+    const auto left = device::read_operator(list == nullptr ? node : list->front(), reading);
+    const auto right = list == nullptr ? left : device::read_operator(list->back(), reading);
+    if (left && right) target = {*left, *right};
+}
+
+std::string HandsFormat::print(const Hands& hands) const
+{
+    const auto left = operator_text(hands.left);
+    if (hands.left == hands.right) return left;
+    return fmt::format("[{}, {}]", left, operator_text(hands.right));
+}
+
+void check(const SearchRange& range, base::Place place, Reading& reading)
+{
+    const auto refuse = [&](std::string_view what) { reading.complain(place, what); };
+    if (range.from >= range.to) return refuse("'from' has to be less than 'to'");
+    if (range.resolution.thousandths == 0) return refuse("'resolution' has to be more than 0");
+    if (range.step.thousandths == 0 || range.step.thousandths % range.resolution.thousandths != 0) {
+        return refuse("'step' has to be once, twice, ... the resolution");
+    }
+    if (range.to.thousandths / range.step.thousandths > search_levels_max) {
+        return refuse(fmt::format("more than {} steps to 'to'", search_levels_max));
+    }
+}
+
+void RangesFormat::read(const Node& node, SearchRanges& target, Reading& reading) const
+{
+    base::Table::read(node, target, reading);
+    if (target != SearchRanges{}) return;
+    reading.complain(node.place, "there is no [limit.delay], [limit.jitter], [limit.random-loss] "
+                                 "or [limit.burst-loss]");
+}
+
+Experiment usual_experiment()
+{
+    Experiment experiment;
+    for (const char* name : {"base", "sep", "dead-reckoning"}) {
+        experiment.algorithms.push_back({name, {}});
+    }
+    return experiment;
+}
+
+} // namespace hapnet::lab::experiment

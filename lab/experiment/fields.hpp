@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/experiment/experiment.hpp"
+#include "proto/base/fields.hpp"
+
+namespace hapnet::lab::experiment {
+
+// The keys of an experiment's text, by which it is read and printed: docs/formats/experiment.md.
+
+inline constexpr std::uint32_t seeds_max = 1000;
+
+/// The name of a kind; the kind's own keys have their defaults.
+struct KindFormat {
+    void read(const base::Node& node, Kind& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const Kind& kind) const;
+    [[nodiscard]] std::string describe() const;
+};
+
+/// Names of algorithms. What an own name stands for is read elsewhere.
+struct AlgorithmNames {
+    void read(const base::Node& node, std::vector<NamedAlgorithm>& target,
+              base::Reading& reading) const;
+    [[nodiscard]] std::string print(const std::vector<NamedAlgorithm>& algorithms) const;
+    [[nodiscard]] std::string describe() const { return "a list of names, or one name"; }
+};
+
+/// Different tasks, or one.
+struct TaskNames {
+    void read(const base::Node& node, std::vector<device::Task>& target,
+              base::Reading& reading) const;
+    [[nodiscard]] std::string print(const std::vector<device::Task>& tasks) const;
+    [[nodiscard]] std::string describe() const;
+};
+
+/// One operator for both, or a list of two: L and R.
+struct HandsFormat {
+    void read(const base::Node& node, Hands& target, base::Reading& reading) const;
+    [[nodiscard]] std::string print(const Hands& hands) const;
+    [[nodiscard]] std::string describe() const
+    {
+        return "an operator, or a list of two: of L and of R";
+    }
+};
+
+/// Complains of a range that cannot be searched.
+void check(const SearchRange& range, base::Place place, base::Reading& reading);
+
+/// A range that can be searched.
+struct RangeFormat : base::Table {
+    template <typename T>
+    void read(const base::Node& node, T& target, base::Reading& reading) const
+    {
+        base::Table::read(node, target, reading);
+        if (reading.is_good()) check(target, node.place, reading);
+    }
+};
+
+/// One range at least.
+struct RangesFormat : base::Table {
+    void read(const base::Node& node, SearchRanges& target, base::Reading& reading) const;
+};
+
+template <Impairment what>
+constexpr auto fields_of(base::Tag<RangeOf<what>> /*struct*/)
+{
+    constexpr LevelFormat level{what};
+    return base::fields(
+        base::name_of(what),
+        base::field("from", &SearchRange::from, level, "where the search begins"),
+        base::field("to", &SearchRange::to, level, "where it ends if nothing fails").required(),
+        base::field("step", &SearchRange::step, level,
+                    "from level to level; a multiple of `resolution`")
+            .required(),
+        base::field("resolution", &SearchRange::resolution, level,
+                    "to which the first failure is narrowed down")
+            .required());
+}
+
+constexpr auto fields_of(base::Tag<SearchRanges> /*struct*/)
+{
+    return base::fields("limit", base::field("delay", &SearchRanges::delay, RangeFormat{}),
+                        base::field("jitter", &SearchRanges::jitter, RangeFormat{}),
+                        base::field("random-loss", &SearchRanges::random_loss, RangeFormat{}),
+                        base::field("burst-loss", &SearchRanges::burst_loss, RangeFormat{}));
+}
+
+constexpr auto fields_of(base::Tag<Sensitivity> /*struct*/)
+{
+    return base::fields(
+        "convention",
+        base::field("filter_orders", &Sensitivity::filter_orders,
+                    base::List<metrics::FilterOrderFormat>{{}, 1}, "filters behind metric A"),
+        base::field("hands", &Sensitivity::hands, base::List<HandsFormat>{{}, 1},
+                    "hands, each as in `hands`")
+            .required(),
+        base::field("tasks", &Sensitivity::tasks, TaskNames{}, "of these searches").required(),
+        base::field("seeds", &Sensitivity::seeds, base::Count{1, seeds_max}, "of these searches")
+            .required());
+}
+
+inline constexpr base::Count rows_format{1, 1000};
+
+constexpr auto fields_of(base::Tag<Table1> /*struct*/)
+{
+    return base::fields("table1", base::field("rows_per_second", &Table1::rows_per_s, rows_format,
+                                              "of the replays"));
+}
+
+constexpr auto fields_of(base::Tag<Limits> /*struct*/)
+{
+    return base::fields("limits", base::field("limit", &Limits::ranges, RangesFormat{}).required(),
+                        base::field("convention", &Limits::sensitivity));
+}
+
+constexpr auto fields_of(base::Tag<Trajectories> /*struct*/)
+{
+    return base::fields("trajectories", base::field("rows_per_second", &Trajectories::rows_per_s,
+                                                    rows_format, "of the curves"));
+}
+
+constexpr auto fields_of(base::Tag<ImpairmentGrid> /*struct*/)
+{
+    using Levels = base::List<LevelFormat>;
+    return base::fields(
+        "plane",
+        base::field("delay", &ImpairmentGrid::delays, Levels{{Impairment::delay}, 1}, "the delays")
+            .required(),
+        base::field("jitter", &ImpairmentGrid::jitters, Levels{{Impairment::jitter}, 1},
+                    "the jitters, each with every delay")
+            .required(),
+        base::field("loss", &ImpairmentGrid::losses, Levels{{Impairment::random_loss}, 1},
+                    "the shares of random loss, each with every delay and jitter")
+            .required());
+}
+
+constexpr auto fields_of(base::Tag<Calibration> /*struct*/)
+{
+    return base::fields("calibration",
+                        base::field("delay", &Calibration::delay, LevelFormat{Impairment::delay},
+                                    "up to which base is to be usable")
+                            .required(),
+                        base::field("random-loss", &Calibration::random_loss,
+                                    LevelFormat{Impairment::random_loss},
+                                    "up to which base is to be usable")
+                            .required());
+}
+
+/// Whether the keys of a kind stand in a table of its name, and not among those of the experiment.
+template <typename OneKind>
+inline constexpr bool has_own_table =
+    std::is_same_v<OneKind, ImpairmentGrid> || std::is_same_v<OneKind, Calibration>;
+
+constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
+{
+    using namespace std::chrono_literals;
+    return base::fields(
+        "experiment",
+        base::field("title", &Experiment::title, "names the folder's contents, with the kind"),
+        base::field("kind", &Experiment::kind, KindFormat{}, "what to find out").required(),
+        base::field("duration", &Experiment::duration, base::Time{5s, 10min},
+                    "of a session, 3 s hands off included")
+            .always(),
+        base::field("tick", &Experiment::tick, base::Time{100us, 10ms}, "of the haptic loops")
+            .always(),
+        base::field("seeds", &Experiment::seeds, base::Count{1, seeds_max},
+                    "number of seeds, each of the hands and of the network")
+            .always(),
+        base::field("first_seed", &Experiment::first_seed, base::Count{1, 1'000'000'000},
+                    "the first of them; the others follow")
+            .always(),
+        base::field("algorithms", &Experiment::algorithms, AlgorithmNames{},
+                    "built-in ones, or those of `[algorithm.NAME]`")
+            .always(),
+        base::field("tasks", &Experiment::tasks, TaskNames{}, "what the hands play").required(),
+        base::field("hands", &Experiment::hands, HandsFormat{}, "whose hands play").always());
+}
+
+/// What a text describes that names only kind and tasks.
+[[nodiscard]] Experiment usual_experiment();
+
+} // namespace hapnet::lab::experiment
