@@ -38,9 +38,9 @@ get_property(libraries GLOBAL PROPERTY HAPNET_LIBRARIES)
 get_property(programs GLOBAL PROPERTY HAPNET_PROGRAM_TARGETS)
 # Apart from the rest are toml++, which brings names of the standard library that ours would be
 # mistaken for, and hapnet-ctl, whose names are those of hapnet-emulator.
-list(REMOVE_ITEM libraries hapnet_base hapnet_emulator_control)
+list(REMOVE_ITEM libraries hapnet_base hapnet_base_document hapnet_emulator_control)
 list(REMOVE_ITEM programs hapnet-ctl)
 hapnet_tidy_unit(tidy_programs ${programs})
 hapnet_tidy_unit(tidy_libraries ${libraries})
 hapnet_tidy_unit(tidy_control hapnet_emulator_control hapnet-ctl)
-hapnet_tidy_unit(tidy_base hapnet_base)
+hapnet_tidy_unit(tidy_base hapnet_base hapnet_base_document)

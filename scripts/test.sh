@@ -71,8 +71,14 @@ check_tidy() {
     cmake --preset tidy && cmake --build --preset tidy --parallel "$(nproc)"
 }
 
+# With a list of all tests: two that run at a time must not both write it.
 build_release() {
-    cmake --build --preset release --parallel "$(nproc)"
+    cmake --build --preset release --parallel "$(nproc)" && ctest --preset release --show-only
+}
+
+# All that does not wait: see test_release().
+run_release_tests() {
+    ctest --preset release --parallel "$(nproc)" --label-exclude '^(e2e|conformance)$'
 }
 
 build_asan() {
@@ -83,10 +89,17 @@ build_asan() {
 # much of their time.
 declare -A running=()
 begin() {
-    echo "$1: begins beside what follows"
-    export -f "${2?}"
-    chrt --idle 0 bash -euo pipefail -c "$2" >"$logs/$1.begun.log" 2>&1 &
-    running[$1]=$!
+    begin_with "chrt --idle 0" "$@"
+}
+
+# begin_with "COMMAND..." NAME FUNCTION: runs it by that command beside what follows.
+begin_with() {
+    local command
+    read -ra command <<<"$1"
+    echo "$2: begins beside what follows"
+    export -f "${3?}"
+    "${command[@]}" bash -euo pipefail -c "$3" >"$logs/$2.begun.log" 2>&1 &
+    running[$2]=$!
 }
 
 # finish NAME: waits for what begin() began, and is the step of it.
@@ -101,21 +114,23 @@ show_begun() {
 }
 
 # The tests end to end wait for most of their time, so all but the programs that they start is built
-# beside them. ctest reads their folder alone: in the others there may be half a program then.
+# beside them. ctest reads their folder alone: in the others there may be half a program then. The
+# other tests wait for nothing but those of the devices, and run beside them.
 test_release() {
     step "release configure" cmake --preset release &&
         step "release programs" cmake --build --preset release --parallel "$(nproc)" \
             --target end_to_end || return
     begin release-build build_release
-    step "release e2e" ctest --test-dir build/release/tests/e2e --output-on-failure || true
+    step "release e2e" ctest --test-dir build/release/tests/e2e --parallel $((2 * $(nproc))) \
+        --output-on-failure || true
     finish release-build || return
     [[ -z $all ]] || begin asan-build build_asan
-    step "release tests" ctest --preset release --parallel "$(nproc)" \
-        --label-exclude '^(e2e|conformance)$' || true
+    begin_with "nice -n 19" release-tests run_release_tests
     # The emulated devices keep real time, and wait for most of it. One that a busy machine kept
     # waiting may try once more.
-    step "release conformance" ctest --preset release --parallel $((2 * $(nproc))) \
-        --label-regex '^conformance$' --repeat until-pass:2 || true
+    step "release conformance" ctest --test-dir build/release/tests/conformance \
+        --parallel $((2 * $(nproc))) --repeat until-pass:2 --output-on-failure || true
+    finish release-tests || true
 }
 
 # Clang's build: so the tests also see whether another compiler gives other bits.
