@@ -23,6 +23,7 @@ namespace hapnet::base {
 //     void read(const Node&, T&, Reading&) const;  complains, and leaves the target as it was
 //     std::string print(const T&) const;           TOML that reads back as the same value
 //     std::string describe() const;                for people: "a time from 0ms to 10s"
+//     std::string example() const;                 optional: an allowed value as TOML, "10ms"
 // One whose values stand in TOML without quotes has `is_bare`.
 // Whoever has values of a kind of their own writes such a struct beside them.
 
@@ -49,6 +50,7 @@ struct Time {
 
     void read(const Node& node, Duration& target, Reading& reading) const;
     [[nodiscard]] std::string print(Duration value) const { return value_text(value); }
+    [[nodiscard]] std::string example() const;
     [[nodiscard]] std::string describe() const;
 };
 
@@ -59,6 +61,7 @@ struct Share {
         read_value(node, target, reading);
     }
     [[nodiscard]] std::string print(Probability value) const { return value_text(value); }
+    [[nodiscard]] std::string example() const { return base::quoted("5%"); }
     [[nodiscard]] std::string describe() const { return "a share from 0% to 100%"; }
 };
 
@@ -70,6 +73,7 @@ struct Number {
 
     void read(const Node& node, double& target, Reading& reading) const;
     [[nodiscard]] std::string print(double value) const { return value_text(value); }
+    [[nodiscard]] std::string example() const;
     [[nodiscard]] std::string describe() const;
 };
 
@@ -84,6 +88,7 @@ struct Quantity {
     {
         return base::quoted(quantity_text(value, kind));
     }
+    [[nodiscard]] std::string example() const;
     [[nodiscard]] std::string describe() const;
 };
 
@@ -104,6 +109,7 @@ struct Count {
     {
         return fmt::format("{}", value);
     }
+    [[nodiscard]] std::string example() const;
     [[nodiscard]] std::string describe() const;
 
 private:
@@ -122,6 +128,7 @@ struct Size {
     {
         return base::quoted(size_text(value));
     }
+    [[nodiscard]] std::string example() const { return base::quoted("64KiB"); }
     [[nodiscard]] std::string describe() const { return "a size such as 1500B or 64KiB"; }
 };
 
@@ -135,6 +142,7 @@ struct BitRate {
     {
         return base::quoted(bit_rate_text(value));
     }
+    [[nodiscard]] std::string example() const { return base::quoted("10Mbit/s"); }
     [[nodiscard]] std::string describe() const { return "a rate such as 10Mbit/s"; }
 };
 
@@ -145,6 +153,7 @@ struct Text {
         read_value(node, target, reading);
     }
     [[nodiscard]] std::string print(const std::string& value) const { return base::quoted(value); }
+    [[nodiscard]] std::string example() const { return base::quoted("..."); }
     [[nodiscard]] std::string describe() const { return "a text"; }
 };
 
@@ -153,6 +162,7 @@ struct Flag {
     static constexpr bool is_bare = true;
     void read(const Node& node, bool& target, Reading& reading) const;
     [[nodiscard]] std::string print(bool value) const { return value ? "true" : "false"; }
+    [[nodiscard]] std::string example() const { return "true"; }
     [[nodiscard]] std::string describe() const { return "true or false"; }
 };
 
