@@ -27,7 +27,7 @@ std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwi
     constexpr auto names = names_of_laws(static_cast<std::variant<Laws...>*>(nullptr));
     Reading& reading = table.reading();
     std::string name;
-    const Node* node = table.require("law");
+    const Node* node = table.require("law", fmt::format("use one of {}", fmt::join(names, ", ")));
     if (node == nullptr) return otherwise;
     read_value(*node, name, reading);
     bool is_found = false;
@@ -36,6 +36,7 @@ std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwi
         is_found = true;
         Law law;
         base::read_fields(table, law);
+        table.finish(); // of an unknown law all parameters would be unknown
         if constexpr (requires { law.load(reading); }) {
             const auto loaded = reading.is_good() ? law.load(reading) : base::Result<void>{};
             if (!loaded) reading.complain(table.place(), loaded.error().message);
@@ -44,7 +45,7 @@ std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwi
     };
     (read(std::in_place_type<Laws>), ...);
     if (!is_found) {
-        reading.complain(node->place, fmt::format("unknown law {}: {}", base::quoted(name),
+        reading.complain(node->place, fmt::format("unknown law {}: {}", base::in_quotes(name),
                                                   suggestion(name, names)));
     }
     return otherwise;
@@ -73,8 +74,6 @@ Variation read_law_table(const Node& node, const Node::Table& entries, std::opti
     variation.law = read_law(table, variation.law);
     if (time != nullptr) read_value(*time, variation.correlation_time, reading);
     if (order_node != nullptr) order = read_order(*order_node, reading);
-    // After a wrong law all parameters are unknown: that would be a second complaint.
-    if (reading.is_good()) table.finish();
     return variation;
 }
 
@@ -84,7 +83,6 @@ LossLaw read_loss(const Node& node, Reading& reading)
     if (const auto* entries = std::get_if<Node::Table>(&node.value)) {
         TableReader table{*entries, node.place, reading};
         law = read_law(table, law);
-        if (reading.is_good()) table.finish();
     } else if (const auto* text = std::get_if<std::string>(&node.value);
                text != nullptr && text->find('/') != std::string::npos) {
         law = read_burst(node, reading);
@@ -131,6 +129,12 @@ Variation read_variation(const Node& node, Role role, std::optional<Order>& orde
     } else {
         base::Duration value{};
         read_value(node, value, reading);
+        if (role == Role::jitter && value < base::Duration{0}) {
+            reading.complain(node.place,
+                             fmt::format("{}: a jitter cannot be negative: {} is -{} to +{}",
+                                         base::what_it_is(node), base::to_text(-value),
+                                         base::to_text(-value), base::to_text(-value)));
+        }
         if (role == Role::delay) variation.law = ConstantLaw{value};
         if (role == Role::jitter) variation.law = UniformLaw{.half_width = value};
     }
@@ -195,7 +199,7 @@ Burst read_burst(const Node& node, Reading& reading)
             return {static_cast<std::uint32_t>(*lost), static_cast<std::uint32_t>(*of), {}};
         }
     }
-    reading.complain(node.place, fmt::format("{} is not a burst: write \"40/100\" to lose 40 in a "
+    reading.complain(node.place, fmt::format("{} is not a burst: write '40/100' to lose 40 in a "
                                              "row of every 100",
                                              base::what_it_is(node)));
     return {1, 1, {}};
