@@ -97,7 +97,8 @@ TextTable distances_table(const Agreement& agreement)
               {of_x(&Spread::mean), of_x(&Spread::min), of_x(&Spread::max), of_x(&Spread::std)}},
              {"force ||F_A| - |F_B||, N",
               {of_force(&ForceDiscrepancy::mean), "", of_force(&ForceDiscrepancy::max), ""}},
-             {"settled at the end, mm",
+             {agreement.settled_discrepancy ? "settled at the end, mm"
+                                            : "settled at the end, mm (from 6 s on)",
               {"", "", number_text(scaled(agreement.settled_discrepancy, mm), 4), ""}}}};
 }
 
@@ -111,7 +112,7 @@ TextTable touching_table(const Agreement& agreement)
             {{"touching the cube, %",
               {percent(touching.a), percent(touching.b), percent(touching.either),
                percent(touching.both)}},
-             {"scored, s", {"", "", "", number_text(base::to_seconds(agreement.scored), 3)}},
+             {"time compared, s", {"", "", "", number_text(base::to_seconds(agreement.scored), 3)}},
              {"overlap, %", {"", "", "", number_text(1e2 * agreement.overlap, 2)}}}};
 }
 

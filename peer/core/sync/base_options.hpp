@@ -102,7 +102,7 @@ constexpr auto fields_of(base::Tag<BaseOptions> /*struct*/)
                     "what the remote force acts on (A5)"),
         base::field("both_push", &BaseOptions::both_push, "who moves what both push (A6)"),
         base::field("hysteresis", &BaseOptions::hysteresis, parameter_time,
-                    "the stronger keeps the body so long, and a round trip at least (A6)"),
+                    "how long the stronger keeps the body; never less than a round trip (A6)"),
         base::field("stale", &BaseOptions::stale,
                     "messages that were overtaken, and duplicates (A7)"),
         base::field("let_go_after", &BaseOptions::let_go_after, parameter_time,

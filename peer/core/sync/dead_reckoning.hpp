@@ -70,12 +70,13 @@ constexpr auto fields_of(base::Tag<DeadReckoningOptions> /*struct*/)
                     "a new prediction takes over from the last")
             .absent_as("none"),
         base::field("ahead_max", &Options::ahead_max, parameter_time,
-                    "of a prediction, from the sending")
+                    "longest prediction, counted from sending")
             .absent_as("none"),
         base::field("speed_max", &Options::speed_max_m_per_s,
-                    base::Quantity{base::speed_kind, 0.0, 1000.0}, "of the estimated velocity"),
+                    base::Quantity{base::speed_kind, 0.0, 1000.0},
+                    "limit of the estimated velocity"),
         base::field("lead_max", &Options::lead_max_m, base::Quantity{base::length_kind, 0.0, 100.0},
-                    "of the prediction before the message's place"),
+                    "farthest a prediction may lie from the received place"),
         base::field("gap_max", &Options::gap_max, parameter_time,
                     "across a longer one there is no velocity"),
         base::part(&Options::base));
