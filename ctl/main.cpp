@@ -56,7 +56,7 @@ int print(const std::string& line, const Options& options, WatchPrinter& watch)
     } else if (options.command == "watch") {
         fmt::print("{}", watch.next(reply));
     } else {
-        fmt::print("{}", in_words(options.command, reply));
+        fmt::print("{}", in_words(options, reply));
     }
     net::require_stdout();
     return code;

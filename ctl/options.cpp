@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "ctl/options.hpp"
 
+#include "proto/base/quantity.hpp"
 #include "proto/cli/command.hpp"
 
+#include <chrono>
+#include <iterator>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::ctl {
@@ -14,11 +17,14 @@ constexpr const char* description =
     "Shows the state of a running hapnet-emulator or hapnet-peer, changes an emulator, and stops "
     "a peer.";
 
+constexpr base::Duration longest{std::chrono::hours{24}}; // of what the control socket takes
+
 constexpr const char* footer =
     R"(SOCKET is the path that the program was given as --control. Without it $HAPNET_SOCKET counts.
 
-Keys are those of a profile: up.delay holds from A to B, down.delay from B to A, both.delay both
-ways. Times need a unit (ns us ms s min), shares a %. A change takes effect between two datagrams;
+Keys are those of a profile: up.delay holds from A to B, down.delay from B to A, both.delay or plain
+delay both ways. Times need a unit (ns us ms s min h), shares a %. A change takes effect between two
+datagrams;
 the answer names the first datagram of each direction that it holds for. A setting holds until the
 timeline of the profile changes the same key. With --for it ends by itself, even if hapnet-ctl is
 gone by then.
@@ -39,6 +45,18 @@ Examples:
   export HAPNET_SOCKET=/tmp/peer.sock; hapnet-ctl watch
   hapnet-ctl /tmp/peer.sock stop)";
 
+constexpr const char* set_footer =
+    R"(A key is up.NAME (from A to B), down.NAME (from B to A), or both.NAME or NAME (both ways). NAME is
+one of mtu, rate, loss, burst_loss, corrupt, duplicate, delay, jitter, order and reorder; burst_loss
+may be written burst-loss. KEY=VALUE is the same as KEY VALUE. Units are mandatory, without a space:
+ns us ms s min h for times, % for shares, B KiB for sizes, kbit/s Mbit/s for rates. A law is written
+as a table, as in a profile.
+
+Examples:
+  hapnet-ctl /tmp/emulator.sock set both.delay 80ms down.loss=1%
+  hapnet-ctl /tmp/emulator.sock set up.loss '{ law = "every", every = 100 }'
+  hapnet-ctl /tmp/emulator.sock set up.loss 100% --for 30s)";
+
 constexpr const char* exit_codes = R"(  0  done
   1  the condition was not met in time, or the program ended
   2  bad usage, or refused by the program
@@ -50,15 +68,32 @@ using Words = std::vector<std::string>;
 base::Result<void> take_settings(const Words& words, Options& options)
 {
     for (auto word = words.begin(); word != words.end(); ++word) {
-        if (const auto sign = word->find('='); sign != std::string::npos && sign > 0) {
-            options.settings.emplace_back(word->substr(0, sign), word->substr(sign + 1));
+        const std::string& key = *word;
+        if (!options.settings.empty() && base::is_unit(key)) {
+            const auto& [last, number] = options.settings.back();
+            return base::fail(fmt::format(
+                "'{0}' is not a setting: write {1} {2}{0}, without a space", key, last, number));
+        }
+        const auto sign = key.find('=');
+        if (sign != std::string::npos && sign > 0 && sign + 1 < key.size()) {
+            options.settings.emplace_back(key.substr(0, sign), key.substr(sign + 1));
             continue;
         }
-        const std::string& key = *word;
-        if (++word == words.end()) {
-            return base::fail(fmt::format("'{0}' has no value: write set {0} VALUE", key));
+        const bool is_open = sign != std::string::npos && sign > 0; // "up.delay="
+        const auto next = std::next(word);
+        if (next != words.end() && (is_open || next->starts_with('='))) {
+            const auto value = *next == "=" && std::next(next) != words.end() ? *std::next(next)
+                               : next->starts_with('=')                       ? next->substr(1)
+                                                                              : *next;
+            return base::fail(fmt::format("write {}={}, without a space", key.substr(0, sign),
+                                          value.empty() ? "VALUE" : value));
         }
-        options.settings.emplace_back(key, *word);
+        if (is_open || next == words.end()) {
+            return base::fail(
+                fmt::format("'{}' has no value: write set {} VALUE", key, key.substr(0, sign)));
+        }
+        options.settings.emplace_back(key, *next);
+        word = next;
     }
     return {};
 }
@@ -73,7 +108,8 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
         .repeated()
         .required("both.delay 80ms");
     set.option("--for", "TIME", "Hold for this time, then return to what holds without it",
-               cli::into(options.lasting, base::Time{}));
+               cli::into(options.lasting, base::Time{std::chrono::milliseconds{1}, longest}));
+    set.add_footer(set_footer);
     cli::Command& apply = program.command("apply", "Replaces the profile of an emulator; its "
                                                    "timeline starts now");
     cli::Command& diff = program.command("diff", "Prints what apply would change");
@@ -81,18 +117,19 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
         command->positional("FILE", "A profile; - reads it from stdin", cli::into(options.file))
             .required("now.toml");
     }
-    program.command("reset", "Returns an emulator to the profile that it was started with");
+    program.command("reset", "Undoes every set and apply of an emulator: back to the profile "
+                             "that it was started with, at the present position of its timeline");
     program.command("stats", "Prints the statistics, as --stats of the program writes them");
     cli::Command& watch = program.command("watch", "Prints the main figures until Ctrl-C: in place "
                                                    "on a terminal, otherwise a line each time");
     watch.option("--every", "TIME", "The interval, at least 50ms (default 500ms)",
-                 cli::into(options.every, base::Time{}));
+                 cli::into(options.every, base::Time{std::chrono::milliseconds{50}, longest}));
     cli::Command& wait = program.command("wait", "Waits until a condition holds");
     wait.option("--until", "CONDITION", "A key of stats, one of < <= == != >= > and a number",
                 cli::into(options.until))
         .required("'up.received>1000'");
     wait.option("--timeout", "TIME", "Give up after this time, with exit code 1",
-                cli::into(options.timeout, base::Time{}));
+                cli::into(options.timeout, base::Time{base::Duration{0}, longest}));
     program.command("stop", "Ends the session of a peer with zero force, as SIGTERM does; "
                             "statistics are written");
 }
@@ -108,10 +145,8 @@ net::CommandLine<Options> parse_options(std::span<char*> words, const char* defa
     program.add_footer(footer);
     program.add_exit_codes(exit_codes);
     program.require_command();
-    program
-        .positional("SOCKET", "The path that the program was given as --control",
-                    cli::into(options.socket))
-        .required("/tmp/emulator.sock");
+    program.positional("SOCKET", "The path that the program was given as --control",
+                       cli::into(options.socket));
     program.option("-s,--socket", "SOCKET", "The same (default: $HAPNET_SOCKET)", cli::into(named));
     program.flag("--json", "Print the program's answer as it comes, for scripts", options.as_json);
     add_commands(program, options, settings);

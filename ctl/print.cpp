@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "ctl/print.hpp"
 
+#include "proto/base/text.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <spdlog/fmt/fmt.h>
@@ -55,10 +57,10 @@ std::string peer_text(const Json& reply)
     std::string text = fmt::format("hapnet-peer {}: {} ({}), {} s since its start\n",
                                    text_at(reply, "/peer_id"), text_at(reply, "/says"),
                                    text_at(reply, "/state"), text_at(reply, "/elapsed_s"));
-    text += fmt::format("task {}, scene {}, algorithm {}, seed {}, {} s, at most {} N\n",
-                        text_at(reply, "/task"), text_at(reply, "/scene"),
-                        text_at(reply, "/algorithm"), text_at(reply, "/seed"),
-                        text_at(reply, "/duration_s"), text_at(reply, "/force_limit_n"));
+    text += fmt::format(
+        "task {}, scene {}, algorithm {}, seed {}, session {} s, force limit {} N\n",
+        text_at(reply, "/task"), text_at(reply, "/scene"), text_at(reply, "/algorithm"),
+        text_at(reply, "/seed"), text_at(reply, "/duration_s"), text_at(reply, "/force_limit_n"));
     if (at(reply, "/session").is_object()) {
         text += fmt::format("session {} as {}, at {} s\n", text_at(reply, "/session/number"),
                             text_at(reply, "/session/role"), text_at(reply, "/session/at_s"));
@@ -98,16 +100,19 @@ std::string diff_text(const Json& reply)
                             text_at(one, "/to"));
     }
     if (at(reply, "/is_other_timeline") == true) {
-        text += fmt::format("timeline: steps to come: {} -> {}, counted from apply\n",
-                            text_at(reply, "/timeline/from"), text_at(reply, "/timeline/to"));
+        const double now = number_at(reply, "/timeline/from");
+        text += fmt::format("timeline: {} step{} to come, {} after apply (counted from that "
+                            "moment)\n",
+                            now, now == 1.0 ? "" : "s", text_at(reply, "/timeline/to"));
     }
     return text.empty() ? "nothing would change\n" : text;
 }
 
 } // namespace
 
-std::string in_words(const std::string& command, const Json& reply)
+std::string in_words(const Options& options, const Json& reply)
 {
+    const std::string& command = options.command;
     if (command == "show") return state_text(reply);
     if (command == "diff") return diff_text(reply);
     if (command == "stats") {
@@ -117,14 +122,23 @@ std::string in_words(const std::string& command, const Json& reply)
     }
     if (command == "stop") return "the peer ends with zero force\n";
     if (command == "wait") {
-        return fmt::format("{}: {} after {} s\n", text_at(reply, "/until"),
-                           at(reply, "/met") == true ? "met" : "not met",
-                           text_at(reply, "/elapsed_s"));
+        const auto until = text_at(reply, "/until");
+        const double elapsed_s = number_at(reply, "/elapsed_s");
+        if (at(reply, "/met") == true) {
+            return fmt::format("{}: met {:.2f} s after the start\n", until, elapsed_s);
+        }
+        return fmt::format("{}: not met{} ({:.2f} s after the start)\n", until,
+                           options.timeout ? " within " + base::to_text(*options.timeout) : "",
+                           elapsed_s);
     }
-    return fmt::format(
-        "generation {} holds from datagram {} up and {} down, {} s after the start\n",
-        text_at(reply, "/generation"), text_at(reply, "/effective_at/up"),
-        text_at(reply, "/effective_at/down"), text_at(reply, "/elapsed_s"));
+    if (at(reply, "/changed") == false) {
+        return fmt::format("nothing changed: generation {} still holds\n",
+                           text_at(reply, "/generation"));
+    }
+    return fmt::format("generation {} holds from datagram {} up (A to B) and datagram {} down (B "
+                       "to A), {:.2f} s after the start\n",
+                       text_at(reply, "/generation"), text_at(reply, "/effective_at/up"),
+                       text_at(reply, "/effective_at/down"), number_at(reply, "/elapsed_s"));
 }
 
 std::string WatchPrinter::next(const Json& reply)

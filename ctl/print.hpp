@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "ctl/options.hpp"
+
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -12,7 +14,7 @@ namespace hapnet::ctl {
 // not send is shown as "-".
 
 /// The answer to `command`, except those to watch.
-[[nodiscard]] std::string in_words(const std::string& command, const nlohmann::ordered_json& reply);
+[[nodiscard]] std::string in_words(const Options& options, const nlohmann::ordered_json& reply);
 
 /// The lines of a watch, with rates since the line before.
 class WatchPrinter {

@@ -16,7 +16,8 @@ std::string_view describe(Fault fault)
     switch (fault) {
     case Fault::none: return "";
     case Fault::not_found:
-        return "no such device: check its cable and power, and see hapnet-peer list-devices";
+        return "no such device: check its cable and power; hapnet-peer list-devices shows what is "
+               "connected";
     case Fault::permission:
         return "no permission to use the device: install the udev rules (hapnet-peer doctor says "
                "how), then unplug it and plug it in again";
@@ -24,7 +25,7 @@ std::string_view describe(Fault fault)
     case Fault::firmware_missing:
         return "the device needs firmware from its vendor: give it as a file";
     case Fault::library_missing:
-        return "the device needs its vendor's library: install it, or say where it is";
+        return "the device needs its vendor's library: install it, or name it with --hd-library";
     case Fault::communication:
         return "the device sent data that makes no sense: check its cable, and use no hub";
     case Fault::timeout: return "the device does not answer: check its cable and power";

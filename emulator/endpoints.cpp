@@ -21,10 +21,9 @@ base::Result<Side> look_up_side(const char* name, const net::HostPort& listen,
     Side side{net::resolve(listen), std::nullopt};
     if (!peer) {
         if (side.listen.is_loopback()) return side;
-        return base::fail(
-            fmt::format("--listen-{0} {1} can be reached from other machines: say who "
-                        "may use it with --{0} HOST:PORT",
-                        name, side.listen.to_text()));
+        return base::fail(fmt::format("--listen-{0} {1} can be reached from other machines: name "
+                                      "the one sender that may use it: --{0} HOST:PORT",
+                                      name, side.listen.to_text()));
     }
     side.peer = net::resolve(*peer, side.listen.family());
     if (side.listen.is_loopback() && !side.peer->is_loopback()) {
@@ -37,19 +36,12 @@ base::Result<Side> look_up_side(const char* name, const net::HostPort& listen,
     return side;
 }
 
-/// Whether what is sent to `peer` arrives where the emulator itself listens.
-bool is_own(const net::Endpoint& peer, const net::Endpoint& listen)
-{
-    return peer == listen || (listen.is_any() && peer.is_loopback() &&
-                              peer.port() == listen.port() && peer.family() == listen.family());
-}
-
 /// A datagram that is sent to the emulator itself would go round for ever.
 base::Result<Endpoints> without_loop(Endpoints endpoints)
 {
     for (const auto& [name, peer] : {std::pair{"a", endpoints.a}, std::pair{"b", endpoints.b}}) {
         for (const auto& listen : {endpoints.listen_a, endpoints.listen_b}) {
-            if (!peer || !is_own(*peer, listen)) continue;
+            if (!peer || !peer->reaches(listen)) continue;
             return base::fail(fmt::format("--{} {} is where the emulator itself listens: name the "
                                           "other program's address",
                                           name, peer->to_text()));

@@ -21,22 +21,22 @@ namespace {
 
 constexpr const char* description =
     "A UDP relay between two hosts, A and B. It delays, drops, duplicates, corrupts, reorders and "
-    "rate-limits datagrams; the same seed repeats a run exactly. What arrives at listen-a from A "
+    "rate-limits datagrams; the same seed draws the same fates. What arrives at listen-a from A "
     "leaves from listen-b for B, and the other way round. No root is needed.\n"
     "\n"
     "Without --a and --b the emulator takes the first sender on each side, on loopback only. When "
     "that sender has been silent for 1 s, another one may take its place.";
 
 constexpr const char* footer =
-    R"(Units are mandatory: ns us ms s min for times, % for shares, B KiB for sizes, kbit/s Mbit/s
+    R"(Units are mandatory: ns us ms s min h for times, % for shares, B KiB for sizes, kbit/s Mbit/s
 for rates; a bare 0 is zero. Each condition holds both ways. --up.delay 20ms or --down.loss 5% holds
 one way only (up: A to B, down: B to A) and wins over the plain one. Each takes whatever a profile
 takes, such as --loss '{ law = "gilbert", share = "2%", mean_burst = 5.0 }'. Conditions given here
 win over those of --profile or --netem.
 
 Datagrams pass mtu, rate, loss, corrupt, duplicate, delay, jitter, order and reorder, in this order.
-With the same seed the same datagrams are lost in every run, whatever the other settings. No
-datagram leaves before it has arrived.
+With the same seed the same datagrams are lost in every run, whatever the other settings, unless the
+law depends on time. No datagram leaves before it has arrived.
 
 Examples:
   hapnet-emulator --listen-a :7001 --listen-b :7002 --delay 160ms
@@ -91,8 +91,8 @@ constexpr const char* verify_description =
 constexpr const char* verify_footer =
     R"(RUN is the file that --stats wrote in a run with --fates, the file that --fates wrote, with
 --profile, or a folder with fates.csv and profile.toml. A test fails when a run that follows its
-profile would look like this one time in a million. A test is called unable where the datagrams are
-too few, or where fates cannot tell.
+profile would look like this one time in a million. A test cannot tell ("unable" in JSON) where the
+datagrams are too few, or where fates do not show it.
 
 Examples:
   hapnet-emulator verify run.json
@@ -215,8 +215,8 @@ void add_run_options(cli::Command& program, Options& options)
                    "as much as this machine needs, and watch the clock. spin: wake 200 us before",
                    cli::into(options.timing, parse_timing));
     program.option("--budget", "TIME",
-                   "The run is valid when 99 % of the datagrams leave at most this late (default "
-                   "1ms)",
+                   "The run is valid when 99 % of the datagrams in each direction leave at most "
+                   "this late (default 1ms)",
                    cli::into(options.budget, base::Time{}));
     program.option("--duration", "TIME", "End after this time (default: run until stopped)",
                    cli::into(options.duration, base::Time{}));
@@ -273,8 +273,8 @@ void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools
     command.option("--profile", "FILE|NAME", "", cli::into(conditions_from.profile)).hidden();
     command
         .option("--rate", "RATE",
-                "Datagrams a second, each way (default 1000); with a unit, as in 10Mbit/s, the "
-                "condition: a limit of the bit rate",
+                "Datagrams a second, each way (default 1000). With a unit, as in 10Mbit/s, a limit "
+                "of the bit rate (as the emulator's --rate)",
                 stream_rate(stream, conditions_from))
         .repeated();
     command.option("--bytes", "NUMBER", "Payload of each datagram (default 144)",

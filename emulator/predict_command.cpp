@@ -110,9 +110,13 @@ std::string in_words(std::string_view title, const tools::DirectionPrediction& o
                         in_words(measured.delay), in_ms(of.added_by_queues));
     text += fmt::format("             {}\n", in_words(measured.delay_quantiles));
     text += fmt::format("  variation  {} (IPDV)\n", in_words(measured.delay_variation));
-    text += fmt::format("  reordered  {:.4g} %, by {:.3g} places on average, {} at most\n",
-                        100.0 * share_of(measured.reordered, of),
+    text += fmt::format("  reordered  {:.4g} %", 100.0 * share_of(measured.reordered, of));
+    if (measured.reordered > 0) {
+        text +=
+            fmt::format(", by {:.3g} places on average, {} at most",
                         measured.reorder_extent_mean.value_or(0.0), measured.reorder_extent_max);
+    }
+    text += "\n";
     text += fmt::format("  clumped    {:.4g} % of the gaps are below 50 us\n",
                         100.0 * measured.clumped_share.value_or(0.0));
     for (const auto& warning : warnings(conditions, stream, of)) {

@@ -115,6 +115,16 @@ std::string in_words(const Moments& moments)
                        in_ms(moments.sd.value_or(base::Duration{0})));
 }
 
+/// Whether the emulator was punctual enough for a measurement.
+std::string verdict(const Statistics& s, base::Duration p99, base::Duration budget)
+{
+    constexpr std::uint64_t judged_min = 100; // of fewer, p99 is the one that was latest
+    if (s.lateness.count() < judged_min) return "too few datagrams to judge";
+    if (s.is_valid(budget)) return "valid";
+    return fmt::format("NOT VALID: p99 {:.0f} us is above the budget of {:.0f} us",
+                       Microseconds{p99}.count(), Microseconds{budget}.count());
+}
+
 /// What is missing in the files that were asked for.
 std::string incomplete(const Recorder& recorder)
 {
@@ -144,11 +154,11 @@ std::string in_words(const char* title, const ports::Relay::Side& side, base::Du
         text += fmt::format(", {} overflowed", overflowed);
     }
     if (const auto p99 = s.lateness.quantile(0.99)) {
-        text += fmt::format("; left late by {:.0f} us median, {:.0f} us p99, {:.0f} us at most",
-                            Microseconds{*s.lateness.quantile(0.5)}.count(),
-                            Microseconds{*p99}.count(), Microseconds{*s.lateness.max()}.count());
+        text +=
+            fmt::format("; lateness {:.0f} us median, {:.0f} us p99, {:.0f} us at most: {}",
+                        Microseconds{*s.lateness.quantile(0.5)}.count(), Microseconds{*p99}.count(),
+                        Microseconds{*s.lateness.max()}.count(), verdict(s, *p99, budget));
     }
-    if (!s.is_valid(budget)) text += "; NOT VALID: p99 exceeds the budget";
     const StreamReport measured = side.link.stream_statistics().report();
     if (measured.requested_delay && measured.delay) {
         text += fmt::format("; delay {} as drawn, {} as it came out",

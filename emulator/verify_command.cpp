@@ -97,8 +97,8 @@ base::Result<Evidence> evidence_of_statistics(const VerifyOptions& request, cons
                           "datagram to the last can be verified");
     }
     if (const auto replayed = text_at("replay"); !replayed.empty() && !request.profile) {
-        return base::fail(fmt::format("{} is of a run whose fates were replayed from {}: say with "
-                                      "--profile what they are to follow",
+        return base::fail(fmt::format("{} is of a run whose fates were replayed from {}: name the "
+                                      "profile that they are to follow with --profile",
                                       path, replayed));
     }
     const auto beside = path_beside(std::filesystem::path{fates}.filename().string(), path);

@@ -37,10 +37,15 @@ base::Result<Endpoints> look_up(const Options& options)
 {
     const net::Endpoint listen = net::resolve(options.listen);
     const Endpoints endpoints{listen, net::resolve(options.remote, listen.family())};
+    if (endpoints.remote.reaches(endpoints.listen)) {
+        return base::fail(fmt::format("--remote {} is where this peer itself listens: name the "
+                                      "other peer's address, or the emulator's",
+                                      endpoints.remote.to_text()));
+    }
     if (!options.insecure && !(endpoints.remote.is_loopback() && endpoints.listen.is_loopback())) {
         return base::fail(
-            "forces from a network need a key, and keys are not available yet: on a network you "
-            "trust say --insecure, otherwise keep --listen and --remote on loopback");
+            "forces from a network need a key, and keys are not available yet: on a network that "
+            "you trust use --insecure, otherwise keep --listen and --remote on loopback");
     }
     net::require_route(endpoints.remote);
     return endpoints;
@@ -117,8 +122,7 @@ int conclude(const monitor::Run& run, const device::Governor& governor,
 {
     net::tell(summary(run));
     if (const auto reason = run.status.refusal) {
-        say(fmt::format("refused: the other peer cannot play with this one: {}",
-                        monitor::describe(*reason)));
+        say(fmt::format("refused: the two peers do not match: {}", monitor::describe(*reason)));
         return net::exit_failed;
     }
     if (const std::string fault = monitor::fault_at_the_end(governor); !fault.empty()) {

@@ -13,7 +13,8 @@ std::string_view what_happened(const Latched& latched)
     case Trip::jump:
         return "its position jumped: check the cable, and calibrate again if the positions are off";
     case Trip::nonsense:
-        return "the device reports positions that are no numbers: check its cable, and start again";
+        return "the device reports positions that are not numbers: check its cable, and start "
+               "again";
     case Trip::none:
     case Trip::device:
     case Trip::silence:

@@ -47,8 +47,9 @@ glm::dvec3 read_torque(const base::Node& node, base::Reading& reading)
         const double size = std::abs(torque[joint]);
         if (size >= least_nm_per_count && size <= most_nm_per_count) return;
         reading.complain(value.place,
-                         fmt::format("{} is no torque of a count: {:g} to {:g} N m is possible, "
-                                     "with either sign",
+                         fmt::format("{}: {} is not a torque: give the measured one, {:g} to {:g} "
+                                     "N m per count, with its sign",
+                                     joint_names[static_cast<std::size_t>(joint)],
                                      base::what_it_is(value), least_nm_per_count,
                                      most_nm_per_count));
     });
@@ -64,7 +65,7 @@ omni::Joints read_inkwell(const base::Node& node, base::Reading& reading)
             [](std::string_view text) { return base::parse_quantity(text, base::angle_kind); },
             reading);
         if (std::abs(joints.angles[joint]) <= inkwell_angle_max) return;
-        reading.complain(value.place, fmt::format("{} is no angle in the inkwell: -{}rad to {}rad",
+        reading.complain(value.place, fmt::format("{} is out of range: use -{}rad to {}rad",
                                                   base::what_it_is(value), inkwell_angle_max,
                                                   inkwell_angle_max));
     });

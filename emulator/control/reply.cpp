@@ -47,14 +47,16 @@ base::Result<Profile> profile_of(const ProfileText& text, const Emulation& emula
 std::string effect_of(const Command& command, Emulation& emulation, base::TimePoint now)
 {
     EmulatedPath& path = emulation.path;
+    const auto generation = path.director().generation();
     if (const auto done = path.apply(command, now); !done) return refusal(done.error().message);
     const auto next = [&](Direction direction) {
         return path.link(direction).statistics().received;
     };
     return line_of(
         Json{{"ok", true},
-             {"generation", emulation.path.director().generation()},
-             {"elapsed_s", base::to_seconds(emulation.path.director().elapsed())},
+             {"generation", path.director().generation()},
+             {"changed", path.director().generation() != generation},
+             {"elapsed_s", base::to_seconds(path.director().elapsed())},
              {"effective_at_ns", now.time_since_epoch().count()},
              {"effective_at", {{"up", next(Direction::up)}, {"down", next(Direction::down)}}}});
 }

@@ -26,7 +26,7 @@ std::vector<SettingText> settings_of(Members& members)
     }
     for (const auto& [name, text] : value->items()) {
         if (!text.is_string()) {
-            members.fail(fmt::format("the value of \"{}\" must be a text in quotes", name));
+            members.fail(fmt::format("the value of \"{}\" must be a string", name));
             break;
         }
         settings.emplace_back(name, text.get<std::string>());

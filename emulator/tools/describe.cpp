@@ -4,6 +4,7 @@
 
 #include "emulator/core/delay/theory.hpp"
 #include "emulator/core/loss/loss.hpp"
+#include "emulator/core/slab.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
@@ -174,8 +175,9 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
                                    stream.bytes, at_rate, load_of(conditions, stream) / 1e6));
     }
     if (prediction.statistics.dropped_by(DropCause::queue_full) > 0) {
-        list.push_back("more is in flight than the emulator holds: what is over is dropped as "
-                       "queue_full");
+        list.push_back(fmt::format("more would be in flight than the emulator holds ({} datagrams, "
+                                   "fewer large ones): the rest is dropped as queue_full",
+                                   QueueLimits{}.datagrams_max));
     }
     return list;
 }

@@ -3,6 +3,7 @@
 #include "emulator/tools/netem.hpp"
 
 #include "emulator/tools/netem_words.hpp"
+#include "proto/base/reading.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
@@ -203,7 +204,9 @@ void read_option(NetemWords& words, NetemSettings& said)
         {"delay", read_delay},
         {"latency", read_delay},
         {"distribution",
-         [](NetemWords& from, NetemSettings& to) { to.distribution = from.take(); }},
+         [](NetemWords& from, NetemSettings& to) {
+             to.distribution = from.take("normal, pareto or uniform");
+         }},
         {"loss", read_loss},
         {"drop", read_loss},
         {"duplicate", read_duplicate},
@@ -215,17 +218,18 @@ void read_option(NetemWords& words, NetemSettings& said)
         {"seed",
          [](NetemWords& from, NetemSettings& to) { to.seed = base::Seed{from.count(most)}; }},
     }};
-    const auto word = words.take();
+    const auto word = words.take("an option");
     const auto option = std::find_if(options.begin(), options.end(),
                                      [&](const Option& one) { return one.name == word; });
     if (option != options.end()) return option->read(words, said);
     if (word == "ecn" || word == "slot") {
-        return words.complain(fmt::format("'{}' is not possible here", word));
+        return words.complain(fmt::format("netem's {} cannot be emulated: leave it out", word));
     }
-    words.complain(fmt::format("'{}' is not an option of netem that is known here: delay, "
-                               "distribution, loss, duplicate, corrupt, reorder, gap, rate, limit, "
-                               "seed",
-                               word));
+    static constexpr std::array<std::string_view, 10> usual{
+        "delay",   "distribution", "loss", "duplicate", "corrupt",
+        "reorder", "gap",          "rate", "limit",     "seed"};
+    words.complain(
+        fmt::format("unknown netem option '{}': {}", word, base::suggestion(word, usual)));
 }
 
 /// The jitter, and the delay that goes with it.
@@ -297,8 +301,9 @@ void put_order(const NetemSettings& said, Conditions& conditions,
         return;
     }
     conditions.order = Order::free;
-    warnings.emplace_back("jitter reorders in netem, also with a pfifo below it (order = free); "
-                          "order = keep with a correlation_time is what most paths do");
+    warnings.emplace_back("netem's jitter reorders, also with a pfifo below it, so order = "
+                          "\"free\" is set; most real paths do not reorder: for those use "
+                          "order = \"keep\" with a correlation_time");
 }
 
 void put_reorder(NetemWords& words, NetemSettings& said, Conditions& conditions)
@@ -341,7 +346,7 @@ base::Result<NetemProfile> parse_netem(std::string_view sentence)
 {
     NetemWords words{sentence};
     if (words.at_end())
-        return base::fail("nothing is said: write delay 80ms loss 1%, for instance");
+        return base::fail("the sentence is empty: write, for example, \"delay 80ms loss 1%\"");
     NetemSettings said;
     while (!words.at_end() && !words.complaint()) read_option(words, said);
     NetemProfile profile;

@@ -98,10 +98,13 @@ NetemWords::NetemWords(std::string_view sentence)
     if (netem != words_.end()) next_ = static_cast<std::size_t>(netem - words_.begin()) + 1;
 }
 
-std::string NetemWords::take()
+std::string NetemWords::take(std::string_view expected)
 {
     if (at_end()) {
-        complain("the sentence ends too early");
+        if (!complaint_ && next_ > 0) {
+            complaint_ =
+                fmt::format("after word {}, '{}': expected {}", next_, words_[next_ - 1], expected);
+        }
         return {};
     }
     return words_[next_++];
@@ -117,7 +120,7 @@ bool NetemWords::take_if(std::string_view word)
 base::Duration NetemWords::time()
 {
     constexpr double longest = 1e15; // 10^6 s, as everywhere
-    const auto word = take();
+    const auto word = take("a time, such as 80ms");
     auto quantity = split(word);
     if (quantity && quantity->unit.empty()) {
         quantity->unit = "us";
@@ -133,7 +136,7 @@ base::Duration NetemWords::time()
 
 base::Probability NetemWords::share()
 {
-    auto word = take();
+    auto word = take("a share, such as 1%");
     if (!word.ends_with('%')) word += '%'; // to tc a bare number is per cent
     const auto share = base::parse_probability(word);
     if (!share) complain(share.error().message);
@@ -142,7 +145,7 @@ base::Probability NetemWords::share()
 
 std::uint64_t NetemWords::count(std::uint64_t most)
 {
-    const auto number = base::parse_count(take(), most);
+    const auto number = base::parse_count(take("a whole number"), most);
     if (!number) complain(number.error().message);
     return number.value_or(0);
 }
@@ -150,7 +153,7 @@ std::uint64_t NetemWords::count(std::uint64_t most)
 std::uint64_t NetemWords::bits_per_second()
 {
     constexpr double fastest = 1e12;
-    const auto word = take();
+    const auto word = take("a rate, such as 10mbit");
     const auto quantity = split(word);
     const auto bits = quantity ? in_units(*quantity, rate_units) : std::nullopt;
     if (!bits || *bits > fastest || *bits < 1.0) {
@@ -173,7 +176,7 @@ std::optional<base::Probability> NetemWords::optional_share()
 std::optional<std::int64_t> NetemWords::optional_integer()
 {
     if (!is_number_next()) return std::nullopt;
-    const auto word = take();
+    const auto word = take("a whole number");
     std::int64_t value = 0;
     const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc{} || rest != word.data() + word.size()) {

@@ -21,7 +21,8 @@ public:
     explicit NetemWords(std::string_view sentence);
 
     [[nodiscard]] bool at_end() const { return next_ == words_.size(); }
-    [[nodiscard]] std::string take();
+    /// `expected` is what a sentence that ends here lacks: "a time, such as 80ms".
+    [[nodiscard]] std::string take(std::string_view expected);
     /// Takes the next word if it is this one.
     [[nodiscard]] bool take_if(std::string_view word);
 

@@ -8,12 +8,18 @@
 #include "lab/results/demo.hpp"
 #include "proto/net/result_file.hpp"
 
+#include <filesystem>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab {
 
 base::Result<bool> conclude_demo(const DemoReportCommand& command)
 {
+    for (const char* name : {"/p1/analysis.json", "/t3/analysis.json"}) {
+        if (std::filesystem::exists(command.folder + name)) continue;
+        return base::fail(fmt::format("{0} is not a folder of scripts/demo.sh: {0}{1} is missing",
+                                      command.folder, name));
+    }
     auto p1 = read_session_files(command.folder + "/p1");
     if (!p1) return tl::unexpected{p1.error()};
     auto t3 = read_session_files(command.folder + "/t3");

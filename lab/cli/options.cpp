@@ -40,6 +40,20 @@ constexpr const char* exit_codes = R"(  0  done
   2  bad usage or input
   3  the system refused (no permission, disk full))";
 
+constexpr const char* exit_codes_without_run = R"(  0  done
+  2  bad usage or input
+  3  the system refused (no permission, disk full))";
+
+constexpr const char* demo_exit_codes = R"(  0  done
+  1  the session is outside the bands
+  2  bad usage or input
+  3  the system refused (no permission, disk full))";
+
+constexpr const char* replay_exit_codes = R"(  0  the forces are the recorded ones
+  1  the forces differ from the recorded ones
+  2  bad usage or input
+  3  the system refused (no permission, disk full))";
+
 /// The names of what is built in: "paper, lift, wall".
 template <typename BuiltIn>
 std::string names_of(std::span<const BuiltIn> all)
@@ -55,6 +69,7 @@ void add_analyse(cli::Command& command, AnalyseCommand& analyse)
     command.describe("Compares the records of both peers of one session: how far apart their cubes "
                      "and forces were, what the network did, and whether the run is valid. An "
                      "invalid run is reported; the exit code stays 0.");
+    command.add_exit_codes(exit_codes_without_run);
     command.positional("RECORD_A", "The record of one peer", cli::into(analyse.record_a))
         .required("a.rec b.rec");
     command.positional("RECORD_B", "The record of the other", cli::into(analyse.record_b))
@@ -73,6 +88,7 @@ void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
 {
     command.describe("Prints the rows of a record as CSV. Times count from the start of its "
                      "session.");
+    command.add_exit_codes(exit_codes_without_run);
     command.positional("RECORD", "The record of one peer", cli::into(exported.record))
         .required("a.rec");
     command.flag("--csv", "As CSV: the only format, and the default", as_csv);
@@ -100,6 +116,7 @@ void add_demo_report(cli::Command& command, DemoReportCommand& demo)
                      "the bands.");
     command.positional("DIR", "The folder of scripts/demo.sh", cli::into(demo.folder))
         .required("results/demo");
+    command.add_exit_codes(demo_exit_codes);
     add_circumstances(command, demo);
 }
 
@@ -110,6 +127,7 @@ void add_report(cli::Command& command, ReportCommand& report)
         "the results of its experiments beside the paper, of the demo, or of a "
         "recorded session. Of two records: their session; the page is written beside "
         "the first.");
+    command.add_exit_codes(exit_codes_without_run);
     command
         .positional("DIR|RECORD_A",
                     "A folder of results or of such folders; or the record of one peer",
@@ -121,8 +139,8 @@ void add_report(cli::Command& command, ReportCommand& report)
 void add_replay(cli::Command& command, ReplayCommand& replay)
 {
     command.describe("Replays one recorded peer in virtual time, with the messages it received and "
-                     "the hand it had, and compares the forces. Exit code 1: they differ from the "
-                     "recorded ones. A record that was cut off is replayed as far as it goes, with "
+                     "the hand it had, and compares the forces. A record that was cut off is "
+                     "replayed as far as it goes, with "
                      "a note.");
     command.positional("RECORD", "The record of one peer", cli::into(replay.record))
         .required("a.rec");
@@ -133,6 +151,7 @@ void add_replay(cli::Command& command, ReplayCommand& replay)
                    }));
     command.flag("--json", "Print one JSON object instead of lines", replay.json);
     command.flag("--csv", "Print the recorded and replayed forces of every tick", replay.csv);
+    command.add_exit_codes(replay_exit_codes);
 }
 
 void add_real_time(cli::Command& command, RealTimeCommand& real_time)
@@ -143,13 +162,15 @@ void add_real_time(cli::Command& command, RealTimeCommand& real_time)
         .positional("DIR", "The folder of results that holds real-time/",
                     cli::into(real_time.folder))
         .required("results");
+    command.add_exit_codes(exit_codes_without_run);
     add_circumstances(command, real_time);
 }
 
 void add_explain(cli::Command& command, ExplainCommand& explain, bool& no_sleeping)
 {
-    command.describe("Describes a scene, what one of its ticks has to compute and why, and which "
-                     "tick it gets therefore. What a scene does not need costs nothing.");
+    command.describe("Describes a scene, the features that it needs and why, and the cheapest "
+                     "stepper that has them. What a scene does not need costs nothing.");
+    command.add_exit_codes(exit_codes_without_run);
     command
         .positional("SCENE",
                     fmt::format("A file (docs/formats/scene.md), or one of {}",
@@ -239,7 +260,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     add_replay(replay_command, replay);
     ExplainCommand explain;
     bool no_sleeping = false;
-    auto& explain_command = program.command("explain", "Describes a scene and the tick it gets");
+    auto& explain_command = program.command("explain", "Describes a scene and its stepper");
     add_explain(explain_command, explain, no_sleeping);
     DemoReportCommand demo;
     auto& demo_command = program.command("demo-report", "The last step of scripts/demo.sh");

@@ -83,7 +83,8 @@ base::Result<std::string> conclude_real_time(const RealTimeCommand& command)
     }
     if (results.empty()) {
         return base::fail((folder / "real-time").string() +
-                          " holds no sessions: let scripts/real-time.sh play some");
+                          " has no sessions: run scripts/real-time.sh --out " + folder.string() +
+                          " first");
     }
     net::ResultFile{(folder / "real_time.csv").string()}.commit(real_time_csv(results));
     const results::Circumstances circumstances{command.command, command.start, command.wall_time_s,

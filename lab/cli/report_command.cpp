@@ -72,6 +72,13 @@ std::vector<std::string> records_in(const fs::path& folder)
     return records;
 }
 
+std::vector<std::string> names_of_files(const std::vector<std::string>& paths)
+{
+    std::vector<std::string> names;
+    for (const fs::path path : paths) names.push_back(path.filename().string());
+    return names;
+}
+
 /// `name` tells the session from others; empty: that of its task.
 base::Result<void> add_records(results::Results& results, const std::string& name,
                                const std::string& path_a, const std::string& path_b)
@@ -116,6 +123,13 @@ base::Result<results::Results> results_in(const fs::path& root)
     const auto added = add_demo(*results, root);
     if (!added) return tl::unexpected{added.error()};
     if (files->empty() && results->sessions.empty()) {
+        if (const auto records = records_in(root); !records.empty()) {
+            return base::fail(fmt::format(
+                "{} has {} record{} ({}): a session has two; name them: hapnet-lab report a.rec "
+                "b.rec",
+                root.generic_string(), records.size(), records.size() == 1 ? "" : "s",
+                fmt::join(names_of_files(records), ", ")));
+        }
         return base::fail(root.generic_string() +
                           " holds no results: expected manifest.json, table1.csv, limits.csv or "
                           "the like, or the two records of a session, there or one folder below");
@@ -136,7 +150,13 @@ base::Result<Source> read_source(const ReportCommand& command)
         if (fs::is_regular_file(first) && first.extension() == ".rec") {
             return base::fail("a session has two records: name those of both peers");
         }
-        if (!fs::is_directory(first)) return base::fail(first.string() + " is not a folder");
+        if (!fs::exists(first)) {
+            return base::fail(first.string() + " does not exist: name a folder of results, or the "
+                                               "two records of a session");
+        }
+        if (!fs::is_directory(first)) {
+            return base::fail(first.string() + " is neither a folder of results nor a record");
+        }
         return results_in(first).map([&](results::Results results) {
             return Source{std::move(results), first};
         });

@@ -55,8 +55,8 @@ base::Result<Analysis> analyse(const record::Record& a, const record::Record& b)
                       .b = loop_of(session->b),
                       .clock = session->clock,
                       .invalid_because{}};
-    judge("a", analysis.a, analysis.invalid_because);
-    judge("b", analysis.b, analysis.invalid_because);
+    judge("A", analysis.a, analysis.invalid_because);
+    judge("B", analysis.b, analysis.invalid_because);
     judge(analysis.agreement, analysis.invalid_because);
     return analysis;
 }

@@ -100,7 +100,8 @@ TextTable distances_table(const Agreement& agreement)
                of_x(&metrics::Spread::max), of_x(&metrics::Spread::std)}},
              {"force ||F_A| - |F_B||, N",
               {of_force(&ForceDiscrepancy::mean), "", of_force(&ForceDiscrepancy::max), ""}},
-             {"settled at the end, mm",
+             {agreement.settled_discrepancy ? "settled at the end, mm"
+                                            : "settled at the end, mm (from 6 s on)",
               {"", "", number_text(scaled(agreement.settled_discrepancy, mm), 4), ""}}}};
 }
 
@@ -114,7 +115,7 @@ TextTable touching_table(const Agreement& agreement)
             {{"touching the cube, %",
               {percent(touching.a), percent(touching.b), percent(touching.either),
                percent(touching.both)}},
-             {"scored, s", {"", "", "", number_text(base::to_seconds(agreement.scored), 3)}},
+             {"time compared, s", {"", "", "", number_text(base::to_seconds(agreement.scored), 3)}},
              {"overlap, %", {"", "", "", number_text(1e2 * agreement.overlap, 2)}}}};
 }
 

@@ -99,7 +99,7 @@ base::Result<void> SessionStore::read(const FolderIdentity& identity)
         if (std::exchange(is_first, false)) {
             if (line.is_object() && line == header_of(identity)) continue;
             return base::fail(fmt::format(
-                "{} holds the sessions of {}: choose another --out, or remove it", path_,
+                "{} holds the sessions of {}: choose another --out, or remove that file", path_,
                 line.is_object()
                     ? fmt::format("another experiment, '{}'", line.value("title", std::string{}))
                     : "something else"));

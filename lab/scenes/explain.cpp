@@ -164,7 +164,7 @@ std::string to_table(const Explanation& explanation)
         text += fmt::format("  {:<11}  {:<3}  {}\n", scene::name_of(need.feature),
                             need.is_required ? "on" : "off", need.because);
     }
-    text += fmt::format("\nIts tick: {}\n", scene::name_of(explanation.profile));
+    text += fmt::format("\nIts stepper: {}\n", scene::name_of(explanation.profile));
     for (const CheaperTick& tick : explanation.cheaper) {
         text += fmt::format("  cheaper: {:<15}  has no {}\n", scene::name_of(tick.profile),
                             fmt::join(names_of(tick.lacks), ", "));

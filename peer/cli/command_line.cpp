@@ -33,7 +33,8 @@ a limit; --duration counts from their common start.
 Algorithms (docs/design/algorithms.md; the two peers may use different ones):
   base            the paper's: forces add up where both push; where one pushes, its report holds
   dead-reckoning  the same, with the other peer's cube extrapolated to now
-  sep             the same, with the other hand's force extrapolated; open stand-in for TiDeC
+  sep             the same, with the other hand's force and position predicted; it stands in for
+                  the paper's product TiDeC, which is not published
 A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from.
 
 Examples:
@@ -66,9 +67,9 @@ constexpr const char* doctor_description =
     "improve "
     "it. Without a device only the loop matters; the checks of devices were never run on the "
     "physical device.";
-constexpr const char* doctor_exit_codes = R"(  0  nothing is bad
+constexpr const char* doctor_exit_codes = R"(  0  no check is 'bad' (warnings do not count)
   2  bad usage
-  3  something is bad)";
+  3  a check is 'bad')";
 constexpr const char* self_test_description =
     "Tries a device through the governor, step by step, and reports the results:\n"
     "  read       10 s without force: the rate at which the device sends, as a histogram\n"

@@ -163,7 +163,8 @@ cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice)
               choice.replay_loops)
         .under(group);
     add("--mount-offset", "X,Y,Z",
-        "Position in the scene of the device's zero (default for a real device: the centre of its "
+        "Position in the scene of the device's zero, such as 0mm,20mm,-5mm (default for a real "
+        "device: the centre of its "
         "workspace is where the paper's cube starts)",
         cli::into(choice.mount_offset, parse_offset));
     add("--mount-scale", "NUMBER",

@@ -103,7 +103,8 @@ void add_results(cli::Command& program, Options& options)
 void add_session_options(cli::Command& program, Options& options, std::string& printed_algorithm)
 {
     constexpr std::uint64_t id_max = 65535;
-    program.option("--id", "1..65535", "Number of this peer; the lower one is L (default 1)",
+    program.option("--id", "1..65535",
+                   "Number of this peer, different for the two; the lower one is L (default 1)",
                    cli::into(options.id, base::Count{1, id_max}));
     program.option("--listen", "ADDRESS",
                    "Where to receive: HOST:PORT; :PORT listens on loopback (default 127.0.0.1:0, "
@@ -118,8 +119,8 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
                    "not turn (default: the task's; lift for T4, wall for T5, paper for the others)",
                    [&options](const std::string& text) { return take_scene(text, options); });
     program.option("--grip-damping", "DAMPING",
-                   "Damping of the device and of the loosest grip on it; contacts that need more "
-                   "to be rendered safely feel softer (default 4Ns/m, a nominal grip on a stylus)",
+                   "Damping that device and hand have at least. A contact that would need more to "
+                   "stay passive is rendered softer (default 4Ns/m, a nominal grip on a stylus)",
                    cli::into(options.grip_damping_ns_per_m, parse_grip_damping));
     program.option(
         "--force-limit", "FORCE",

@@ -144,7 +144,7 @@ Finding on_hd(const Facts& facts)
     }
     return {
         "libHD", Level::bad, facts.hd_trouble,
-        "install OpenHaptics and the device's driver from 3D Systems, or say --hd-library FILE"};
+        "install OpenHaptics and the device's driver from 3D Systems, or give --hd-library FILE"};
 }
 
 } // namespace

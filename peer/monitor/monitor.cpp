@@ -4,6 +4,7 @@
 
 #include "proto/net/program.hpp"
 
+#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 #include <utility>
@@ -22,15 +23,18 @@ std::string line_of(const StatusLine& status, const StatusLine& before)
         return "waiting for the other peer; is it running, and is the emulator between the two?";
     }
     const double at = base::to_seconds(tick.due - status.session->start);
+    if (at < 0.0) return fmt::format("starts in {:.1f} s", -at);
     // Per 1000 ticks of the session, which are a second of it.
     const auto ticks = status.ticks_in_session - before.ticks_in_session;
     const auto messages = status.messages - before.messages;
     const double rate =
         ticks == 0 ? 0.0 : 1000.0 * static_cast<double>(messages) / static_cast<double>(ticks);
-    return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube {:+6.1f} mm  force {:4.2f} N  "
+    std::string phase{record::name_of(tick.phase)};
+    std::replace(phase.begin(), phase.end(), '_', ' ');
+    return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube x {:+6.1f} mm  force {:4.2f} N  "
                        "received {:4.0f}/s  round trip {:5.1f} ms  missed ticks {}",
-                       at, base::to_seconds(status.session->length), record::name_of(tick.phase),
-                       tick.cube.x() * 1e3, base::norm(tick.device), rate,
+                       at, base::to_seconds(status.session->length), phase, tick.cube.x() * 1e3,
+                       base::norm(tick.device), rate,
                        base::to_seconds(status.session->offset_uncertainty) * 2e3, status.missed);
 }
 
@@ -49,7 +53,7 @@ std::string_view describe(Event event)
     case Event::back: return "the other peer is heard again: force ramps in";
     case Event::restarted: return "the other peer was restarted: it joins the session";
     case Event::left: return "the other peer said goodbye: going on alone, with zero force";
-    case Event::refused: return "the other peer cannot play with this one";
+    case Event::refused: return "the two peers do not match: no session";
     case Event::hands_off: return "hands off";
     case Event::ended: return "session ended";
     case Event::stopped: return "stopped before a session began";

@@ -120,18 +120,26 @@ json governor_json(const Run& run)
 }
 
 /// The reason why the run is not valid as a measurement; "" when it is.
-std::string_view why_not_valid(const Run& run)
+std::string why_not_valid(const Run& run)
 {
     const loop::LoopCounters& loop = run.status.loop;
     const auto p99 = loop.late.quantile(0.99);
-    const bool is_punctual =
-        p99 && *p99 <= late_budget && missed_share(loop) <= missed_share_budget;
-    if (!is_punctual) return "the loop was late";
+    if (!p99) return "no tick began";
+    if (missed_share(loop) > missed_share_budget) {
+        return fmt::format("{:.2g} % of the ticks were missed, more than {} %",
+                           1e2 * missed_share(loop), 1e2 * missed_share_budget);
+    }
+    if (*p99 > late_budget) {
+        return fmt::format("p99 lateness {:.0f} us, more than {:.0f} us",
+                           base::to_seconds(*p99) * 1e6, base::to_seconds(late_budget) * 1e6);
+    }
     // A fault that an operator has ended counts, too: the hand did not play meanwhile.
     const device::GovernorCounters& c = run.status.governor;
     const std::uint64_t faults = c.device_faults + c.silence_faults + c.loop_faults +
                                  c.speed_trips + c.jump_trips + c.nonsense_trips;
-    return faults > 0 ? "the device was at fault" : "";
+    if (faults == 0) return "";
+    return fmt::format("the device was at fault {}",
+                       faults == 1 ? "once" : fmt::format("{} times", faults));
 }
 
 using Ordered = nlohmann::ordered_json;

@@ -3,8 +3,10 @@
 #include "proto/base/document.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/base/text.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 
@@ -165,6 +167,145 @@ std::string_view other_format(std::string_view text)
     return "";
 }
 
+/// Finds a value that lacks its quotes, or a quote that lacks its partner, in one line. The parser
+/// only says which letter it did not expect.
+class QuoteSearch {
+public:
+    explicit QuoteSearch(std::string_view line) : line_{line} {}
+
+    /// The column of the place is that of the value; its line is left to the caller.
+    [[nodiscard]] std::optional<DocumentError> run()
+    {
+        while (at_ < line_.size()) {
+            const char c = line_[at_];
+            if (c == '#') break;
+            if (c == '=' || (is_in_list() && (c == '[' || c == ','))) {
+                ++at_;
+                if (auto error = check_value(c == '=')) return error;
+                continue;
+            }
+            if (c == '{' || c == ',') key_ = at_ + 1;
+            if ((c == '}' || c == ']') && !open_.empty()) open_.pop_back();
+            if ((c == '"' || c == '\'') && !skip_string()) return unclosed();
+            ++at_;
+        }
+        return std::nullopt;
+    }
+
+private:
+    [[nodiscard]] bool is_in_list() const { return open_.ends_with('['); }
+
+    [[nodiscard]] std::optional<DocumentError> check_value(bool has_key)
+    {
+        const auto key_end = at_ - 1;
+        at_ = std::min(line_.find_first_not_of(" \t", at_), line_.size());
+        if (at_ == line_.size()) return std::nullopt;
+        const char first = line_[at_];
+        if (first == '[' || first == '{') {
+            open_ += first;
+            key_ = at_ + 1;
+            if (first == '{') ++at_;
+            return std::nullopt; // the run comes to what is inside
+        }
+        if (first == '"' || first == '\'' || first == '#') return std::nullopt;
+        const auto end = std::min(line_.find_first_of(",]}#\r", at_), line_.size());
+        const auto word = trimmed(line_.substr(at_, end - at_));
+        const auto column = static_cast<std::uint32_t>(at_ + 1);
+        at_ = end;
+        constexpr std::size_t size_max = 60; // no more than a line of a terminal
+        if (!is_bare_text(word) || word.size() > size_max) return std::nullopt;
+        const auto key = trimmed(line_.substr(key_, key_end - key_));
+        const std::string value =
+            word[0] >= '0' && word[0] <= '9' ? without_spaces(word) : std::string{word};
+        return DocumentError{
+            {0, column},
+            fmt::format("a value with a unit or a name needs quotes: write {}\"{}\"",
+                        has_key ? fmt::format("{} = ", key) : "", value)};
+    }
+
+    /// Letters or a number with a unit: nothing that TOML reads without quotes, and nothing that
+    /// would be wrong with quotes, too.
+    [[nodiscard]] static bool is_bare_text(std::string_view word)
+    {
+        constexpr std::string_view letters =
+            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.%/-+_ ";
+        if (word.empty() || word == "true" || word == "false" || word == "inf" || word == "nan" ||
+            word.find_first_not_of(letters) != std::string_view::npos) {
+            return false;
+        }
+        double number = 0.0;
+        const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (error != std::errc{}) return true;
+        const auto unit = trimmed(word.substr(static_cast<std::size_t>(rest - word.data())));
+        return !unit.empty() && unit.find(' ') == std::string_view::npos &&
+               unit.find_first_of("0123456789") != 0;
+    }
+
+    [[nodiscard]] static std::string_view trimmed(std::string_view text)
+    {
+        const auto start = text.find_first_not_of(" \t\r");
+        if (start == std::string_view::npos) return "";
+        return text.substr(start, text.find_last_not_of(" \t\r") + 1 - start);
+    }
+
+    /// To its last quote; false: there is none.
+    [[nodiscard]] bool skip_string()
+    {
+        const char quote = line_[at_];
+        string_ = at_;
+        for (++at_; at_ < line_.size(); ++at_) {
+            if (line_[at_] == quote) return true;
+            if (quote == '"' && line_[at_] == '\\') ++at_;
+        }
+        return false;
+    }
+
+    [[nodiscard]] DocumentError unclosed() const
+    {
+        return {{0, static_cast<std::uint32_t>(string_ + 1)}, "this text has no closing quote"};
+    }
+
+    std::string_view line_;
+    std::size_t at_ = 0;
+    std::size_t key_ = 0;    // where the key before the next '=' begins
+    std::size_t string_ = 0; // where the last string begins
+    std::string open_;       // brackets of values
+};
+
+std::string_view line_of(std::string_view text, std::uint32_t number)
+{
+    for (std::uint32_t line = 1; line < number && !text.empty(); ++line) {
+        text.remove_prefix(std::min(text.find('\n') + 1, text.size()));
+    }
+    return text.substr(0, text.find('\n'));
+}
+
+/// What is wrong in words for the commonest mistakes, otherwise in those of the parser.
+DocumentError explained(std::string_view text, const toml::parse_error& error)
+{
+    const Place place = place_of(error.source());
+    if (const auto format = other_format(text); !format.empty()) {
+        return {place, fmt::format("this looks like {}; what belongs here is TOML: lines such as "
+                                   "key = \"value\"",
+                                   format)};
+    }
+    const std::string_view said = error.description();
+    const std::string_view line = line_of(text, place.line);
+    if (const auto start = said.find("cannot redefine existing "); start != said.npos) {
+        const auto from = said.find('\'', start), to = said.rfind('\'');
+        const auto name = from < to ? said.substr(from + 1, to - from - 1) : "";
+        const auto column = line.rfind(name.substr(name.rfind('.') + 1), place.column);
+        const Place key{place.line, column == line.npos ? place.column
+                                                        : static_cast<std::uint32_t>(column + 1)};
+        return {key, fmt::format("'{}' is given twice: give it once", name)};
+    }
+    if (auto found = QuoteSearch{line}.run()) {
+        found->place.line = place.line;
+        return *found;
+    }
+    return {place, std::string{said}};
+}
+
 } // namespace
 
 tl::expected<Node, DocumentError> parse_document(std::string_view text, std::size_t bytes_max)
@@ -175,16 +316,7 @@ tl::expected<Node, DocumentError> parse_document(std::string_view text, std::siz
     }
     if (auto error = TextCheck{}.run(text)) return tl::unexpected{*std::move(error)};
     const toml::parse_result parsed = toml::parse(text);
-    if (!parsed) {
-        const auto place = place_of(parsed.error().source());
-        if (const auto format = other_format(text); !format.empty()) {
-            return tl::unexpected{DocumentError{
-                place, fmt::format("this looks like {}; what belongs here is TOML: lines such as "
-                                   "key = \"value\"",
-                                   format)}};
-        }
-        return tl::unexpected{DocumentError{place, std::string{parsed.error().description()}}};
-    }
+    if (!parsed) return tl::unexpected{explained(text, parsed.error())};
     return convert(parsed.table());
 }
 

@@ -221,15 +221,31 @@ void read_field(const Field<Struct, Value, Format>& field, const Node& node, Val
     }
 }
 
-/// The fields that stand in a table; the others keep their values. The table may have other keys:
-/// finish() is left to the caller, and complains of unknown keys and then of missing ones.
+/// What to write into a field that is missing: `write sd = "10ms"`, or the names to choose from.
+template <typename Struct, typename Value, typename Format>
+[[nodiscard]] std::string cure_of_missing(const Field<Struct, Value, Format>& field)
+{
+    using Plain = typename detail::WithoutOptional<Value>::type;
+    if constexpr (Named<Plain>) {
+        return fmt::format("use one of {}", fmt::join(names_of_enum<Plain>, ", "));
+    } else if constexpr (requires { field.format.example(); }) {
+        return fmt::format("write {} = {}", field.key, field.format.example());
+    } else {
+        return fmt::format("expected {}", field.format.describe());
+    }
+}
+
+/// The fields that stand in a table; the others keep their values. Complains of missing required
+/// ones. The table may have other keys: finish() is left to the caller.
 template <Described T>
 void read_fields(TableReader& table, T& target)
 {
     for_each_field(
         [&](const auto& field, auto& member) {
             const Node* node = table.find(field.key);
-            if (node == nullptr && field.is_required) table.miss(field.key);
+            if (node == nullptr && field.is_required) {
+                std::ignore = table.require(field.key, cure_of_missing(field));
+            }
             if (node != nullptr) read_field(field, *node, member, table.reading());
         },
         target);

@@ -41,10 +41,16 @@ void Time::read(const Node& node, Duration& target, Reading& reading) const
     read_value(node, value, reading);
     if (!reading.is_good()) return;
     if (value < min || value > max) {
-        return complain_of_range(node, to_text(min), max == Duration::max() ? "" : to_text(max),
-                                 reading);
+        return complain_of_range(node, bound_text(min),
+                                 max == Duration::max() ? "" : bound_text(max), reading);
     }
     target = value;
+}
+
+std::string Time::example() const
+{
+    constexpr Duration usual{std::chrono::milliseconds{10}};
+    return value_text(std::clamp(usual, min, max));
 }
 
 std::string Time::describe() const
@@ -65,6 +71,8 @@ void Number::read(const Node& node, double& target, Reading& reading) const
     target = value;
 }
 
+std::string Number::example() const { return value_text(std::clamp(2.5, min, max)); }
+
 std::string Number::describe() const
 {
     return within("a number", std::isinf(min) ? "" : fmt::to_string(min),
@@ -84,6 +92,12 @@ void Quantity::read(const Node& node, double& target, Reading& reading) const
     target = value;
 }
 
+std::string Quantity::example() const
+{
+    const std::string_view usual = kind.examples.substr(0, kind.examples.find_first_of(", "));
+    return print(std::clamp(parse_quantity(usual, kind).value(), min, max));
+}
+
 std::string Quantity::describe() const
 {
     return within(kind.name, std::isinf(min) ? "" : quantity_text(min, kind),
@@ -96,9 +110,20 @@ std::optional<std::uint64_t> Count::read_within(const Node& node, std::uint64_t 
     const std::uint64_t most = std::min(max, type_max);
     const auto value = count_of(node, most);
     if (value && *value >= min) return value;
-    complain_of(node, fmt::format("a whole number from {} to {}", min, most), reading);
+    const auto expected = fmt::format("a whole number from {} to {}", min, most);
+    const auto* real = std::get_if<double>(&node.value);
+    constexpr double exact_max = 9e15; // every whole number below is a double
+    if (real != nullptr && *real >= static_cast<double>(min) && *real < exact_max &&
+        *real <= static_cast<double>(most) && *real == std::floor(*real)) {
+        reading.complain(node.place,
+                         fmt::format("expected {} in digits: write {:.0f}", expected, *real));
+    } else {
+        complain_of(node, expected, reading);
+    }
     return std::nullopt;
 }
+
+std::string Count::example() const { return print(std::clamp(std::uint64_t{10}, min, max)); }
 
 std::string Count::describe() const
 {
@@ -123,8 +148,8 @@ Choice::read_index(const Node& node, std::span<const std::string_view> names, Re
     }
     const auto found = std::find(names.begin(), names.end(), *text);
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    reading.complain(node.place,
-                     fmt::format("unknown name {}: {}", quoted(*text), suggestion(*text, names)));
+    reading.complain(
+        node.place, fmt::format("unknown name {}: {}", in_quotes(*text), suggestion(*text, names)));
     return std::nullopt;
 }
 

@@ -24,6 +24,7 @@ namespace hapnet::base {
 //     void read(const Node&, T&, Reading&) const;  complains, and leaves the target as it was
 //     std::string print(const T&) const;           TOML that reads back as the same value
 //     std::string describe() const;                for people: "a time from 0ms to 10s"
+//     std::string example() const;                 optional: an allowed value as TOML, "10ms"
 // One whose values stand in TOML without quotes has `is_bare`.
 // Whoever has values of a kind of their own writes such a struct beside them.
 
@@ -50,6 +51,7 @@ struct Time {
 
     void read(const Node& node, Duration& target, Reading& reading) const;
     [[nodiscard]] std::string print(Duration value) const { return value_text(value); }
+    [[nodiscard]] std::string example() const;
     [[nodiscard]] std::string describe() const;
 };
 
@@ -60,6 +62,7 @@ struct Share {
         read_value(node, target, reading);
     }
     [[nodiscard]] std::string print(Probability value) const { return value_text(value); }
+    [[nodiscard]] std::string example() const { return base::quoted("5%"); }
     [[nodiscard]] std::string describe() const { return "a share from 0% to 100%"; }
 };
 
@@ -71,6 +74,7 @@ struct Number {
 
     void read(const Node& node, double& target, Reading& reading) const;
     [[nodiscard]] std::string print(double value) const { return value_text(value); }
+    [[nodiscard]] std::string example() const;
     [[nodiscard]] std::string describe() const;
 };
 
@@ -85,6 +89,7 @@ struct Quantity {
     {
         return base::quoted(quantity_text(value, kind));
     }
+    [[nodiscard]] std::string example() const;
     [[nodiscard]] std::string describe() const;
 };
 
@@ -105,6 +110,7 @@ struct Count {
     {
         return fmt::format("{}", value);
     }
+    [[nodiscard]] std::string example() const;
     [[nodiscard]] std::string describe() const;
 
 private:
@@ -123,6 +129,7 @@ struct Size {
     {
         return base::quoted(size_text(value));
     }
+    [[nodiscard]] std::string example() const { return base::quoted("64KiB"); }
     [[nodiscard]] std::string describe() const { return "a size such as 1500B or 64KiB"; }
 };
 
@@ -136,6 +143,7 @@ struct BitRate {
     {
         return base::quoted(bit_rate_text(value));
     }
+    [[nodiscard]] std::string example() const { return base::quoted("10Mbit/s"); }
     [[nodiscard]] std::string describe() const { return "a rate such as 10Mbit/s"; }
 };
 
@@ -146,6 +154,7 @@ struct Text {
         read_value(node, target, reading);
     }
     [[nodiscard]] std::string print(const std::string& value) const { return base::quoted(value); }
+    [[nodiscard]] std::string example() const { return base::quoted("..."); }
     [[nodiscard]] std::string describe() const { return "a text"; }
 };
 
@@ -154,6 +163,7 @@ struct Flag {
     static constexpr bool is_bare = true;
     void read(const Node& node, bool& target, Reading& reading) const;
     [[nodiscard]] std::string print(bool value) const { return value ? "true" : "false"; }
+    [[nodiscard]] std::string example() const { return "true"; }
     [[nodiscard]] std::string describe() const { return "true or false"; }
 };
 

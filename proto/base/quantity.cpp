@@ -3,6 +3,7 @@
 #include "proto/base/quantity.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/base/text.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -119,8 +120,28 @@ Result<double> parse_quantity(std::string_view text, const QuantityKind& kind)
         const auto value = shifted(written->digits, written->exponent + unit.exponent);
         if (value) return *value * unit.factor;
     }
+    const std::string joined = without_spaces(text);
+    if (joined.size() != text.size() && parse_quantity(joined, kind)) {
+        return fail(fmt::format("'{}' has a space: write {}", text, joined));
+    }
     return fail(fmt::format("'{}' is not {}: write a number and its unit, such as {}", text,
                             kind.name, kind.examples));
+}
+
+bool is_unit(std::string_view word)
+{
+    if (word.empty() || word.find_first_of("-.0123456789") == 0) return false;
+    const std::string one = fmt::format("1{}", word);
+    if (parse_duration(one) || parse_probability(one) || parse_bit_rate(one) || parse_size(one)) {
+        return true;
+    }
+    static constexpr std::array kinds{
+        &length_kind,    &mass_kind,  &density_kind,    &stiffness_kind, &damping_kind,
+        &force_kind,     &turn_kind,  &force_rate_kind, &speed_kind,     &acceleration_kind,
+        &frequency_kind, &angle_kind, &mobility_kind};
+    return std::any_of(kinds.begin(), kinds.end(), [&](const QuantityKind* kind) {
+        return parse_quantity(one, *kind).has_value();
+    });
 }
 
 std::string quantity_text(double value, const QuantityKind& kind)

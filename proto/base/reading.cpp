@@ -32,6 +32,23 @@ std::size_t distance(std::string_view a, std::string_view b)
     return row.back();
 }
 
+std::string escaped(std::string_view text, char quote)
+{
+    std::string out{quote};
+    for (const char c : text) {
+        if (c == '"' && quote == '"') {
+            out += "\\\"";
+        } else if (c == '\\') {
+            out += "\\\\";
+        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+            out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+        } else {
+            out += c;
+        }
+    }
+    return out + quote;
+}
+
 template <typename Target>
 void read_count(const Node& node, Target& target, Reading& reading)
 {
@@ -49,6 +66,9 @@ tl::expected<Node, DocumentError> parse_option(std::string_view text, bool is_ba
         return Node{{}, std::string{text}};
     }
     auto document = parse_document(fmt::format("value = {}", text));
+    // A word where a number belongs: the reader of numbers says best what it expects.
+    const bool is_text = !text.starts_with('{') && !text.starts_with('[');
+    if (!document && is_text) return Node{{}, std::string{text}};
     if (!document) return document;
     auto& table = std::get<Node::Table>(document->value);
     // "{} \n more = 1" would be several.
@@ -58,14 +78,21 @@ tl::expected<Node, DocumentError> parse_option(std::string_view text, bool is_ba
 
 void Reading::complain(Place place, std::string_view what)
 {
-    if (complaint_) return;
+    if (!complaint_) complain_rather(place, what);
+}
+
+void Reading::complain_rather(Place place, std::string_view what)
+{
     complaint_ = has_lines_ ? fmt::format("{}:{}:{}: {}", source_, place.line, place.column, what)
                             : fmt::format("{}: {}", source_, what);
 }
 
 Result<std::string> Reading::open(const std::string& name) const
 {
-    if (!open_) return fail("cannot open a file here");
+    if (!open_) {
+        return fail("laws that read a file (table, trace) cannot be used here: write the law with "
+                    "its parameters");
+    }
     return open_(name);
 }
 
@@ -93,16 +120,19 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
 
 const Node* TableReader::find(std::string_view key)
 {
-    known_.push_back(key);
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
     const auto entry = std::find_if(table_.begin(), table_.end(),
                                     [&](const Entry& one) { return one.key == key; });
     return entry == table_.end() ? nullptr : &entry->value;
 }
 
-const Node* TableReader::require(std::string_view key)
+const Node* TableReader::require(std::string_view key, std::string_view cure)
 {
     const Node* node = find(key);
-    if (node == nullptr) reading_.complain(place_, fmt::format("missing key '{}'", key));
+    if (node != nullptr || !reading_.is_good()) return node;
+    reading_.complain(place_, cure.empty() ? fmt::format("missing key '{}'", key)
+                                           : fmt::format("missing key '{}': {}", key, cure));
+    is_missing_told_ = true;
     return node;
 }
 
@@ -110,11 +140,11 @@ void TableReader::finish() const
 {
     for (const Entry& entry : table_) {
         if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-        reading_.complain(entry.place, fmt::format("unknown key {}: {}", quoted(entry.key),
-                                                   suggestion(entry.key, known_)));
-    }
-    for (const std::string_view key : missing_) {
-        reading_.complain(place_, fmt::format("missing key '{}'", key));
+        const auto what =
+            fmt::format("unknown key {}: {}", in_quotes(entry.key), suggestion(entry.key, known_));
+        // The key that is missing is probably this one, mistyped.
+        if (is_missing_told_) return reading_.complain_rather(entry.place, what);
+        return reading_.complain(entry.place, what);
     }
 }
 
@@ -124,8 +154,9 @@ std::string what_it_is(const Node& node)
     if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
         return fmt::format("{}", *integer);
     }
-    if (const auto* real = std::get_if<double>(&node.value)) return fmt::format("{}", *real);
-    if (const auto* text = std::get_if<std::string>(&node.value)) return quoted(*text);
+    // With its point: 40.0 is not the whole number 40.
+    if (const auto* real = std::get_if<double>(&node.value)) return fmt::format("{:#}", *real);
+    if (const auto* text = std::get_if<std::string>(&node.value)) return in_quotes(*text);
     return std::holds_alternative<Node::List>(node.value) ? "a list" : "a table";
 }
 
@@ -189,21 +220,8 @@ void read_value(const Node& node, std::string& target, Reading& reading)
     target = *text;
 }
 
-std::string quoted(std::string_view text)
-{
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') {
-            out += '\\';
-            out += c;
-        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-            out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
-        } else {
-            out += c;
-        }
-    }
-    return out + "\"";
-}
+std::string quoted(std::string_view text) { return escaped(text, '"'); }
+std::string in_quotes(std::string_view text) { return escaped(text, '\''); }
 
 std::string value_text(Duration value) { return quoted(to_text(value)); }
 std::string value_text(Probability value) { return quoted(to_text(value)); }

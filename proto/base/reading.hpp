@@ -38,6 +38,8 @@ public:
     {}
 
     void complain(Place place, std::string_view what);
+    /// Instead of what has been complained of before.
+    void complain_rather(Place place, std::string_view what);
     [[nodiscard]] bool is_good() const { return !complaint_; }
     [[nodiscard]] const std::optional<std::string>& complaint() const { return complaint_; }
 
@@ -67,12 +69,10 @@ public:
 
     /// nullptr when it is not there.
     [[nodiscard]] const Node* find(std::string_view key);
-    /// Complains when it is not there.
-    [[nodiscard]] const Node* require(std::string_view key);
-    /// finish() is to complain that this key is not there.
-    void miss(std::string_view key) { missing_.push_back(key); }
-    /// To be called once all keys have been asked for. A misspelt key is a better complaint than
-    /// the missing one that it was to be.
+    /// Complains when it is not there, and says `cure`: `write sd = "10ms"`.
+    [[nodiscard]] const Node* require(std::string_view key, std::string_view cure = {});
+    /// To be called once all keys have been asked for, also after a complaint: an unknown key is
+    /// the cause of a missing one.
     void finish() const;
 
     [[nodiscard]] Place place() const { return place_; }
@@ -83,7 +83,7 @@ private:
     Place place_;
     Reading& reading_;
     std::vector<std::string_view> known_;
-    std::vector<std::string_view> missing_;
+    bool is_missing_told_ = false;
 };
 
 /// What `read(document, reading)` makes of a whole text, or the first complaint about it. `source`
@@ -145,6 +145,8 @@ void read_value(const Node& node, std::string& target, Reading& reading);
 // How values are printed: as TOML that reads back as the same value.
 
 [[nodiscard]] std::string quoted(std::string_view text);
+/// As complaints quote what was written: 'text', control characters made visible.
+[[nodiscard]] std::string in_quotes(std::string_view text);
 [[nodiscard]] std::string value_text(Duration value);
 [[nodiscard]] std::string value_text(Probability value);
 [[nodiscard]] std::string value_text(double value);

@@ -26,12 +26,13 @@ struct WholeUnit {
     std::uint64_t size;
 };
 
-constexpr std::array<Unit, 11> units{{
+constexpr std::array<Unit, 12> units{{
     {"ns", 1.0},
     {"us", 1e3},
     {"ms", 1e6},
     {"s", 1e9},
     {"min", 60e9},
+    {"h", 3600e9},
     // As tc and others spell them.
     {"usec", 1e3},
     {"usecs", 1e3},
@@ -116,6 +117,15 @@ std::optional<std::uint64_t> whole(const Quantity& quantity,
     return std::nullopt;
 }
 
+/// Says that `text` has a space, if it could be read without; otherwise `why` it cannot.
+template <typename Parse>
+tl::unexpected<Error> refuse(std::string_view text, Parse parse, std::string why)
+{
+    const std::string joined = without_spaces(text);
+    if (joined.size() == text.size() || !parse(joined)) return fail(std::move(why));
+    return fail(fmt::format("'{}' has a space: write {}", text, joined));
+}
+
 /// In the largest unit of which it is a whole number.
 template <std::size_t N>
 std::string whole_text(std::uint64_t value, const std::array<WholeUnit, N>& whole_units)
@@ -131,14 +141,22 @@ std::string whole_text(std::uint64_t value, const std::array<WholeUnit, N>& whol
 
 } // namespace
 
+std::string without_spaces(std::string_view text)
+{
+    std::string joined{text};
+    std::erase(joined, ' ');
+    return joined;
+}
+
 Result<Duration> parse_duration(std::string_view text)
 {
     const auto [digits, unit_name] = split(text);
     const auto count = number(digits);
     const auto expected = [&] {
-        return fail(fmt::format(
-            "'{}' is not a duration: write a number and its unit, such as 160ms, 15us or 1.5s",
-            text));
+        return refuse(text, parse_duration,
+                      fmt::format("'{}' is not a duration: write a number and its unit, such as "
+                                  "160ms, 15us or 1.5s",
+                                  text));
     };
     if (!count) return expected();
     if (unit_name == "m") {
@@ -152,7 +170,13 @@ Result<Duration> parse_duration(std::string_view text)
         if (nanoseconds > 1e15) return fail(fmt::format("'{}' is longer than 10^6 s", text));
         return Duration{std::llround(nanoseconds)};
     }
-    return expected();
+    const bool is_word = std::all_of(unit_name.begin(), unit_name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    });
+    if (!is_word || unit_name.empty()) return expected();
+    return fail(fmt::format("'{}' is not a duration: '{}' is not a unit of time: use ns, us, ms, "
+                            "s, min or h",
+                            text, unit_name));
 }
 
 Result<Duration> parse_signed_duration(std::string_view text)
@@ -173,6 +197,13 @@ std::string to_text(Duration duration)
     return fmt::format("{}ns", count);
 }
 
+std::string bound_text(Duration bound)
+{
+    constexpr Duration hour = std::chrono::hours{1};
+    const bool is_hours = bound.count() != 0 && bound % hour == Duration{0};
+    return is_hours ? fmt::format("{}h", bound / hour) : to_text(bound);
+}
+
 Result<Probability> parse_probability(std::string_view text)
 {
     const auto [digits, unit] = split(text);
@@ -182,7 +213,8 @@ Result<Probability> parse_probability(std::string_view text)
         if (const auto probability = Probability::from_fraction(*fraction)) return *probability;
         return fail(fmt::format("'{}' is more than 100%", text));
     }
-    return fail(fmt::format("'{}' is not a share: write a number from 0% to 100%", text));
+    return refuse(text, parse_probability,
+                  fmt::format("'{}' is not a share: write a number from 0% to 100%", text));
 }
 
 std::string to_text(Probability probability)
@@ -222,9 +254,10 @@ Result<std::uint64_t> parse_bit_rate(std::string_view text)
     }
     const auto rate = whole(quantity, rate_units);
     if (!rate) {
-        return fail(fmt::format("'{}' is not a rate: write a number and its unit, such as "
-                                "10Mbit/s, 64kbit/s or 500bit/s",
-                                text));
+        return refuse(text, parse_bit_rate,
+                      fmt::format("'{}' is not a rate: write a number and its unit, such as "
+                                  "10Mbit/s, 64kbit/s or 500bit/s",
+                                  text));
     }
     if (*rate > most_bits_per_second) return fail(fmt::format("'{}' is more than 1Tbit/s", text));
     return *rate;
@@ -239,8 +272,11 @@ Result<std::uint64_t> parse_size(std::string_view text)
 {
     const auto size = whole(split(text), size_units);
     if (!size) {
-        return fail(fmt::format(
-            "'{}' is not a size: write a number and its unit, such as 1500B, 64KiB or 1MB", text));
+        return refuse(
+            text, parse_size,
+            fmt::format(
+                "'{}' is not a size: write a number and its unit, such as 1500B, 64KiB or 1MB",
+                text));
     }
     if (*size > most_bytes) return fail(fmt::format("'{}' is more than 1TiB", text));
     return *size;
@@ -253,7 +289,8 @@ Result<std::uint64_t> parse_count(std::string_view text, std::uint64_t most)
     std::uint64_t count = 0;
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     if (error == std::errc::invalid_argument || rest != text.data() + text.size()) {
-        return fail(fmt::format("'{}' is not a whole number", text));
+        return fail(
+            fmt::format("'{}' is not a whole number from 0 to {}: write digits only", text, most));
     }
     if (error != std::errc{} || count > most) {
         return fail(fmt::format("'{}' is more than {}", text, most));

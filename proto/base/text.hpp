@@ -15,9 +15,11 @@ namespace hapnet::base {
 // Quantities as people type and read them. Units are mandatory, except that a bare 0 is zero.
 // Every printed text parses to the value it was printed from.
 
-/// "160ms", "15us", "1.5s", "250ns", "2min"; not negative, at most 10^6 s.
+/// "160ms", "15us", "1.5s", "250ns", "2min", "1h"; not negative, at most 10^6 s.
 [[nodiscard]] Result<Duration> parse_duration(std::string_view text);
 [[nodiscard]] std::string to_text(Duration duration);
+/// The end of a range in an error: 24h, where to_text() prints 86400s.
+[[nodiscard]] std::string bound_text(Duration bound);
 
 /// The same with an optional sign: "-5ms".
 [[nodiscard]] Result<Duration> parse_signed_duration(std::string_view text);
@@ -33,6 +35,9 @@ namespace hapnet::base {
 /// Bytes: "1500B", "64KiB", "1.5MB"; whole bytes, at most 1TiB.
 [[nodiscard]] Result<std::uint64_t> parse_size(std::string_view text);
 [[nodiscard]] std::string size_text(std::uint64_t bytes);
+
+/// `80 ms` as `80ms`: a space before the unit is the commonest mistake, and the errors name it.
+[[nodiscard]] std::string without_spaces(std::string_view text);
 
 /// A whole number from 0 to `most`, decimal digits only.
 [[nodiscard]] Result<std::uint64_t> parse_count(std::string_view text, std::uint64_t most);

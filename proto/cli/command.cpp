@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/cli/command.hpp"
 
+#include "proto/base/quantity.hpp"
 #include "proto/base/version.hpp"
 #include "proto/cli/help.hpp"
 #include "proto/cli/synonyms.hpp"
@@ -96,6 +97,7 @@ public:
 
     base::Result<void> read(Words words)
     {
+        typed_ = words;
         std::transform(words.begin(), words.end(), words.begin(), guarded);
         std::reverse(words.begin(), words.end()); // as CLI11 wants it
         try {
@@ -165,6 +167,7 @@ private:
         for (const std::string& guarded_word : left) {
             const std::string word = unguarded(guarded_word);
             if (word == "--") continue;
+            if (auto split = split_value(word)) return base::fail(*std::move(split));
             if (chosen_ == nullptr && !program_.commands().empty()) {
                 return base::fail(unknown_command(program_, word));
             }
@@ -177,6 +180,25 @@ private:
             return base::fail(unknown_option(*chosen_, option.name()));
         }
         return {};
+    }
+
+    /// What to say of the "ms" in "--delay 80 ms".
+    [[nodiscard]] std::optional<std::string> split_value(const std::string& unit) const
+    {
+        if (!base::is_unit(unit)) return std::nullopt;
+        for (std::size_t i = 1; i < typed_.size(); ++i) {
+            if (typed_[i] != unit) continue;
+            const auto sign = typed_[i - 1].find('=');
+            const bool is_one_word = typed_[i - 1].starts_with('-') && sign != std::string::npos;
+            if (!is_one_word && (i < 2 || !typed_[i - 2].starts_with("--"))) continue;
+            const auto name = is_one_word ? typed_[i - 1].substr(0, sign) : typed_[i - 2];
+            const auto value = is_one_word ? typed_[i - 1].substr(sign + 1) : typed_[i - 1];
+            if (value.empty() || value.find_first_not_of("0123456789.-+") != std::string::npos) {
+                continue;
+            }
+            return fmt::format("{0}: '{1} {2}' has a space: write {1}{2}", name, value, unit);
+        }
+        return std::nullopt;
     }
 
     [[nodiscard]] base::Result<void> command_missing() const
@@ -234,6 +256,7 @@ private:
     }
 
     Command& program_;
+    Words typed_;
     Command* chosen_ = nullptr; // nullptr: the program itself
     CLI::App app_;
     std::map<const Option*, CLI::Option*> found_;

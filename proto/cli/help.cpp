@@ -106,6 +106,17 @@ std::string group_text(const Command& command, const std::string& group, std::si
     return text + row("-V, --version", "Print version, commit and compiler, and exit", columns);
 }
 
+/// The options of a program that belong to each of its commands.
+std::string options_of_every(const Command& program, std::size_t columns)
+{
+    std::string rows;
+    for (const Option& option : program.options()) {
+        if (option.is_hidden || option.is_positional()) continue;
+        rows += row(left_column(option), option.help, columns);
+    }
+    return rows.empty() ? rows : "\nOptions of every command:\n" + rows;
+}
+
 std::vector<std::string> groups_of(const Command& command)
 {
     std::vector<std::string> groups;
@@ -122,7 +133,8 @@ std::vector<std::string> groups_of(const Command& command)
     return groups;
 }
 
-/// How an option stands in a usage line.
+} // namespace
+
 std::string in_usage(const Option& option)
 {
     std::string text = option.name();
@@ -130,8 +142,6 @@ std::string in_usage(const Option& option)
     if (option.is_positional() && option.is_repeated) text += " ...";
     return option.is_required() ? text : "[" + text + "]";
 }
-
-} // namespace
 
 std::size_t help_columns()
 {
@@ -164,10 +174,21 @@ std::string filled(std::string_view text, std::size_t indent, std::size_t column
     return out;
 }
 
+/// Its path, with what may be left out in brackets.
+std::string shown_path(const Command& command)
+{
+    if (command.parent() == nullptr) return command.name();
+    std::string path = shown_path(*command.parent());
+    for (const Option& option : command.parent()->options()) {
+        if (option.is_positional()) path += " " + in_usage(option);
+    }
+    return path + " " + command.name();
+}
+
 std::string usage(const Command& command)
 {
     constexpr std::size_t shown_max = 2; // of the options that may be left out
-    std::string text = command.path();
+    std::string text = shown_path(command);
     std::string optional;
     std::size_t optional_count = 0;
     for (const Option& option : command.options()) {
@@ -204,6 +225,9 @@ std::string help_text(const Command& command, std::size_t columns)
     }
     for (const std::string& group : groups_of(command)) {
         text += group_text(command, group, columns);
+    }
+    if (const Command* parent = command.parent(); parent != nullptr && parent->needs_command()) {
+        text += options_of_every(*parent, columns);
     }
     if (!command.footer().empty()) text += "\n" + filled(command.footer(), 0, columns) + "\n";
     if (command.exit_codes().empty()) return text;

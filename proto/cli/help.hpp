@@ -16,6 +16,9 @@ namespace hapnet::cli {
 /// What `--help` of a command prints.
 [[nodiscard]] std::string help_text(const Command& command, std::size_t columns);
 
+/// How an option stands in a usage line: "[--for TIME]".
+[[nodiscard]] std::string in_usage(const Option& option);
+
 /// "hapnet-lab run EXPERIMENT --out DIR [OPTIONS]": can be pasted and filled in.
 [[nodiscard]] std::string usage(const Command& command);
 

@@ -38,7 +38,7 @@ Parser<std::string> one_of(std::vector<std::string> words)
         });
         if (word != words.end()) return *word;
         return base::fail(
-            fmt::format("'{}' is not known here: use one of {}", text, fmt::join(words, ", ")));
+            fmt::format("unknown value '{}': use one of {}", text, fmt::join(words, ", ")));
     };
 }
 

@@ -16,10 +16,12 @@ std::string_view cure_of(const std::error_code& error)
         return "check the spelling, or write an IP address; both ends of a side are IPv4 or both "
                "IPv6";
     }
+    if (error.category() != std::generic_category() && error.category() != std::system_category()) {
+        return ""; // its message names the cure
+    }
     switch (error.value()) {
     case EADDRINUSE:
-        return "another program has it: stop that, or choose another port (0: any free one) or "
-               "path";
+        return "another program has it: stop that, or choose another port (0: any free one)";
     case EEXIST:
     case ENAMETOOLONG: return "choose another path";
     case EADDRNOTAVAIL:

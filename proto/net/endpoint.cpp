@@ -70,6 +70,12 @@ bool Endpoint::is_loopback() const
     return IN6_IS_ADDR_LOOPBACK(&host) || mapped_loopback;
 }
 
+bool Endpoint::reaches(const Endpoint& listen) const
+{
+    return *this == listen || (listen.is_any() && is_loopback() && port() == listen.port() &&
+                               family() == listen.family());
+}
+
 bool Endpoint::is_any() const
 {
     if (family() == AF_INET) {

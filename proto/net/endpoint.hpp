@@ -24,6 +24,9 @@ public:
     [[nodiscard]] bool is_loopback() const;
     [[nodiscard]] bool is_any() const;
 
+    /// Whether what is sent here arrives at a socket of this machine that listens at `listen`.
+    [[nodiscard]] bool reaches(const Endpoint& listen) const;
+
     /// "127.0.0.1:7001", "[::1]:7001"
     [[nodiscard]] std::string to_text() const;
 

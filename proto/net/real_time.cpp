@@ -46,14 +46,15 @@ void leave_real_time()
 std::string RealTime::shortage() const
 {
     if (fifo && locked_memory) return "";
-    std::string text = "running without ";
-    text += fifo ? "locked memory" : locked_memory ? "SCHED_FIFO" : "SCHED_FIFO and locked memory";
-    text += geteuid() == 0
-                ? " although root: this container or virtual machine withholds it"
-                : ": to allow it run as root, or give your user 'rtprio 50' and 'memlock "
-                  "unlimited' in /etc/security/limits.d";
-    text += "; expect some wake-ups to be later";
-    return text;
+    const std::string what = fifo            ? "locked memory is"
+                             : locked_memory ? "SCHED_FIFO is"
+                                             : "SCHED_FIFO and locked memory are";
+    if (geteuid() == 0) {
+        return what + " not available, even to root, in this container or virtual machine: some "
+                      "wake-ups will be later";
+    }
+    return what + " not allowed: some wake-ups will be later; run as root, or give your user "
+                  "'rtprio 50' and 'memlock unlimited' in /etc/security/limits.d";
 }
 
 } // namespace hapnet::net

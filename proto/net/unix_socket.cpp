@@ -16,9 +16,32 @@ namespace hapnet::net {
 
 namespace {
 
+/// Why a path cannot become a control socket, with a cure that speaks of programs and paths, not of
+/// ports.
+class PathCategory : public std::error_category {
+public:
+    [[nodiscard]] const char* name() const noexcept override { return "control socket"; }
+    [[nodiscard]] std::string message(int error) const override
+    {
+        if (error == EEXIST) {
+            return "this exists and is not a socket; it was left as it is: choose another path";
+        }
+        return "another emulator or peer serves it: end that one, or choose another path";
+    }
+    [[nodiscard]] std::error_condition default_error_condition(int error) const noexcept override
+    {
+        return {error, std::generic_category()};
+    }
+};
+
 [[noreturn]] void refuse(int error, std::string_view doing, const std::string& path)
 {
-    throw std::system_error{error, std::generic_category(), fmt::format("{} {}", doing, path)};
+    static const PathCategory path_category;
+    const bool is_of_path = error == EADDRINUSE || error == EEXIST;
+    const std::error_category& category =
+        is_of_path ? static_cast<const std::error_category&>(path_category)
+                   : std::generic_category();
+    throw std::system_error{error, category, fmt::format("{} {}", doing, path)};
 }
 
 sockaddr_un address_of(const std::string& path)
@@ -63,7 +86,7 @@ void clear_the_place(const std::string& path, const sockaddr_un& address)
 {
     struct stat found {};
     if (lstat(path.c_str(), &found) != 0) return;
-    if (!S_ISSOCK(found.st_mode)) refuse(EEXIST, "this is no socket, and stays:", path);
+    if (!S_ISSOCK(found.st_mode)) refuse(EEXIST, "cannot listen on", path);
     const auto probe = new_socket();
     if (::connect(probe.descriptor(), generic(address), sizeof address) == 0 || errno == EAGAIN) {
         refuse(EADDRINUSE, "cannot listen on", path);

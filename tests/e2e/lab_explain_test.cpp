@@ -35,7 +35,7 @@ TEST(LabExplain, ExplainsABuiltInSceneAndAFile)
 {
     const auto paper = explain({"paper"});
     EXPECT_EQ(paper.exit, 0) << paper.err;
-    EXPECT_NE(paper.out.find("Its tick: sliding\n"), std::string::npos) << paper.out;
+    EXPECT_NE(paper.out.find("Its stepper: sliding\n"), std::string::npos) << paper.out;
     const TemporaryFolder folder;
     const auto file = folder.file("mine.toml");
     std::ofstream{file} << "hips.count = 0\n[[body]]\nsize = \"40mm\"\nmass = \"1kg\"\n";

@@ -137,7 +137,7 @@ TEST(LabReport, RefusesWhatIsNoResultWithFileAndLine)
         << broken;
     const auto none = run("hapnet-lab", {"report", temporary.file("none")});
     EXPECT_EQ(none.exit, 2);
-    EXPECT_NE(none.err.find("none is not a folder"), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("none does not exist: name a folder"), std::string::npos) << none.err;
 }
 
 } // namespace

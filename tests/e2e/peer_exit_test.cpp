@@ -223,7 +223,7 @@ TEST(PeerTrouble, OfItsDeviceIsAnsweredByZeroAtOnceAndAPersonIsToldWhatToDo)
              Case{Trouble::device_lost,
                   "zero force (disconnected): the device has gone: plug it in and start again"},
              Case{Trouble::nonsense, "zero force (communication): the device reports positions "
-                                     "that are no numbers: check its cable, and start again"},
+                                     "that are not numbers: check its cable, and start again"},
              Case{Trouble::docked, ""}, // that is no fault: it lies where it belongs
          }) {
         Push push{{.trouble = c.trouble}};

@@ -241,7 +241,8 @@ Opened<Candidate> choose(libusb_context* context, const std::string& serial)
     }
     if (first_trouble) return tl::unexpected{*std::move(first_trouble)};
     const std::string which = serial.empty() ? "no Falcon" : "no Falcon " + serial;
-    return device_error(Fault::not_found, fmt::format("{}: {}", which, describe(Fault::not_found)));
+    return device_error(Fault::not_found,
+                        fmt::format("{} was found: {}", which, cure_of_not_found));
 }
 
 Opened<std::unique_ptr<Device>> start(Context context, Candidate&& candidate,

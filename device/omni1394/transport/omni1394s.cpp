@@ -99,8 +99,8 @@ Opened<std::unique_ptr<Device>> open_omni(const std::string& serial, const Optio
     const auto profile = profile_in(options.profile);
     if (!profile) return tl::unexpected{profile.error()};
     DeviceError why{Fault::not_found,
-                    fmt::format("no FireWire Omni {}is on a bus: {}",
-                                serial.empty() ? "" : serial + " ", describe(Fault::not_found))};
+                    fmt::format("no FireWire Omni {}was found on a bus: {}",
+                                serial.empty() ? "" : serial + " ", cure_of_not_found)};
     for (const BusNode& seen : look_around()) {
         const Found omni = found(seen);
         if (omni.unusable) {

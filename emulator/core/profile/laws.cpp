@@ -27,7 +27,7 @@ std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwi
     constexpr auto names = names_of_laws(static_cast<std::variant<Laws...>*>(nullptr));
     Reading& reading = table.reading();
     std::string name;
-    const Node* node = table.require("law");
+    const Node* node = table.require("law", fmt::format("use one of {}", fmt::join(names, ", ")));
     if (node == nullptr) return otherwise;
     read_value(*node, name, reading);
     bool is_found = false;
@@ -45,7 +45,7 @@ std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwi
     };
     (read(std::in_place_type<Laws>), ...);
     if (!is_found) {
-        reading.complain(node->place, fmt::format("unknown law {}: {}", base::quoted(name),
+        reading.complain(node->place, fmt::format("unknown law {}: {}", base::in_quotes(name),
                                                   suggestion(name, names)));
     }
     return otherwise;
@@ -129,6 +129,12 @@ Variation read_variation(const Node& node, Role role, std::optional<Order>& orde
     } else {
         base::Duration value{};
         read_value(node, value, reading);
+        if (role == Role::jitter && value < base::Duration{0}) {
+            reading.complain(node.place,
+                             fmt::format("{}: a jitter cannot be negative: {} is -{} to +{}",
+                                         base::what_it_is(node), base::to_text(-value),
+                                         base::to_text(-value), base::to_text(-value)));
+        }
         if (role == Role::delay) variation.law = ConstantLaw{value};
         if (role == Role::jitter) variation.law = UniformLaw{.half_width = value};
     }
@@ -193,7 +199,7 @@ Burst read_burst(const Node& node, Reading& reading)
             return {static_cast<std::uint32_t>(*lost), static_cast<std::uint32_t>(*of), {}};
         }
     }
-    reading.complain(node.place, fmt::format("{} is not a burst: write \"40/100\" to lose 40 in a "
+    reading.complain(node.place, fmt::format("{} is not a burst: write '40/100' to lose 40 in a "
                                              "row of every 100",
                                              base::what_it_is(node)));
     return {1, 1, {}};

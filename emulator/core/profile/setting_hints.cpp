@@ -67,6 +67,25 @@ std::string_view example_for(std::string_view name, std::string_view value)
     return "";
 }
 
+/// Whether a value of several words is what tc-netem takes: "80ms 10ms distribution normal".
+bool is_netem(std::string_view value)
+{
+    constexpr std::array<std::string_view, 12> words{
+        "distribution", "normal", "pareto",  "paretonormal", "uniform", "experimental",
+        "random",       "state",  "gemodel", "gap",          "ecn",     "loss"};
+    std::size_t count = 0;
+    while (!value.empty()) {
+        const auto end = std::min(value.find(' '), value.size());
+        const auto word = value.substr(0, end);
+        value.remove_prefix(std::min(end + 1, value.size()));
+        if (word.empty()) continue;
+        const bool is_number = word[0] >= '0' && word[0] <= '9';
+        const bool is_word = std::find(words.begin(), words.end(), word) != words.end();
+        if (++count > 1 && !is_number && !is_word) return false;
+    }
+    return count > 1;
+}
+
 } // namespace
 
 std::string_view law_example(std::string_view name, std::string_view law)
@@ -91,20 +110,20 @@ std::string explained(std::string_view name, const std::string& value, const std
         return fmt::format("'{}': {}", value, why);
     }
     if (name == "reorder" && base::parse_probability(value)) {
-        return fmt::format("'{0}': say also by how many places: '{{ share = \"{0}\", displacement "
-                           "= 3 }}'",
-                           value);
+        return fmt::format(
+            "'{0}': give the number of places, too: '{{ share = \"{0}\", displacement "
+            "= 3 }}'",
+            value);
     }
     if (const auto example = example_for(name, value); !example.empty()) {
         return fmt::format("'{}': a law is written as a table: '{}'", value, example);
     }
-    const bool is_netem = value.find(' ') != std::string::npos &&
-                          (name == "delay" || name == "loss" || name == "duplicate" ||
-                           name == "corrupt" || name == "reorder");
-    if (is_netem) {
-        return fmt::format("'{0}': a sentence of tc-netem is taken by hapnet-emulator --netem "
-                           "\"{1} {0}\"",
-                           value, name);
+    const bool is_of_netem = name == "delay" || name == "loss" || name == "duplicate" ||
+                             name == "corrupt" || name == "reorder";
+    const bool has_space = why.find(" has a space: ") != std::string::npos; // before its unit
+    if (is_of_netem && !has_space && is_netem(value)) {
+        return fmt::format("'{0}': a sentence of tc-netem goes to --netem \"{1} {0}\"", value,
+                           name);
     }
     if (why.find(value) != std::string::npos) return why;
     return fmt::format("'{}': {}", value, why);

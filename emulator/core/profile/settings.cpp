@@ -8,6 +8,7 @@
 #include "proto/base/fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::emulator {
@@ -108,6 +109,51 @@ void for_each_of(Path& path, std::optional<Direction> direction, Use use)
     if (direction != Direction::up) use(path.down);
 }
 
+/// The setting that a key names.
+struct Target {
+    std::optional<Direction> direction; // nullopt: both
+    std::string name;                   // one of setting_keys
+};
+
+base::Result<Target> target_of(std::string_view key)
+{
+    if (key == "seed") {
+        return base::fail("seed: the seed of a run cannot change: start the emulator with --seed");
+    }
+    constexpr std::array<std::string_view, 3> prefixes{"up", "down", "both"};
+    const auto is_name = [](std::string_view name) {
+        return std::find(setting_keys.begin(), setting_keys.end(), name) != setting_keys.end();
+    };
+    const auto dot = key.find('.');
+    const auto prefix = dot == std::string_view::npos ? "" : key.substr(0, dot);
+    const bool is_prefix = std::find(prefixes.begin(), prefixes.end(), prefix) != prefixes.end();
+    std::string name{is_prefix ? key.substr(dot + 1) : key};
+    std::replace(name.begin(), name.end(), '-', '_');
+    if (const auto end = name.find('.'); end != std::string::npos) {
+        if (is_name(name.substr(0, end))) {
+            const auto whole = key.substr(0, key.rfind('.'));
+            return base::fail(
+                fmt::format("{}: a setting is set as a whole: {} '{{ ... }}'", key, whole));
+        }
+        if (!is_prefix) {
+            return base::fail(
+                fmt::format("{}: unknown direction '{}': use up, down or both", key, prefix));
+        }
+    }
+    if (!is_name(name)) {
+        const std::string_view in = is_prefix ? key.substr(0, dot + 1) : "";
+        if (const auto meant = base::nearest(name, setting_keys)) {
+            return base::fail(fmt::format("{}: did you mean {}{}?", key, in, *meant));
+        }
+        return base::fail(
+            fmt::format("{}: unknown setting: {}", key, suggestion(name, setting_keys)));
+    }
+    Target target{std::nullopt, std::move(name)};
+    if (prefix == "up") target.direction = Direction::up;
+    if (prefix == "down") target.direction = Direction::down;
+    return target;
+}
+
 } // namespace
 
 void read_setting(std::string_view key, const Node& node, DirectionSettings& settings,
@@ -175,32 +221,16 @@ base::Result<Setting> parse_setting(std::string_view key, std::string_view value
                                     const OpenFile& open)
 {
     Reading reading{std::string{key}, open, false};
-    Setting setting;
-    std::string name{key};
-    const auto take = [&](std::string_view prefix) {
-        if (!name.starts_with(prefix)) return false;
-        name.erase(0, prefix.size());
-        return true;
-    };
-    if (take("up.")) {
-        setting.direction = Direction::up;
-    } else if (take("down.")) {
-        setting.direction = Direction::down;
-    } else {
-        take("both.");
-    }
-    std::replace(name.begin(), name.end(), '-', '_');
-    if (std::find(setting_keys.begin(), setting_keys.end(), name) == setting_keys.end()) {
-        return base::fail(
-            fmt::format("{}: unknown setting: {}", key, suggestion(name, setting_keys)));
-    }
-    const std::string text = with_unit(name, value);
+    const auto target = target_of(key);
+    if (!target) return tl::unexpected{target.error()};
+    Setting setting{target->direction, {}};
+    const std::string text = with_unit(target->name, value);
     const auto refuse = [&](const std::string& why) {
-        return base::fail(fmt::format("{}: {}", key, explained(name, text, why)));
+        return base::fail(fmt::format("{}: {}", key, explained(target->name, text, why)));
     };
     const auto node = base::parse_option(text, false);
     if (!node) return refuse(node.error().message);
-    read_setting(name, *node, setting.settings, reading);
+    read_setting(target->name, *node, setting.settings, reading);
     // The complaint begins with the key, as with the place in a file.
     if (!reading.is_good()) return refuse(reading.complaint()->substr(key.size() + 2));
     return setting;

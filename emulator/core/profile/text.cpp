@@ -70,7 +70,7 @@ PlacedChange read_change(const Node& node, Reading& reading)
         return placed;
     }
     TableReader table{*entries, node.place, reading};
-    read_time(table.require("time"), placed.change.time, reading);
+    read_time(table.require("time", "write time = \"10s\""), placed.change.time, reading);
     const Node* ramp = table.find("ramp");
     read_time(ramp, placed.change.ramp, reading);
     if (ramp != nullptr) placed.ramp_place = ramp->place;
@@ -161,9 +161,20 @@ void print_section(std::string& out, const std::string& name, const SettingTexts
     if (!lines.empty()) out += fmt::format("\n[{}]\n{}", name, lines);
 }
 
+/// The steps that are left of a timeline lie anywhere: 18.482486886s, not 18482486886ns.
+std::string time_text(base::Duration time)
+{
+    constexpr base::Duration second = std::chrono::seconds{1};
+    constexpr base::Duration millisecond = std::chrono::milliseconds{1};
+    if (time < second || time % millisecond == base::Duration{0}) return value_text(time);
+    auto text = fmt::format("{}.{:09}", time / second, (time % second).count());
+    text.erase(text.find_last_not_of('0') + 1);
+    return base::quoted(text + "s");
+}
+
 void print_change(std::string& out, const Change& change)
 {
-    out += fmt::format("\n[[at]]\ntime = {}\n", value_text(change.time));
+    out += fmt::format("\n[[at]]\ntime = {}\n", time_text(change.time));
     if (change.ramp > base::Duration{0}) {
         out += fmt::format("ramp = {}\n", value_text(change.ramp));
     }

@@ -145,7 +145,8 @@ TestResult test_run_lengths(const LossTally& tally, const RunLengths& law, doubl
     }
     const ChiSquare test = compare_lengths(tally.runs(), law, count);
     if (count < 2.0 * expected_min) {
-        return unable("run lengths", fmt::format("{:.0f} runs of losses are too few", count));
+        return unable("run lengths", fmt::format("{:.0f} run{} of losses: too few", count,
+                                                 count == 1.0 ? "" : "s"));
     }
     double mean = 0.0;
     for (const double at_least : law.at_least) mean += at_least;

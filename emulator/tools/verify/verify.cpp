@@ -87,11 +87,13 @@ bool any_failed(const Results& results)
 void append_lines(std::string& text, std::string_view part, const Results& results)
 {
     for (const TestResult& result : results) {
+        const bool is_unable = result.outcome == Outcome::unable;
         const auto p = result.p_value ? fmt::format("p = {:.3g}", *result.p_value)
-                       : result.outcome == Outcome::unable ? ""
-                                                           : "exact";
-        text += fmt::format("{:<8} {:<38} {:<7} {:<14} {}\n", part, result.name,
-                            to_text(result.outcome), p, result.sentence);
+                       : is_unable    ? ""
+                                      : "exact";
+        text +=
+            fmt::format("{:<8} {:<38} {:<11} {:<14} {}\n", part, result.name,
+                        is_unable ? "cannot tell" : to_text(result.outcome), p, result.sentence);
     }
 }
 

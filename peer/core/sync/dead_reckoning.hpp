@@ -72,12 +72,14 @@ constexpr auto fields_of(base::Tag<DeadReckoningOptions> /*struct*/)
                     "time in which a new prediction takes over from the last one (projective "
                     "velocity blending, Murphy 2011)")
             .absent_as("none"),
-        base::field("ahead_max", &Options::ahead_max, parameter_time, "limit of t - t_arrived + H")
+        base::field("ahead_max", &Options::ahead_max, parameter_time,
+                    "longest prediction, counted from sending")
             .absent_as("none"),
         base::field("speed_max", &Options::speed_max_m_per_s,
-                    base::Quantity{base::speed_kind, 0.0, 1000.0}, "limit of v"),
+                    base::Quantity{base::speed_kind, 0.0, 1000.0},
+                    "limit of the estimated velocity"),
         base::field("lead_max", &Options::lead_max_m, base::Quantity{base::length_kind, 0.0, 100.0},
-                    "limit of the distance from x_k to x^"),
+                    "farthest a prediction may lie from the received place"),
         base::field("gap_max", &Options::gap_max, parameter_time,
                     "gap between two messages, by the sender's stamps; across a longer one v is 0"),
         base::part(&Options::base));

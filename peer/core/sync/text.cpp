@@ -132,7 +132,8 @@ std::string print_algorithm(const Algorithm& algorithm)
 std::string explain_algorithm(const Algorithm& algorithm)
 {
     const auto lines = [](const auto& one) { return explained(one.options()); };
-    return algorithm_line(algorithm) + std::visit(lines, algorithm);
+    return algorithm_line(algorithm) + std::visit(lines, algorithm) +
+           "# (A1) to (A11): docs/design/algorithms.md\n";
 }
 
 std::string_view name_of(const Algorithm& algorithm)

@@ -15,6 +15,8 @@ namespace {
 using namespace std::chrono_literals;
 using Json = nlohmann::ordered_json;
 
+constexpr base::Duration time_max = 24h;
+
 /// Refuses while it is read what would be dangerous or ambiguous once it has been.
 class Guard {
 public:
@@ -76,7 +78,7 @@ std::optional<std::string> Members::optional_text(const char* key)
     const auto* value = find(key);
     if (value == nullptr) return std::nullopt;
     if (!value->is_string()) {
-        fail(fmt::format("\"{}\" must be a text in quotes", key));
+        fail(fmt::format("\"{}\" must be a string", key));
         return std::nullopt;
     }
     return value->get<std::string>();
@@ -89,9 +91,9 @@ std::optional<base::Duration> Members::time(const char* key, base::Duration leas
     const auto value = base::parse_duration(*text);
     if (!value) {
         fail(fmt::format("\"{}\": {}", key, value.error().message));
-    } else if (*value < least || *value > 24h) {
-        fail(fmt::format("\"{}\": '{}' is not from {} to 24 hours", key, *text,
-                         base::to_text(least)));
+    } else if (*value < least || *value > time_max) {
+        fail(fmt::format("\"{}\": '{}' is out of range: use {} to {}", key, *text,
+                         base::bound_text(least), base::bound_text(time_max)));
     } else {
         return *value;
     }

@@ -35,7 +35,7 @@ TEST(CtlOptions, ShowTheSocketInTheUsageOfACommand)
 {
     const auto prints = cli::prints_of("hapnet-ctl", parse);
     const std::string help = prints({"set", "--help"}).value();
-    EXPECT_EQ(help.rfind("Usage: hapnet-ctl SOCKET set KEY VALUE ... [--for TIME]\n", 0), 0U);
+    EXPECT_EQ(help.rfind("Usage: hapnet-ctl [SOCKET] set KEY VALUE ... [--for TIME]\n", 0), 0U);
     EXPECT_EQ(prints({"a.sock", "set", "--help"}), help);
 }
 
@@ -55,6 +55,20 @@ TEST(CtlOptions, TakeSettingsAsPairsAndWithEqualsSigns)
               "KEY VALUE is required: hapnet-ctl SOCKET set both.delay 80ms");
 }
 
+TEST(CtlOptions, NameASpaceInASetting)
+{
+    EXPECT_EQ(refusal({"s", "set", "up.delay", "80", "ms"}),
+              "set: 'ms' is not a setting: write up.delay 80ms, without a space");
+    EXPECT_EQ(refusal({"s", "set", "up.delay", "=", "80ms"}),
+              "set: write up.delay=80ms, without a space");
+    EXPECT_EQ(refusal({"s", "set", "up.delay=", "80ms"}),
+              "set: write up.delay=80ms, without a space");
+    EXPECT_EQ(refusal({"s", "set", "up.delay", "=80ms"}),
+              "set: write up.delay=80ms, without a space");
+    EXPECT_EQ(refusal({"s", "set", "up.delay="}),
+              "set: 'up.delay=' has no value: write set up.delay VALUE");
+}
+
 TEST(CtlOptions, TakeTheSocketInFrontAsAnOptionOrFromTheEnvironment)
 {
     EXPECT_EQ(options_of({"a.sock", "show"}).socket, "a.sock");
@@ -72,6 +86,9 @@ TEST(CtlOptions, NameTheOptionWhoseTimeHasNoUnit)
     EXPECT_EQ(refusal({"s", "set", "delay", "1ms", "--for", "5"}).rfind("--for: '5' is not", 0),
               0U);
     EXPECT_EQ(options_of({"s", "set", "delay", "1ms", "--for", "5s"}).lasting, 5s);
+    EXPECT_EQ(refusal({"s", "set", "delay", "1ms", "--for", "0s"}),
+              "--for: '0s' is out of range: use 1ms to 24h");
+    EXPECT_EQ(options_of({"s", "set", "delay", "1ms", "--for", "2h"}).lasting, 7200s);
     EXPECT_EQ(refusal({"s", "wait"}), "--until is required: --until 'up.received>1000'");
 }
 

@@ -3,6 +3,7 @@
 #include "ctl/print.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <gtest/gtest.h>
 
 namespace hapnet::ctl {
@@ -43,6 +44,37 @@ TEST(WatchPrinter, OverwritesItsLastTableOnATerminal)
         const std::string back = "\x1b[" + std::to_string(lines) + "A";
         EXPECT_EQ(printer.next(statistics).rfind(back, 0), 0U);
     }
+}
+
+Options asked(const std::string& command)
+{
+    Options options;
+    options.command = command;
+    return options;
+}
+
+TEST(InWords, TellsHowLongWasWaited)
+{
+    Options options = asked("wait");
+    options.timeout = std::chrono::milliseconds{200};
+    Json reply{{"until", "up.received>1000"}, {"met", false}, {"elapsed_s", 2.43949}};
+    EXPECT_EQ(in_words(options, reply),
+              "up.received>1000: not met within 200ms (2.44 s after the start)\n");
+    reply["met"] = true;
+    EXPECT_EQ(in_words(options, reply), "up.received>1000: met 2.44 s after the start\n");
+}
+
+TEST(InWords, TellsFromWhenAChangeHolds)
+{
+    Json reply{{"generation", 2},
+               {"changed", true},
+               {"elapsed_s", 0.24},
+               {"effective_at", {{"up", 5}, {"down", 1}}}};
+    EXPECT_EQ(in_words(asked("set"), reply),
+              "generation 2 holds from datagram 5 up (A to B) and datagram 1 down (B to A), "
+              "0.24 s after the start\n");
+    reply["changed"] = false;
+    EXPECT_EQ(in_words(asked("reset"), reply), "nothing changed: generation 2 still holds\n");
 }
 
 } // namespace

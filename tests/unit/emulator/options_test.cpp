@@ -86,16 +86,26 @@ TEST(EmulatorOptions, AnswerTheWordsOfOtherTools)
 
 TEST(EmulatorOptions, SayHowALawIsWritten)
 {
-    EXPECT_EQ(refusal({"--reorder", "5%"}),
-              "--reorder: '5%': say also by how many places: '{ share = \"5%\", displacement = 3 "
-              "}'");
+    EXPECT_EQ(
+        refusal({"--reorder", "5%"}),
+        "--reorder: '5%': give the number of places, too: '{ share = \"5%\", displacement = 3 "
+        "}'");
     EXPECT_EQ(refusal({"--loss", "gilbert"}),
               "--loss: 'gilbert': a law is written as a table: '{ law = \"gilbert\", share = "
               "\"2%\", mean_burst = 5.0 }'");
     expect_said(refusal({"--up.jitter", "20ms normal"}), "'{ law = \"normal\", sd = \"5ms\" }'");
     expect_said(refusal({"--delay", "80ms 5ms"}), "--netem \"delay 80ms 5ms\"");
     EXPECT_EQ(refusal({"--reorder", "{ share = \"5%\", displacement = 3 }"}), "");
+    expect_said(refusal({"--loss", "5% 25% ecn"}), "--netem \"loss 5% 25% ecn\"");
     EXPECT_EQ(refusal({"--netem", "delay 80ms 5ms"}), "");
+}
+
+TEST(EmulatorOptions, NameASpaceInAValue)
+{
+    EXPECT_EQ(refusal({"--delay", "80 ms"}), "--delay: '80 ms' has a space: write 80ms");
+    EXPECT_EQ(refusal({"--loss", "5 %"}), "--loss: '5 %' has a space: write 5%");
+    EXPECT_EQ(refusal({"--delay", "80", "ms"}), "--delay: '80 ms' has a space: write 80ms");
+    EXPECT_EQ(refusal({"--delay", "80ms later"}).find("--netem"), std::string::npos);
 }
 
 TEST(EmulatorOptions, ProposeOnlyLawsThatCanBeTyped)

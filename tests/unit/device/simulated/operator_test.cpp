@@ -58,10 +58,10 @@ TEST(Operator, IsReadFromWhatDiffersFromAPreset)
 TEST(Operator, IsRefusedWithFileAndLine)
 {
     EXPECT_EQ(complaint("mass = \"200g\"\nstifness = \"2N/m\"\n"),
-              "hand.toml:2:1: unknown key \"stifness\": did you mean 'stiffness'?");
-    EXPECT_EQ(complaint("mass = \"0g\""), "hand.toml:1:8: \"0g\" is out of range: use 20g to 10kg");
+              "hand.toml:2:1: unknown key 'stifness': did you mean 'stiffness'?");
+    EXPECT_EQ(complaint("mass = \"0g\""), "hand.toml:1:8: '0g' is out of range: use 20g to 10kg");
     EXPECT_EQ(complaint("will.delay = \"2s\""),
-              "hand.toml:1:14: \"2s\" is out of range: use 0ms to 1s");
+              "hand.toml:1:14: '2s' is out of range: use 0ms to 1s");
     EXPECT_EQ(complaint("preset = \"fierce\"").substr(0, 15), "hand.toml:1:10:");
 }
 

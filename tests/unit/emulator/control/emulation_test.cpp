@@ -49,11 +49,19 @@ TEST_F(Talk, AnswersAChangeWithTheTimeTheGenerationAndTheDatagramsFromWhichItHol
     const auto reply = ask(set({{"both.delay", "80ms"}}), start + 1s);
     EXPECT_EQ(reply, (json{{"ok", true},
                            {"generation", 2},
+                           {"changed", true},
                            {"elapsed_s", 1.0},
                            {"effective_at_ns", 101'000'000'000},
                            {"effective_at", {{"up", 5}, {"down", 3}}}}));
     EXPECT_EQ(fake.delay(Direction::up), DelayLaw{ConstantLaw{80ms}});
     EXPECT_EQ(fake.delay(Direction::down), DelayLaw{ConstantLaw{80ms}});
+}
+
+TEST_F(Talk, SaysThatNothingChanged)
+{
+    EXPECT_EQ(ask(set({{"both.delay", "80ms"}}))["changed"], true);
+    EXPECT_EQ(ask({{"command", "reset"}})["changed"], true);
+    EXPECT_EQ(ask({{"command", "reset"}})["changed"], false);
 }
 
 TEST_F(Talk, LetsOneWayWinOverBothWaysInOneRequest)
@@ -76,7 +84,7 @@ TEST_F(Talk, NamesWhatItRefuses)
     EXPECT_NE(refused({{"command", "stop"}}).find("SIGTERM"), std::string::npos);
     EXPECT_NE(refused({{"command", "show"}, {"x", 1}}).find("\"x\""), std::string::npos);
     EXPECT_NE(refused({{"comand", "show"}}).find("\"command\" is missing"), std::string::npos);
-    EXPECT_NE(refused({{"command", 1}}).find("text"), std::string::npos);
+    EXPECT_NE(refused({{"command", 1}}).find("string"), std::string::npos);
     EXPECT_NE(refused({1, 2}).find("JSON object"), std::string::npos);
     EXPECT_NE(refused(set({})).find("\"settings\""), std::string::npos);
     EXPECT_NE(refused(set({{"both.delay", 80}})).find("both.delay"), std::string::npos);

@@ -112,20 +112,24 @@ TEST(Netem, APeculiarityOfTcIsWarnedOf)
     EXPECT_TRUE(warns(read("delay 50ms 5ms distribution uniform"), "tc refuses"));
     EXPECT_TRUE(warns(read("delay 2s"), "above 500 packets/s it would drop"));
     EXPECT_TRUE(warns(read("duplicate 10% 25%"), "has no effect"));
-    EXPECT_TRUE(warns(read("delay 50ms 15ms"), "jitter reorders in netem"));
+    EXPECT_TRUE(warns(read("delay 50ms 15ms"), "netem's jitter reorders"));
     EXPECT_TRUE(read("delay 50ms loss 1").warnings.empty());
 }
 
 TEST(Netem, WhatCannotBeDoneIsRefusedByItsWord)
 {
-    EXPECT_EQ(refusal("delay 10ms slot 20ms"), "word 3: 'slot' is not possible here");
-    EXPECT_EQ(refusal("delay"), "word 1: the sentence ends too early");
+    EXPECT_EQ(refusal("delay 10ms slot 20ms"),
+              "word 3: netem's slot cannot be emulated: leave it out");
+    EXPECT_EQ(refusal("delay"), "after word 1, 'delay': expected a time, such as 80ms");
+    EXPECT_EQ(refusal("delay 80ms loss random"),
+              "after word 4, 'random': expected a share, such as 1%");
+    EXPECT_EQ(refusal("dely 80ms"), "word 1: unknown netem option 'dely': did you mean 'delay'?");
     EXPECT_EQ(refusal("delay 10m"), "word 2: '10m' is not a time: write 80ms, for instance");
     EXPECT_EQ(refusal("loss 101%"), "word 2: '101%' is more than 100%");
     EXPECT_EQ(refusal("reorder 5%"), "word 2: reorder needs a delay");
     EXPECT_EQ(refusal("delay 10ms 1ms distribution experimental").substr(0, 8), "word 5: ");
     EXPECT_EQ(refusal("rate 10mbit 0 53").substr(0, 8), "word 4: ");
-    EXPECT_EQ(refusal(""), "nothing is said: write delay 80ms loss 1%, for instance");
+    EXPECT_EQ(refusal(""), "the sentence is empty: write, for example, \"delay 80ms loss 1%\"");
 }
 
 } // namespace

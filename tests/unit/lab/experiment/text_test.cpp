@@ -108,7 +108,7 @@ TEST(ExperimentText, ABadSettingIsNamedWithWhatWouldBeRight)
 {
     const std::string text{smallest};
     expect_words(complaint(text, {"duration=20s", "seeds=many"}),
-                 {"--set seeds=many: ", "\"many\"", "whole number from 1 to 1000"});
+                 {"--set seeds=many: ", "'many'", "whole number from 1 to 1000"});
     expect_words(complaint(text, {"seedz=3"}), {"--set seedz=3: ", "did you mean 'seeds'?"});
     expect_words(complaint(text, {"both.delay=5"}), {"--set both.delay=5: ", "160ms"});
     expect_words(complaint(text, {"seeds"}), {"--set seeds: ", "KEY=VALUE"});

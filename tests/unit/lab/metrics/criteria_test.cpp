@@ -61,7 +61,7 @@ TEST(Criteria, AreRefusedWithThePlaceOfWhatIsWrong)
     EXPECT_EQ(complaint("[good]\nstiffness_ratio_min = 77\n"),
               "c.toml:2:23: 77 is out of range: use 0 to 1");
     EXPECT_TRUE(complaint("[usable]\nforce_vibration_max = \"-0.1N\"\n")
-                    .starts_with("c.toml:2:23: \"-0.1N\" is too small: use 0"));
+                    .starts_with("c.toml:2:23: '-0.1N' is too small: use 0"));
     EXPECT_TRUE(complaint("[usable]\nforce_vibration_max = 0.1\n").starts_with("c.toml:2:23: "));
     EXPECT_TRUE(complaint("[usable]\nvibration = \"1mm\"\n").starts_with("c.toml:2:1: "));
     EXPECT_TRUE(complaint("usable = 1\n").starts_with("c.toml:1:10: "));

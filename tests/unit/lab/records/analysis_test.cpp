@@ -152,7 +152,7 @@ TEST(Verdict, IsValidWithALatenessOfOneMillisecondAndNotWithOneNanosecondMore)
     EXPECT_TRUE(with_a(late_in(1000, 1ms)).valid());
     EXPECT_TRUE(with_a(late_in(10, 1ms + 1ns)).valid());
     EXPECT_EQ(with_a(late_in(11, 1500us)).invalid_because,
-              std::vector<std::string>{"a: p99 tick lateness 1.500 ms is above 1 ms"});
+              std::vector<std::string>{"A: p99 tick lateness 1.500 ms is above 1 ms"});
 }
 
 TEST(Verdict, IsValidWithHalfAPercentOfTheTicksMissedAndNotWithOneMore)
@@ -169,7 +169,7 @@ TEST(Verdict, IsValidWithHalfAPercentOfTheTicksMissedAndNotWithOneMore)
     EXPECT_TRUE(missing(5).valid());
     EXPECT_EQ(missing(6).a.missed, 6U);
     EXPECT_EQ(missing(6).invalid_because,
-              std::vector<std::string>{"a: 0.60 % of the ticks missed, more than 0.5 %"});
+              std::vector<std::string>{"A: 0.60 % of the ticks missed, more than 0.5 %"});
 }
 
 TEST(Verdict, IsNotValidWhenTheSessionsOverlapTooLittle)

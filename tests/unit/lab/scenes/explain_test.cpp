@@ -28,7 +28,8 @@ TEST(Explain, ThePapersSceneSlidesAsItsCubeCannotTurn)
     EXPECT_TRUE(says(text, "2, of radius 5mm: 500N/m and 2Ns/m, at most 3.3N")) << text;
     EXPECT_TRUE(says(text, "  rotation     off  ")) << text;
     EXPECT_TRUE(says(text, "  drag         on   ")) << text;
-    EXPECT_TRUE(says(text, "Its tick: sliding\n  cheaper: flight           has no contact, hips"))
+    EXPECT_TRUE(
+        says(text, "Its stepper: sliding\n  cheaper: flight           has no contact, hips"))
         << text;
 }
 

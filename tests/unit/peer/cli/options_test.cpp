@@ -86,7 +86,7 @@ TEST(PeerOptions, NameTheOptionTheTextAndTheRange)
 {
     EXPECT_EQ(refusal_to_session({"--id", "0"}),
               "--id: expected a whole number from 1 to 65535, not 0");
-    expect_words(refusal_to_session({"--duration", "10ms"}), "--duration: \"10ms\"");
+    expect_words(refusal_to_session({"--duration", "10ms"}), "--duration: '10ms'");
     expect_words(refusal_to_session({"--duration", "10ms"}), "1s or more");
     expect_words(refusal_to_session({"--force-limit", "-1N"}), "0N to 40N");
     expect_words(refusal_to_session({"--mount-scale", "30"}), "0.05 to 20");

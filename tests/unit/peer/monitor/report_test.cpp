@@ -30,6 +30,26 @@ TEST_F(Shown, SaysThatItWaitsForTheOther)
     EXPECT_EQ(show()["device"], "a device");
 }
 
+TEST_F(Shown, SaysWhyTheRunIsNotValid)
+{
+    const auto verdict = [&] {
+        const std::string text = summary({options, status, journal, "a device"});
+        const auto start = text.find("NOT VALID as a measurement: ");
+        return start == std::string::npos ? "valid"
+                                          : text.substr(start + 28, text.find('\n') - start - 28);
+    };
+    EXPECT_EQ(verdict(), "no tick began");
+    for (int i = 0; i < 1000; ++i) status.loop.late.add(100us);
+    status.loop.ticks = 991;
+    EXPECT_EQ(verdict(), "valid");
+    status.loop.missed = 9;
+    EXPECT_EQ(verdict(), "0.9 % of the ticks were missed, more than 0.5 %");
+    status.loop.missed = 0;
+    for (int i = 0; i < 100; ++i) status.loop.late.add(2ms);
+    EXPECT_EQ(verdict().rfind("p99 lateness 2", 0), 0U) << verdict();
+    EXPECT_NE(verdict().find(" us, more than 1000 us"), std::string::npos) << verdict();
+}
+
 TEST_F(Shown, SaysWhereInTheSessionItIs)
 {
     status.session = Session{.number = 7, .start = base::TimePoint{10s}, .is_left = true};

@@ -131,22 +131,29 @@ TEST(Fields, PrintOnlyWhatIsNeededIfAsked)
 
 TEST(Fields, ComplainWithThePlaceAndTheCure)
 {
-    EXPECT_EQ(complaint<Horse>("gait = \"trot\""), "f.toml:1:1: missing key 'name'");
-    EXPECT_EQ(complaint<Horse>("nam = \"B\""),
-              "f.toml:1:1: unknown key \"nam\": did you mean 'name'?");
+    EXPECT_EQ(complaint<Horse>("gait = \"trot\""),
+              R"(f.toml:1:1: missing key 'name': write name = "...")");
     EXPECT_EQ(complaint<Horse>("name = \"B\"\ngait = \"trott\""),
-              "f.toml:2:8: unknown name \"trott\": did you mean 'trot'?");
+              "f.toml:2:8: unknown name 'trott': did you mean 'trot'?");
     EXPECT_EQ(complaint<Horse>("name = \"B\"\ngait = \"fly\""),
-              "f.toml:2:8: unknown name \"fly\": use one of walk, trot, gallop");
+              "f.toml:2:8: unknown name 'fly': use one of walk, trot, gallop");
     EXPECT_EQ(complaint<Horse>("name = \"B\"\nshode = true"),
-              "f.toml:2:1: unknown key \"shode\": did you mean 'shod'?");
+              "f.toml:2:1: unknown key 'shode': did you mean 'shod'?");
+    EXPECT_EQ(complaint<Horse>("nam = \"B\""),
+              "f.toml:1:1: unknown key 'nam': did you mean 'name'?");
+    EXPECT_EQ(complaint<Horse>("name = \"B\"\nstraps = 3.0"),
+              "f.toml:2:10: expected a whole number from 1 to 4 in digits: write 3");
+    EXPECT_EQ(complaint<Horse>("name = \"B\"\nstraps = 2.5"),
+              "f.toml:2:10: expected a whole number from 1 to 4, not 2.5");
+    EXPECT_EQ(parse_value<std::uint32_t>(Count{1, 4}, "x", "--straps").error().message,
+              "--straps: expected a whole number from 1 to 4, not 'x'");
     EXPECT_EQ(complaint<Horse>("name = 5"), "f.toml:1:8: expected a text in quotes, not 5");
     EXPECT_EQ(complaint<Horse>("name = \"B\"\nrider = { mass = \"500kg\" }"),
-              "f.toml:2:18: \"500kg\" is out of range: use 1kg to 200kg");
+              "f.toml:2:18: '500kg' is out of range: use 1kg to 200kg");
     EXPECT_EQ(complaint<Horse>("name = \"B\"\nstraps = 9"),
               "f.toml:2:10: expected a whole number from 1 to 4, not 9");
     EXPECT_EQ(complaint<Rider>("reaction = \"11s\""),
-              "f.toml:1:12: \"11s\" is out of range: use 1ms to 10s");
+              "f.toml:1:12: '11s' is out of range: use 1ms to 10s");
 }
 
 TEST(Fields, TellPeopleTheirKeys)

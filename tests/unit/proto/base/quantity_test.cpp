@@ -26,35 +26,35 @@ TEST(Quantity, IsTheDoubleNearestToWhatIsWritten)
 
 TEST(Quantity, HasItsUnitAndNothingElse)
 {
-    for (const std::string_view text : {"",
-                                        "40",
-                                        "mm",
-                                        "40 mm",
-                                        "40mm ",
-                                        " 40mm",
-                                        "+40mm",
-                                        "--4mm",
-                                        "4-mm",
-                                        "1.2.3mm",
-                                        "40MM",
-                                        "40km",
-                                        "40kg",
-                                        "4e mm",
-                                        "4emm",
-                                        "4e99999mm",
-                                        "4e400m",
-                                        "nanmm",
-                                        "infm",
-                                        "0x1m",
-                                        ".mm",
-                                        "-",
-                                        "1e99999999999999999999m",
-                                        "4mm4mm"}) {
+    for (const std::string_view text :
+         {"",      "40",      "mm",        "+40mm",  "--4mm",
+          "4-mm",  "1.2.3mm", "40MM",      "40km",   "40kg",
+          "4e mm", "4emm",    "4e99999mm", "4e400m", "nanmm",
+          "infm",  "0x1m",    ".mm",       "-",      "1e99999999999999999999m",
+          "4mm4mm"}) {
         const auto read = parse_quantity(text, length_kind);
         ASSERT_FALSE(read) << text;
         EXPECT_NE(read.error().message.find("write a number and its unit, such as 40mm"),
                   std::string::npos)
             << read.error().message;
+    }
+}
+
+TEST(Quantity, WithASpaceSaysSo)
+{
+    for (const std::string_view text : {"40 mm", "40mm ", " 40mm"}) {
+        EXPECT_EQ(parse_quantity(text, length_kind).error().message,
+                  "'" + std::string{text} + "' has a space: write 40mm");
+    }
+}
+
+TEST(Quantity, KnowsTheUnitsOfAllKinds)
+{
+    for (const std::string_view unit : {"ms", "h", "%", "Mbit/s", "KiB", "mm", "N", "deg"}) {
+        EXPECT_TRUE(is_unit(unit)) << unit;
+    }
+    for (const std::string_view word : {"", "5", "5ms", "parsec", "up.delay", "-", "."}) {
+        EXPECT_FALSE(is_unit(word)) << word;
     }
 }
 

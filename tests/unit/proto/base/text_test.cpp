@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::base {
 namespace {
@@ -24,6 +25,7 @@ TEST(Text, ReadsDurationsWithTheirUnit)
              Reading{"250ns", 250ns},
              Reading{"1.5s", 1500ms},
              Reading{"2min", 120s},
+             Reading{"24h", 86400s},
              Reading{"0.5ms", 500us},
              Reading{".5s", 500ms},
              Reading{"5.s", 5s},
@@ -46,12 +48,40 @@ TEST(Text, ReadsDurationsWithTheirUnit)
 TEST(Text, RefusesWhatIsNotADurationAndSaysHowToWriteOne)
 {
     for (const std::string_view text :
-         {"",     " ",    "5",      "-5ms",   "+5ms",   "1e3ms", "ms",   "5 ms", " 5ms",
-          "5ms ", "5Ms",  "5h",     "5msek",  "1.2.3s", ".s",    "..5s", "nan",  "nanms",
-          "inf",  "infs", "0x10ms", "5ms5ms", "1,5s",   "٣ms",   "0.1"}) {
+         {"",    " ",     "5",   "-5ms", "+5ms",   "1e3ms",  "ms",   "1.2.3s", ".s",  "..5s",
+          "nan", "nanms", "inf", "infs", "0x10ms", "5ms5ms", "1,5s", "٣ms",    "0.1", "5 6"}) {
         const auto read = parse_duration(text);
         ASSERT_FALSE(read) << text;
         EXPECT_NE(read.error().message.find("160ms"), std::string::npos) << read.error().message;
+    }
+}
+
+TEST(Text, NamesTheUnitsOfTimeWhereOneIsUnknown)
+{
+    EXPECT_EQ(parse_duration("5Ms").error().message,
+              "'5Ms' is not a duration: 'Ms' is not a unit of time: use ns, us, ms, s, min or h");
+    EXPECT_FALSE(parse_duration("5msek"));
+}
+
+TEST(Text, NamesASpaceBeforeTheUnit)
+{
+    EXPECT_EQ(parse_duration("80 ms").error().message, "'80 ms' has a space: write 80ms");
+    EXPECT_EQ(parse_duration("5ms ").error().message, "'5ms ' has a space: write 5ms");
+    EXPECT_EQ(parse_signed_duration("-80 ms").error().message, "'80 ms' has a space: write 80ms");
+    EXPECT_EQ(parse_probability("5 %").error().message, "'5 %' has a space: write 5%");
+    EXPECT_EQ(parse_bit_rate("10 Mbit/s").error().message,
+              "'10 Mbit/s' has a space: write 10Mbit/s");
+    EXPECT_EQ(parse_size("64 KiB").error().message, "'64 KiB' has a space: write 64KiB");
+    EXPECT_EQ(parse_duration("80 parsecs").error().message,
+              "'80 parsecs' is not a duration: write a number and its unit, such as 160ms, 15us or "
+              "1.5s");
+}
+
+TEST(Text, SaysOfACountThatItConsistsOfDigits)
+{
+    for (const std::string_view text : {"-1", "1e6", "1.5", "abc"}) {
+        EXPECT_EQ(parse_count(text, 100).error().message,
+                  fmt::format("'{}' is not a whole number from 0 to 100: write digits only", text));
     }
 }
 

@@ -165,6 +165,9 @@ TEST(Command, RefusesAWordThatIsNotACommand)
     EXPECT_EQ(Relay{}.refusal({"--place", "x", "stray"}),
               "unknown command 'stray': commands are play, list");
     EXPECT_EQ(Relay{}.refusal({"list", "stray"}), "unexpected 'stray': relay list");
+    EXPECT_EQ(Relay{}.refusal({"--delay", "80", "ms"}), "--delay: '80 ms' has a space: write 80ms");
+    EXPECT_EQ(Relay{}.refusal({"--delay=80", "ms"}), "--delay: '80 ms' has a space: write 80ms");
+    EXPECT_EQ(Relay{}.refusal({"--stats", "a", "ms"}).rfind("unknown command 'ms'", 0), 0U);
 }
 
 TEST(Command, PrintsItsHelpWhereverItIsAskedFor)
@@ -208,7 +211,7 @@ TEST(Command, TakesACommandWithoutTheArgumentInFrontOfIt)
 TEST(Command, PrintsHelpOfACommandWithAndWithoutTheArgumentInFrontOfIt)
 {
     const std::string help = Control{}.parse({"set", "--help"}).value().value_or("");
-    EXPECT_EQ(help.rfind("Usage: control SOCKET set [KEY ...]\n", 0), 0U) << help;
+    EXPECT_EQ(help.rfind("Usage: control [SOCKET] set [KEY ...]\n", 0), 0U) << help;
     EXPECT_EQ(Control{}.parse({"a.sock", "set", "--help"}).value(), help);
     EXPECT_EQ(Control{}.parse({"a.sock", "help", "set"}).value(), help);
 }
@@ -245,7 +248,7 @@ TEST(Parsers, TakeAWordInSmallAndCapitalLetters)
 {
     EXPECT_EQ(one_of({"eco", "spin"})("ECO").value(), "eco");
     EXPECT_EQ(one_of({"eco", "spin"})("now").error().message,
-              "'now' is not known here: use one of eco, spin");
+              "unknown value 'now': use one of eco, spin");
 }
 
 } // namespace

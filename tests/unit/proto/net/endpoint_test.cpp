@@ -35,6 +35,17 @@ TEST(Endpoint, TakesHostAndPortApart)
     EXPECT_EQ(parse_host_port("peer.example:65535").value().port, 65535);
 }
 
+TEST(Endpoint, KnowsWhetherItReachesASocketOfThisMachine)
+{
+    const auto one = endpoint("127.0.0.1:7001");
+    EXPECT_TRUE(one.reaches(one));
+    EXPECT_TRUE(one.reaches(endpoint("0.0.0.0:7001")));
+    EXPECT_FALSE(one.reaches(endpoint("127.0.0.1:7002")));
+    EXPECT_FALSE(one.reaches(endpoint("0.0.0.0:7002")));
+    EXPECT_FALSE(one.reaches(endpoint("[::]:7001")));
+    EXPECT_FALSE(endpoint("10.0.0.1:7001").reaches(endpoint("0.0.0.0:7001")));
+}
+
 TEST(Endpoint, RefusesWhatIsNotHostAndPort)
 {
     for (const std::string_view text :

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/unix_socket.hpp"
 
+#include "proto/net/cure.hpp"
 #include "proto/net/wait_set.hpp"
 
 #include <array>
@@ -42,9 +43,20 @@ int error_of(const std::string& path)
         const UnixListener listener{path};
     } catch (const std::system_error& error) {
         EXPECT_NE(std::string{error.what()}.find(path), std::string::npos) << error.what();
+        EXPECT_EQ(explained(error).find(" port"), std::string::npos) << explained(error);
         return error.code().value();
     }
     return 0;
+}
+
+std::string refusal_of(const std::string& path)
+{
+    try {
+        const UnixListener listener{path};
+    } catch (const std::system_error& error) {
+        return explained(error);
+    }
+    return "";
 }
 
 TEST(UnixListener, IsForItsOwnerAloneAndGoesWithItsObject)
@@ -70,6 +82,9 @@ TEST(UnixListener, ReplacesASocketThatNobodyAnswersOnAndNothingElse)
     EXPECT_EQ(error_of(other), 0);
     const UnixListener living{place.path()};
     EXPECT_EQ(error_of(place.path()), EADDRINUSE);
+    EXPECT_EQ(refusal_of(place.path()),
+              "cannot listen on " + place.path() +
+                  ": another emulator or peer serves it: end that one, or choose another path");
     std::ofstream{other} << "text";
     EXPECT_EQ(error_of(other), EEXIST);
     EXPECT_EQ(error_of(place.path() + std::string(200, 'x')), ENAMETOOLONG);

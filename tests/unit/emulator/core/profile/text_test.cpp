@@ -100,7 +100,7 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
               "test.toml:2:9: '160' is not a duration: write a number and its unit, such as 160ms, "
               "15us or 1.5s");
     EXPECT_EQ(refusal("[both]\ndealy = \"160ms\"\n"),
-              "test.toml:2:1: unknown key \"dealy\": did you mean 'delay'?");
+              "test.toml:2:1: unknown key 'dealy': did you mean 'delay'?");
     EXPECT_EQ(refusal("[both]\ndelay = true\n"),
               "test.toml:2:9: expected a number and its unit, such as 160ms, 15us or 1.5s, not "
               "true");
@@ -109,15 +109,16 @@ TEST(ProfileText, ErrorsNameThePlaceAndWhatWouldBeRight)
         refusal("[up]\nloss = \"101/100\"\n"),
         "test.toml:2:8: cannot lose 101 of 100: write at least 1 and at most all, as in 40/100");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"uniform\" }\n"),
-              "test.toml:2:10: missing key 'half_width'");
+              R"(test.toml:2:10: missing key 'half_width': write half_width = "10ms")");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"unifrom\" }\n"),
-              "test.toml:2:18: unknown law \"unifrom\": did you mean 'uniform'?");
+              "test.toml:2:18: unknown law 'unifrom': did you mean 'uniform'?");
     EXPECT_EQ(refusal("[up]\njitter = { law = \"normal\", sd = \"-1ms\" }\n"),
-              "test.toml:2:33: \"-1ms\" is out of range: use 0ms to 1000000s");
+              "test.toml:2:33: '-1ms' is out of range: use 0ms to 1000000s");
     EXPECT_EQ(refusal("[up]\norder = \"keep\"\njitter = { law = \"normal\", sd = \"1ms\", order = "
                       "\"free\" }\n"),
               "test.toml:2:9: jitter and order name different orders: write only one of them");
-    EXPECT_EQ(refusal("[[at]]\nup.delay = \"1ms\"\n"), "test.toml:1:1: missing key 'time'");
+    EXPECT_EQ(refusal("[[at]]\nup.delay = \"1ms\"\n"),
+              R"(test.toml:1:1: missing key 'time': write time = "10s")");
     EXPECT_EQ(refusal("[both]\ndelay = \n"),
               "test.toml:2:9: Error while parsing key-value pair: expected value, saw '\\n'");
     EXPECT_EQ(refusal("[both]\ndelay = 1979-05-27\n").substr(0, 16), "test.toml:2:9: a");
@@ -200,8 +201,55 @@ TEST(ProfileText, ASettingReadsWithoutQuotesAndItsErrorsNameIt)
     EXPECT_EQ(parse_setting("up.delay", "300", {}).error().message,
               "up.delay: '300' is not a duration: write a number and its unit, such as 160ms, 15us "
               "or 1.5s");
-    EXPECT_EQ(parse_setting("up.los", "3%", {}).error().message,
-              "up.los: unknown setting: did you mean 'loss'?");
+    EXPECT_EQ(parse_setting("up.los", "3%", {}).error().message, "up.los: did you mean up.loss?");
+}
+
+TEST(ProfileText, NamesWhatIsWrongWithTheKeyOfASetting)
+{
+    const auto why = [](std::string_view key) {
+        return parse_setting(key, "5%", {}).error().message;
+    };
+    EXPECT_EQ(why("upp.loss"), "upp.loss: unknown direction 'upp': use up, down or both");
+    EXPECT_EQ(why("los"), "los: did you mean loss?");
+    EXPECT_EQ(why("up.x"), "up.x: unknown setting: use one of mtu, rate, loss, burst_loss, "
+                           "corrupt, duplicate, delay, jitter, order, reorder");
+    EXPECT_EQ(why("seed"), "seed: the seed of a run cannot change: start the emulator with --seed");
+    EXPECT_EQ(why("up.loss.share"),
+              "up.loss.share: a setting is set as a whole: up.loss '{ ... }'");
+    EXPECT_EQ(why("loss.share"), "loss.share: a setting is set as a whole: loss '{ ... }'");
+    EXPECT_TRUE(parse_setting("loss", "5%", {}));
+    EXPECT_FALSE(parse_setting("both.burst-loss", "1/2", {}).value().direction);
+}
+
+TEST(ProfileText, NamesTheUnknownParameterOfALawRatherThanTheOneItStandsFor)
+{
+    EXPECT_EQ(parse_setting("jitter", R"({ law = "uniform", sd = "3ms" })", {}).error().message,
+              "jitter: unknown key 'sd': use one of correlation_time, order, law, mean, "
+              "half_width");
+    EXPECT_EQ(parse_setting("reorder", R"({ share = "1%", displacment = 3 })", {}).error().message,
+              "reorder: unknown key 'displacment': did you mean 'displacement'?");
+    EXPECT_EQ(parse_setting("loss", R"({ share = "1%" })", {}).error().message.substr(0, 48),
+              "loss: missing key 'law': use one of random, k-of");
+    EXPECT_EQ(parse_setting("loss", R"({ law = "table" })", {}).error().message.substr(0, 28),
+              "loss: unknown law 'table': u");
+}
+
+TEST(ProfileText, RefusesANegativeJitter)
+{
+    EXPECT_EQ(parse_setting("jitter", "-5ms", {}).error().message,
+              "jitter: '-5ms': a jitter cannot be negative: 5ms is -5ms to +5ms");
+}
+
+TEST(ProfileText, ATimeOfNanosecondsIsPrintedInSeconds)
+{
+    Profile profile;
+    profile.timeline.resize(2);
+    profile.timeline[0].time = 18'482'486'880ns;
+    profile.timeline[1].time = 20'500ms;
+    const auto text = to_text(profile);
+    EXPECT_NE(text.find("time = \"18.48248688s\"\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("time = \"20500ms\"\n"), std::string::npos) << text;
+    EXPECT_EQ(parse_profile(text, "p", {}).value().timeline, profile.timeline);
 }
 
 TEST(ProfileText, ANearMissIsTakenOrAnsweredWithWhatToWrite)
