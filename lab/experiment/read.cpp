@@ -81,9 +81,9 @@ void read_kind(TableReader& table, Kind& kind)
     const auto read = [&]<typename One>(One& one) {
         if constexpr (!has_own_table<One>) return base::read_fields(table, one);
         const auto name = base::described_name<One>;
-        const Node* node = table.find(name);
-        if (node == nullptr) return table.miss(name);
-        base::read_table(*node, one, table.reading());
+        if (const Node* node = table.require(name)) {
+            base::read_table(*node, one, table.reading());
+        }
     };
     std::visit(read, kind);
 }

@@ -148,7 +148,7 @@ RealTimeResult result_of(const RealTimeSession& session, const virtual_time::Tra
     return {.algorithm = session.files.peer.value("algorithm", "?"),
             .where = session.where,
             .real_mm = spread_in(session.files.analysis.value("discrepancy_x_mm", Json{})),
-            .virtual_mm = in_mm(metrics_of(twin).discrepancy_m),
+            .virtual_mm = in_mm(metrics::metrics_of(twin).discrepancy_m),
             .invalid_because = objections_to(session.files)};
 }
 
