@@ -147,7 +147,8 @@ net::CommandLine<Options> parse_options(std::span<char*> words, const char* defa
     program.require_command();
     program.positional("SOCKET", "The path that the program was given as --control",
                        cli::into(options.socket));
-    program.option("-s,--socket", "SOCKET", "The same (default: $HAPNET_SOCKET)", cli::into(named));
+    program.option("-s,--socket", "SOCKET", "SOCKET as an option (default: $HAPNET_SOCKET)",
+                   cli::into(named));
     program.flag("--json", "Print the program's answer as it comes, for scripts", options.as_json);
     add_commands(program, options, settings);
 

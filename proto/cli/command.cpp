@@ -227,6 +227,9 @@ private:
                     fmt::format("{} is given {} times: give it once", option.name(), texts.size()));
             }
             for (const std::string& text : texts) {
+                if (auto split = option.is_positional() ? split_value(text) : std::nullopt) {
+                    return base::fail(*std::move(split));
+                }
                 if (const auto taken = option.take(unguarded(text)); !taken) {
                     return base::fail(fmt::format("{}: {}", option.name(), taken.error().message));
                 }

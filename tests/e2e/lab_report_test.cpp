@@ -111,6 +111,12 @@ TEST(LabReport, RefusesOneRecordAloneAndTwoThatDoNotBelongTogether)
     const auto alone = run("hapnet-lab", {"report", a});
     EXPECT_EQ(alone.exit, 2);
     EXPECT_NE(alone.err.find("name those of both peers"), std::string::npos) << alone.err;
+    fs::create_directories(folder / "one");
+    fs::copy_file(a, folder / "one" / "a.rec");
+    const auto one = run("hapnet-lab", {"report", (folder / "one").string()});
+    EXPECT_EQ(one.exit, 2);
+    EXPECT_NE(one.err.find("one has 1 record (a.rec): a session has two"), std::string::npos)
+        << one.err;
     const auto twice = run("hapnet-lab", {"report", a, again});
     EXPECT_EQ(twice.exit, 2);
     EXPECT_NE(twice.err.find("both records were written by peer 1"), std::string::npos)

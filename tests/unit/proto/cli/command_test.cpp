@@ -167,6 +167,9 @@ TEST(Command, RefusesAWordThatIsNotACommand)
     EXPECT_EQ(Relay{}.refusal({"list", "stray"}), "unexpected 'stray': relay list");
     EXPECT_EQ(Relay{}.refusal({"--delay", "80", "ms"}), "--delay: '80 ms' has a space: write 80ms");
     EXPECT_EQ(Relay{}.refusal({"--delay=80", "ms"}), "--delay: '80 ms' has a space: write 80ms");
+    EXPECT_EQ(Relay{}.refusal({"play", "--set", "80", "ms"}),
+              "--set: '80 ms' has a space: write 80ms");
+    EXPECT_EQ(Relay{}.refusal({"play", "ms", "80"}), "taken");
     EXPECT_EQ(Relay{}.refusal({"--stats", "a", "ms"}).rfind("unknown command 'ms'", 0), 0U);
 }
 
