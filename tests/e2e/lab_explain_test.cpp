@@ -55,7 +55,7 @@ TEST(LabExplain, NamesFileLineAndCureOfABadScene)
     expect_refusal(explain({"papr"}), 2, {"'papr'", "did you mean 'paper'?"});
     expect_refusal(explain({folder.file("none.toml")}), 2, {"none.toml", "No such file"});
     expect_refusal(explain({"paper", "--tick", "1"}), 2, {"--tick", "'1'", "160ms"});
-    expect_refusal(explain({"paper", "--tick", "1s"}), 2, {"--tick", "\"1s\"", "100ms"});
+    expect_refusal(explain({"paper", "--tick", "1s"}), 2, {"--tick", "'1s'", "100ms"});
     expect_refusal(explain({}), 2, {"SCENE"});
 }
 

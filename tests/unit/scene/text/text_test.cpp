@@ -124,7 +124,7 @@ TEST(SceneText, NamesThePlaceOfWhatIsWrongAndWhatIsPossible)
     };
     const std::vector<Case> cases{
         {"x = ", {"s.toml:1:"}},
-        {"bodies = 1", {"s.toml:1:1: ", "\"bodies\"", "did you mean 'body'?"}},
+        {"bodies = 1", {"s.toml:1:1: ", "'bodies'", "did you mean 'body'?"}},
         {"body = 1", {"s.toml:1:8: ", "[[body]]"}},
         {"gravity = \"1m/s2\"", {"s.toml:1:11: ", "list of three", "acceleration"}},
         {"gravity = [0, 1]", {"s.toml:1:11: ", "not 2", "three values"}},
