@@ -179,7 +179,7 @@ std::string work_csv(const std::vector<WorkPoint>& points)
 
 std::string work_svg(const std::vector<WorkPoint>& points)
 {
-    namespace plot = lab::plot;
+    namespace plot = lab::report::plot;
     std::vector<std::string> names;
     std::vector<plot::Curve> curves;
     names.reserve(points.size()); // the curves look at them
