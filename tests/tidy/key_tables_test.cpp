@@ -58,7 +58,8 @@ Rows own_rows()
 template <typename Struct>
 std::string prefix()
 {
-    return lab::has_own_table<Struct> ? fmt::format("{}.", base::described_name<Struct>) : "";
+    return lab::experiment::has_own_table<Struct> ? fmt::format("{}.", base::described_name<Struct>)
+                                                  : "";
 }
 
 /// The keys of several structs in one table, whose first column names the struct.
@@ -141,8 +142,8 @@ const std::vector<KeyTable>& tables()
         {"plane", rows_of<scene::PlaneDescription>()},
         {"body", rows_of<scene::BodyDescription, scene::text::Density>()},
         {"array", rows_of<scene::text::Array>()},
-        {"experiment",
-         base::markdown(base::key_rows<lab::experiment::Experiment>("", lab::usual_experiment()))},
+        {"experiment", base::markdown(base::key_rows<lab::experiment::Experiment>(
+                           "", lab::experiment::usual_experiment()))},
         {"experiment-kinds", grouped("kind", lab::experiment::Kind{})},
         {"criteria", rows_of<lab::metrics::Criteria>()},
         {"tick-row", byte_table<record::TickRow>()},

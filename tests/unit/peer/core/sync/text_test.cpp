@@ -129,8 +129,8 @@ TEST(AlgorithmText, PointsAtWhatIsWrongAndSaysWhatWouldBeRight)
     EXPECT_EQ(complaint("algorithm = \"base\"\naxes = 1"),
               "a.toml:2:8: expected one of all, x, not 1");
     EXPECT_EQ(complaint("algorithm = \"dead-reckoning\"\nhorizon = \"one-wya\""),
-              "a.toml:2:11: expected none, one-way, packet-age, or a time from 0ms to 10s, not "
-              "'one-wya'");
+              "a.toml:2:11: expected \"none\", \"one-way\", \"packet-age\" or a time from 0ms to "
+              "10s, not 'one-wya'");
     EXPECT_EQ(complaint("algorithm = \"base\"\nsettle_after = true"),
               "a.toml:2:16: expected a number and its unit, such as 160ms, 15us or 1.5s, not true");
     EXPECT_EQ(complaint("algorithm = \"base\"\nsettle_within = \"11s\""),
