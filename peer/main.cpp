@@ -33,10 +33,25 @@ struct Endpoints {
     net::Endpoint remote;
 };
 
+/// The remote, preferably in the family of `listen`: a name may have addresses of both.
+net::Endpoint resolve_remote(const net::HostPort& remote, const net::Endpoint& listen)
+{
+    try {
+        return net::resolve(remote, listen.family());
+    } catch (const std::system_error&) {
+        return net::resolve(remote);
+    }
+}
+
 base::Result<Endpoints> look_up(const Options& options)
 {
     const net::Endpoint listen = net::resolve(options.listen);
-    const Endpoints endpoints{listen, net::resolve(options.remote, listen.family())};
+    const Endpoints endpoints{listen, resolve_remote(options.remote, listen)};
+    if (endpoints.listen.family() != endpoints.remote.family()) {
+        return base::fail(fmt::format(
+            "--listen {} and --remote {} are of different families: give both as IPv4 or as IPv6",
+            endpoints.listen.to_text(), endpoints.remote.to_text()));
+    }
     if (endpoints.remote.reaches(endpoints.listen)) {
         return base::fail(fmt::format("--remote {} is where this peer itself listens: name the "
                                       "other peer's address, or the emulator's",
