@@ -134,7 +134,7 @@ void HandsFormat::read(const Node& node, Hands& target, Reading& reading) const
 
 std::string HandsFormat::print(const Hands& hands) const
 {
-    const auto left = operator_text(hands.left);
+    std::string left = operator_text(hands.left);
     if (hands.left == hands.right) return left;
     return fmt::format("[{}, {}]", left, operator_text(hands.right));
 }

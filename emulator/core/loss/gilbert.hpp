@@ -70,7 +70,7 @@ public:
 
 private:
     TwoStateSteps steps_;
-    bool is_bad_; // the next datagram meets the bad state
+    bool is_bad_ = false; // the next datagram meets the bad state
     LossState state_ = LossState::none;
 };
 
