@@ -160,7 +160,7 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
         base::field("title", &Experiment::title, "names the folder's contents, with the kind"),
         base::field("kind", &Experiment::kind, KindFormat{}, "what to find out").required(),
         base::field("duration", &Experiment::duration, base::Time{5s, 10min},
-                    "of a session, 3 s hands off included")
+                    "of a session, hands off included: the last 3 s, below 6 s the last half")
             .always(),
         base::field("tick", &Experiment::tick, base::Time{100us, 10ms}, "of the haptic loops")
             .always(),
