@@ -125,7 +125,8 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
     watch.option("--every", "TIME", "The interval, at least 50ms (default 500ms)",
                  cli::into(options.every, base::Time{std::chrono::milliseconds{50}, longest}));
     cli::Command& wait = program.command("wait", "Waits until a condition holds");
-    wait.option("--until", "CONDITION", "A key of stats, one of < <= == != >= > and a number",
+    wait.option("--until", "CONDITION",
+                "A key of stats, one of < <= == != >= >, and a number, true or false",
                 cli::into(options.until))
         .required("'up.received>1000'");
     wait.option("--timeout", "TIME", "Give up after this time, with exit code 1",

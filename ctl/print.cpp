@@ -5,6 +5,7 @@
 #include "proto/base/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <spdlog/fmt/fmt.h>
 
@@ -54,16 +55,18 @@ bool is_from_peer(const Json& reply) { return at(reply, "/program") == "hapnet-p
 
 std::string peer_text(const Json& reply)
 {
-    std::string text = fmt::format("hapnet-peer {}: {} ({}), {} s since its start\n",
-                                   text_at(reply, "/peer_id"), text_at(reply, "/says"),
-                                   text_at(reply, "/state"), text_at(reply, "/elapsed_s"));
+    std::string text = fmt::format("hapnet-peer {}, started {:.2f} s ago, {}: {}\n",
+                                   text_at(reply, "/peer_id"), number_at(reply, "/elapsed_s"),
+                                   text_at(reply, "/state"), text_at(reply, "/says"));
     text += fmt::format(
         "task {}, scene {}, algorithm {}, seed {}, session {} s, force limit {} N\n",
         text_at(reply, "/task"), text_at(reply, "/scene"), text_at(reply, "/algorithm"),
         text_at(reply, "/seed"), text_at(reply, "/duration_s"), text_at(reply, "/force_limit_n"));
     if (at(reply, "/session").is_object()) {
-        text += fmt::format("session {} as {}, at {} s\n", text_at(reply, "/session/number"),
-                            text_at(reply, "/session/role"), text_at(reply, "/session/at_s"));
+        const double at_s = number_at(reply, "/session/at_s");
+        text += fmt::format("session {} as {}, {:.2f} s {} its start\n",
+                            text_at(reply, "/session/number"), text_at(reply, "/session/role"),
+                            std::abs(at_s), at_s < 0.0 ? "before" : "after");
     }
     return text + fmt::format("device {}, governor {}, force {} N\n", text_at(reply, "/device"),
                               text_at(reply, "/governor"), text_at(reply, "/force_n"));
@@ -222,7 +225,7 @@ std::string WatchPrinter::line(const Json& statistics) const
         const std::string place = fmt::format("/{}", direction);
         text += fmt::format(
             " {0}.per_s={1} {0}.received={2} {0}.delivered={3} {0}.dropped={4}"
-            " {0}.in_flight={5} {0}.p99_us={6}",
+            " {0}.in_flight={5} {0}.late_p99_us={6}",
             direction, rate(place + "/received", statistics),
             text_at(statistics, place + "/received"), text_at(statistics, place + "/delivered"),
             total_of(at(statistics, place + "/dropped")), text_at(statistics, place + "/in_flight"),

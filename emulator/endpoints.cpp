@@ -28,9 +28,10 @@ base::Result<Side> look_up_side(const char* name, const net::HostPort& listen,
     side.peer = net::resolve(*peer, side.listen.family());
     if (side.listen.is_loopback() && !side.peer->is_loopback()) {
         return base::fail(
-            fmt::format("--{0} {1} cannot be reached from --listen-{0} {2}: listen on "
-                        "an address of this machine that it knows, or on 0.0.0.0",
-                        name, side.peer->to_text(), side.listen.to_text()));
+            fmt::format("--{0} {1} cannot be reached from --listen-{0} {2}: listen on {3}, or on "
+                        "an address of this machine that the peer there can reach",
+                        name, side.peer->to_text(), side.listen.to_text(),
+                        side.listen.family() == AF_INET6 ? "[::]" : "0.0.0.0"));
     }
     net::require_route(*side.peer);
     return side;

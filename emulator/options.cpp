@@ -92,7 +92,8 @@ constexpr const char* verify_footer =
     R"(RUN is the file that --stats wrote in a run with --fates, the file that --fates wrote, with
 --profile, or a folder with fates.csv and profile.toml. A test fails when a run that follows its
 profile would look like this one time in a million. A test cannot tell ("unable" in JSON) where the
-datagrams are too few, or where fates do not show it.
+datagrams are too few, or where fates do not show it. A run with --replay is refused, and one whose
+conditions changed, by hand or by the timeline.
 
 Examples:
   hapnet-emulator verify run.json

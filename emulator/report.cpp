@@ -173,7 +173,7 @@ std::string in_short(const char* title, const ports::Relay::Side& side)
     std::string text =
         fmt::format("{} {} in, {} out, {} lost", title, s.received, s.delivered, s.dropped_total());
     if (const auto p99 = s.lateness.quantile(0.99)) {
-        text += fmt::format(", p99 {:.0f} us", Microseconds{*p99}.count());
+        text += fmt::format(", late p99 {:.0f} us", Microseconds{*p99}.count());
     }
     return text;
 }

@@ -144,7 +144,8 @@ base::Result<Scenario> scenario_of(const Options& options)
         if (!fates) return tl::unexpected{fates.error()};
         scenario.replay = std::make_shared<const Fates>(*std::move(fates));
         scenario.warnings.emplace_back("--replay gives the fates: mtu, loss, corrupt, duplicate, "
-                                       "delay and jitter are not drawn; rate and order hold");
+                                       "delay, jitter and reorder are those of the file; rate and "
+                                       "order hold");
     } else {
         warn_of_conditions(scenario);
     }

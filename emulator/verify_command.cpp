@@ -96,11 +96,6 @@ base::Result<Evidence> evidence_of_statistics(const VerifyOptions& request, cons
         return base::fail("the conditions changed during the run: only what holds from the first "
                           "datagram to the last can be verified");
     }
-    if (const auto replayed = text_at("replay"); !replayed.empty() && !request.profile) {
-        return base::fail(fmt::format("{} is of a run whose fates were replayed from {}: name the "
-                                      "profile that they are to follow with --profile",
-                                      path, replayed));
-    }
     const auto beside = path_beside(std::filesystem::path{fates}.filename().string(), path);
     const auto open = [&](const std::string& name) {
         return net::text_of_file(path_beside(name, path));

@@ -62,6 +62,15 @@ base::Result<Endpoints> look_up(const Options& options)
             "forces from a network need a key, and keys are not available yet: on a network that "
             "you trust use --insecure, otherwise keep --listen and --remote on loopback");
     }
+    if (endpoints.listen.is_loopback() && !endpoints.remote.is_loopback()) {
+        const std::uint16_t given = endpoints.listen.port();
+        return base::fail(fmt::format(
+            "--remote {} cannot be reached from --listen {}: use --listen {}:{}, or an address of "
+            "this machine that the other side can reach",
+            endpoints.remote.to_text(), endpoints.listen.to_text(),
+            endpoints.listen.family() == AF_INET6 ? "[::]" : "0.0.0.0",
+            given != 0 ? given : endpoints.remote.port()));
+    }
     net::require_route(endpoints.remote);
     return endpoints;
 }

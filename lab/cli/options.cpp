@@ -49,8 +49,9 @@ constexpr const char* demo_exit_codes = R"(  0  done
   2  bad usage or input
   3  the system refused (no permission, disk full))";
 
-constexpr const char* replay_exit_codes = R"(  0  the forces are the recorded ones
-  1  the forces differ from the recorded ones
+constexpr const char* replay_exit_codes =
+    R"(  0  the forces are the recorded ones; with another algorithm always
+  1  with the recorded algorithm, the forces differ from the recorded ones
   2  bad usage or input
   3  the system refused (no permission, disk full))";
 
@@ -211,10 +212,11 @@ void add_run(cli::Command& command, RunCommand& run, bool& is_list)
     command.option("--jobs", "N",
                    "Number of threads; the results do not depend on it (default: all processors)",
                    cli::into(run.jobs, base::Count{1, jobs_max}));
-    command.option("--criteria", "FILE",
-                   "Limits that a usable session keeps: a file (docs/design/metrics.md), or paper "
-                   "(default), calibrated on the paper",
-                   cli::into(run.criteria));
+    command.option(
+        "--criteria", "FILE",
+        "Thresholds that a usable session keeps: a file (docs/design/metrics.md), or paper "
+        "(default), calibrated on the paper",
+        cli::into(run.criteria));
     command.flag("--quick", "Use the values under [quick] of the experiment: rougher", run.quick);
     command.flag("--list", "Print the names of the built-in experiments and exit", is_list)
         .instead();

@@ -145,7 +145,7 @@ void check(const SearchRange& range, base::Place place, Reading& reading)
     if (range.from >= range.to) return refuse("'from' has to be less than 'to'");
     if (range.resolution.thousandths == 0) return refuse("'resolution' has to be more than 0");
     if (range.step.thousandths == 0 || range.step.thousandths % range.resolution.thousandths != 0) {
-        return refuse("'step' has to be once, twice, ... the resolution");
+        return refuse("'step' has to be a multiple of 'resolution'");
     }
     if (range.to.thousandths / range.step.thousandths > search_levels_max) {
         return refuse(fmt::format("more than {} steps to 'to'", search_levels_max));

@@ -101,7 +101,7 @@ TextTable distances_table(const Agreement& agreement)
              {"force ||F_A| - |F_B||, N",
               {of_force(&ForceDiscrepancy::mean), "", of_force(&ForceDiscrepancy::max), ""}},
              {agreement.settled_discrepancy ? "settled at the end, mm"
-                                            : "settled at the end, mm (from 6 s on)",
+                                            : "settled at the end, mm (sessions above 4 s)",
               {"", "", number_text(scaled(agreement.settled_discrepancy, mm), 4), ""}}}};
 }
 

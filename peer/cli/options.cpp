@@ -118,10 +118,11 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
                    "A scene in TOML, or a built-in one by name; it has one movable body that does "
                    "not turn (default: the task's; lift for T4, wall for T5, paper for the others)",
                    [&options](const std::string& text) { return take_scene(text, options); });
-    program.option("--grip-damping", "DAMPING",
-                   "Damping that device and hand have at least. A contact that would need more to "
-                   "stay passive is rendered softer (default 4Ns/m, a nominal grip on a stylus)",
-                   cli::into(options.grip_damping_ns_per_m, parse_grip_damping));
+    program.option(
+        "--grip-damping", "DAMPING",
+        "The least damping of device and hand together. A contact that needs more than "
+        "this to be passive is rendered softer (default 4Ns/m, a nominal grip on a stylus)",
+        cli::into(options.grip_damping_ns_per_m, parse_grip_damping));
     program.option(
         "--force-limit", "FORCE",
         "Maximum force on the hand; 0N: no force (default 3.3N, an Omni's peak; never "

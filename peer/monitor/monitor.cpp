@@ -20,6 +20,7 @@ std::string line_of(const StatusLine& status, const StatusLine& before)
 {
     const record::TickRow& tick = *status.tick;
     if (!status.session) {
+        if (status.is_met) return "agreeing on the start with the other peer";
         return "waiting for the other peer; is it running, and is the emulator between the two?";
     }
     const double at = base::to_seconds(tick.due - status.session->start);
@@ -75,6 +76,7 @@ void Monitor::drain()
         if (const auto* row = std::get_if<record::Row>(&*entry)) {
             take(*row);
         } else if (const auto* event = std::get_if<loop::TimedEvent>(&*entry)) {
+            if (event->event == Event::met) status_.is_met = true;
             tell(event->at, describe(event->event));
         } else {
             const auto& [news, at] = std::get<loop::TimedDeviceNews>(*entry);

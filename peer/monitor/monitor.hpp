@@ -13,6 +13,7 @@ namespace hapnet::peer::monitor {
 
 /// The values in the status line.
 struct StatusLine {
+    bool is_met = false; // the other peer has answered
     std::optional<record::TickRow> tick;
     std::optional<record::SessionRow> session;
     std::uint64_t messages = 0;

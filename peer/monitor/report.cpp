@@ -304,12 +304,15 @@ std::string_view describe(wire::ByeReason reason)
     case wire::ByeReason::finished: return "finished";
     case wire::ByeReason::interrupted: return "interrupted";
     case wire::ByeReason::other_version:
-        return "it speaks another version of the protocol: use the same version of hapnet on both "
-               "sides";
-    case wire::ByeReason::other_scene: return "it has another scene: give both the same --scene";
-    case wire::ByeReason::other_task: return "it has another task: give both the same --task";
-    case wire::ByeReason::other_tick_rate: return "it has another tick rate";
-    case wire::ByeReason::same_id: return "it has the same id: give the two different --id";
+        return "the other speaks another version of the protocol: use the same version of hapnet "
+               "on both sides";
+    case wire::ByeReason::other_scene:
+        return "the other has another scene: give both the same --scene";
+    case wire::ByeReason::other_task:
+        return "the other has another task: give both the same --task";
+    case wire::ByeReason::other_tick_rate:
+        return "the other has another tick rate: use the same version of hapnet on both sides";
+    case wire::ByeReason::same_id: return "the other has the same id: give the two different --id";
     }
     return "";
 }

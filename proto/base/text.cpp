@@ -43,7 +43,7 @@ constexpr std::array<Unit, 12> units{{
 }};
 
 constexpr std::uint64_t most_bits_per_second = 1'000'000'000'000;
-constexpr std::array<WholeUnit, 15> rate_units{{
+constexpr std::array<WholeUnit, 11> rate_units{{
     {"Tbit", 1'000'000'000'000},
     {"Gbit", 1'000'000'000},
     {"Mbit", 1'000'000},
@@ -54,10 +54,6 @@ constexpr std::array<WholeUnit, 15> rate_units{{
     {"gbit", 1'000'000'000},
     {"mbit", 1'000'000},
     {"Kbit", 1'000},
-    {"Tbps", 1'000'000'000'000},
-    {"Gbps", 1'000'000'000},
-    {"Mbps", 1'000'000},
-    {"Kbps", 1'000},
     {"kbit/sec", 1'000},
     {"Mbit/sec", 1'000'000},
 }};
@@ -124,6 +120,20 @@ tl::unexpected<Error> refuse(std::string_view text, Parse parse, std::string why
     const std::string joined = without_spaces(text);
     if (joined.size() == text.size() || !parse(joined)) return fail(std::move(why));
     return fail(fmt::format("'{}' has a space: write {}", text, joined));
+}
+
+/// "k" of "kbps", in the case of the units above; nullopt: not such a unit. Whether it is bits or
+/// bytes differs between programs, and not by its case.
+std::optional<std::string> prefix_of_bps(std::string_view unit)
+{
+    std::string small;
+    for (const char c : unit) small += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (small == "bps") return "";
+    if (small == "kbps") return "k";
+    if (small == "mbps") return "M";
+    if (small == "gbps") return "G";
+    if (small == "tbps") return "T";
+    return std::nullopt;
 }
 
 /// In the largest unit of which it is a whole number.
@@ -213,6 +223,13 @@ Result<Probability> parse_probability(std::string_view text)
         if (const auto probability = Probability::from_fraction(*fraction)) return *probability;
         return fail(fmt::format("'{}' is more than 100%", text));
     }
+    if (const auto meant =
+            unit.empty() && fraction ? Probability::from_fraction(*fraction) : std::nullopt) {
+        const auto as_share = number(digits);
+        const auto of_one = as_share ? Probability::from_fraction(*as_share) : std::nullopt;
+        return fail(fmt::format("'{}' has no unit: write {}{}", text,
+                                of_one ? to_text(*of_one) + " or " : "", to_text(*meant)));
+    }
     return refuse(text, parse_probability,
                   fmt::format("'{}' is not a share: write a number from 0% to 100%", text));
 }
@@ -241,16 +258,11 @@ Result<std::uint64_t> parse_bit_rate(std::string_view text)
 {
     auto quantity = split(text);
     if (quantity.unit.ends_with("/s")) quantity.unit.remove_suffix(2);
-    if (number(quantity.digits) && quantity.unit.ends_with("bps") &&
-        (quantity.unit == "bps" || quantity.unit == "kbps" || quantity.unit == "mbps" ||
-         quantity.unit == "gbps")) {
-        const std::string_view prefix = quantity.unit.substr(0, quantity.unit.size() - 3);
+    const auto prefix = prefix_of_bps(quantity.unit);
+    if (prefix && number(quantity.digits)) {
         return fail(fmt::format("'{}' is a number of bytes to tc and of bits to others: write {}{}"
                                 "bit/s for bits a second",
-                                text, quantity.digits,
-                                prefix == "m"   ? "M"
-                                : prefix == "g" ? "G"
-                                                : prefix));
+                                text, quantity.digits, *prefix));
     }
     const auto rate = whole(quantity, rate_units);
     if (!rate) {

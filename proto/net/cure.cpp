@@ -13,8 +13,8 @@ namespace {
 std::string_view cure_of(const std::error_code& error)
 {
     if (std::string_view{error.category().name()} == "name lookup") {
-        return "check the spelling, or write an IP address; both ends of a side are IPv4 or both "
-               "IPv6";
+        return "check the spelling, or write an IP address; an address to listen on and the one "
+               "that it sends to must be both IPv4 or both IPv6";
     }
     if (error.category() != std::generic_category() && error.category() != std::system_category()) {
         return ""; // its message names the cure
@@ -29,8 +29,8 @@ std::string_view cure_of(const std::error_code& error)
     case EACCES:
     case EPERM: return "choose a port above 1023, or another place, or run with the permission";
     case ENOENT:
-    case ENOTDIR:
-    case EISDIR: return "name a file in a folder that exists";
+    case ENOTDIR: return "choose a path in a folder that exists";
+    case EISDIR: return "name a file, not a folder";
     case ENETUNREACH:
     case EHOSTUNREACH:
         return "there is no route: check the address, and the network with 'ip route'";

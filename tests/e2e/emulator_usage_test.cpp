@@ -65,7 +65,7 @@ TEST(EmulatorUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
     expect_refusal(run_with({"--delay", "160"}), 2, {"--delay", "'160'", "160ms"});
     expect_refusal(run_with({"--delay=-5ms"}), 2, {"--delay", "'-5ms'"});
     expect_refusal(run_with({"--up.jitter", "5%"}), 2, {"--up.jitter", "'5%'", "15us"});
-    expect_refusal(run_with({"--loss", "93"}), 2, {"--loss", "'93'", "100%"});
+    expect_refusal(run_with({"--loss", "93"}), 2, {"--loss", "'93'", "93%"});
     expect_refusal(run_with({"--down.loss", "101%"}), 2, {"--down.loss", "'101%'"});
     expect_refusal(run_with({"--burst-loss", "100/40"}), 2, {"--burst-loss", "'100/40'", "40/100"});
     expect_refusal(run_with({"--order", "random"}), 2, {"--order", "random", "keep", "free"});

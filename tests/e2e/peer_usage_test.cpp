@@ -122,6 +122,12 @@ TEST(PeerUsage, PlaysOverARealNetworkOnlyWhenToldThatItIsInsecure)
     expect_refusal(run_peer_with({"--listen", "0.0.0.0:0"}), 2, {"--insecure"});
 }
 
+TEST(PeerUsage, ListensOnLoopbackForLoopbackOnly)
+{
+    expect_refusal(run("hapnet-peer", {"--remote", "192.0.2.1:7000", "--insecure"}), 2,
+                   {"--remote 192.0.2.1:7000", "--listen 127.0.0.1:0", "--listen 0.0.0.0:7000"});
+}
+
 TEST(PeerUsage, EndsWithThreeWhenTheSystemRefuses)
 {
     const Host occupant;

@@ -115,6 +115,34 @@ std::optional<Rate> between(const Rate& a, const Rate& b, double progress)
     return base::between(a, b, progress);
 }
 
+/// Why there is nothing between `a` and `b`, to stand after the key of the setting.
+template <typename Value>
+std::string obstacle(const Value&, const Value&)
+{
+    return " between these values";
+}
+
+std::string obstacle(const Variation& a, const Variation& b)
+{
+    if (!is_nothing(a) && !is_nothing(b)) return " to a different law";
+    const auto name = [](const Variation& one) {
+        return is_nothing(one) ? std::string_view{"none"} : name_of(one.law);
+    };
+    return fmt::format(" from {} to {}: only constant, uniform and normal begin or end at none",
+                       name(a), name(b));
+}
+
+std::string obstacle(const std::vector<LossLaw>& a, const std::vector<LossLaw>& b)
+{
+    if (!a.empty() && !b.empty()) return " to a different law";
+    return fmt::format(" {} none: only one law, random, begins or ends at none",
+                       a.empty() ? "from" : "to");
+}
+
+std::string obstacle(const Rate&, const Rate&) { return " from or to none"; }
+std::string obstacle(const Mtu&, const Mtu&) { return ""; }
+std::string obstacle(Order, Order) { return ""; }
+
 } // namespace
 
 base::Result<void> validate_ramp(const Conditions& from, const Patch& to)
@@ -123,12 +151,8 @@ base::Result<void> validate_ramp(const Conditions& from, const Patch& to)
     for_each_setting([&](const auto& slot) {
         if (!valid || !(to.*slot.patch) || between(from.*slot.value, *(to.*slot.patch), 0.5))
             return;
-        using Value = std::remove_cvref_t<decltype(from.*slot.value)>;
-        constexpr bool has_laws =
-            std::is_same_v<Value, Variation> || std::is_same_v<Value, std::vector<LossLaw>>;
-        valid =
-            base::fail(fmt::format("cannot ramp {} {}; use an [[at]] step without ramp", slot.key,
-                                   has_laws ? "to a different law" : "between these values"));
+        valid = base::fail(fmt::format("cannot ramp {}{}; use an [[at]] step without ramp",
+                                       slot.key, obstacle(from.*slot.value, *(to.*slot.patch))));
     });
     return valid;
 }

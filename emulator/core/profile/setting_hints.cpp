@@ -110,10 +110,9 @@ std::string explained(std::string_view name, const std::string& value, const std
         return fmt::format("'{}': {}", value, why);
     }
     if (name == "reorder" && base::parse_probability(value)) {
-        return fmt::format(
-            "'{0}': give the number of places, too: '{{ share = \"{0}\", displacement "
-            "= 3 }}'",
-            value);
+        return fmt::format("'{0}': give displacement, too, the number of later datagrams: "
+                           "'{{ share = \"{0}\", displacement = 3 }}'",
+                           value);
     }
     if (const auto example = example_for(name, value); !example.empty()) {
         return fmt::format("'{}': a law is written as a table: '{}'", value, example);

@@ -143,10 +143,10 @@ base::Result<Target> target_of(std::string_view key)
     if (!is_name(name)) {
         const std::string_view in = is_prefix ? key.substr(0, dot + 1) : "";
         if (const auto meant = base::nearest(name, setting_keys)) {
-            return base::fail(fmt::format("{}: did you mean {}{}?", key, in, *meant));
+            return base::fail(
+                fmt::format("unknown key '{}': did you mean '{}{}'?", key, in, *meant));
         }
-        return base::fail(
-            fmt::format("{}: unknown setting: {}", key, suggestion(name, setting_keys)));
+        return base::fail(fmt::format("unknown key '{}': {}", key, suggestion(name, setting_keys)));
     }
     Target target{std::nullopt, std::move(name)};
     if (prefix == "up") target.direction = Direction::up;

@@ -14,8 +14,8 @@ base::Result<Algorithm> algorithm_named(std::string_view name)
     if (name == plain) return BaseAlgorithm{};
     if (name == dead_reckoning) return DeadReckoning{};
     if (name == sep) return EstimatorPredictor{};
-    return base::fail(fmt::format("unknown algorithm {}: {}", base::quoted(name),
-                                  base::suggestion(name, algorithm_names)));
+    return base::fail(
+        fmt::format("unknown algorithm '{}': {}", name, base::suggestion(name, algorithm_names)));
 }
 
 const BaseOptions& base_options(const Algorithm& algorithm)

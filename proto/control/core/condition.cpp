@@ -3,6 +3,7 @@
 #include "proto/control/core/condition.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/base/reading.hpp"
 
 #include <array>
 #include <charconv>
@@ -55,14 +56,17 @@ bool holds(double left, Comparison comparison, double right)
     return false;
 }
 
-std::string keys_of(const Json& object)
+std::vector<std::string_view> keys_of(const Json& object)
 {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : object.items()) keys.push_back(key);
-    return fmt::format("{}", fmt::join(keys, ", "));
+    std::vector<std::string_view> keys;
+    for (auto member = object.begin(); member != object.end(); ++member) {
+        keys.push_back(member.key());
+    }
+    return keys;
 }
 
-/// What the path leads to; the error names the keys where it leads astray.
+/// What the path leads to: null where it goes on below a null, whose parts are still to come. The
+/// error names the keys where it leads astray.
 base::Result<const Json*> find(std::string_view path, const Json& statistics)
 {
     const Json* place = &statistics;
@@ -72,19 +76,22 @@ base::Result<const Json*> find(std::string_view path, const Json& statistics)
         const std::string key{path.substr(0, dot)};
         const auto next = place->find(key);
         if (next == place->end()) {
-            return base::fail(fmt::format("there is no '{}' {}; there are: {}", key,
-                                          passed.empty() ? "in the statistics" : "in " + passed,
-                                          keys_of(*place)));
+            return base::fail(fmt::format("there is no '{}' in {}: {}", key,
+                                          passed.empty() ? "the statistics" : passed,
+                                          base::suggestion(key, keys_of(*place))));
         }
         passed += (passed.empty() ? "" : ".") + key;
         place = &*next;
         if (dot == std::string_view::npos) break;
         path.remove_prefix(dot + 1);
-        if (!place->is_object()) return base::fail(fmt::format("'{}' has no parts", passed));
+        if (place->is_null()) return place;
+        if (!place->is_object()) {
+            return base::fail(fmt::format("'{}' is a single value, without parts", passed));
+        }
     }
     if (place->is_object()) {
-        return base::fail(
-            fmt::format("'{}' has parts, name one of them: {}", passed, keys_of(*place)));
+        return base::fail(fmt::format("'{}' has parts: name one of {}", passed,
+                                      fmt::join(keys_of(*place), ", ")));
     }
     return place;
 }
@@ -119,7 +126,7 @@ base::Result<Condition> parse_condition(std::string_view text)
         }
     }
     return base::fail(fmt::format("'{}' is not a condition such as up.received>1000: a key of the "
-                                  "statistics, one of < <= == != >= >, a number",
+                                  "statistics, one of < <= == != >= >, and a number, true or false",
                                   text));
 }
 

@@ -11,11 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const Json emulator{
-    {"elapsed_s", 2.0},
-    {"generation", 1},
-    {"up", {{"received", 2000}, {"delivered", 1990}, {"dropped", {{"burst", 10U}}}}},
-    {"down", {{"received", 5}}}};
+const Json emulator{{"elapsed_s", 2.0},
+                    {"generation", 1},
+                    {"up",
+                     {{"received", 2000},
+                      {"delivered", 1990},
+                      {"dropped", {{"burst", 10U}}},
+                      {"in_flight", 3},
+                      {"lateness_us", {{"p99", 84.5}}}}},
+                    {"down", {{"received", 5}}}};
 const Json peer{{"program", "hapnet-peer"},
                 {"elapsed_s", 2.0},
                 {"messages", {{"states_sent", 9}, {"states_received", 2000}}},
@@ -26,7 +30,8 @@ TEST(WatchPrinter, PrintsKeysAndValuesWhenPiped)
     WatchPrinter printer{/*is_terminal*/ false};
     const std::string line = printer.next(emulator);
     EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1);
-    EXPECT_NE(line.find(" up.per_s=1000 up.received=2000 up.delivered=1990 up.dropped=10 "),
+    EXPECT_NE(line.find(" up.per_s=1000 up.received=2000 up.delivered=1990 up.dropped=10 "
+                        "up.in_flight=3 up.late_p99_us=84.5 "),
               std::string::npos)
         << line;
     EXPECT_EQ(line.find('\x1b'), std::string::npos);
@@ -62,6 +67,23 @@ TEST(InWords, TellsHowLongWasWaited)
               "up.received>1000: not met within 200ms (2.44 s after the start)\n");
     reply["met"] = true;
     EXPECT_EQ(in_words(options, reply), "up.received>1000: met 2.44 s after the start\n");
+}
+
+TEST(InWords, TellsTheTimeOfThePeerFromThatOfItsSession)
+{
+    Json reply{{"program", "hapnet-peer"},
+               {"peer_id", 1},
+               {"elapsed_s", 1.514},
+               {"state", "running"},
+               {"says", "in session"},
+               {"session", {{"number", 7}, {"role", "L"}, {"at_s", 0.458848}}}};
+    const std::string running = in_words(asked("show"), reply);
+    EXPECT_EQ(running.rfind("hapnet-peer 1, started 1.51 s ago, running: in session\n", 0), 0U)
+        << running;
+    EXPECT_NE(running.find("\nsession 7 as L, 0.46 s after its start\n"), std::string::npos);
+    reply["session"]["at_s"] = -0.5;
+    EXPECT_NE(in_words(asked("show"), reply).find("L, 0.50 s before its start\n"),
+              std::string::npos);
 }
 
 TEST(InWords, TellsFromWhenAChangeHolds)

@@ -187,18 +187,30 @@ TEST_F(Talk, AnswersAWaitWhoseTimeIsOver)
     EXPECT_EQ(json::parse(said_by(conversation, start))["met"], false);
 }
 
+TEST_F(Talk, WaitsForPartsOfWhatIsStillNull)
+{
+    const json wait{{"command", "wait"}, {"until", "up.lens.delay_ms.mean>1"}};
+    fake.statistics["up"]["lens"] = nullptr;
+    EXPECT_EQ(said_to(conversation, wait.dump() + "\n", fake, start), "");
+    const auto look = conversation.next_deadline();
+    ASSERT_TRUE(look);
+    fake.statistics["up"]["lens"] = {{"delay_ms", {{"mean", 20.5}}}};
+    EXPECT_TRUE(conversation.advance(fake.subject, *look));
+    EXPECT_EQ(json::parse(said_by(conversation, *look))["met"], true);
+}
+
 TEST_F(Talk, RefusesAConditionOnWhatIsNotThereSayingWhatIs)
 {
     const auto error = [&](const char* until) {
         return refused({{"command", "wait"}, {"until", until}});
     };
-    EXPECT_NE(error("up.recieved>1").find("received"), std::string::npos);
+    EXPECT_NE(error("up.recieved>1").find("in up: did you mean 'received'?"), std::string::npos);
     EXPECT_NE(error("x>1").find("down"), std::string::npos);
     EXPECT_NE(error("up>1").find("received"), std::string::npos);
-    EXPECT_NE(error("up.received.x>1").find("up.received"), std::string::npos);
+    EXPECT_NE(error("up.received.x>1").find("'up.received' is a single value"), std::string::npos);
     EXPECT_NE(error("program>1").find("not a number"), std::string::npos);
     EXPECT_NE(error("up.received").find("up.received>1000"), std::string::npos);
-    EXPECT_NE(error("up.received>x").find("a number"), std::string::npos);
+    EXPECT_NE(error("up.received>x").find("a number, true or false"), std::string::npos);
     EXPECT_NE(error(">1").find("up.received>1000"), std::string::npos);
     EXPECT_NE(error("up.received>nan").find("a number"), std::string::npos);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/monitor.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -9,6 +10,8 @@
 
 namespace hapnet::peer::monitor {
 namespace {
+
+using namespace std::chrono_literals;
 
 /// No file of this process may grow beyond that, as on a full disk.
 class FileSizeLimit {
@@ -69,6 +72,30 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
     EXPECT_EQ(count_of(path, said), 1U) << said;
     EXPECT_LE(std::filesystem::file_size(path), 16'384U);
     std::filesystem::remove(path);
+}
+
+TEST(Monitor, NoLongerWaitsForAPeerThatAnswered)
+{
+    testing::internal::CaptureStderr();
+    loop::Journal journal;
+    Monitor monitor{journal, std::nullopt, 1};
+    base::TimePoint now{1s};
+    const auto line_with = [&](std::optional<Event> event) {
+        journal.put(record::Row{record::TickRow{}});
+        if (event) journal.put(loop::TimedEvent{*event, now});
+        monitor.drain();
+        testing::internal::GetCapturedStderr();
+        testing::internal::CaptureStderr();
+        monitor.show(now += 5s);
+        const std::string said = testing::internal::GetCapturedStderr();
+        testing::internal::CaptureStderr();
+        return said;
+    };
+    EXPECT_EQ(line_with({}), ""); // the first comes after 5 s
+    EXPECT_EQ(line_with({}).rfind("hapnet-peer 1: waiting for the other peer", 0), 0U);
+    EXPECT_EQ(line_with(Event::met), "hapnet-peer 1: agreeing on the start with the other peer\n");
+    EXPECT_EQ(line_with({}), "hapnet-peer 1: agreeing on the start with the other peer\n");
+    testing::internal::GetCapturedStderr();
 }
 
 } // namespace

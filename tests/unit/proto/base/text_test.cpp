@@ -102,8 +102,8 @@ TEST(Text, SaysThatAnMMayBeMinutesOrMilliseconds)
 
 TEST(Text, ReadsRatesInTheSpellingsOfOtherTools)
 {
-    for (const std::string_view text : {"10Mbit/s", "10Mbit", "10mbit", "10Mbps", "10mbit/s",
-                                        "10000kbit", "10000Kbps", "0.01Gbps", "10Mbit/sec"}) {
+    for (const std::string_view text : {"10Mbit/s", "10Mbit", "10mbit", "10mbit/s", "10000kbit",
+                                        "10000Kbit", "0.01Gbit", "10Mbit/sec"}) {
         EXPECT_EQ(parse_bit_rate(text), 10'000'000U) << text;
     }
     EXPECT_EQ(bit_rate_text(10'000'000), "10Mbit/s");
@@ -112,11 +112,16 @@ TEST(Text, ReadsRatesInTheSpellingsOfOtherTools)
     }
 }
 
-TEST(Text, SaysThatBpsInSmallLettersMayBeBytes)
+TEST(Text, SaysThatBpsMayBeBytesInWhateverCase)
 {
-    EXPECT_EQ(parse_bit_rate("10mbps").error().message,
-              "'10mbps' is a number of bytes to tc and of bits to others: write 10Mbit/s for bits "
-              "a second");
+    for (const auto& [unit, meant] :
+         {std::pair{"bps", "bit/s"}, std::pair{"Kbps", "kbit/s"}, std::pair{"mbps", "Mbit/s"},
+          std::pair{"Mbps", "Mbit/s"}, std::pair{"Gbps", "Gbit/s"}, std::pair{"tbps", "Tbit/s"}}) {
+        EXPECT_EQ(parse_bit_rate(std::string{"10"} + unit).error().message,
+                  std::string{"'10"} + unit +
+                      "' is a number of bytes to tc and of bits to others: write 10" + meant +
+                      " for bits a second");
+    }
 }
 
 TEST(Text, PrintsDurationsInTheLargestUnitThatNeedsNoFraction)
@@ -144,6 +149,15 @@ TEST(Text, RefusesWhatIsNotAShare)
                                         "100.0001%", "1e1%", "5%%", "5 %", "93", "1", "5ms"}) {
         EXPECT_FALSE(parse_probability(text)) << text;
     }
+}
+
+TEST(Text, SaysWhatAShareWithoutItsUnitMayBe)
+{
+    const auto why = [](std::string_view text) { return parse_probability(text).error().message; };
+    EXPECT_EQ(why("0.02"), "'0.02' has no unit: write 2% or 0.02%");
+    EXPECT_EQ(why("1"), "'1' has no unit: write 100% or 1%");
+    EXPECT_EQ(why("2"), "'2' has no unit: write 2%");
+    EXPECT_EQ(why("101"), "'101' is not a share: write a number from 0% to 100%");
 }
 
 TEST(Text, PrintsSharesWithTheFewestDigits)

@@ -163,6 +163,24 @@ TEST(ProfileText, ARampOfWhatHasNoNumbersInBetweenNamesItsLine)
         "test.toml:5:8: cannot ramp jitter to a different law; use an [[at]] step without ramp");
 }
 
+TEST(ProfileText, ARampSaysWhyItCannotBegin)
+{
+    const auto why = [](const char* before, const char* after) {
+        return refusal(fmt::format("[both]\n{}\n[[at]]\ntime = \"1s\"\nramp = \"1s\"\nboth.{}\n",
+                                   before, after));
+    };
+    EXPECT_EQ(why("", "jitter = { law = \"gamma\", mean = \"1ms\", sd = \"1ms\" }"),
+              "test.toml:5:8: cannot ramp jitter from none to gamma: only constant, uniform and "
+              "normal begin or end at none; use an [[at]] step without ramp");
+    EXPECT_EQ(why("", "loss = { law = \"gilbert\", share = \"2%\", mean_burst = 5.0 }"),
+              "test.toml:5:8: cannot ramp loss from none: only one law, random, begins or ends at "
+              "none; use an [[at]] step without ramp");
+    EXPECT_EQ(why("", "rate = \"1Mbit/s\""),
+              "test.toml:5:8: cannot ramp rate from or to none; use an [[at]] step without ramp");
+    EXPECT_EQ(why("order = \"keep\"", "order = \"free\""),
+              "test.toml:5:8: cannot ramp order; use an [[at]] step without ramp");
+}
+
 TEST(ProfileText, NestingHasABound)
 {
     std::string keys = "a";
@@ -201,7 +219,8 @@ TEST(ProfileText, ASettingReadsWithoutQuotesAndItsErrorsNameIt)
     EXPECT_EQ(parse_setting("up.delay", "300", {}).error().message,
               "up.delay: '300' is not a duration: write a number and its unit, such as 160ms, 15us "
               "or 1.5s");
-    EXPECT_EQ(parse_setting("up.los", "3%", {}).error().message, "up.los: did you mean up.loss?");
+    EXPECT_EQ(parse_setting("up.los", "3%", {}).error().message,
+              "unknown key 'up.los': did you mean 'up.loss'?");
 }
 
 TEST(ProfileText, NamesWhatIsWrongWithTheKeyOfASetting)
@@ -210,8 +229,8 @@ TEST(ProfileText, NamesWhatIsWrongWithTheKeyOfASetting)
         return parse_setting(key, "5%", {}).error().message;
     };
     EXPECT_EQ(why("upp.loss"), "upp.loss: unknown direction 'upp': use up, down or both");
-    EXPECT_EQ(why("los"), "los: did you mean loss?");
-    EXPECT_EQ(why("up.x"), "up.x: unknown setting: use one of mtu, rate, loss, burst_loss, "
+    EXPECT_EQ(why("los"), "unknown key 'los': did you mean 'loss'?");
+    EXPECT_EQ(why("up.x"), "unknown key 'up.x': use one of mtu, rate, loss, burst_loss, "
                            "corrupt, duplicate, delay, jitter, order, reorder");
     EXPECT_EQ(why("seed"), "seed: the seed of a run cannot change: start the emulator with --seed");
     EXPECT_EQ(why("up.loss.share"),

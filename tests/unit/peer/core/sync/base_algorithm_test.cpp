@@ -206,7 +206,7 @@ TEST(Algorithms, HaveNames)
     for (const char* name : {"base", "dead-reckoning", "sep"}) EXPECT_TRUE(algorithm_named(name));
     const auto unknown = algorithm_named("best");
     ASSERT_FALSE(unknown);
-    EXPECT_EQ(unknown.error().message, "unknown algorithm \"best\": did you mean 'base'?");
+    EXPECT_EQ(unknown.error().message, "unknown algorithm 'best': did you mean 'base'?");
 }
 
 } // namespace

@@ -116,7 +116,7 @@ TEST(AlgorithmText, PrintsEveryParameterAndExplainsItOnRequest)
 TEST(AlgorithmText, PointsAtWhatIsWrongAndSaysWhatWouldBeRight)
 {
     EXPECT_EQ(complaint("algorithm = \"sepp\""),
-              "a.toml:1:13: unknown algorithm \"sepp\": did you mean 'sep'?");
+              "a.toml:1:13: unknown algorithm 'sepp': did you mean 'sep'?");
     EXPECT_EQ(complaint("follow = \"absolute\""), "a.toml:1:1: missing key 'algorithm'");
     EXPECT_EQ(complaint("algorithm = \"base\"\nvelocity = \"sender\""),
               "a.toml:2:1: unknown key 'velocity': use one of algorithm, displacement, "
