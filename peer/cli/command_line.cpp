@@ -33,8 +33,8 @@ a limit; --duration counts from their common start.
 Algorithms (docs/design/algorithms.md; the two peers may use different ones):
   base            the paper's: forces add up where both push; where one pushes, its report holds
   dead-reckoning  the same, with the other peer's cube extrapolated to now
-  sep             the same, with the other hand's force and position predicted (in place of the
-                  paper's TiDeC, which is not published)
+  sep             the same, with the other hand's force and position predicted
+                  (in place of the paper's TiDeC, which is not published)
 A FILE sets their parameters; --print-algorithm dead-reckoning prints one to start from.
 
 Examples:

@@ -134,7 +134,7 @@ TEST_F(ControlledPeers, SayHowTheyAreWhileTheyPush)
     EXPECT_EQ(shown["says"], "in session");
     EXPECT_EQ(shown["session"]["role"], "L");
     EXPECT_EQ(shown["fault"], nullptr);
-    EXPECT_NE(ctl({"show"}).out.find("hapnet-peer 1: in session"), std::string::npos);
+    EXPECT_NE(ctl({"show"}).out.find("s ago, running: in session\n"), std::string::npos);
 
     auto live = asked({"stats"});
     EXPECT_GT(live["messages"]["states_received"], 0);

@@ -135,7 +135,7 @@ TEST(ExperimentText, ComplaintsSayWhereAndWhatWouldBeRight)
     expect_words(complaint(with("hands = [\"firm\"]\n")), {"a list of two"});
     expect_words(complaint(with("[quick]\nseedz = 1\n")), {"seedz"});
     expect_words(complaint(limits("to = \"100ms\"\nstep = \"10ms\"\nresolution = \"3ms\"\n")),
-                 {"mine.toml:3:", "the resolution"});
+                 {"mine.toml:3:", "a multiple of 'resolution'"});
     expect_words(complaint(limits("to = \"0ms\"\nstep = \"10ms\"\nresolution = \"5ms\"\n")),
                  {"'from' has to be less than 'to'"});
     expect_words(complaint(limits("to = 100\nstep = \"10ms\"\nresolution = \"5ms\"\n")),
