@@ -10,9 +10,9 @@ Installs the Debian 12 packages that building Hapnet needs and that are missing;
 also those that scripts/test.sh needs. Runs as root or with sudo, asks nothing, and does nothing
 when nothing is missing."
 
-packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev libhidapi-dev
-    librandom123-dev libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev libusb-1.0-0-dev
-    nlohmann-json3-dev pkg-config)
+packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
+    libhidapi-dev librandom123-dev libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev
+    libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 libbenchmark-dev libbullet-dev
     libclang-rt-14-dev libgtest-dev libode-dev libumockdev-dev lld-14 shellcheck
     tshark umockdev valgrind)
