@@ -291,12 +291,14 @@ DocumentError explained(std::string_view text, const toml::parse_error& error)
     }
     const std::string_view said = error.description();
     const std::string_view line = line_of(text, place.line);
-    if (const auto start = said.find("cannot redefine existing "); start != said.npos) {
+    if (const auto start = said.find("cannot redefine existing ");
+        start != std::string_view::npos) {
         const auto from = said.find('\'', start), to = said.rfind('\'');
         const auto name = from < to ? said.substr(from + 1, to - from - 1) : "";
         const auto column = line.rfind(name.substr(name.rfind('.') + 1), place.column);
-        const Place key{place.line, column == line.npos ? place.column
-                                                        : static_cast<std::uint32_t>(column + 1)};
+        const Place key{place.line, column == std::string_view::npos
+                                        ? place.column
+                                        : static_cast<std::uint32_t>(column + 1)};
         return {key, fmt::format("'{}' is given twice: give it once", name)};
     }
     if (auto found = QuoteSearch{line}.run()) {
