@@ -121,8 +121,9 @@ std::string explained(std::string_view name, const std::string& value, const std
                              name == "corrupt" || name == "reorder";
     const bool has_space = why.find(" has a space: ") != std::string::npos; // before its unit
     if (is_of_netem && !has_space && is_netem(value)) {
-        return fmt::format("'{0}': a sentence of tc-netem goes to --netem \"{1} {0}\"", value,
-                           name);
+        return fmt::format("'{0}': a sentence of tc-netem goes to hapnet-emulator --netem "
+                           "\"{1} {0}\"",
+                           value, name);
     }
     if (why.find(value) != std::string::npos) return why;
     return fmt::format("'{}': {}", value, why);
