@@ -40,6 +40,23 @@ struct WorldConfig {
     bool sleeping = true; // whether bodies at rest may fall asleep
 };
 
+/// How often the ticks since freeze() stepped in where the plain algorithm would have broken a law.
+struct Interventions {
+    // Guards: motion was thrown away.
+    std::uint64_t islands_limited = 0; // an island's impulses were scaled down, or taken back
+    std::uint64_t paths_cut = 0;       // a body lost the rest of its way in the tick
+    std::uint64_t budgets_spent = 0;   // the work of a tick ended before it was done
+    // Mechanisms: nothing was lost but what a law forbids.
+    std::uint64_t hands_braked = 0;     // a hand's impulse was scaled down so that it stays passive
+    std::uint64_t bounces_limited = 0;  // a bounce was made weaker so that no energy is gained
+    std::uint64_t sweeps_continued = 0; // a body went on after its first touch within the tick
+
+    [[nodiscard]] std::uint64_t guards() const
+    {
+        return islands_limited + paths_cut + budgets_spent;
+    }
+};
+
 /// What every stepper works on: the bodies, what the hands do, and what they feel. Everything that
 /// changes and that the next tick depends on lies here or in the stepper's own memory: a copy of
 /// both is a snapshot.
@@ -51,6 +68,7 @@ struct WorldState {
     Bounded<BodyId> pushed{};              // the bodies with a push, each once
     std::vector<std::uint8_t> is_pushed{}; // by id
     std::uint64_t ticks = 0;
+    Interventions interventions{};
 };
 
 /// What is small in this scene: every tolerance is a share of one of these.
