@@ -4,6 +4,7 @@
 
 #include "proto/base/math.hpp"
 #include "scene/maths/rotation.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/rigid/free_flight.hpp"
 
 #include <algorithm>
@@ -16,15 +17,6 @@ namespace {
 
 /// How far a body may come off its straight path within a tick, in half edges of the smallest body.
 constexpr double stray_max = 0.5;
-
-/// An angular impulse changes the momentum only about axes that the body may turn about.
-glm::dvec3 about_unlocked_axes(const BodyProperties& properties, const glm::dvec3& angular)
-{
-    if (properties.turning == Turning::free) return angular;
-    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
-            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
-            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
-}
 
 /// The part of a displacement or velocity along unlocked axes.
 glm::dvec3 unlocked_part(const BodyProperties& properties, const glm::dvec3& way)
@@ -39,6 +31,14 @@ bool is_negligible(const glm::dvec3& angle)
     constexpr double nothing = 1e-18;
     return std::abs(angle.x) < nothing && std::abs(angle.y) < nothing &&
            std::abs(angle.z) < nothing;
+}
+
+/// In a spring that is bent so far; beyond its greatest force it stores by that force alone.
+double stored_energy(const HandSpring& spring, double bent)
+{
+    const double force = spring.stiffness * bent;
+    if (force <= spring.force_max) return 0.5 * force * bent;
+    return spring.force_max * (bent - 0.5 * spring.force_max / spring.stiffness);
 }
 
 glm::dvec3 tangential_part(const glm::dvec3& v, const glm::dvec3& normal)
@@ -91,6 +91,14 @@ void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, S
 
 } // namespace
 
+glm::dvec3 about_unlocked_axes(const BodyProperties& properties, const glm::dvec3& angular)
+{
+    if (properties.turning == Turning::free) return angular;
+    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
+            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
+            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
+}
+
 BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box)
 {
     const glm::dvec3& about = properties.inverse_inertia;
@@ -120,6 +128,13 @@ void reset(BodyIntegration& integration)
     integration.friction_contacts = 0;
     integration.drag = 0.0;
     integration.has_hands = false;
+}
+
+void begin_bounces(BodyIntegration& integration)
+{
+    integration.start_after_bounces = integration.start;
+    integration.bounce_offset = {};
+    integration.last_bounce = 0.0;
 }
 
 void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
@@ -199,6 +214,13 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
         advance_against((per_second * (1.0 - base::exp(-integration.drag * config.tick))) * before);
     }
     integration.has_hands = true;
+    integration.hand_energy_stored = integration.hand_energy_driven = 0.0;
+    for (std::size_t i = 0; i < hands.springs.size(); ++i) {
+        const HandSpring& spring = hands.springs[i];
+        const double bent = spring.holds ? length(spring.stretch) : std::max(-spring.gap, 0.0);
+        integration.hand_energy_stored += stored_energy(spring, bent);
+        integration.hand_energy_driven += glm::dot(hands.work[i].impulse, spring.velocity);
+    }
     integration.position = body.position;
     integration.orientation = body.orientation;
     integration.angular_momentum =

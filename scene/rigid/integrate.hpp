@@ -20,6 +20,8 @@ struct BodyIntegration {
     BodyMotion mean;                             // over the tick, likewise
     glm::dvec3 angular_momentum{0.0};            // at the end, likewise
     BodyMotion start_after_bounces;              // at the start, as if it had bounced before
+    BodyMotion bounce_offset;                    // m, rad: where it would have to start then
+    double last_bounce = 0.0;                    // s, from the start of the tick
     glm::dvec3 bounce_angular_impulse{0.0};      // angular impulse of bounces
     glm::dvec3 bounce_angular_impulse_mean{0.0}; // ... its mean over the tick
     std::uint32_t friction_contacts = 0;         // contacts with friction that push
@@ -28,14 +30,23 @@ struct BodyIntegration {
 
     // Where a body with hands on it would be at the end.
     bool has_hands = false;
+    double hand_energy_stored = 0.0; // J: in their springs at the start of the tick
+    double hand_energy_driven = 0.0; // J: the work of the hands' own motion
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
 };
 
 [[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);
 
+/// An angular impulse changes the momentum only about axes that the body may turn about.
+[[nodiscard]] glm::dvec3 about_unlocked_axes(const BodyProperties& properties,
+                                             const glm::dvec3& angular);
+
 /// Starts with nothing acting on the body.
 void reset(BodyIntegration& integration);
+
+/// Starts with no bounce yet.
+void begin_bounces(BodyIntegration& integration);
 
 /// The springs on one body.
 struct HandForces {

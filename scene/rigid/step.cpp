@@ -4,7 +4,6 @@
 
 #include "scene/collide/box_plane.hpp"
 #include "scene/collide/sweep.hpp"
-#include "scene/rigid/restitution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +70,6 @@ template <BroadPhase broad_phase>
 RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
                                         const WorldConfig& config, const WorldState& state)
     : scales_{scales_of(config, state.bodies)},
-      bounces_{any_bounces(config, state.bodies)},
       pairs_{config, state.bodies},
       sleep_{config, state.bodies},
       hand_contacts_{config},
@@ -79,7 +77,9 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       free_bodies_{config, state.bodies},
       active_{state.bodies.movable},
       integrations_{state.bodies.movable + std::size_t{1}},
-      solver_{state.bodies.movable, blocks_for(config, state.bodies)}
+      solver_{state.bodies.movable, blocks_for(config, state.bodies)},
+      restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
+      account_{state.bodies.movable}
 {}
 
 template <BroadPhase broad_phase>
@@ -93,8 +93,9 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     collide_bodies(state);
     warm_start();
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
-    if (bounces_) apply_restitution(solver_, integrations_.all(), scales_);
+    restitution_.apply(solver_, integrations_.all(), scales_);
     solve_velocities();
+    settle_energy(config, state);
     store_contact_impulses(state);
     stop_sliding_contacts(state);
     correct_positions();
@@ -301,7 +302,7 @@ void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config,
         BodyIntegration& integration = integrations_[slot + 1];
         if (!integration.has_hands)
             integrate_velocity(integration, state, slot, solver_.response(slot + 1), config);
-        if (bounces_) integration.start_after_bounces = integration.start;
+        if (restitution_.is_needed()) begin_bounces(integration);
     }
 }
 
@@ -349,6 +350,14 @@ void RigidStepper<broad_phase>::solve_velocities()
             integration.mean.spin + 0.5 * (end.spin - integration.predicted.spin),
             integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse};
     }
+}
+
+/// Takes away what the impulses of the tick would gain out of nothing.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
+{
+    account_.settle({config, state, scales_, active_.slots(), integrations_.all(), solver_,
+                     hand_contacts_});
 }
 
 /// Keeps the impulses for the next tick's warm start, and counts the contacts that rub.

@@ -4,9 +4,11 @@
 
 #include "scene/collide/pair_finder.hpp"
 #include "scene/collide/sweep.hpp"
+#include "scene/rigid/energy_account.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
+#include "scene/rigid/restitution.hpp"
 #include "scene/rigid/sleep.hpp"
 #include "scene/solver/contact_solver.hpp"
 #include "scene/state.hpp"
@@ -60,6 +62,7 @@ private:
     void warm_start();
     void integrate_velocities(const WorldConfig& config, const WorldState& state);
     void solve_velocities();
+    void settle_energy(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
     void correct_positions();
@@ -75,7 +78,6 @@ private:
     void integrate_hand_springs(const WorldConfig& config, const WorldState& state);
 
     Scales scales_;
-    bool bounces_ = false;
     PairFinder<search> pairs_;
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
     HandContacts hand_contacts_;
@@ -84,6 +86,8 @@ private:
     ActiveBodies active_;
     Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;
+    Restitution restitution_;
+    EnergyAccount account_;
     Counts counts_;
 };
 

@@ -115,6 +115,15 @@ public:
     [[nodiscard]] bool has_settled() const { return has_settled_; }
     [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
     [[nodiscard]] const ContactVector& impulse() const { return modal_; }
+    /// The velocities without the contact's own impulses.
+    [[nodiscard]] const ContactVector& free() const { return free_; }
+
+    void scale(double share)
+    {
+        for (double& impulse : answer_.normal) impulse *= share;
+        set_friction(share * answer_.tangent_1, share * answer_.tangent_2, share * answer_.torsion);
+        modal_ = contact_vector(block_, answer_);
+    }
 
     /// Sticking contact. False when something would pull or friction would pass its limit.
     bool stick(double tolerance);
@@ -374,8 +383,30 @@ double rounding_of(const ContactBlock& block, const ContactVector& velocity)
                         (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
 }
 
-ContactVector finish(ContactBlock& block, const Trial& trial, const Trial& start)
+/// The share of an answer that is taken. Against the least speeds an exact answer does no work at
+/// the end (points that push are at theirs, friction opposes the slip), so it leaves less energy
+/// than no impulse would. What rounding or a round too few made of it may not leave more: then the
+/// share that leaves least.
+double dissipative_share(const ContactBlock& block, const Trial& trial)
 {
+    const ContactVector& impulse = trial.impulse();
+    const ContactVector change = times(block.matrix, impulse);
+    double work = 0.0; // of the impulse, against velocities without it
+    double answer = 0.0;
+    for (std::size_t i = 0; i < impulse.size(); ++i) {
+        work += impulse[i] * trial.free()[i];
+        answer += impulse[i] * change[i];
+    }
+    for (std::size_t i = 0; i < block.count; ++i)
+        work -= trial.answer().normal[i] * block.speed_min[i];
+    constexpr double rounding = 1e-9;
+    if (work + 0.5 * answer <= rounding * answer) return 1.0;
+    return work < 0.0 && std::isfinite(answer) ? -work / answer : 0.0;
+}
+
+ContactVector finish(ContactBlock& block, Trial& trial, const Trial& start)
+{
+    if (const double share = dissipative_share(block, trial); !(share >= 1.0)) trial.scale(share);
     block.impulse = trial.answer();
     return minus(trial.impulse(), start.impulse());
 }

@@ -182,6 +182,14 @@ void store_impulses(const ContactBlock& block, double weight, ContactMemory& mem
     memory.torsion_impulse *= room;
 }
 
+void scale_impulses(ContactBlock& block, double share)
+{
+    for (double& impulse : block.impulse.normal) impulse *= share;
+    block.impulse.tangent_1 *= share;
+    block.impulse.tangent_2 *= share;
+    block.impulse.torsion *= share;
+}
+
 ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
 {
     glm::dvec3 velocity{0.0};

@@ -101,6 +101,9 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
 /// two bodies takes.
 void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory);
 
+/// Takes but a share of its impulses.
+void scale_impulses(ContactBlock& block, double share);
+
 [[nodiscard]] ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a,
                                         const BodyMotion& b);
 /// While a body turns, the points of it that touch go around its centre: what that adds to their

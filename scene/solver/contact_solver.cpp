@@ -242,13 +242,7 @@ void ContactSolver::limit_energy(const Task& task, Island island)
     }
     const double share = without < 0.0 ? -without / answer : 0.0;
     scale_all(share);
-    for (const std::uint32_t i : island) {
-        ContactImpulse& impulse = blocks_[i].impulse;
-        for (double& normal : impulse.normal) normal *= share;
-        impulse.tangent_1 *= share;
-        impulse.tangent_2 *= share;
-        impulse.torsion *= share;
-    }
+    for (const std::uint32_t i : island) scale_impulses(blocks_[i], share);
 }
 
 double ContactSolver::sweep(const Task& task, Island island)
