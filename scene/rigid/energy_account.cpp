@@ -51,7 +51,7 @@ Motion motion_of(const EnergyAccount::Tick& tick, Slot slot)
                                                          end.angular_impulse +
                                                          integration.bounce_angular_impulse) -
                      motion.momentum;
-    motion.spin_change = tick.solver.response(slot + 1).inverse_inertia * motion.angular;
+    motion.spin_change = bodies.apply_inverse_inertia(slot, motion.angular);
     return motion;
 }
 
@@ -154,29 +154,22 @@ void EnergyAccount::settle_islands(const Tick& tick)
     }
     for (ContactBlock& block : tick.solver.blocks()) {
         const Balance& island = balances_[islands_.root_of(block.a != 0 ? block.a : block.b)];
-        if (island.is_exceeded()) scale_impulses(block, island.share());
+        if (island.is_exceeded()) scale_impulses(*block.memory, island.share());
     }
 }
 
+/// Velocities alone: the way is what was found without overlaps.
 void EnergyAccount::scale(const Tick& tick, Slot slot, double share)
 {
-    const BodyProperties& properties = tick.state.bodies.properties[slot];
     BodyIntegration& integration = tick.integrations[slot + 1];
     BodyMotion& end = tick.solver.end_motion(slot + 1);
-    BodyMotion& mean = tick.solver.mean_motion(slot + 1);
     const Motion motion = motion_of(tick, slot);
     end.velocity = motion.start + motion.forced + share * motion.change;
-    end.spin = motion.spin + share * motion.spin_change;
     end.angular_impulse = glm::dvec3{0.0};
     integration.bounce_angular_impulse = glm::dvec3{0.0};
     integration.angular_momentum = motion.momentum + share * motion.angular;
-    integration.contact_angular_impulse = glm::dvec3{0.0};
-    mean.velocity = 0.5 * (motion.start + end.velocity);
-    mean.spin = 0.5 * (motion.spin + end.spin);
-    mean.angular_impulse = (0.5 * share) * motion.angular;
-    if (!integration.has_hands) return;
-    integration.has_hands = false; // its way under the hands is not taken
-    tick.hands.scale_impulses(properties.id, share);
+    if (integration.has_hands)
+        tick.hands.scale_impulses(tick.state.bodies.properties[slot].id, share);
 }
 
 } // namespace hapnet::scene

@@ -95,10 +95,10 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
     restitution_.apply(solver_, integrations_.all(), scales_);
     solve_velocities();
-    settle_energy(config, state);
     store_contact_impulses(state);
     stop_sliding_contacts(state);
     correct_positions();
+    settle_energy(config, state);
     integrate_positions(state);
     integrate_free_bodies(state);
     report_hand_forces(config, state);
@@ -352,14 +352,6 @@ void RigidStepper<broad_phase>::solve_velocities()
     }
 }
 
-/// Takes away what the impulses of the tick would gain out of nothing.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
-{
-    account_.settle({config, state, scales_, active_.slots(), integrations_.all(), solver_,
-                     hand_contacts_});
-}
-
 /// Keeps the impulses for the next tick's warm start, and counts the contacts that rub.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
@@ -411,6 +403,14 @@ void RigidStepper<broad_phase>::correct_positions()
     if (!keep()) return;
     solver_.correct_positions_again(limits);
     keep();
+}
+
+/// Takes away what the impulses of the tick would gain out of nothing.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
+{
+    account_.settle({config, state, scales_, active_.slots(), integrations_.all(), solver_,
+                     hand_contacts_});
 }
 
 template <BroadPhase broad_phase>

@@ -62,10 +62,10 @@ private:
     void warm_start();
     void integrate_velocities(const WorldConfig& config, const WorldState& state);
     void solve_velocities();
-    void settle_energy(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
     void correct_positions();
+    void settle_energy(const WorldConfig& config, WorldState& state);
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
     void report_hand_forces(const WorldConfig& config, WorldState& state);

@@ -190,6 +190,13 @@ void scale_impulses(ContactBlock& block, double share)
     block.impulse.torsion *= share;
 }
 
+void scale_impulses(ContactMemory& memory, double share)
+{
+    for (double& impulse : memory.normal_impulse) impulse *= share;
+    memory.friction_impulse *= share;
+    memory.torsion_impulse *= share;
+}
+
 ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
 {
     glm::dvec3 velocity{0.0};

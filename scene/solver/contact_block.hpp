@@ -104,6 +104,8 @@ void store_impulses(const ContactBlock& block, double weight, ContactMemory& mem
 /// Takes but a share of its impulses.
 void scale_impulses(ContactBlock& block, double share);
 
+void scale_impulses(ContactMemory& memory, double share);
+
 [[nodiscard]] ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a,
                                         const BodyMotion& b);
 /// While a body turns, the points of it that touch go around its centre: what that adds to their
