@@ -29,8 +29,8 @@ struct Motion {
     glm::dvec3 change{0.0}; // m/s, of all impulses
     glm::dvec3 spin{0.0};   // at the start, rad/s
     glm::dvec3 momentum{0.0};
-    glm::dvec3 angular{0.0};      // N m s, of all impulses
-    glm::dvec3 spin_change{0.0};  // that of it, with the inertia of the start
+    glm::dvec3 angular{0.0};     // N m s, of all impulses
+    glm::dvec3 spin_change{0.0}; // that of it, with the inertia of the start
 };
 
 Motion motion_of(const EnergyAccount::Tick& tick, Slot slot)
@@ -41,16 +41,15 @@ Motion motion_of(const EnergyAccount::Tick& tick, Slot slot)
     const BodyMotion& end = tick.solver.end_motion(slot + 1);
     Motion motion;
     motion.start = integration.start.velocity;
-    motion.forced =
-        tick.config.tick * (gravity_on(properties, tick.config.gravity) +
-                            properties.inverse_mass * tick.state.pushes[properties.id]);
+    motion.forced = tick.config.tick * (gravity_on(properties, tick.config.gravity) +
+                                        properties.inverse_mass * tick.state.pushes[properties.id]);
     motion.change = end.velocity - motion.start - motion.forced;
     motion.spin = integration.start.spin;
     motion.momentum = bodies.angular_momentum.at(slot);
-    motion.angular = about_unlocked_axes(properties, integration.angular_momentum +
-                                                         end.angular_impulse +
-                                                         integration.bounce_angular_impulse) -
-                     motion.momentum;
+    motion.angular =
+        about_unlocked_axes(properties, integration.angular_momentum + end.angular_impulse +
+                                            integration.bounce_angular_impulse) -
+        motion.momentum;
     motion.spin_change = bodies.apply_inverse_inertia(slot, motion.angular);
     return motion;
 }
@@ -61,9 +60,9 @@ double turning_slack(const BodyProperties& properties, const Motion& motion, dou
 {
     const glm::dvec3& inertia = properties.inertia;
     if (properties.turning != Turning::free || properties.is_isotropic) return 0.0;
-    const double wobble = std::max({inertia.x, inertia.y, inertia.z}) /
-                              std::min({inertia.x, inertia.y, inertia.z}) -
-                          1.0;
+    const double wobble =
+        std::max({inertia.x, inertia.y, inertia.z}) / std::min({inertia.x, inertia.y, inertia.z}) -
+        1.0;
     const double spin = std::max(length(motion.spin), length(motion.spin + motion.spin_change));
     return 0.5 * wobble * std::min(spin * tick, far_turn) * spin * length(motion.angular);
 }
@@ -114,12 +113,11 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, Slot slot)
     }
     const double there = mass * glm::dot(motion.start, motion.start) +
                          glm::dot(motion.momentum, motion.spin) + std::abs(work);
-    const double miss2 = speed_tolerance * speed_tolerance *
-                             glm::dot(motion.forced, motion.forced) +
-                         rest * rest * tick.scales.size * tick.scales.size * tick.scales.rate *
-                             tick.scales.rate;
-    balance.stored += energy_tolerance * there + mass * miss2 +
-                      turning_slack(properties, motion, tick.config.tick);
+    const double miss2 =
+        speed_tolerance * speed_tolerance * glm::dot(motion.forced, motion.forced) +
+        rest * rest * tick.scales.size * tick.scales.size * tick.scales.rate * tick.scales.rate;
+    balance.stored += energy_tolerance * there + mass * miss2;
+    balance.driven += turning_slack(properties, motion, tick.config.tick);
     return balance;
 }
 

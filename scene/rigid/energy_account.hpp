@@ -41,12 +41,13 @@ public:
 private:
     /// Of a body, or the sum over an island, J.
     struct Balance {
-        double gain = 0.0;    // with all impulses
-        double linear = 0.0;  // of that the part that grows with the share of the impulses ...
-        double square = 0.0;  // ... and that with its square
-        double stored = 0.0;  // what may be gained without impulses: what springs held, rounding
-        double driven = 0.0;  // the work of the hands' motion, which grows with the share
-        double detour = 0.0;  // of gravity and pushes where the way is not the mean velocity's
+        double gain = 0.0;   // with all impulses
+        double linear = 0.0; // of that the part that grows with the share of the impulses ...
+        double square = 0.0; // ... and that with its square
+        double stored = 0.0; // what may be gained without impulses: what springs held, rounding
+        double driven = 0.0; // with all impulses: the work of the hands' motion, and what is not
+                             // followed of a turning body's inertia
+        double detour = 0.0; // of gravity and pushes where the way is not the mean velocity's
 
         void add(const Balance& other);
         [[nodiscard]] bool is_exceeded() const { return gain > stored + driven + detour; }

@@ -73,7 +73,7 @@ void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, S
 {
     const BodyProperties& properties = bodies.properties[slot];
     if (integration.has_hands) {
-        const glm::dvec3 more = tick * (mean.spin - integration.mean.spin);
+        const glm::dvec3 more = tick * (mean.spin - integration.mean_to_there.spin);
         bodies.orientation.put(slot, is_negligible(more) ? integration.orientation
                                                          : rotated(integration.orientation, more));
         return;
@@ -231,6 +231,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     integration.mean.velocity = per_second * (body.position - bodies.position.at(slot));
     integration.mean.spin = 0.5 * (integration.start.spin + integration.predicted.spin);
     integration.mean.angular_impulse = glm::dvec3{0.0};
+    integration.mean_to_there = integration.mean;
 }
 
 void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
@@ -296,7 +297,7 @@ void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot
     const glm::dvec3 from = bodies.position.at(slot);
     if (integration.has_hands) {
         bodies.position.put(slot, integration.position +
-                                      tick * (mean.velocity - integration.mean.velocity));
+                                      tick * (mean.velocity - integration.mean_to_there.velocity));
     } else {
         bodies.position.put(slot, from + tick * mean.velocity);
     }

@@ -34,6 +34,7 @@ struct BodyIntegration {
     double hand_energy_driven = 0.0; // J: the work of the hands' own motion
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    BodyMotion mean_to_there; // the mean motion that goes there
 };
 
 [[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);

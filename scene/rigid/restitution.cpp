@@ -137,8 +137,8 @@ void Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integr
     hits_.clear();
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
         if (!(blocks[i].restitution > 0.0)) continue;
-        const Impact first = first_impact(blocks[i], approach_of(blocks[i], integrations),
-                                          scales.tick);
+        const Impact first =
+            first_impact(blocks[i], approach_of(blocks[i], integrations), scales.tick);
         if (first.speed > bounce_threshold * scales.fall) hits_.add() = {first.time, i};
     }
     std::sort(hits_.all().begin(), hits_.all().end(), [](const Hit& one, const Hit& other) {

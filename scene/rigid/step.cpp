@@ -409,8 +409,8 @@ void RigidStepper<broad_phase>::correct_positions()
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
 {
-    account_.settle({config, state, scales_, active_.slots(), integrations_.all(), solver_,
-                     hand_contacts_});
+    account_.settle(
+        {config, state, scales_, active_.slots(), integrations_.all(), solver_, hand_contacts_});
 }
 
 template <BroadPhase broad_phase>
