@@ -55,6 +55,16 @@ struct Interventions {
     {
         return islands_limited + paths_cut + budgets_spent;
     }
+    Interventions& operator+=(const Interventions& other)
+    {
+        islands_limited += other.islands_limited;
+        paths_cut += other.paths_cut;
+        budgets_spent += other.budgets_spent;
+        hands_braked += other.hands_braked;
+        bounces_limited += other.bounces_limited;
+        sweeps_continued += other.sweeps_continued;
+        return *this;
+    }
 };
 
 /// What every stepper works on: the bodies, what the hands do, and what they feel. Everything that
