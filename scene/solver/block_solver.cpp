@@ -183,6 +183,7 @@ public:
     bool slip(double tolerance, int rounds_max);
 
 private:
+    [[nodiscard]] bool opens(double tolerance);
     [[nodiscard]] PointSet pushing(double tolerance) const;
     [[nodiscard]] PointSet without_pulling(const PointSet& set) const;
     template <bool sticks>
@@ -359,7 +360,8 @@ bool Trial::stick(double tolerance)
     PointSet set = pushing(tolerance);
     for (std::uint32_t round = 0; round < manifold_points_max; ++round) {
         hold_points<true>(set);
-        if (set.count == 0) return true;
+        // A contact that would have to pull to stick may still have to push to slip.
+        if (set.count == 0) return opens(tolerance);
         const PointSet rest = without_pulling(set);
         if (rest.count == set.count) break;
         set = rest;
@@ -367,6 +369,12 @@ bool Trial::stick(double tolerance)
     const Friction f = scaled_friction();
     const double limit = block_.friction * normal_sum();
     if (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] > limit * limit) return false;
+    return opens(tolerance);
+}
+
+/// Whether the points are at their least speeds or faster, with the answer as it is.
+bool Trial::opens(double tolerance)
+{
     move_normals();
     for (std::uint32_t i = 0; i < block_.count; ++i) {
         if (block_.normal_speed(now_, i) - block_.speed_min[i] < -tolerance) return false;
