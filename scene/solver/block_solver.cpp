@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
 
 namespace hapnet::scene {
 
@@ -94,45 +92,6 @@ double slip_response(const ContactBlock& block)
                      m[5][5] * arm * arm + coupled_1 + coupled_2});
 }
 
-/// Solves with the largest pivots first, of a matrix that need not be symmetric. None when a row
-/// depends on others.
-template <std::size_t rows>
-std::optional<std::array<double, rows>> solve_pivoted(Square<rows> a, std::array<double, rows> x)
-{
-    // Lengths of the rows, so that those of other units compare.
-    for (std::size_t i = 0; i < rows; ++i) {
-        double most = 0.0;
-        for (std::size_t j = 0; j < rows; ++j) most = std::max(most, std::abs(a[i][j]));
-        if (!(most > 0.0)) return std::nullopt;
-        for (double& part : a[i]) part /= most;
-        x[i] /= most;
-    }
-    for (std::size_t i = 0; i < rows; ++i) {
-        std::size_t pivot = i;
-        for (std::size_t k = i + 1; k < rows; ++k)
-            if (std::abs(a[k][i]) > std::abs(a[pivot][i])) pivot = k;
-        constexpr double dependent = 1e-9;
-        double most = 0.0;
-        for (std::size_t j = i; j < rows; ++j) most = std::max(most, std::abs(a[pivot][j]));
-        if (!(std::abs(a[pivot][i]) > dependent * most)) return std::nullopt;
-        std::swap(a[i], a[pivot]);
-        std::swap(x[i], x[pivot]);
-        for (std::size_t k = i + 1; k < rows; ++k) {
-            const double times = a[k][i] / a[i][i];
-            for (std::size_t j = i; j < rows; ++j) a[k][j] -= times * a[i][j];
-            x[k] -= times * x[i];
-        }
-    }
-    for (std::size_t i = rows; i-- > 0;) {
-        for (std::size_t j = i + 1; j < rows; ++j) x[i] -= a[i][j] * x[j];
-        x[i] /= a[i][i];
-    }
-    return x;
-}
-
-// Friction that takes away so much of a point's answer to a push wedges it.
-constexpr double wedged = 1e-3;
-
 using Friction = std::array<double, 3>; // along the tangents, and torsion over its arm
 
 ContactVector minus(ContactVector a, const ContactVector& b)
@@ -159,12 +118,6 @@ public:
     /// The velocities without the contact's own impulses.
     [[nodiscard]] const ContactVector& free() const { return free_; }
 
-    void take(const Trial& other)
-    {
-        modal_ = other.modal_;
-        now_ = other.now_;
-        answer_ = other.answer_;
-    }
     void scale(double share)
     {
         for (double& impulse : answer_.normal) impulse *= share;
@@ -176,9 +129,6 @@ public:
     bool stick(double tolerance);
     /// Slipping or frictionless contact: the normal impulses for the friction as it is.
     void push(double tolerance);
-    /// Slipping contact: the normal impulses for friction that goes with them, at its limit and in
-    /// the direction that it has. False when it would hold the points down itself: wedged.
-    bool push_against_slip(double tolerance);
     /// Slipping contact, in at most that many rounds. False when friction does not reach its limit.
     bool slip(double tolerance, int rounds_max);
 
@@ -205,7 +155,6 @@ private:
         }
         return velocity;
     }
-    bool hold_against_slip(const PointSet& set, const Friction& per_normal);
     void set_normals(const PointSet& set);
     void set_friction(double tangent_1, double tangent_2, double torsion)
     {
@@ -220,12 +169,6 @@ private:
         return {answer_.tangent_1, answer_.tangent_2,
                 block_.torsion_arm > 0.0 ? answer_.torsion / block_.torsion_arm : 0.0};
     }
-    [[nodiscard]] bool exceeds_limit() const
-    {
-        const Friction f = scaled_friction();
-        const double limit = block_.friction * normal_sum();
-        return f[0] * f[0] + f[1] * f[1] + f[2] * f[2] > limit * limit;
-    }
     [[nodiscard]] double normal_sum() const
     {
         return answer_.normal[0] + answer_.normal[1] + answer_.normal[2] + answer_.normal[3];
@@ -238,7 +181,6 @@ private:
     ContactVector now_; // with the answer
     ContactImpulse answer_;
     bool is_at_limit_ = false;
-    Friction at_limit_{}; // friction over the normal impulse, were it at its limit
     bool has_settled_ = false;
 };
 
@@ -403,74 +345,6 @@ void Trial::push(double tolerance)
     move_normals();
 }
 
-bool Trial::hold_against_slip(const PointSet& set, const Friction& per_normal)
-{
-    // How the first three velocities answer to the first three impulses, friction following.
-    Square<3> answer;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto& row = block_.matrix[i];
-        answer[i] = {row[0] + row[3] * per_normal[0] + row[4] * per_normal[1] +
-                         row[5] * per_normal[2],
-                     row[1], row[2]};
-    }
-    answer_.normal = {};
-    if (set.count > 2 && !fit_of(block_, set).is_flat()) {
-        const PlaneFit& fit = fit_of(block_, set);
-        const std::array<double, 3> least = fit.modal_least(block_.speed_min);
-        const auto unknown = solve_pivoted<3>(
-            answer, {least[0] - free_[0], least[1] - free_[1], least[2] - free_[2]});
-        if (!unknown) return false;
-        fit.spread(*unknown, answer_.normal);
-    } else {
-        const PointSet few = set.count > 2 ? outermost(block_, fit_of(block_, set)) : set;
-        Square<2> part{};
-        std::array<double, 2> wanted{};
-        for (std::size_t i = 0; i < few.count; ++i) {
-            const std::size_t at = few.at[i];
-            wanted[i] = block_.speed_min[at] - block_.normal_speed(free_, at);
-            for (std::size_t j = 0; j < few.count; ++j) {
-                const double u = block_.along_1[few.at[j]];
-                const double v = block_.along_2[few.at[j]];
-                ContactVector speeds{};
-                for (std::size_t k = 0; k < 3; ++k)
-                    speeds[k] = answer[k][0] + v * answer[k][1] - u * answer[k][2];
-                part[i][j] = block_.normal_speed(speeds, at);
-            }
-        }
-        if (few.count == 1) {
-            if (!(part[0][0] > wedged * block_.matrix[0][0])) return false;
-            answer_.normal[few.at[0]] = wanted[0] / part[0][0];
-        } else {
-            const auto unknown = solve_pivoted<2>(part, wanted);
-            if (!unknown) return false;
-            for (std::size_t i = 0; i < 2; ++i) answer_.normal[few.at[i]] = (*unknown)[i];
-        }
-    }
-    set_normals(set);
-    const double sum = normal_sum();
-    set_friction(per_normal[0] * sum, per_normal[1] * sum, per_normal[2] * sum);
-    return true;
-}
-
-bool Trial::push_against_slip(double tolerance)
-{
-    PointSet set = pushing(tolerance);
-    for (std::uint32_t round = 0; round < 2 * manifold_points_max; ++round) {
-        if (set.count == 0) return false;
-        if (!hold_against_slip(set, at_limit_)) return false;
-        const PointSet rest = without_pulling(set);
-        if (rest.count < set.count) {
-            set = rest;
-            continue;
-        }
-        move_normals();
-        const PointSet more = pushing(tolerance);
-        if (more.count == set.count) return true;
-        set = more;
-    }
-    return false;
-}
-
 /// Moves friction toward the direction against the slip; returns by how much.
 double Trial::slip_once(double step)
 {
@@ -481,8 +355,6 @@ double Trial::slip_once(double step)
     const double limit = block_.friction * normal_sum();
     const double size = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
     is_at_limit_ = size > limit;
-    const double unit = size > 0.0 ? block_.friction / size : 0.0;
-    at_limit_ = {unit * f[0], unit * f[1], unit * f[2] * arm};
     if (is_at_limit_) {
         const double share = limit / size;
         for (double& part : f) part *= share;
@@ -502,20 +374,9 @@ bool Trial::slip(double tolerance, int rounds_max)
     for (int round = 0; round < rounds_max; ++round) {
         const double change = slip_once(step);
         reached = is_at_limit_;
-        has_settled_ = change <= settled * normal_sum();
-        const Trial before = *this;
         push(tolerance);
+        has_settled_ = change <= settled * normal_sum();
         if (has_settled_) return reached;
-        // Normal impulses for friction as it was, and friction for them in their turn, chase each
-        // other where friction lifts what it rubs, and end with neither: there they go together.
-        if (!exceeds_limit()) continue;
-        const Trial pushed = *this;
-        take(before);
-        if (push_against_slip(tolerance)) {
-            reached = true;
-        } else {
-            take(pushed);
-        }
     }
     slip_once(0.0); // within the limit
     return reached;
