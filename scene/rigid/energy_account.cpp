@@ -15,10 +15,10 @@ namespace {
 
 // What the solver may leave, see its tolerances: of the energy that is there, and, of the speed
 // that forces add to a body in a tick, a factor.
-constexpr double energy_tolerance = 5e-7;
-constexpr double speed_tolerance = 1.4;
+constexpr double energy_tolerance = 9e-7;
+constexpr double speed_tolerance = 1.9;
 // Of the smallest half edge in a tick: what crosses so little is at rest.
-constexpr double rest = 0.7e-6;
+constexpr double rest = 0.95e-6;
 // Radians in a tick beyond which the change of a body's inertia is not followed.
 constexpr double far_turn = 0.3;
 
@@ -64,7 +64,7 @@ double turning_slack(const BodyProperties& properties, const Motion& motion, dou
         std::max({inertia.x, inertia.y, inertia.z}) / std::min({inertia.x, inertia.y, inertia.z}) -
         1.0;
     const double spin = std::max(length(motion.spin), length(motion.spin + motion.spin_change));
-    return 0.5 * wobble * std::min(spin * tick, far_turn) * spin * length(motion.angular);
+    return 0.9 * wobble * std::min(spin * tick, far_turn) * spin * length(motion.angular);
 }
 
 } // namespace
