@@ -67,6 +67,12 @@ double turning_slack(const BodyProperties& properties, const Motion& motion, dou
     return 0.9 * wobble * std::min(spin * tick, far_turn) * spin * length(motion.angular);
 }
 
+void count(Interventions& interventions, double share)
+{
+    constexpr double trimmed = 0.9;
+    ++(share < trimmed ? interventions.islands_limited : interventions.impulses_trimmed);
+}
+
 } // namespace
 
 EnergyAccount::EnergyAccount(std::size_t bodies) : balances_{bodies + 1}, islands_{bodies + 1} {}
@@ -147,8 +153,9 @@ void EnergyAccount::settle_islands(const Tick& tick)
         const SolverIndex root = islands_.root_of(slot + 1);
         const Balance& island = balances_[root];
         if (!island.is_exceeded()) continue;
-        if (root == slot + 1) ++tick.state.interventions.islands_limited;
-        scale(tick, slot, island.share());
+        const double share = island.share();
+        if (root == slot + 1) count(tick.state.interventions, share);
+        scale(tick, slot, share);
     }
     for (ContactBlock& block : tick.solver.blocks()) {
         const Balance& island = balances_[islands_.root_of(block.a != 0 ? block.a : block.b)];

@@ -130,7 +130,7 @@ Approach approach_of(const ContactBlock& block, std::span<const BodyIntegration>
 } // namespace
 
 void Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
-                        const Scales& scales)
+                        const Scales& scales, Interventions& interventions)
 {
     if (!is_needed_) return;
     const std::span<ContactBlock> blocks = solver.blocks();
@@ -144,16 +144,19 @@ void Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integr
     std::sort(hits_.all().begin(), hits_.all().end(), [](const Hit& one, const Hit& other) {
         return one.time != other.time ? one.time < other.time : one.block < other.block;
     });
-    for (const Hit& hit : hits_.all()) bounce(blocks[hit.block], solver, integrations, scales);
+    for (const Hit& hit : hits_.all()) {
+        if (bounce(blocks[hit.block], solver, integrations, scales) < 1.0)
+            ++interventions.bounces_limited;
+    }
 }
 
 /// The contact's bounce, if what bounced before it has left one.
-void Restitution::bounce(ContactBlock& block, ContactSolver& solver,
-                         std::span<BodyIntegration> integrations, const Scales& scales)
+double Restitution::bounce(ContactBlock& block, ContactSolver& solver,
+                           std::span<BodyIntegration> integrations, const Scales& scales)
 {
     const Approach approach = approach_of(block, integrations);
     const Impact first = first_impact(block, approach, scales.tick);
-    if (first.speed <= bounce_threshold * scales.fall) return;
+    if (first.speed <= bounce_threshold * scales.fall) return 1.0;
     const double share = first.time / scales.tick;
     const ContactVector& from = approach.from;
     ContactVector then;
@@ -181,10 +184,11 @@ void Restitution::bounce(ContactBlock& block, ContactSolver& solver,
         add({integrations[block.b], solver.response(block.b), block.arm_b}, push, first.time,
             scales.tick);
     }
-    if (block.a == 0) return;
+    if (block.a == 0) return kept_share;
     push = {-push.impulse, -push.angular};
     add({integrations[block.a], solver.response(block.a), block.arm_a}, push, first.time,
         scales.tick);
+    return kept_share;
 }
 
 } // namespace hapnet::scene

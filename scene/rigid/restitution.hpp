@@ -25,8 +25,8 @@ public:
     [[nodiscard]] bool is_needed() const { return is_needed_; }
 
     /// Changes the tentative velocities and their means.
-    void apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
-               const Scales& scales);
+    void apply(ContactSolver& solver, std::span<BodyIntegration> integrations, const Scales& scales,
+               Interventions& interventions);
 
 private:
     /// A contact, and when its first point hits, were no other to bounce before.
@@ -35,8 +35,9 @@ private:
         std::uint32_t block = 0;
     };
 
-    static void bounce(ContactBlock& block, ContactSolver& solver,
-                       std::span<BodyIntegration> integrations, const Scales& scales);
+    /// Returns the share of it that gains no energy.
+    static double bounce(ContactBlock& block, ContactSolver& solver,
+                         std::span<BodyIntegration> integrations, const Scales& scales);
 
     bool is_needed_;
     Scratch<Hit> hits_;

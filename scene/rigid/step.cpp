@@ -93,7 +93,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     collide_bodies(state);
     warm_start();
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
-    restitution_.apply(solver_, integrations_.all(), scales_);
+    restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
     solve_velocities();
     store_contact_impulses(state);
     stop_sliding_contacts(state);

@@ -40,10 +40,12 @@ void report(const Tally& tally)
                tally.worst.angular_momentum, tally.worst.force);
     const scene::Interventions& done = tally.interventions;
     fmt::print("  guards: {} islands limited, {} ways cut, {} budgets spent: {:.2g} of the ticks; "
-               "mechanisms: {} hands braked, {} bounces limited, {} sweeps continued\n",
+               "mechanisms: {} impulses trimmed, {} hands braked, {} bounces limited, {} sweeps "
+               "continued\n",
                done.islands_limited, done.paths_cut, done.budgets_spent,
                static_cast<double>(done.guards()) / static_cast<double>(tally.ticks),
-               done.hands_braked, done.bounces_limited, done.sweeps_continued);
+               done.impulses_trimmed, done.hands_braked, done.bounces_limited,
+               done.sweeps_continued);
     std::fflush(stdout);
 }
 
