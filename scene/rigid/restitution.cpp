@@ -129,10 +129,10 @@ Approach approach_of(const ContactBlock& block, std::span<const BodyIntegration>
 
 } // namespace
 
-void Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
+bool Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
                         const Scales& scales, Interventions& interventions)
 {
-    if (!is_needed_) return;
+    if (!is_needed_) return false;
     const std::span<ContactBlock> blocks = solver.blocks();
     hits_.clear();
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
@@ -148,6 +148,7 @@ void Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integr
         if (bounce(blocks[hit.block], solver, integrations, scales) < 1.0)
             ++interventions.bounces_limited;
     }
+    return hits_.size() > 0;
 }
 
 /// The contact's bounce, if what bounced before it has left one.

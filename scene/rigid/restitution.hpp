@@ -24,8 +24,8 @@ public:
 
     [[nodiscard]] bool is_needed() const { return is_needed_; }
 
-    /// Changes the tentative velocities and their means.
-    void apply(ContactSolver& solver, std::span<BodyIntegration> integrations, const Scales& scales,
+    /// Changes the tentative velocities and their means. Returns whether anything bounced.
+    bool apply(ContactSolver& solver, std::span<BodyIntegration> integrations, const Scales& scales,
                Interventions& interventions);
 
 private:

@@ -93,12 +93,13 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     collide_bodies(state);
     warm_start();
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
-    restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
-    solve_velocities();
+    const bool bounced =
+        restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
+    const bool changed = solve_velocities();
     store_contact_impulses(state);
     stop_sliding_contacts(state);
     correct_positions();
-    settle_energy(config, state);
+    if (bounced || changed) settle_energy(config, state);
     integrate_positions(state);
     integrate_free_bodies(state);
     report_hand_forces(config, state);
@@ -323,9 +324,9 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
 }
 
 /// Finds the velocities at the end of the tick at which nothing goes into anything, and from them
-/// the mean velocities.
+/// the mean velocities. Returns whether last tick's contact forces had to change for that.
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::solve_velocities()
+bool RigidStepper<broad_phase>::solve_velocities()
 {
     solver_.end_motion(0) = {};
     solver_.mean_motion(0) = {};
@@ -350,6 +351,7 @@ void RigidStepper<broad_phase>::solve_velocities()
             integration.mean.spin + 0.5 * (end.spin - integration.predicted.spin),
             integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse};
     }
+    return !outcome.in_balance;
 }
 
 /// Keeps the impulses for the next tick's warm start, and counts the contacts that rub.

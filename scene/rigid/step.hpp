@@ -61,7 +61,7 @@ private:
     void collide_bodies(const WorldState& state);
     void warm_start();
     void integrate_velocities(const WorldConfig& config, const WorldState& state);
-    void solve_velocities();
+    bool solve_velocities();
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
     void correct_positions();

@@ -119,14 +119,15 @@ SolverOutcome ContactSolver::correct_positions_again(const SolverLimits& limits)
 
 SolverOutcome ContactSolver::run(const Task& task)
 {
-    SolverOutcome outcome{1, 0.0};
+    SolverOutcome outcome{1, 0.0, true};
     count_contacts();
     for (ContactBlock& block : blocks_.all()) {
         block.change =
             solve_block(block, task, is_alone(block) ? Effort::full : Effort::one_iteration);
         outcome.change = std::max(outcome.change, block.change);
     }
-    if (outcome.change <= task.limits.converged || blocks_.size() < 2) return outcome;
+    outcome.in_balance = outcome.change <= task.limits.converged;
+    if (outcome.in_balance || blocks_.size() < 2) return outcome;
     find_islands();
     std::size_t moving = 0;
     for_moving_islands(task, [&](Island island) { moving += island.size(); });
@@ -161,7 +162,7 @@ void ContactSolver::for_moving_islands(const Task& task, Do&& act)
 
 SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
-    SolverOutcome outcome{1, 0.0};
+    SolverOutcome outcome{1, 0.0, true};
     if (island.size() > mixed_max) {
         while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
             outcome.change = sweep(task, island);

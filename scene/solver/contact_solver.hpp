@@ -26,6 +26,7 @@ struct SolverLimits {
 struct SolverOutcome {
     std::uint32_t sweeps = 0; // of the island that needed most
     double change = 0.0;      // m/s, of the last sweep: the largest of a contact's speed
+    bool in_balance = true;   // from the start: no impulse had to change
 };
 
 /// Solves all contacts of a tick for the velocities at its end, block after block, each as a whole
