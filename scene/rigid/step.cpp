@@ -27,7 +27,7 @@ constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 // for, and the most that is moved apart in one tick.
 constexpr double overlap_tolerance = 1e-9;
 constexpr double overlap_converged = 1e-6;
-constexpr double correction_max = 0.02;
+constexpr double correction_max = 0.1;
 constexpr std::uint32_t overlap_visits_max = 200;
 // This share of an overlap is removed per tick: not all, so that contacts that contradict each
 // other come to rest.
