@@ -4,6 +4,7 @@
 
 #include "scene/bodies.hpp"
 #include "scene/bounded.hpp"
+#include "scene/work.hpp"
 
 #include <array>
 #include <cstdint>
@@ -80,6 +81,7 @@ struct WorldState {
     Bounded<BodyId> pushed{};              // the bodies with a push, each once
     std::vector<std::uint8_t> is_pushed{}; // by id
     std::uint64_t ticks = 0;
+    Work work{}; // of the last tick
     Interventions interventions{};
 };
 

@@ -191,8 +191,14 @@ std::optional<Refusal> World::place(BodyId body, base::Position position, base::
     return std::nullopt;
 }
 
+Work World::work_bound() const
+{
+    return std::visit([&](const auto& stepper) { return stepper.work_bound(config_); }, stepper_);
+}
+
 void World::tick()
 {
+    state_.work = {};
     std::visit([&](auto& stepper) { stepper.step(config_, state_); }, stepper_);
     for (const BodyId body : state_.pushed) {
         state_.pushes[body] = glm::dvec3{0.0};

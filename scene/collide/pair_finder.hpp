@@ -71,6 +71,12 @@ public:
 
     [[nodiscard]] const PairSet& all_pairs() const { return pairs_; }
 
+    /// How many pairs of both kinds there may be.
+    [[nodiscard]] std::size_t pairs_max() const
+    {
+        return pairs_.pairs_max() + plane_pairs_.pairs_max();
+    }
+
     /// What was done, for tests and measurements.
     struct Counts {
         std::uint64_t renewed = 0;       // bodies that left their fat boxes

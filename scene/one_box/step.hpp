@@ -31,6 +31,10 @@ public:
                   const WorldState& state);
 
     void step(const WorldConfig& config, WorldState& state);
+    [[nodiscard]] Work work_bound(const WorldConfig& /*config*/) const
+    {
+        return {.events = events_max};
+    }
     void on_body_placed(WorldState& state, BodyId body);
 
     /// In how many ticks there were more events than are followed.

@@ -95,10 +95,10 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
     const bool bounced =
         restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
-    const bool changed = solve_velocities();
+    const bool changed = solve_velocities(state.work);
     store_contact_impulses(state);
     stop_sliding_contacts(state);
-    correct_positions();
+    correct_positions(state.work);
     if (bounced || changed) settle_energy(config, state);
     integrate_positions(state);
     integrate_free_bodies(state);
@@ -113,6 +113,30 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(body);
     hand_contacts_.forget(body);
+}
+
+template <BroadPhase broad_phase>
+Work RigidStepper<broad_phase>::work_bound(const WorldConfig& /*config*/) const
+{
+    // Overlaps are looked at once more where a body is held back.
+    return {.pairs = pairs_.pairs_max(),
+            .contacts = solver_.blocks_max(),
+            .visits = solver_.visits_bound(velocity_limits()) +
+                      2 * solver_.visits_bound(position_limits())};
+}
+
+template <BroadPhase broad_phase>
+SolverLimits RigidStepper<broad_phase>::velocity_limits() const
+{
+    return {velocity_tolerance * scales_.speed, velocity_converged * scales_.speed, sweeps_max,
+            visits_max};
+}
+
+template <BroadPhase broad_phase>
+SolverLimits RigidStepper<broad_phase>::position_limits() const
+{
+    const double length = scales_.size * scales_.rate;
+    return {overlap_tolerance * length, overlap_converged * length, sweeps_max, overlap_visits_max};
 }
 
 template <BroadPhase broad_phase>
@@ -208,9 +232,10 @@ ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
 }
 
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, const WorldState& state)
+void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldState& state)
 {
     const Bodies& bodies = state.bodies;
+    state.work.pairs += pairs_.plane_pairs().size();
     for (const PairIndex index : pairs_.plane_pairs()) {
         Pair& pair = pairs_.plane_pair(index);
         const PlaneDescription& plane = config.planes[pair.b];
@@ -251,9 +276,10 @@ SweptContact RigidStepper<broad_phase>::collide_pair(const WorldState& state, Pa
 }
 
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
+void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
 {
     const Bodies& bodies = state.bodies;
+    state.work.pairs += pairs_.pairs().size();
     const auto index_of = [&](Slot slot) -> SolverIndex {
         if (slot >= bodies.awake) return 0;
         activate(bodies, slot);
@@ -326,7 +352,7 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
 /// Finds the velocities at the end of the tick at which nothing goes into anything, and from them
 /// the mean velocities. Returns whether last tick's contact forces had to change for that.
 template <BroadPhase broad_phase>
-bool RigidStepper<broad_phase>::solve_velocities()
+bool RigidStepper<broad_phase>::solve_velocities(Work& work)
 {
     solver_.end_motion(0) = {};
     solver_.mean_motion(0) = {};
@@ -337,9 +363,9 @@ bool RigidStepper<broad_phase>::solve_velocities()
         set_centripetal_velocity(block, integrations_[block.a].start.spin,
                                  integrations_[block.b].start.spin, scales_.tick);
     }
-    const SolverOutcome outcome =
-        solver_.solve_velocities({velocity_tolerance * scales_.speed,
-                                  velocity_converged * scales_.speed, sweeps_max, visits_max});
+    const SolverOutcome outcome = solver_.solve_velocities(velocity_limits());
+    work.contacts = solver_.blocks().size();
+    work.visits += outcome.visits;
     counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
@@ -386,7 +412,7 @@ void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 /// Changes the mean velocities so that nothing overlaps at the end of the tick. The velocities at
 /// the end stay as they are: nothing gains speed by being moved apart (nonlinear Gauss-Seidel).
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::correct_positions()
+void RigidStepper<broad_phase>::correct_positions(Work& work)
 {
     for (ContactBlock& block : solver_.blocks()) {
         for (std::uint32_t i = 0; i < block.count; ++i) {
@@ -394,16 +420,13 @@ void RigidStepper<broad_phase>::correct_positions()
         }
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
-    const double length = scales_.size * scales_.rate;
-    const SolverLimits limits{overlap_tolerance * length, overlap_converged * length, sweeps_max,
-                              overlap_visits_max};
-    solver_.correct_positions(limits);
+    work.visits += solver_.correct_positions(position_limits()).visits;
     // A body that is thrown off its path is held back; the others go as far as that lets them.
     const auto keep = [&] {
         return keep_within_swept_path(active_.slots(), integrations_.all(), solver_, scales_);
     };
     if (!keep()) return;
-    solver_.correct_positions_again(limits);
+    work.visits += solver_.correct_positions_again(position_limits()).visits;
     keep();
 }
 

@@ -33,6 +33,8 @@ public:
 
     void step(const WorldConfig& config, WorldState& state);
     void on_body_placed(WorldState& state, BodyId body);
+    /// The most that a tick can take.
+    [[nodiscard]] Work work_bound(const WorldConfig& config) const;
 
     /// What was done, for tests and measurements.
     struct Counts {
@@ -57,20 +59,22 @@ private:
     void collide_hands(const WorldConfig& config, WorldState& state);
     void wake_disturbed(WorldState& state);
     void begin_contacts(const WorldState& state);
-    void collide_planes(const WorldConfig& config, const WorldState& state);
-    void collide_bodies(const WorldState& state);
+    void collide_planes(const WorldConfig& config, WorldState& state);
+    void collide_bodies(WorldState& state);
     void warm_start();
     void integrate_velocities(const WorldConfig& config, const WorldState& state);
-    bool solve_velocities();
+    bool solve_velocities(Work& work);
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
-    void correct_positions();
+    void correct_positions(Work& work);
     void settle_energy(const WorldConfig& config, WorldState& state);
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
     void report_hand_forces(const WorldConfig& config, WorldState& state);
     void update_sleep(WorldState& state);
 
+    [[nodiscard]] SolverLimits velocity_limits() const;
+    [[nodiscard]] SolverLimits position_limits() const;
     void activate(const Bodies& bodies, Slot slot);
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
     ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,

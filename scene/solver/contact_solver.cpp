@@ -57,6 +57,7 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       end_motions_{bodies + 1},
       mean_motions_{bodies + 1},
       blocks_{blocks},
+      blocks_max_{blocks},
       contacts_{bodies + 1},
       islands_{bodies + 1},
       starts_{bodies + 2},
@@ -67,6 +68,14 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       saved_{bodies + 1},
       anderson_{numbers_per_block * std::min(blocks, mixed_max)}
 {}
+
+/// The first look, and then for each island either its share or the few sweeps of any.
+std::uint64_t ContactSolver::visits_bound(const SolverLimits& limits) const
+{
+    const std::uint64_t any = sweeps_min * blocks_max_;
+    const std::uint64_t all = std::uint64_t{limits.sweeps_max} * blocks_max_;
+    return blocks_max_ + std::min(all, std::max<std::uint64_t>(any, limits.visits_max));
+}
 
 void ContactSolver::begin(std::size_t bodies)
 {
@@ -119,13 +128,14 @@ SolverOutcome ContactSolver::correct_positions_again(const SolverLimits& limits)
 
 SolverOutcome ContactSolver::run(const Task& task)
 {
-    SolverOutcome outcome{1, 0.0, true};
+    SolverOutcome outcome{.sweeps = 1};
     count_contacts();
     for (ContactBlock& block : blocks_.all()) {
         block.change =
             solve_block(block, task, is_alone(block) ? Effort::full : Effort::one_iteration);
         outcome.change = std::max(outcome.change, block.change);
     }
+    outcome.visits = blocks_.size();
     outcome.in_balance = outcome.change <= task.limits.converged;
     if (outcome.in_balance || blocks_.size() < 2) return outcome;
     find_islands();
@@ -142,6 +152,7 @@ SolverOutcome ContactSolver::run(const Task& task)
         const bool is_done = one.change <= task.limits.converged;
         if (task.mode == Mode::contacts && !is_done) limit_energy(task, island);
         outcome.sweeps = std::max(outcome.sweeps, one.sweeps);
+        outcome.visits += (one.sweeps - 1) * island.size();
         outcome.change = std::max(outcome.change, one.change);
     });
     return outcome;
@@ -162,7 +173,7 @@ void ContactSolver::for_moving_islands(const Task& task, Do&& act)
 
 SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
-    SolverOutcome outcome{1, 0.0, true};
+    SolverOutcome outcome{.sweeps = 1};
     if (island.size() > mixed_max) {
         while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
             outcome.change = sweep(task, island);

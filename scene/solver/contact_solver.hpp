@@ -27,6 +27,7 @@ struct SolverOutcome {
     std::uint32_t sweeps = 0; // of the island that needed most
     double change = 0.0;      // m/s, of the last sweep: the largest of a contact's speed
     bool in_balance = true;   // from the start: no impulse had to change
+    std::uint64_t visits = 0; // of contacts
 };
 
 /// Solves all contacts of a tick for the velocities at its end, block after block, each as a whole
@@ -47,6 +48,10 @@ public:
     /// The mean over the tick: what moves the bodies.
     [[nodiscard]] BodyMotion& mean_motion(SolverIndex body) { return mean_motions_[body]; }
 
+    /// The most visits that a solve of all contacts can take.
+    [[nodiscard]] std::uint64_t visits_bound(const SolverLimits& limits) const;
+
+    [[nodiscard]] std::size_t blocks_max() const { return blocks_max_; }
     [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
     ContactBlock& add() { return blocks_.add(); }
     [[nodiscard]] std::span<ContactBlock> blocks() { return blocks_.all(); }
@@ -97,6 +102,7 @@ private:
     Scratch<BodyMotion> end_motions_;
     Scratch<BodyMotion> mean_motions_;
     Scratch<ContactBlock> blocks_;
+    std::size_t blocks_max_;
 
     Scratch<std::uint32_t> contacts_; // of each body
 
