@@ -23,6 +23,10 @@ constexpr double velocity_converged = 1e-6;
 // ... or until these limits (a stack takes 23 sweeps from nothing); the next tick goes on.
 constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 
+// What sleeps and is touched wakes, and what that touches, so many islands one after the other; the
+// next in the next tick.
+constexpr std::uint32_t wake_rounds_max = 4;
+
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
 // for, and the most that is moved apart in one tick.
 constexpr double overlap_tolerance = 1e-9;
@@ -119,7 +123,7 @@ template <BroadPhase broad_phase>
 Work RigidStepper<broad_phase>::work_bound(const WorldConfig& /*config*/) const
 {
     // Overlaps are looked at once more where a body is held back.
-    return {.pairs = pairs_.pairs_max(),
+    return {.pairs = (sleeps ? 1 + wake_rounds_max : 1) * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
             .visits = solver_.visits_bound(velocity_limits()) +
                       2 * solver_.visits_bound(position_limits())};
@@ -183,9 +187,13 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
         Bodies& bodies = state.bodies;
         for (const BodyId body : state.pushed) sleep_.wake(body, bodies, pairs_);
         const auto are_touching = [&](PairIndex index) {
+            ++state.work.pairs;
             return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
         };
-        while (sleep_.wake_touched(bodies, pairs_, are_touching)) {}
+        // One that is touched by what wakes now is found at once; so on, a few times.
+        for (std::uint32_t round = 0; round < wake_rounds_max; ++round) {
+            if (!sleep_.wake_touched(bodies, pairs_, are_touching)) break;
+        }
     }
 }
 
