@@ -3,8 +3,11 @@
 #include "scene/one_box/step.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "scene/one_box/account.hpp"
+#include "scene/one_box/coupled.hpp"
 #include "scene/one_box/events.hpp"
 #include "scene/one_box/friction.hpp"
+#include "scene/one_box/rest_of_tick.hpp"
 
 namespace hapnet::scene {
 
@@ -21,6 +24,10 @@ void start_interval(BoxMotion& box)
 {
     set_trajectories(box);
     if constexpr (coulomb) add_friction(box);
+    if (box.is_coupled) {
+        find_modes(box);
+        set_modes(box);
+    }
     set_bounds(box);
 }
 
@@ -41,13 +48,17 @@ OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const 
 template <bool coulomb>
 void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 {
-    BoxMotion box{config.hands, oscillators_, obstacles_};
+    int root_steps = root_steps_max;
+    BoxMotion box{config.hands, oscillators_, obstacles_, coupled_, root_steps};
     set_start(config, state, box);
     query_obstacles(box, 0.0);
-    if (obstacles_.push_out(box.nearby, box.position)) query_obstacles(box, 0.0);
+    if (obstacles_.push_out(box.nearby, box.position)) {
+        query_obstacles(box, 0.0);
+        box.is_exact = false;
+    }
     hands_.collide(config, state, box);
     if (box.grip_count == 0) {
-        run_events(config, box);
+        run_events(config, state, box);
         commit(config, state, box);
     } else {
         solve_with_grips(config, state, box);
@@ -87,10 +98,11 @@ template <bool coulomb>
 void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldState& state,
                                               BoxMotion& start)
 {
-    for (;;) { // each time a hand holds less
+    for (;;) { // each time a hand holds less: no more often than there are hands
+        start.root_steps = root_steps_max;
         BoxMotion box = start.copy();
         query_obstacles(box, 0.0); // the last try may have asked elsewhere
-        run_events(config, box);
+        run_events(config, state, box);
         if (BoxHands::limit_grip(config, state, box, start)) continue;
         commit(config, state, box);
         return;
@@ -99,22 +111,33 @@ void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldSt
 
 template <bool coulomb>
 void OneBoxStepper<coulomb>::commit(const WorldConfig& config, WorldState& state,
-                                    const BoxMotion& box) const
+                                    BoxMotion& box) const
 {
     const Slot slot = state.bodies.slot_of[body_];
+    BoxHands::report(config, state, box);
+    if (!box.is_exact) {
+        TickStart start{.position = per_axis(state.bodies.position.at(slot)),
+                        .velocity = per_axis(state.bodies.velocity.at(slot)),
+                        .steady = per_axis(config.gravity)};
+        start.stored = hands_.stored_in_grips(config, state, start.position);
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!state.pushed.is_empty())
+                start.steady[i] +=
+                    oscillators_.inverse_mass() * per_axis(state.pushes[body_])[i];
+            if (locked_[i]) start.velocity[i] = start.steady[i] = 0.0;
+        }
+        settle(config, state, start, box);
+    }
     state.bodies.position.put(slot, vector(box.position));
     state.bodies.velocity.put(slot, vector(box.velocity));
-    BoxHands::report(config, state, box);
 }
 
 template <bool coulomb>
-void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, BoxMotion& box)
+void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& state,
+                                        BoxMotion& box)
 {
+    box.rounding = {};
     start_interval<coulomb>(box);
-    if (box.edge_spring_count > 0) {
-        BoxHands::add_edge_springs(box);
-        start_interval<coulomb>(box);
-    }
     for (int events = 1;; ++events) {
         const double reach =
             std::max(std::max(box.axes[0].reach, box.axes[1].reach), box.axes[2].reach);
@@ -125,13 +148,14 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, BoxMotion& bo
         advance(box, event.time);
         if (event.kind == Event::Kind::none) return;
         handle_event(box, event, config.tick);
-        if (events == events_max) {
-            box.event_limit_reached = true;
-            ++crowded_ticks_;
-        }
         if (box.time_left <= 0.0) return;
         box.clearance = obstacles_.clearance(box.position);
         start_interval<coulomb>(box);
+        if (events < events_max && event.kind != Event::Kind::unknown) continue;
+        ++crowded_ticks_;
+        box.is_exact = false;
+        if (finish_tick(box)) ++state.interventions.paths_cut;
+        return;
     }
 }
 

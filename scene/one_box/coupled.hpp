@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/one_box/motion.hpp"
+
+namespace hapnet::scene {
+
+// Where the box is within an interval, whether every axis moves on its own or slanted springs
+// couple them.
+
+/// Finds the modes of the axes that move. Sets `box.coupled` but for the trajectories of the modes.
+void find_modes(BoxMotion& box);
+/// Sets the trajectories of the modes from those of the axes.
+void set_modes(BoxMotion& box);
+
+[[nodiscard]] inline TrajectoryPoint motion_after(const BoxMotion& box, std::size_t axis,
+                                                  double time)
+{
+    if (!box.is_coupled) return box.trajectories[axis].after(time);
+    TrajectoryPoint sum;
+    for (std::size_t j = 0; j < 3; ++j) {
+        const TrajectoryPoint mode = box.coupled.modes[j].after(time);
+        sum.displacement += box.coupled.direction[j][axis] * mode.displacement;
+        sum.speed += box.coupled.direction[j][axis] * mode.speed;
+    }
+    return sum;
+}
+
+[[nodiscard]] inline double acceleration_after(const BoxMotion& box, std::size_t axis, double time)
+{
+    if (!box.is_coupled)
+        return box.trajectories[axis].acceleration(time, box.trajectories[axis].after(time));
+    double sum = 0.0;
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Trajectory& mode = box.coupled.modes[j];
+        sum += box.coupled.direction[j][axis] * mode.acceleration(time, mode.after(time));
+    }
+    return sum;
+}
+
+/// The first root of a quantity of the axes, in [from, to); counted in the budget of the tick.
+[[nodiscard]] RootSearch search_root(const BoxMotion& box, const WatchedQuantity& watched,
+                                     double from, double to);
+
+} // namespace hapnet::scene
