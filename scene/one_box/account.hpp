@@ -11,7 +11,7 @@ namespace hapnet::scene {
 struct TickStart {
     PerAxis position{};
     PerAxis velocity{};
-    PerAxis steady{}; // acceleration by gravity and pushes; 0 along locked axes
+    PerAxis steady{};    // acceleration by gravity and pushes; 0 along locked axes
     double stored = 0.0; // J, in the springs of hands that hold
 };
 

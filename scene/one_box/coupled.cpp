@@ -58,7 +58,7 @@ void rotate(Matrix& matrix, Matrix& basis, std::size_t p, std::size_t q)
 void find_modes(BoxMotion& box)
 {
     Matrix matrix = springs_between_axes(box);
-    Matrix& basis = box.coupled.direction;
+    Matrix& basis = box.room.coupled.direction;
     basis = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
     constexpr int sweeps = 6; // converges quadratically: four are enough
     for (int i = 0; i < sweeps; ++i) {
@@ -75,13 +75,13 @@ void find_modes(BoxMotion& box)
         const double springs = matrix[j][j] > rounding * most ? matrix[j][j] : 0.0;
         const Oscillator oscillator{.damping = springs * spring.damping + drag,
                                     .stiffness = springs * spring.stiffness};
-        box.coupled.propagators[j] = Propagator{oscillator, box.time_left};
+        box.room.coupled.propagators[j] = Propagator{oscillator, box.time_left};
     }
 }
 
 void set_modes(BoxMotion& box)
 {
-    CoupledAxes& coupled = box.coupled;
+    CoupledAxes& coupled = box.room.coupled;
     for (std::size_t j = 0; j < 3; ++j) {
         Trajectory& mode = coupled.modes[j];
         mode = {box.trajectories[j].moves() ? &coupled.propagators[j] : nullptr, 0.0, 0.0, 0.0};
@@ -95,15 +95,45 @@ void set_modes(BoxMotion& box)
     }
 }
 
+void set_coupled_bounds(BoxMotion& box)
+{
+    for (AxisMotion& axis : box.axes) {
+        axis.acceleration = axis.reach = 0.0;
+        axis.bounds = {};
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Trajectory& mode = box.room.coupled.modes[j];
+        if (!mode.moves()) continue;
+        const double acceleration = mode.push - mode.propagator->oscillator.damping * mode.speed;
+        const double jerk = mode.jerk(acceleration, mode.speed);
+        const Bounds most = bounds(*mode.propagator, acceleration, jerk, box.time_left);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double share = box.room.coupled.direction[j][i];
+            AxisMotion& axis = box.axes[i];
+            axis.acceleration += share * acceleration;
+            axis.bounds.acceleration += std::abs(share) * most.acceleration;
+            axis.bounds.jerk += std::abs(share) * most.jerk;
+        }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        AxisMotion& axis = box.axes[i];
+        if (!box.trajectories[i].moves()) continue;
+        axis.reach = box.time_left *
+                     (std::abs(box.velocity[i]) + 0.5 * box.time_left * axis.bounds.acceleration);
+    }
+}
+
 RootSearch search_root(const BoxMotion& box, const WatchedQuantity& watched, double from, double to)
 {
-    if (!box.is_coupled) return search_root(watched, box.trajectories, from, to, box.root_steps);
+    if (!box.is_coupled)
+        return search_root(watched, box.trajectories, from, to, box.room.root_steps);
     WatchedQuantity in_modes = watched;
     for (std::size_t j = 0; j < 3; ++j) {
-        in_modes.displacement_weight[j] = dot(box.coupled.direction[j], watched.displacement_weight);
-        in_modes.speed_weight[j] = dot(box.coupled.direction[j], watched.speed_weight);
+        in_modes.displacement_weight[j] =
+            dot(box.room.coupled.direction[j], watched.displacement_weight);
+        in_modes.speed_weight[j] = dot(box.room.coupled.direction[j], watched.speed_weight);
     }
-    return search_root(in_modes, box.coupled.modes, from, to, box.root_steps);
+    return search_root(in_modes, box.room.coupled.modes, from, to, box.room.root_steps);
 }
 
 } // namespace hapnet::scene

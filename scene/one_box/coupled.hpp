@@ -9,10 +9,12 @@ namespace hapnet::scene {
 // Where the box is within an interval, whether every axis moves on its own or slanted springs
 // couple them.
 
-/// Finds the modes of the axes that move. Sets `box.coupled` but for the trajectories of the modes.
+/// Finds the modes of the axes that move. Sets them but for the trajectories of the modes.
 void find_modes(BoxMotion& box);
 /// Sets the trajectories of the modes from those of the axes.
 void set_modes(BoxMotion& box);
+/// What set_bounds() does, by the modes.
+void set_coupled_bounds(BoxMotion& box);
 
 [[nodiscard]] inline TrajectoryPoint motion_after(const BoxMotion& box, std::size_t axis,
                                                   double time)
@@ -20,9 +22,9 @@ void set_modes(BoxMotion& box);
     if (!box.is_coupled) return box.trajectories[axis].after(time);
     TrajectoryPoint sum;
     for (std::size_t j = 0; j < 3; ++j) {
-        const TrajectoryPoint mode = box.coupled.modes[j].after(time);
-        sum.displacement += box.coupled.direction[j][axis] * mode.displacement;
-        sum.speed += box.coupled.direction[j][axis] * mode.speed;
+        const TrajectoryPoint mode = box.room.coupled.modes[j].after(time);
+        sum.displacement += box.room.coupled.direction[j][axis] * mode.displacement;
+        sum.speed += box.room.coupled.direction[j][axis] * mode.speed;
     }
     return sum;
 }
@@ -33,8 +35,8 @@ void set_modes(BoxMotion& box);
         return box.trajectories[axis].acceleration(time, box.trajectories[axis].after(time));
     double sum = 0.0;
     for (std::size_t j = 0; j < 3; ++j) {
-        const Trajectory& mode = box.coupled.modes[j];
-        sum += box.coupled.direction[j][axis] * mode.acceleration(time, mode.after(time));
+        const Trajectory& mode = box.room.coupled.modes[j];
+        sum += box.room.coupled.direction[j][axis] * mode.acceleration(time, mode.after(time));
     }
     return sum;
 }

@@ -46,9 +46,11 @@ struct Tension {
         const double c = box.hands.damping_ns_per_m;
         const auto& axes = box.axes;
         closing = spring.closing + spring.along(box.velocity);
-        acceleration = spring.most_along([&](std::size_t i) { return axes[i].bounds.acceleration; });
+        acceleration =
+            spring.most_along([&](std::size_t i) { return axes[i].bounds.acceleration; });
         force = k * spring.depth + c * closing;
-        rate = k * closing + c * spring.along_each([&](std::size_t i) { return axes[i].acceleration; });
+        rate = k * closing +
+               c * spring.along_each([&](std::size_t i) { return axes[i].acceleration; });
         bend = k * acceleration +
                c * spring.most_along([&](std::size_t i) { return axes[i].bounds.jerk; });
     }
@@ -113,8 +115,7 @@ struct SpringEventFinder {
                          hands.damping_ns_per_m > 0.0 ? SpringPhase::slack : SpringPhase::apart);
         }
         if (!stays_positive(room, -tension.rate, tension.bend, left)) {
-            expect_phase(watch_tension(box, spring, -1.0, hands.force_max_n),
-                         SpringPhase::limited);
+            expect_phase(watch_tension(box, spring, -1.0, hands.force_max_n), SpringPhase::limited);
         }
     }
 };

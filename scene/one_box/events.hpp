@@ -9,8 +9,8 @@ namespace hapnet::scene {
 /// What ends an interval of a tick.
 struct Event {
     enum class Kind : std::uint8_t {
-        none,      // the end of the tick
-        spring,    // a hand's spring comes into another phase
+        none,   // the end of the tick
+        spring, // a hand's spring comes into another phase
         slanted_spring,
         impact,    // the box arrives at a fixed one or a plane
         unloading, // it no longer presses on its support
@@ -21,7 +21,7 @@ struct Event {
     };
     double time = 0.0; // from the start of the interval
     Kind kind = Kind::none;
-    std::uint32_t spring = 0; // its index among those of its kind
+    std::uint32_t spring = 0;               // its index among those of its kind
     SpringPhase phase = SpringPhase::apart; // the spring's next one
     std::size_t axis = 0;                   // of an impact, an unloading or an edge
     double face = 0.0;                      // where the centre is at an impact or an edge

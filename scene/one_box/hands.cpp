@@ -148,7 +148,7 @@ void BoxHands::add_grip(const WorldConfig& config, WorldState& state, BoxMotion&
     HandTouch& touch = state.touches[index];
     touch.touching = true;
     note_grip(touch, hands, distance(from_centre, half_), force);
-    box.is_exact = false;
+    box.note_inexact();
     if (force == wanted) {
         box.grips[box.grip_count++] = grip;
         return;
@@ -204,7 +204,7 @@ FaceContact BoxHands::collide_near_box(const WorldConfig& config, WorldState& st
     spring.impulse = 0.0;
     const double force = spring.update_phase(hands, spring.along(box.velocity));
     note_push(touch, contact->depth, force * vector(normal));
-    box.is_exact = false;
+    box.note_inexact();
     return {index, {}, 0.0};
 }
 

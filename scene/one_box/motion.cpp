@@ -54,6 +54,21 @@ void find_support(AxisMotion& axis, double speed, double push, double ramp)
     }
 }
 
+/// Whether one of the supports is a plane. `push` gives the acceleration along an axis.
+template <typename Push>
+bool find_supports(BoxMotion& box, const Push& push)
+{
+    bool is_on_plane = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        AxisMotion& axis = box.axes[i];
+        if (axis.below || axis.above)
+            find_support(axis, box.trajectories[i].speed, push(i), box.trajectories[i].ramp);
+        axis.is_losing_support = false;
+        if (axis.support && axis.support->is_plane) is_on_plane = true;
+    }
+    return is_on_plane;
+}
+
 /// Adds the hands' springs; how many there are on each axis.
 std::array<std::size_t, 3> add_springs(BoxMotion& box)
 {
@@ -105,35 +120,6 @@ bool add_slanted_springs(BoxMotion& box, PerAxis& damped)
     return any;
 }
 
-void set_coupled_bounds(BoxMotion& box)
-{
-    for (AxisMotion& axis : box.axes) {
-        axis.acceleration = axis.reach = 0.0;
-        axis.bounds = {};
-    }
-    for (std::size_t j = 0; j < 3; ++j) {
-        const Trajectory& mode = box.coupled.modes[j];
-        if (!mode.moves()) continue;
-        const double acceleration =
-            mode.push - mode.propagator->oscillator.damping * mode.speed;
-        const double jerk = mode.jerk(acceleration, mode.speed);
-        const Bounds most = bounds(*mode.propagator, acceleration, jerk, box.time_left);
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double share = box.coupled.direction[j][i];
-            AxisMotion& axis = box.axes[i];
-            axis.acceleration += share * acceleration;
-            axis.bounds.acceleration += std::abs(share) * most.acceleration;
-            axis.bounds.jerk += std::abs(share) * most.jerk;
-        }
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-        AxisMotion& axis = box.axes[i];
-        if (!box.trajectories[i].moves()) continue;
-        axis.reach = box.time_left * (std::abs(box.velocity[i]) +
-                                      0.5 * box.time_left * axis.bounds.acceleration);
-    }
-}
-
 /// What comes of a trajectory: how far, and the integral of that over time where a spring holds it.
 struct Way {
     TrajectoryPoint end;
@@ -164,10 +150,10 @@ Ways advance_coupled(BoxMotion& box, double time)
     Ways all;
     PerAxis velocity{};
     for (std::size_t j = 0; j < 3; ++j) {
-        if (!box.coupled.modes[j].moves()) continue;
-        const Way mode = way_of(box.coupled.modes[j], time);
+        if (!box.room.coupled.modes[j].moves()) continue;
+        const Way mode = way_of(box.room.coupled.modes[j], time);
         for (std::size_t i = 0; i < 3; ++i) {
-            const double share = box.coupled.direction[j][i];
+            const double share = box.room.coupled.direction[j][i];
             velocity[i] += share * mode.end.speed;
             all.way[i] += share * mode.end.displacement;
             all.integral[i] += share * mode.integral;
@@ -181,7 +167,7 @@ Ways advance_coupled(BoxMotion& box, double time)
     return all;
 }
 
-Ways advance_axes(BoxMotion& box, double time)
+inline Ways advance_axes(BoxMotion& box, double time)
 {
     Ways all;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -202,8 +188,8 @@ void advance_spring(const BoxMotion& box, AnySpring& spring, double time, const 
     const double c = box.hands.damping_ns_per_m;
     const double closed = spring.closing * time + spring.along(ways.way);
     if (spring.phase == SpringPhase::pressing) {
-        const double depths = time * (spring.depth + 0.5 * time * spring.closing) +
-                              spring.along(ways.integral);
+        const double depths =
+            time * (spring.depth + 0.5 * time * spring.closing) + spring.along(ways.integral);
         spring.impulse += k * depths + c * closed;
     } else if (spring.phase == SpringPhase::limited) {
         spring.impulse += box.hands.force_max_n * time;
@@ -211,13 +197,25 @@ void advance_spring(const BoxMotion& box, AnySpring& spring, double time, const 
     spring.depth += closed;
 }
 
+void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Ways& ways)
+{
+    const double k = box.hands.stiffness_n_per_m;
+    const double c = box.hands.damping_ns_per_m;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double stretched = time * grip.velocity[i] - ways.way[i];
+        const double stretches =
+            time * (grip.stretch[i] + 0.5 * time * grip.velocity[i]) - ways.integral[i];
+        grip.impulse[i] += k * stretches + c * stretched;
+        grip.stretch[i] += stretched;
+    }
+}
+
 /// What all springs have given so far, along each axis.
 PerAxis impulse_of_springs(const BoxMotion& box)
 {
     PerAxis sum{};
     for (const FaceSpring& spring : box.active_springs()) spring.add_along(sum, -spring.impulse);
-    for (const SlantedSpring& spring : box.active_slanted())
-        spring.add_along(sum, -spring.impulse);
+    for (const SlantedSpring& spring : box.active_slanted()) spring.add_along(sum, -spring.impulse);
     for (const GripSpring& grip : box.active_grips()) {
         for (std::size_t i = 0; i < 3; ++i) sum[i] += grip.impulse[i];
     }
@@ -236,12 +234,26 @@ PerAxis gained_from_springs(const BoxMotion& box, const PerAxis& was, double tim
     PerAxis gained{};
     for (std::size_t i = 0; i < 3; ++i) {
         if (!box.trajectories[i].moves()) continue;
-        const double others =
-            time * box.axes[i].applied_acceleration - drag * way[i] -
-            (box.axes[i].is_held() ? 0.0 : friction * dry.direction[i]);
+        const double others = time * box.axes[i].applied_acceleration - drag * way[i] -
+                              (box.axes[i].is_held() ? 0.0 : friction * dry.direction[i]);
         gained[i] = (box.velocity[i] - was[i] - others) / box.oscillators.inverse_mass();
     }
     return gained;
+}
+
+void advance_audited(BoxMotion& box, double time)
+{
+    const PerAxis velocity = box.velocity;
+    const PerAxis impulse = impulse_of_springs(box);
+    const Ways ways = box.is_coupled ? advance_coupled(box, time) : advance_axes(box, time);
+    for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
+    for (SlantedSpring& spring : box.active_slanted()) advance_spring(box, spring, time, ways);
+    for (GripSpring& grip : box.active_grips()) advance_grip(box, grip, time, ways);
+    const PerAxis gained = gained_from_springs(box, velocity, time, ways.way);
+    const PerAxis given = impulse_of_springs(box);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (box.trajectories[i].moves()) box.rounding[i] += gained[i] - (given[i] - impulse[i]);
+    }
 }
 
 } // namespace
@@ -263,11 +275,12 @@ AxisOscillators::AxisOscillators(const HandDescription& hands, const BodyPropert
 
 BoxMotion BoxMotion::copy() const
 {
-    BoxMotion other{hands, oscillators, obstacles, coupled, root_steps};
+    BoxMotion other{hands, oscillators, obstacles, room};
     other.nearby = nearby;
     other.clearance = clearance;
     other.time_left = time_left;
     other.is_exact = is_exact;
+    other.rounding = rounding;
     other.position = position;
     other.velocity = velocity;
     other.axes = axes;
@@ -290,35 +303,31 @@ void set_trajectories(BoxMotion& box)
     }
     for (const std::uint32_t id : box.nearby) note_touched_faces(box, box.obstacles[id]);
     const auto springs = add_springs(box);
-    PerAxis damped{};
-    if (box.slanted_count > 0) {
+    bool is_on_plane = false;
+    if (box.slanted_count == 0) {
+        const auto push = [&](std::size_t i) { return box.trajectories[i].push; };
+        is_on_plane = find_supports(box, push);
+    } else {
+        PerAxis damped{};
         box.is_coupled = add_slanted_springs(box, damped);
         box.spring_counts = springs;
-    }
-
-    bool is_on_plane = false;
-    for (std::size_t i = 0; i < 3; ++i) {
-        AxisMotion& axis = box.axes[i];
-        const Trajectory& trajectory = box.trajectories[i];
-        if (axis.below || axis.above)
-            find_support(axis, trajectory.speed, trajectory.push + damped[i], trajectory.ramp);
-        axis.is_losing_support = false;
-        if (axis.support && axis.support->is_plane) is_on_plane = true;
+        const auto push = [&](std::size_t i) { return box.trajectories[i].push + damped[i]; };
+        is_on_plane = find_supports(box, push);
+        for (std::size_t i = 0; i < 3; ++i) { // coupled, those move that would not on their own
+            if (box.is_coupled && !box.axes[i].is_held())
+                box.trajectories[i].propagator = &box.oscillators.of(springs[i], is_on_plane);
+        }
     }
     box.is_on_plane = is_on_plane;
     for (std::size_t i = 0; i < 3; ++i) {
         const AxisMotion& axis = box.axes[i];
-        if (axis.is_held() || (!box.is_coupled && box.trajectories[i].is_idle())) continue;
+        if (axis.is_held() || box.trajectories[i].is_idle()) continue;
         box.trajectories[i].propagator = &box.oscillators.of(springs[i], is_on_plane);
     }
 }
 
 void set_bounds(BoxMotion& box)
 {
-    if (box.is_coupled) {
-        set_coupled_bounds(box);
-        return;
-    }
     for (std::size_t i = 0; i < 3; ++i) {
         const Trajectory& trajectory = box.trajectories[i];
         AxisMotion& axis = box.axes[i];
@@ -338,30 +347,11 @@ void set_bounds(BoxMotion& box)
 
 void advance(BoxMotion& box, double time)
 {
-    const double k = box.hands.stiffness_n_per_m;
-    const double c = box.hands.damping_ns_per_m;
-    const bool is_audited = box.is_coupled || box.grip_count > 0;
-    const PerAxis velocity = box.velocity;
-    const PerAxis impulse = is_audited ? impulse_of_springs(box) : PerAxis{};
-    const Ways ways = box.is_coupled ? advance_coupled(box, time) : advance_axes(box, time);
-    for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
-    for (SlantedSpring& spring : box.active_slanted()) advance_spring(box, spring, time, ways);
-    for (GripSpring& grip : box.active_grips()) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double stretched = time * grip.velocity[i] - ways.way[i];
-            const double stretches =
-                time * (grip.stretch[i] + 0.5 * time * grip.velocity[i]) - ways.integral[i];
-            grip.impulse[i] += k * stretches + c * stretched;
-            grip.stretch[i] += stretched;
-        }
-    }
-    if (is_audited) {
-        const PerAxis gained = gained_from_springs(box, velocity, time, ways.way);
-        const PerAxis given = impulse_of_springs(box);
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (box.trajectories[i].moves())
-                box.rounding[i] += gained[i] - (given[i] - impulse[i]);
-        }
+    if (box.slanted_count > 0 || box.grip_count > 0) {
+        advance_audited(box, time);
+    } else {
+        const Ways ways = advance_axes(box, time);
+        for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
     }
     box.time_left -= time;
 }

@@ -62,8 +62,8 @@ struct DryFriction {
     double limit_ramp = 0.0;
 };
 
-/// A hand's spring on the box: along one axis at a face, along any direction at an edge or a corner.
-/// The direction holds for the tick.
+/// A hand's spring on the box: along one axis at a face, along any direction at an edge or a
+/// corner. The direction holds for the tick.
 struct Spring {
     std::uint32_t hand;
     double depth;   // at the start of the interval
@@ -151,32 +151,39 @@ struct CoupledAxes {
     std::array<Propagator, 3> propagators;
 };
 
+/// What a tick needs besides, if anything happens in it.
+struct TickRoom {
+    CoupledAxes coupled; // only while BoxMotion::is_coupled
+    int root_steps = 0;  // that the searches for events have left
+};
+
 /// A box within a tick. Events cut the tick into intervals; in each of them every axis follows a
 /// closed form.
 struct BoxMotion {
     // Without values until they are set: clearing all of them would cost more than the tick.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     BoxMotion(const HandDescription& of_hands, const AxisOscillators& of_oscillators,
-              Obstacles& those, CoupledAxes& room_for_coupled, int& of_root_steps)
-        : hands{of_hands},
-          oscillators{of_oscillators},
-          obstacles{those},
-          coupled{room_for_coupled},
-          root_steps{of_root_steps}
+              Obstacles& those, TickRoom& for_tick)
+        : hands{of_hands}, oscillators{of_oscillators}, obstacles{those}, room{for_tick}
     {}
 
+    /// From now on the tick is not exact but for rounding.
+    void note_inexact()
+    {
+        if (is_exact) rounding = {};
+        is_exact = false;
+    }
     /// Another one like it, to try the tick again.
     [[nodiscard]] BoxMotion copy() const;
 
     const HandDescription& hands;
     const AxisOscillators& oscillators;
     Obstacles& obstacles;
-    CoupledAxes& coupled; // only while `is_coupled`
-    int& root_steps;      // that the searches for events have left in this tick
+    TickRoom& room;
     std::span<const std::uint32_t> nearby{};
     double clearance = 0.0; // how far the box may go until something else is near
 
-    double time_left = 0.0; // of the tick, s
+    double time_left = 0.0;  // of the tick, s
     bool is_exact = true;    // but for rounding: so is every tick without slanted springs, grips
                              // and crowds of events
     bool is_coupled = false; // a slanted spring presses

@@ -162,8 +162,8 @@ private:
         const double grips =
             0.5 * box_.hands.stiffness_n_per_m + box_.hands.damping_ns_per_m / time_;
         for (std::size_t i = 0; i < 3; ++i) {
-            left[i] = inertia * (way[i] - time_ * box_.velocity[i]) +
-                      drag_ / time_ * way[i] - mass_ * box_.axes[i].applied_acceleration;
+            left[i] = inertia * (way[i] - time_ * box_.velocity[i]) + drag_ / time_ * way[i] -
+                      mass_ * box_.axes[i].applied_acceleration;
             for (const GripSpring& grip : box_.active_grips()) left[i] -= pull(grip, i, way[i]);
             if (slope) (*slope)[i][i] = inertia + drag_ / time_ + box_.grip_count * grips;
         }
@@ -218,7 +218,7 @@ private:
 struct Hit {
     double time; // of the step: 0 at its start, 1 at its end
     std::size_t axis;
-    double way;  // of that axis, to the face
+    double way; // of that axis, to the face
 };
 
 /// Where the straight way of a step comes into an obstacle first.
@@ -290,8 +290,8 @@ bool finish_tick(BoxMotion& box)
     std::array<bool, 3> is_at_face{};
     for (int tries = 0;; ++tries) {
         step.solve_way();
-        const double reach = std::max({std::abs(step.way()[0]), std::abs(step.way()[1]),
-                                       std::abs(step.way()[2])});
+        const double reach =
+            std::max({std::abs(step.way()[0]), std::abs(step.way()[1]), std::abs(step.way()[2])});
         box.nearby = box.obstacles.nearby(box.position, reach);
         const auto hit = first_hit(box, step.way());
         if (!hit) break;

@@ -27,8 +27,10 @@ void start_interval(BoxMotion& box)
     if (box.is_coupled) {
         find_modes(box);
         set_modes(box);
+        set_coupled_bounds(box);
+    } else {
+        set_bounds(box);
     }
-    set_bounds(box);
 }
 
 } // namespace
@@ -48,13 +50,12 @@ OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const 
 template <bool coulomb>
 void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 {
-    int root_steps = root_steps_max;
-    BoxMotion box{config.hands, oscillators_, obstacles_, coupled_, root_steps};
+    BoxMotion box{config.hands, oscillators_, obstacles_, room_};
     set_start(config, state, box);
     query_obstacles(box, 0.0);
     if (obstacles_.push_out(box.nearby, box.position)) {
         query_obstacles(box, 0.0);
-        box.is_exact = false;
+        box.note_inexact();
     }
     hands_.collide(config, state, box);
     if (box.grip_count == 0) {
@@ -99,7 +100,6 @@ void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldSt
                                               BoxMotion& start)
 {
     for (;;) { // each time a hand holds less: no more often than there are hands
-        start.root_steps = root_steps_max;
         BoxMotion box = start.copy();
         query_obstacles(box, 0.0); // the last try may have asked elsewhere
         run_events(config, state, box);
@@ -110,33 +110,38 @@ void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldSt
 }
 
 template <bool coulomb>
-void OneBoxStepper<coulomb>::commit(const WorldConfig& config, WorldState& state,
-                                    BoxMotion& box) const
+inline void OneBoxStepper<coulomb>::commit(const WorldConfig& config, WorldState& state,
+                                           BoxMotion& box) const
 {
     const Slot slot = state.bodies.slot_of[body_];
     BoxHands::report(config, state, box);
-    if (!box.is_exact) {
-        TickStart start{.position = per_axis(state.bodies.position.at(slot)),
-                        .velocity = per_axis(state.bodies.velocity.at(slot)),
-                        .steady = per_axis(config.gravity)};
-        start.stored = hands_.stored_in_grips(config, state, start.position);
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (!state.pushed.is_empty())
-                start.steady[i] +=
-                    oscillators_.inverse_mass() * per_axis(state.pushes[body_])[i];
-            if (locked_[i]) start.velocity[i] = start.steady[i] = 0.0;
-        }
-        settle(config, state, start, box);
-    }
+    if (!box.is_exact) settle_tick(config, state, box);
     state.bodies.position.put(slot, vector(box.position));
     state.bodies.velocity.put(slot, vector(box.velocity));
+}
+
+template <bool coulomb>
+void OneBoxStepper<coulomb>::settle_tick(const WorldConfig& config, WorldState& state,
+                                         BoxMotion& box) const
+{
+    const Slot slot = state.bodies.slot_of[body_];
+    TickStart start{.position = per_axis(state.bodies.position.at(slot)),
+                    .velocity = per_axis(state.bodies.velocity.at(slot)),
+                    .steady = per_axis(config.gravity)};
+    start.stored = hands_.stored_in_grips(config, state, start.position);
+    const PerAxis push = state.pushed.is_empty() ? PerAxis{} : per_axis(state.pushes[body_]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        start.steady[i] += oscillators_.inverse_mass() * push[i];
+        if (locked_[i]) start.velocity[i] = start.steady[i] = 0.0;
+    }
+    settle(config, state, start, box);
 }
 
 template <bool coulomb>
 void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& state,
                                         BoxMotion& box)
 {
-    box.rounding = {};
+    room_.root_steps = root_steps_max;
     start_interval<coulomb>(box);
     for (int events = 1;; ++events) {
         const double reach =
@@ -153,7 +158,7 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& s
         start_interval<coulomb>(box);
         if (events < events_max && event.kind != Event::Kind::unknown) continue;
         ++crowded_ticks_;
-        box.is_exact = false;
+        box.note_inexact();
         if (finish_tick(box)) ++state.interventions.paths_cut;
         return;
     }

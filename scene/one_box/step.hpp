@@ -17,9 +17,9 @@ namespace hapnet::scene {
 /// on faces and hands that hold, any number, with their beginning, end and limit of force at their
 /// moments; impacts and bounces at theirs; dry friction along a straight path, with its exact stop
 /// and slip; hands at edges and corners while their normals hold, which is for a tick. Second order
-/// in the tick: dry friction while other forces bend the path or change the load; the normals. First
-/// order: a hand that holds at its greatest force, at the start of a tick or in the mean over it:
-/// that force is held throughout.
+/// in the tick: dry friction while other forces bend the path or change the load; the normals.
+/// First order: a hand that holds at its greatest force, at the start of a tick or in the mean over
+/// it: that force is held throughout.
 ///
 /// A bounce that would be over before one tick has passed does not happen. After `events_max`
 /// events in a tick, or `root_steps_max` steps of searching for them, finish_tick() runs the rest.
@@ -45,15 +45,15 @@ private:
     void run_events(const WorldConfig& config, WorldState& state, BoxMotion& box);
     /// Tries the tick with the hands' grips; again with a limited one when it was too strong.
     void solve_with_grips(const WorldConfig& config, WorldState& state, BoxMotion& start);
-    /// Takes over what the tick came to; `start` is for ticks that are not exact.
     void commit(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
+    void settle_tick(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
 
     BodyId body_;
     std::array<bool, 3> locked_{};
     AxisOscillators oscillators_;
     Obstacles obstacles_;
     BoxHands hands_;
-    CoupledAxes coupled_{}; // only within a tick
+    TickRoom room_{};
     std::uint64_t crowded_ticks_ = 0;
 };
 
