@@ -58,19 +58,29 @@ void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
         box.axes[i].applied_acceleration += box.oscillators.inverse_mass() * held[i];
 }
 
-/// What rounding leaves between the box's momentum and the hands' impulses goes to the hand that
-/// acts most: it is far below what that one could feel.
-void report_rounding(const WorldConfig& config, WorldState& state, const glm::dvec3& force)
+/// What the hands report to have given, N s.
+glm::dvec3 reported_impulse(const WorldConfig& config, const WorldState& state)
 {
-    HandTouch* most = nullptr;
+    glm::dvec3 sum{0.0};
+    for (std::uint32_t i = 0; i < config.hands.count; ++i)
+        sum += config.tick * state.touches[i].on_body.value;
+    return sum;
+}
+
+/// What rounding leaves open between the box's momentum and what the hands report goes to the hand
+/// that acts least, which can tell such a little apart; it is far below what a hand could feel.
+void report_rounding(const WorldConfig& config, WorldState& state, const glm::dvec3& impulse)
+{
+    HandTouch* least = nullptr;
     for (std::uint32_t i = 0; i < config.hands.count; ++i) {
         HandTouch& touch = state.touches[i];
         if (!touch.touching) continue;
-        if (!most || base::norm(touch.on_body) > base::norm(most->on_body)) most = &touch;
+        if (!least || base::norm(touch.on_body) < base::norm(least->on_body)) least = &touch;
     }
-    if (!most) return;
-    most->on_body.value += force;
-    most->on_hand.value -= force;
+    if (!least) return;
+    const glm::dvec3 force = impulse / config.tick;
+    least->on_body.value += force;
+    least->on_hand.value -= force;
 }
 
 /// Adds the spring between a hand and a face of the box.
@@ -266,6 +276,8 @@ bool BoxHands::limit_grip(const WorldConfig& config, WorldState& state, const Bo
 void BoxHands::report(const WorldConfig& config, WorldState& state, const BoxMotion& box)
 {
     const double per_tick = 1.0 / config.tick;
+    const glm::dvec3 held =
+        box.is_exact ? glm::dvec3{} : reported_impulse(config, state); // the same all the time
     for (const FaceSpring& spring : box.active_springs()) {
         if (spring.impulse <= 0.0) continue;
         HandTouch& touch = state.touches[spring.hand];
@@ -287,7 +299,9 @@ void BoxHands::report(const WorldConfig& config, WorldState& state, const BoxMot
         touch.on_body.value += per_tick * vector(grip.impulse);
         touch.on_hand.value -= per_tick * vector(grip.impulse);
     }
-    if (!box.is_exact) report_rounding(config, state, per_tick * vector(box.rounding));
+    if (box.is_exact) return;
+    const glm::dvec3 given = vector(impulse_of_springs(box)) + vector(box.rounding);
+    report_rounding(config, state, given - (reported_impulse(config, state) - held));
 }
 
 double BoxHands::stored_in_grips(const WorldConfig& config, const WorldState& state,

@@ -210,18 +210,6 @@ void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Way
     }
 }
 
-/// What all springs have given so far, along each axis.
-PerAxis impulse_of_springs(const BoxMotion& box)
-{
-    PerAxis sum{};
-    for (const FaceSpring& spring : box.active_springs()) spring.add_along(sum, -spring.impulse);
-    for (const SlantedSpring& spring : box.active_slanted()) spring.add_along(sum, -spring.impulse);
-    for (const GripSpring& grip : box.active_grips()) {
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += grip.impulse[i];
-    }
-    return sum;
-}
-
 /// The momentum that the axes have gained in `time` without the springs' doing: all else is known
 /// exactly. `was` is the velocity before.
 PerAxis gained_from_springs(const BoxMotion& box, const PerAxis& was, double time,
@@ -271,6 +259,17 @@ AxisOscillators::AxisOscillators(const HandDescription& hands, const BodyPropert
                 {.damping = damping / body.mass, .stiffness = stiffness / body.mass}, tick};
         }
     }
+}
+
+PerAxis impulse_of_springs(const BoxMotion& box)
+{
+    PerAxis sum{};
+    for (const FaceSpring& spring : box.active_springs()) spring.add_along(sum, -spring.impulse);
+    for (const SlantedSpring& spring : box.active_slanted()) spring.add_along(sum, -spring.impulse);
+    for (const GripSpring& grip : box.active_grips()) {
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += grip.impulse[i];
+    }
+    return sum;
 }
 
 BoxMotion BoxMotion::copy() const

@@ -228,6 +228,9 @@ struct BoxMotion {
 void set_trajectories(BoxMotion& box);
 void set_bounds(BoxMotion& box);
 
+/// What all springs have given to the box so far, along each axis, N s.
+[[nodiscard]] PerAxis impulse_of_springs(const BoxMotion& box);
+
 /// Advances along the trajectories for `time` seconds.
 void advance(BoxMotion& box, double time);
 
