@@ -54,8 +54,10 @@ void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
     touch.on_body = force;
     touch.on_hand += -force;
     const PerAxis held = per_axis(force.value);
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
         box.axes[i].applied_acceleration += box.oscillators.inverse_mass() * held[i];
+        box.held_force[i] += held[i];
+    }
 }
 
 /// What the hands report to have given, N s.

@@ -210,10 +210,9 @@ void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Way
     }
 }
 
-/// The momentum that the axes have gained in `time` without the springs' doing: all else is known
-/// exactly. `was` is the velocity before.
-PerAxis gained_from_springs(const BoxMotion& box, const PerAxis& was, double time,
-                            const PerAxis& way)
+/// The momentum that the hands have given to the axes in `time`: all else is known. `was` is the
+/// velocity before.
+PerAxis gained_from_hands(const BoxMotion& box, const PerAxis& was, double time, const PerAxis& way)
 {
     const double drag = box.oscillators.of(0, box.is_on_plane).oscillator.damping;
     const DryFriction& dry = box.dry_friction;
@@ -222,7 +221,7 @@ PerAxis gained_from_springs(const BoxMotion& box, const PerAxis& was, double tim
     PerAxis gained{};
     for (std::size_t i = 0; i < 3; ++i) {
         if (!box.trajectories[i].moves()) continue;
-        const double others = time * box.axes[i].applied_acceleration - drag * way[i] -
+        const double others = time * box.steady[i] - drag * way[i] -
                               (box.axes[i].is_held() ? 0.0 : friction * dry.direction[i]);
         gained[i] = (box.velocity[i] - was[i] - others) / box.oscillators.inverse_mass();
     }
@@ -237,10 +236,11 @@ void advance_audited(BoxMotion& box, double time)
     for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
     for (SlantedSpring& spring : box.active_slanted()) advance_spring(box, spring, time, ways);
     for (GripSpring& grip : box.active_grips()) advance_grip(box, grip, time, ways);
-    const PerAxis gained = gained_from_springs(box, velocity, time, ways.way);
+    const PerAxis gained = gained_from_hands(box, velocity, time, ways.way);
     const PerAxis given = impulse_of_springs(box);
     for (std::size_t i = 0; i < 3; ++i) {
-        if (box.trajectories[i].moves()) box.rounding[i] += gained[i] - (given[i] - impulse[i]);
+        if (box.trajectories[i].moves())
+            box.rounding[i] += gained[i] - (given[i] - impulse[i]) - time * box.held_force[i];
     }
 }
 
@@ -279,6 +279,8 @@ BoxMotion BoxMotion::copy() const
     other.clearance = clearance;
     other.time_left = time_left;
     other.is_exact = is_exact;
+    other.steady = steady;
+    other.held_force = held_force;
     other.rounding = rounding;
     other.position = position;
     other.velocity = velocity;
@@ -346,7 +348,7 @@ void set_bounds(BoxMotion& box)
 
 void advance(BoxMotion& box, double time)
 {
-    if (box.slanted_count > 0 || box.grip_count > 0) {
+    if (!box.is_exact) {
         advance_audited(box, time);
     } else {
         const Ways ways = advance_axes(box, time);

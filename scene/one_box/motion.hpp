@@ -170,8 +170,10 @@ struct BoxMotion {
     /// From now on the tick is not exact but for rounding.
     void note_inexact()
     {
-        if (is_exact) rounding = {};
+        if (!is_exact) return;
         is_exact = false;
+        rounding = held_force = {};
+        for (std::size_t i = 0; i < 3; ++i) steady[i] = axes[i].applied_acceleration;
     }
     /// Another one like it, to try the tick again.
     [[nodiscard]] BoxMotion copy() const;
@@ -193,7 +195,10 @@ struct BoxMotion {
     std::array<AxisMotion, 3> axes;
     Trajectories trajectories;
     std::array<std::size_t, 3> spring_counts; // of faces and grips, per axis
-    PerAxis rounding; // N s: by how much the momentum gained differs from all impulses
+    // Only of a tick that is not exact:
+    PerAxis steady;     // acceleration by gravity and pushes
+    PerAxis held_force; // N: of the hands that hold with the same force throughout
+    PerAxis rounding;   // N s: by how much the momentum gained differs from all impulses
     DryFriction dry_friction;
 
     std::uint32_t spring_count = 0;
