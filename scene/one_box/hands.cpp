@@ -85,6 +85,28 @@ void report_rounding(const WorldConfig& config, WorldState& state, const glm::dv
     least->on_hand.value -= force;
 }
 
+/// What is not at a face, and the rounding of all.
+void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotion& box)
+{
+    const double per_tick = 1.0 / config.tick;
+    for (const SlantedSpring& spring : box.active_slanted()) {
+        if (spring.impulse <= 0.0) continue;
+        HandTouch& touch = state.touches[spring.hand];
+        const glm::dvec3 force = (per_tick * spring.impulse) * vector(spring.normal);
+        touch.touching = true;
+        touch.on_body.value -= force;
+        touch.on_hand.value += force;
+    }
+    for (const GripSpring& grip : box.active_grips()) {
+        HandTouch& touch = state.touches[grip.hand];
+        touch.on_body.value += per_tick * vector(grip.impulse);
+        touch.on_hand.value -= per_tick * vector(grip.impulse);
+    }
+    const glm::dvec3 given = vector(impulse_of_springs(box)) + vector(box.rounding) +
+                             config.tick * vector(box.held_force);
+    report_rounding(config, state, given - reported_impulse(config, state));
+}
+
 /// Adds the spring between a hand and a face of the box.
 void add_face_spring(WorldState& state, BoxMotion& box, const FaceContact& found)
 {
@@ -278,8 +300,6 @@ bool BoxHands::limit_grip(const WorldConfig& config, WorldState& state, const Bo
 void BoxHands::report(const WorldConfig& config, WorldState& state, const BoxMotion& box)
 {
     const double per_tick = 1.0 / config.tick;
-    const glm::dvec3 held =
-        box.is_exact ? glm::dvec3{} : reported_impulse(config, state); // the same all the time
     for (const FaceSpring& spring : box.active_springs()) {
         if (spring.impulse <= 0.0) continue;
         HandTouch& touch = state.touches[spring.hand];
@@ -288,22 +308,7 @@ void BoxHands::report(const WorldConfig& config, WorldState& state, const BoxMot
         part(touch.on_body.value, spring.axis) -= force;
         part(touch.on_hand.value, spring.axis) += force;
     }
-    for (const SlantedSpring& spring : box.active_slanted()) {
-        if (spring.impulse <= 0.0) continue;
-        HandTouch& touch = state.touches[spring.hand];
-        const glm::dvec3 force = (per_tick * spring.impulse) * vector(spring.normal);
-        touch.touching = true;
-        touch.on_body.value -= force;
-        touch.on_hand.value += force;
-    }
-    for (const GripSpring& grip : box.active_grips()) {
-        HandTouch& touch = state.touches[grip.hand];
-        touch.on_body.value += per_tick * vector(grip.impulse);
-        touch.on_hand.value -= per_tick * vector(grip.impulse);
-    }
-    if (box.is_exact) return;
-    const glm::dvec3 given = vector(impulse_of_springs(box)) + vector(box.rounding);
-    report_rounding(config, state, given - (reported_impulse(config, state) - held));
+    if (!box.is_exact) report_inexact(config, state, box);
 }
 
 double BoxHands::stored_in_grips(const WorldConfig& config, const WorldState& state,
