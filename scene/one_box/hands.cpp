@@ -54,15 +54,63 @@ void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
     touch.on_body = force;
     touch.on_hand += -force;
     const PerAxis held = per_axis(force.value);
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
         box.axes[i].applied_acceleration += box.oscillators.inverse_mass() * held[i];
+        box.held_force[i] += held[i];
+    }
+}
+
+/// What the hands report to have given, N s.
+glm::dvec3 reported_impulse(const WorldConfig& config, const WorldState& state)
+{
+    glm::dvec3 sum{0.0};
+    for (std::uint32_t i = 0; i < config.hands.count; ++i)
+        sum += config.tick * state.touches[i].on_body.value;
+    return sum;
+}
+
+/// What rounding leaves open between the box's momentum and what the hands report goes to the hand
+/// that acts least, which can tell such a little apart; it is far below what a hand could feel.
+void report_rounding(const WorldConfig& config, WorldState& state, const glm::dvec3& impulse)
+{
+    HandTouch* least = nullptr;
+    for (std::uint32_t i = 0; i < config.hands.count; ++i) {
+        HandTouch& touch = state.touches[i];
+        if (!touch.touching) continue;
+        if (!least || base::norm(touch.on_body) < base::norm(least->on_body)) least = &touch;
+    }
+    if (!least) return;
+    const glm::dvec3 force = impulse / config.tick;
+    least->on_body.value += force;
+    least->on_hand.value -= force;
+}
+
+/// What is not at a face, and the rounding of all.
+void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotion& box)
+{
+    const double per_tick = 1.0 / config.tick;
+    for (const SlantedSpring& spring : box.active_slanted()) {
+        if (spring.impulse <= 0.0) continue;
+        HandTouch& touch = state.touches[spring.hand];
+        const glm::dvec3 force = (per_tick * spring.impulse) * vector(spring.normal);
+        touch.touching = true;
+        touch.on_body.value -= force;
+        touch.on_hand.value += force;
+    }
+    for (const GripSpring& grip : box.active_grips()) {
+        HandTouch& touch = state.touches[grip.hand];
+        touch.on_body.value += per_tick * vector(grip.impulse);
+        touch.on_hand.value -= per_tick * vector(grip.impulse);
+    }
+    const glm::dvec3 given = vector(impulse_of_springs(box)) + vector(box.rounding) +
+                             config.tick * vector(box.held_force);
+    report_rounding(config, state, given - reported_impulse(config, state));
 }
 
 /// Adds the spring between a hand and a face of the box.
 void add_face_spring(WorldState& state, BoxMotion& box, const FaceContact& found)
 {
     const std::size_t axis = found.face.axis;
-    const double speed = box.velocity[axis];
     FaceSpring& spring = box.springs[box.spring_count++];
     spring.hand = found.hand;
     spring.axis = axis;
@@ -70,7 +118,7 @@ void add_face_spring(WorldState& state, BoxMotion& box, const FaceContact& found
     spring.depth = found.depth;
     spring.closing = -spring.sign * part(state.hands[found.hand].velocity.value, axis);
     spring.impulse = 0.0;
-    const double force = spring.update_phase(box.hands, speed);
+    const double force = spring.update_phase(box.hands, spring.along(box.velocity));
     HandTouch& touch = state.touches[found.hand];
     touch.depth_m = std::max(touch.depth_m, found.depth);
     part(touch.on_hand_at_start.value, axis) += spring.sign * force;
@@ -134,6 +182,7 @@ void BoxHands::add_grip(const WorldConfig& config, WorldState& state, BoxMotion&
     HandTouch& touch = state.touches[index];
     touch.touching = true;
     note_grip(touch, hands, distance(from_centre, half_), force);
+    box.note_inexact();
     if (force == wanted) {
         box.grips[box.grip_count++] = grip;
         return;
@@ -181,10 +230,15 @@ FaceContact BoxHands::collide_near_box(const WorldConfig& config, WorldState& st
     if (contact->face.axis != no_axis) return {index, contact->face, contact->depth};
     HandTouch& touch = state.touches[index];
     const PerAxis& normal = contact->edge_normal;
-    const double closing = -dot(normal, per_axis(input.velocity.value));
-    box.edge_springs[box.edge_spring_count++] = {index, normal, contact->depth, closing, 0.0};
-    const double force = force_at(hands, contact->depth, -dot(normal, approach.velocity));
+    SlantedSpring& spring = box.slanted[box.slanted_count++];
+    spring.hand = index;
+    spring.normal = normal;
+    spring.depth = contact->depth;
+    spring.closing = -dot(normal, per_axis(input.velocity.value));
+    spring.impulse = 0.0;
+    const double force = spring.update_phase(hands, spring.along(box.velocity));
     note_push(touch, contact->depth, force * vector(normal));
+    box.note_inexact();
     return {index, {}, 0.0};
 }
 
@@ -226,39 +280,6 @@ void BoxHands::collide_fixed_boxes(const WorldConfig& config, WorldState& state,
     }
 }
 
-void BoxHands::add_edge_springs(BoxMotion& box)
-{
-    const HandDescription& hands = box.hands;
-    const double half_tick = 0.5 * box.time_left;
-    const bool is_stuck = box.dry_friction.state == DryFriction::State::stuck;
-    const auto is_kept = [&](std::size_t i) { return is_stuck || box.axes[i].is_held(); };
-    for (EdgeSpring& spring : box.active_edge_springs()) {
-        const PerAxis& normal = spring.normal;
-        double closing = spring.closing;
-        double bend = 0.0; // of the depth, without this spring
-        double ease = 0.0; // 1/mass along the normal
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (is_kept(i)) continue;
-            closing += normal[i] * box.velocity[i];
-            bend += normal[i] * box.axes[i].acceleration;
-            ease += normal[i] * normal[i] * box.oscillators.inverse_mass();
-        }
-        // depth and closing speed in the middle: linear in the force that acts meanwhile.
-        const double answer =
-            hands.stiffness_n_per_m * half_tick * half_tick + hands.damping_ns_per_m * half_tick;
-        const double depth = spring.depth + half_tick * closing;
-        const double free_force =
-            hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing + answer * bend;
-        spring.force = std::clamp(free_force / (1.0 + answer * ease), 0.0, hands.force_max_n);
-        if (depth + half_tick * half_tick * (bend - ease * spring.force) <= 0.0) spring.force = 0.0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double change = -box.oscillators.inverse_mass() * spring.force * normal[i];
-            box.axes[i].applied_acceleration += change;
-            if (!is_kept(i)) box.axes[i].acceleration += change;
-        }
-    }
-}
-
 bool BoxHands::limit_grip(const WorldConfig& config, WorldState& state, const BoxMotion& box,
                           BoxMotion& again)
 {
@@ -287,18 +308,24 @@ void BoxHands::report(const WorldConfig& config, WorldState& state, const BoxMot
         part(touch.on_body.value, spring.axis) -= force;
         part(touch.on_hand.value, spring.axis) += force;
     }
-    for (const EdgeSpring& spring : box.active_edge_springs()) {
-        if (spring.force <= 0.0) continue;
-        HandTouch& touch = state.touches[spring.hand];
-        touch.touching = true;
-        touch.on_body.value -= spring.force * vector(spring.normal);
-        touch.on_hand.value += spring.force * vector(spring.normal);
+    if (!box.is_exact) report_inexact(config, state, box);
+}
+
+double BoxHands::stored_in_grips(const WorldConfig& config, const WorldState& state,
+                                 const PerAxis& box_position) const
+{
+    const HandDescription& hands = config.hands;
+    const double bend = hands.force_max_n / hands.stiffness_n_per_m;
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < hands.count; ++i) {
+        if (!memory_[i].held_at) continue;
+        PerAxis stretch = difference(state.hands[i].position.value, box_position);
+        for (std::size_t k = 0; k < 3; ++k) stretch[k] -= (*memory_[i].held_at)[k];
+        const double size = std::sqrt(dot(stretch, stretch));
+        sum += size < bend ? 0.5 * hands.stiffness_n_per_m * size * size
+                           : hands.force_max_n * (size - 0.5 * bend);
     }
-    for (const GripSpring& grip : box.active_grips()) {
-        HandTouch& touch = state.touches[grip.hand];
-        touch.on_body.value += per_tick * vector(grip.impulse);
-        touch.on_hand.value -= per_tick * vector(grip.impulse);
-    }
+    return sum;
 }
 
 void BoxHands::forget_box()

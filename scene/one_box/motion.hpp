@@ -62,21 +62,19 @@ struct DryFriction {
     double limit_ramp = 0.0;
 };
 
-/// A hand's spring on one face of the box, along one axis.
-struct FaceSpring {
+/// A hand's spring on the box: along one axis at a face, along any direction at an edge or a
+/// corner. The direction holds for the tick.
+struct Spring {
     std::uint32_t hand;
-    std::size_t axis;
-    double sign;    // of the normal, from the box to the hand
     double depth;   // at the start of the interval
     double closing; // the hand's share of the closing speed
     SpringPhase phase;
     double impulse; // so far in the tick, N s, >= 0
 
-    /// `speed` is the box's along the axis.
-    [[nodiscard]] double closing_at(double speed) const { return closing + sign * speed; }
+    /// `speed` is the box's along the normal.
     [[nodiscard]] double tension(const HandDescription& hands, double speed) const
     {
-        return hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing_at(speed);
+        return hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * (closing + speed);
     }
     /// Takes the phase that belongs to the present state; returns the force.
     double update_phase(const HandDescription& hands, double speed)
@@ -93,6 +91,48 @@ struct FaceSpring {
     }
 };
 
+struct FaceSpring : Spring {
+    std::size_t axis;
+    double sign; // of the normal, from the box to the hand
+
+    /// A vector's part along the normal.
+    [[nodiscard]] double along(const PerAxis& v) const { return sign * v[axis]; }
+    void add_along(PerAxis& v, double size) const { v[axis] += size * sign; }
+    /// ... of a vector of which a function gives the components.
+    template <typename Component>
+    [[nodiscard]] double along_each(const Component& component) const
+    {
+        return sign * component(axis);
+    }
+    /// The most that it can be when the sizes of the components are given.
+    template <typename Size>
+    [[nodiscard]] double most_along(const Size& size) const
+    {
+        return size(axis);
+    }
+};
+
+struct SlantedSpring : Spring {
+    PerAxis normal; // unit, from the box to the hand
+
+    [[nodiscard]] double along(const PerAxis& v) const { return dot(normal, v); }
+    void add_along(PerAxis& v, double size) const
+    {
+        for (std::size_t i = 0; i < 3; ++i) v[i] += size * normal[i];
+    }
+    template <typename Component>
+    [[nodiscard]] double along_each(const Component& component) const
+    {
+        return normal[0] * component(0) + normal[1] * component(1) + normal[2] * component(2);
+    }
+    template <typename Size>
+    [[nodiscard]] double most_along(const Size& size) const
+    {
+        return std::abs(normal[0]) * size(0) + std::abs(normal[1]) * size(1) +
+               std::abs(normal[2]) * size(2);
+    }
+};
+
 /// A hand that holds the box: a spring and a damper in all directions, which also pull.
 struct GripSpring {
     std::uint32_t hand;
@@ -101,13 +141,20 @@ struct GripSpring {
     PerAxis impulse; // on the box, so far in the tick
 };
 
-/// A hand at an edge or a corner: its force is the midpoint rule's, held for the tick.
-struct EdgeSpring {
-    std::uint32_t hand;
-    PerAxis normal; // unit, from the box to the hand
-    double depth;   // along it, at the start of the tick
-    double closing; // the hand's share of the closing speed
-    double force;   // on the hand along the normal
+/// The axes as slanted springs couple them. All hands are alike and drag is the same along every
+/// axis, so that mass, damping and stiffness are diagonal in the same basis, the eigenvectors of
+/// the sum of n n^T over the springs: each mode is an oscillator of its own, however many springs
+/// press.
+struct CoupledAxes {
+    std::array<PerAxis, 3> direction; // of each mode, unit
+    Trajectories modes;
+    std::array<Propagator, 3> propagators;
+};
+
+/// What a tick needs besides, if anything happens in it.
+struct TickRoom {
+    CoupledAxes coupled; // only while BoxMotion::is_coupled
+    int root_steps = 0;  // that the searches for events have left
 };
 
 /// A box within a tick. Events cut the tick into intervals; in each of them every axis follows a
@@ -116,34 +163,50 @@ struct BoxMotion {
     // Without values until they are set: clearing all of them would cost more than the tick.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     BoxMotion(const HandDescription& of_hands, const AxisOscillators& of_oscillators,
-              Obstacles& those)
-        : hands{of_hands}, oscillators{of_oscillators}, obstacles{those}
+              Obstacles& those, TickRoom& for_tick)
+        : hands{of_hands}, oscillators{of_oscillators}, obstacles{those}, room{for_tick}
     {}
 
+    /// From now on the tick is not exact but for rounding.
+    void note_inexact()
+    {
+        if (!is_exact) return;
+        is_exact = false;
+        rounding = held_force = {};
+        for (std::size_t i = 0; i < 3; ++i) steady[i] = axes[i].applied_acceleration;
+    }
     /// Another one like it, to try the tick again.
     [[nodiscard]] BoxMotion copy() const;
 
     const HandDescription& hands;
     const AxisOscillators& oscillators;
     Obstacles& obstacles;
+    TickRoom& room;
     std::span<const std::uint32_t> nearby{};
     double clearance = 0.0; // how far the box may go until something else is near
 
-    double time_left = 0.0; // of the tick, s
-    bool event_limit_reached =
-        false; // too much has happened in this tick: no more changes, no more bounces
+    double time_left = 0.0;  // of the tick, s
+    bool is_exact = true;    // but for rounding: so is every tick without slanted springs, grips
+                             // and crowds of events
+    bool is_coupled = false; // a slanted spring presses
+    bool is_on_plane;        // which drags
     PerAxis position;
     PerAxis velocity;
     std::array<AxisMotion, 3> axes;
     Trajectories trajectories;
+    std::array<std::size_t, 3> spring_counts; // of faces and grips, per axis
+    // Only of a tick that is not exact:
+    PerAxis steady;     // acceleration by gravity and pushes
+    PerAxis held_force; // N: of the hands that hold with the same force throughout
+    PerAxis rounding;   // N s: by how much the momentum gained differs from all impulses
     DryFriction dry_friction;
 
     std::uint32_t spring_count = 0;
     std::uint32_t grip_count = 0;
-    std::uint32_t edge_spring_count = 0;
+    std::uint32_t slanted_count = 0;
     std::array<FaceSpring, hands_max> springs;
     std::array<GripSpring, hands_max> grips;
-    std::array<EdgeSpring, hands_max> edge_springs;
+    std::array<SlantedSpring, hands_max> slanted;
 
     [[nodiscard]] std::span<FaceSpring> active_springs() { return {springs.data(), spring_count}; }
     [[nodiscard]] std::span<const FaceSpring> active_springs() const
@@ -155,13 +218,13 @@ struct BoxMotion {
     {
         return {grips.data(), grip_count};
     }
-    [[nodiscard]] std::span<EdgeSpring> active_edge_springs()
+    [[nodiscard]] std::span<SlantedSpring> active_slanted()
     {
-        return {edge_springs.data(), edge_spring_count};
+        return {slanted.data(), slanted_count};
     }
-    [[nodiscard]] std::span<const EdgeSpring> active_edge_springs() const
+    [[nodiscard]] std::span<const SlantedSpring> active_slanted() const
     {
-        return {edge_springs.data(), edge_spring_count};
+        return {slanted.data(), slanted_count};
     }
 };
 
@@ -169,6 +232,9 @@ struct BoxMotion {
 /// then add_friction() where there is any, then set_bounds().
 void set_trajectories(BoxMotion& box);
 void set_bounds(BoxMotion& box);
+
+/// What all springs have given to the box so far, along each axis, N s.
+[[nodiscard]] PerAxis impulse_of_springs(const BoxMotion& box);
 
 /// Advances along the trajectories for `time` seconds.
 void advance(BoxMotion& box, double time);

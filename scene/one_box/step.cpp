@@ -3,8 +3,11 @@
 #include "scene/one_box/step.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "scene/one_box/account.hpp"
+#include "scene/one_box/coupled.hpp"
 #include "scene/one_box/events.hpp"
 #include "scene/one_box/friction.hpp"
+#include "scene/one_box/rest_of_tick.hpp"
 
 namespace hapnet::scene {
 
@@ -21,7 +24,13 @@ void start_interval(BoxMotion& box)
 {
     set_trajectories(box);
     if constexpr (coulomb) add_friction(box);
-    set_bounds(box);
+    if (box.is_coupled) {
+        find_modes(box);
+        set_modes(box);
+        set_coupled_bounds(box);
+    } else {
+        set_bounds(box);
+    }
 }
 
 } // namespace
@@ -41,13 +50,16 @@ OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const 
 template <bool coulomb>
 void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 {
-    BoxMotion box{config.hands, oscillators_, obstacles_};
+    BoxMotion box{config.hands, oscillators_, obstacles_, room_};
     set_start(config, state, box);
     query_obstacles(box, 0.0);
-    if (obstacles_.push_out(box.nearby, box.position)) query_obstacles(box, 0.0);
+    if (obstacles_.push_out(box.nearby, box.position)) {
+        query_obstacles(box, 0.0);
+        box.note_inexact();
+    }
     hands_.collide(config, state, box);
     if (box.grip_count == 0) {
-        run_events(config, box);
+        run_events(config, state, box);
         commit(config, state, box);
     } else {
         solve_with_grips(config, state, box);
@@ -87,10 +99,10 @@ template <bool coulomb>
 void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldState& state,
                                               BoxMotion& start)
 {
-    for (;;) { // each time a hand holds less
+    for (;;) { // each time a hand holds less: no more often than there are hands
         BoxMotion box = start.copy();
         query_obstacles(box, 0.0); // the last try may have asked elsewhere
-        run_events(config, box);
+        run_events(config, state, box);
         if (BoxHands::limit_grip(config, state, box, start)) continue;
         commit(config, state, box);
         return;
@@ -98,23 +110,39 @@ void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldSt
 }
 
 template <bool coulomb>
-void OneBoxStepper<coulomb>::commit(const WorldConfig& config, WorldState& state,
-                                    const BoxMotion& box) const
+inline void OneBoxStepper<coulomb>::commit(const WorldConfig& config, WorldState& state,
+                                           BoxMotion& box) const
 {
     const Slot slot = state.bodies.slot_of[body_];
+    BoxHands::report(config, state, box);
+    if (!box.is_exact) settle_tick(config, state, box);
     state.bodies.position.put(slot, vector(box.position));
     state.bodies.velocity.put(slot, vector(box.velocity));
-    BoxHands::report(config, state, box);
 }
 
 template <bool coulomb>
-void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, BoxMotion& box)
+void OneBoxStepper<coulomb>::settle_tick(const WorldConfig& config, WorldState& state,
+                                         BoxMotion& box) const
 {
-    start_interval<coulomb>(box);
-    if (box.edge_spring_count > 0) {
-        BoxHands::add_edge_springs(box);
-        start_interval<coulomb>(box);
+    const Slot slot = state.bodies.slot_of[body_];
+    TickStart start{.position = per_axis(state.bodies.position.at(slot)),
+                    .velocity = per_axis(state.bodies.velocity.at(slot)),
+                    .steady = per_axis(config.gravity)};
+    start.stored = hands_.stored_in_grips(config, state, start.position);
+    const PerAxis push = state.pushed.is_empty() ? PerAxis{} : per_axis(state.pushes[body_]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        start.steady[i] += oscillators_.inverse_mass() * push[i];
+        if (locked_[i]) start.velocity[i] = start.steady[i] = 0.0;
     }
+    settle(config, state, start, box);
+}
+
+template <bool coulomb>
+void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& state,
+                                        BoxMotion& box)
+{
+    room_.root_steps = root_steps_max;
+    start_interval<coulomb>(box);
     for (int events = 1;; ++events) {
         const double reach =
             std::max(std::max(box.axes[0].reach, box.axes[1].reach), box.axes[2].reach);
@@ -125,13 +153,14 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, BoxMotion& bo
         advance(box, event.time);
         if (event.kind == Event::Kind::none) return;
         handle_event(box, event, config.tick);
-        if (events == events_max) {
-            box.event_limit_reached = true;
-            ++crowded_ticks_;
-        }
         if (box.time_left <= 0.0) return;
         box.clearance = obstacles_.clearance(box.position);
         start_interval<coulomb>(box);
+        if (events < events_max && event.kind != Event::Kind::unknown) continue;
+        ++crowded_ticks_;
+        box.note_inexact();
+        if (finish_tick(box)) ++state.interventions.paths_cut;
+        return;
     }
 }
 
