@@ -157,6 +157,13 @@ void HandContacts::store_impulses(BodyId body)
     }
 }
 
+void HandContacts::scale_impulses(BodyId body, double share)
+{
+    for (Spring& spring : springs_.all()) {
+        if (spring.body == body) spring.impulse *= share;
+    }
+}
+
 void HandContacts::forget_departed(std::uint32_t index)
 {
     Hand& hand = hands_[index];

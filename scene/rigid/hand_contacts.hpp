@@ -54,6 +54,8 @@ public:
     [[nodiscard]] BodySprings springs_on(BodyId body);
     /// Keeps the impulses that were found for them.
     void store_impulses(BodyId body);
+    /// Scales those that were kept for one body.
+    void scale_impulses(BodyId body, double share);
     /// Reports to the hands what the springs did.
     void report_forces(const WorldConfig& config, WorldState& state);
 

@@ -28,8 +28,12 @@ struct BodyIntegration {
 
     // Where a body with hands on it would be at the end.
     bool has_hands = false;
+    bool hands_are_braked = false;
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    // What the hands could give it, J.
+    double hand_energy_stored = 0.0; // in their springs on it, at the start
+    double hand_energy_driven = 0.0; // by their own motion: impulse times velocity
 };
 
 [[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);

@@ -58,7 +58,7 @@ private:
     void collide_planes(const WorldConfig& config, const WorldState& state);
     void collide_bodies(const WorldState& state);
     void warm_start();
-    void integrate_velocities(const WorldConfig& config, const WorldState& state);
+    void integrate_velocities(const WorldConfig& config, WorldState& state);
     void solve_velocities();
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
@@ -72,7 +72,7 @@ private:
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
     ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,
                               ContactMemory& memory);
-    void integrate_hand_springs(const WorldConfig& config, const WorldState& state);
+    void integrate_hand_springs(const WorldConfig& config, WorldState& state);
 
     Scales scales_;
     bool bounces_ = false;
