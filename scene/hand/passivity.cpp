@@ -49,13 +49,13 @@ struct MomentsRatio {
 };
 MomentsRatio moments_of(const BodyDynamics& dynamics)
 {
-    if (dynamics.rotates_uniformly) return {};
+    const glm::dmat3& light = dynamics.inverse_inertia;
+    const double trace = light[0].x + light[1].y + light[2].z;
+    if (dynamics.rotates_uniformly || trace == 0.0) return {};
     const glm::dvec3 squares = dynamics.half * dynamics.half;
     const glm::dvec3 about{squares.y + squares.z, squares.z + squares.x, squares.x + squares.y};
     const double most = std::max(std::max(about.x, about.y), about.z);
     const double least = std::min(std::min(about.x, about.y), about.z);
-    const glm::dmat3& light = dynamics.inverse_inertia;
-    const double trace = light[0].x + light[1].y + light[2].z;
     const double sum = 1.0 / about.x + 1.0 / about.y + 1.0 / about.z;
     return {most / least - 1.0, 0.5 * trace / sum * (1.0 / least - 1.0 / most)};
 }
@@ -105,10 +105,12 @@ public:
         less.position += share * (end.position - free_.position);
         less.velocity += share * velocity_;
         less.angular_momentum += share * angular_momentum_;
-        const double along = glm::dot(free_.orientation, end.orientation);
-        const double other = along < 0.0 ? -share : share;
-        less.orientation =
-            glm::normalize((1.0 - share) * free_.orientation + other * end.orientation);
+        if (free_.orientation != end.orientation) {
+            const double along = glm::dot(free_.orientation, end.orientation);
+            const double other = along < 0.0 ? -share : share;
+            less.orientation =
+                glm::normalize((1.0 - share) * free_.orientation + other * end.orientation);
+        }
         if (stored_at(less) > stored_at(end)) {
             less.position = end.position;
             less.orientation = end.orientation;
