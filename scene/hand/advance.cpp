@@ -82,6 +82,28 @@ void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
     for (std::size_t i = 0; i < count; ++i) task.work[chosen.which[i]].impulse += rest[i].impulse;
 }
 
+/// So little that the directions of springs are what they were, to rounding.
+bool has_hardly_turned(const MovingBody& start, const MovingBody& end)
+{
+    constexpr double hardly = 5e-11; // half of the angle
+    const glm::dquat& from = start.orientation;
+    const glm::dquat& to = end.orientation;
+    return std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z) <= hardly;
+}
+
+/// The same as energy_of() where all springs press, and none with its greatest force.
+HandEnergy energy_of_pressed(std::span<const HandSpring> springs,
+                             std::span<const SpringImpulse> work)
+{
+    HandEnergy energy;
+    for (std::size_t i = 0; i < springs.size(); ++i) {
+        const HandSpring& spring = springs[i];
+        energy.stored += 0.5 * spring.stiffness * spring.gap * spring.gap;
+        energy.driven += glm::dot(work[i].impulse, spring.velocity);
+    }
+    return energy;
+}
+
 /// Whether the springs hardly change the body's velocity within a tick: then drag may be a constant
 /// force.
 bool are_soft(const BodyDynamics& dynamics, std::span<const HandSpring> springs, double tick)
@@ -144,29 +166,36 @@ void advance_with_drag(const Task& task, double tick)
     }
 }
 
+/// What most ticks do not need.
+HandEnergy advance_otherwise(const Task& task, const MovingBody& start, bool is_done, double tick)
+{
+    const auto& [body, dynamics, springs, work] = task;
+    const HandTick outcome{start, body, dynamics, tick};
+    if (is_done) return keep_passive(outcome, springs, work, SpringsAtEnd::ignored);
+    if (springs.empty()) {
+        advance_freely(body, dynamics, tick);
+        return {};
+    }
+    if (dynamics.drag > 0.0) {
+        advance_with_drag(task, tick);
+    } else {
+        advance_by_events(task, tick);
+    }
+    return keep_passive(outcome, springs, work, SpringsAtEnd::counted);
+}
+
 } // namespace
 
 HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
                    std::span<const HandSpring> springs, std::span<SpringImpulse> work, double tick)
 {
     base::ensure(work.size() >= springs.size());
-    if (springs.empty()) {
-        advance_freely(body, dynamics, tick);
-        return {};
-    }
-    work = work.first(springs.size());
     const MovingBody start = body;
-    const HandTick outcome{start, body, dynamics, tick};
-    if (dynamics.drag > 0.0) {
-        advance_with_drag({body, dynamics, springs, work}, tick);
-    } else if (advance_in_constant_contact(body, dynamics, springs, work, tick)) {
-        // Exact on a body that has not turned.
-        if (body.orientation == start.orientation) return energy_of(springs, work);
-        return keep_passive(outcome, springs, work, SpringsAtEnd::ignored);
-    } else {
-        advance_by_events({body, dynamics, springs, work}, tick);
-    }
-    return keep_passive(outcome, springs, work, SpringsAtEnd::counted);
+    const bool is_done =
+        dynamics.drag == 0.0 && advance_in_constant_contact(body, dynamics, springs, work, tick);
+    if (is_done && has_hardly_turned(start, body)) return energy_of_pressed(springs, work); // exact
+    return advance_otherwise({body, dynamics, springs, work.first(springs.size())}, start, is_done,
+                             tick);
 }
 
 } // namespace hapnet::scene

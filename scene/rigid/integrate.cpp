@@ -65,7 +65,6 @@ void set_start(BodyIntegration& integration, const WorldState& state, Slot slot,
         about_unlocked_axes(bodies.properties[slot], integration.contact_angular_impulse);
     integration.start = {bodies.velocity.at(slot), response.inverse_inertia * momentum,
                          glm::dvec3{0.0}};
-    integration.angular_momentum = momentum + integration.contact_angular_impulse;
 }
 
 void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, Slot slot,
@@ -129,6 +128,8 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
 {
     const double tick = config.tick;
     set_start(integration, state, slot, response);
+    integration.angular_momentum =
+        state.bodies.angular_momentum.at(slot) + integration.contact_angular_impulse;
     const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
     const glm::dvec3& before = integration.start.velocity;
     integration.predicted = {before + tick * rate,
