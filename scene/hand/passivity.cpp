@@ -63,37 +63,33 @@ MomentsRatio moments_of(const BodyDynamics& dynamics)
 class PassivityCheck {
 public:
     PassivityCheck(const HandTick& body, std::span<const HandSpring> springs, double driven)
-        : body_{body}, springs_{springs}, free_{body.start}
+        : body_{body},
+          springs_{springs},
+          free_{body.start},
+          mass_{mass_of(body.dynamics)},
+          driven_{driven}
     {
         advance_freely(free_, body.dynamics, body.tick);
-        const BodyDynamics& dynamics = body.dynamics;
-        const glm::dmat3& light = dynamics.inverse_inertia;
-        mass_ = mass_of(dynamics);
         velocity_ = body.end.velocity - free_.velocity;
         angular_momentum_ = body.end.angular_momentum - free_.angular_momentum;
-        const glm::dvec3 gained = (0.5 * body.tick) * dynamics.acceleration;
-        const glm::dvec3 twist = (0.5 * body.tick) * dynamics.torque;
-        energy_.linear = glm::dot(mass_ * velocity_, free_.velocity - gained) +
-                         glm::dot(angular_momentum_, light * (free_.angular_momentum - twist)) -
-                         driven;
-        energy_.square = 0.5 * (glm::dot(mass_ * velocity_, velocity_) +
-                                glm::dot(angular_momentum_, light * angular_momentum_));
         before_ = kinetic_energy(body.start);
         after_ = kinetic_energy(body.end);
-        if (dynamics.drag > 0.0) energy_.none = std::min(lost_by_drag(), 0.0);
-        driven_ = driven;
     }
 
     /// The share of the impulses that is passive.
     [[nodiscard]] double share(double stored, SpringsAtEnd at_end) const
     {
         const double rounding = energy_rounding * (before_ + after_ + stored + std::abs(driven_));
-        const double slack = rounding + turning_slack();
-        double share = energy_.share_within(stored + slack);
+        const glm::dmat3& light = body_.dynamics.inverse_inertia;
+        const double share =
+            energy_with(light, light).share_within(stored + rounding + turning_slack());
         if (at_end == SpringsAtEnd::ignored) return share;
+        // What is stored at the end belongs to how the body lies then, as does its inertia.
+        const EnergyOfShare energy =
+            energy_with(inverse_inertia_of(body_.end), inverse_inertia_of(free_));
         const double then = stored_at(body_.end);
-        const double vague = second_order * std::max(std::max(stored, then), 0.25 * energy_.square);
-        return std::min(share, energy_.share_within(stored - then + slack + vague));
+        const double vague = second_order * std::max(std::max(stored, then), 0.25 * energy.square);
+        return std::min(share, energy.share_within(stored - then + rounding + vague));
     }
 
     /// Scales what the hands did to the body. It ends where the springs store less: where they
@@ -119,6 +115,33 @@ public:
     }
 
 private:
+    /// With the inverse inertia at the end, and the one that it has there without hands.
+    [[nodiscard]] EnergyOfShare energy_with(const glm::dmat3& light,
+                                            const glm::dmat3& light_free) const
+    {
+        const BodyDynamics& dynamics = body_.dynamics;
+        const glm::dvec3& momentum = free_.angular_momentum;
+        const glm::dvec3 gained = (0.5 * body_.tick) * dynamics.acceleration;
+        const glm::dvec3 twist = (0.5 * body_.tick) * dynamics.torque;
+        EnergyOfShare energy;
+        energy.none = 0.5 * glm::dot(momentum, (light - light_free) * momentum);
+        if (dynamics.drag > 0.0) energy.none += std::min(lost_by_drag(), 0.0);
+        energy.linear = glm::dot(mass_ * velocity_, free_.velocity - gained) +
+                        glm::dot(angular_momentum_, light * (momentum - twist)) - driven_;
+        energy.square = 0.5 * (glm::dot(mass_ * velocity_, velocity_) +
+                               glm::dot(angular_momentum_, light * angular_momentum_));
+        return energy;
+    }
+
+    [[nodiscard]] glm::dmat3 inverse_inertia_of(const MovingBody& body) const
+    {
+        const glm::dmat3& light = body_.dynamics.inverse_inertia;
+        if (body_.dynamics.rotates_uniformly) return light;
+        const glm::dmat3 turn =
+            axes_of(body.orientation) * glm::transpose(axes_of(body_.start.orientation));
+        return turn * light * glm::transpose(turn);
+    }
+
     [[nodiscard]] double kinetic_energy(const MovingBody& body) const
     {
         return 0.5 * (glm::dot(mass_ * body.velocity, body.velocity) +
@@ -180,13 +203,12 @@ private:
     HandTick body_;
     std::span<const HandSpring> springs_;
     MovingBody free_; // at the end, without hands
-    glm::dvec3 mass_{0.0};
+    glm::dvec3 mass_;
+    double driven_;
     glm::dvec3 velocity_{0.0};         // by the hands
     glm::dvec3 angular_momentum_{0.0}; // by the hands
-    EnergyOfShare energy_;
     double before_ = 0.0;
     double after_ = 0.0;
-    double driven_ = 0.0;
 };
 
 /// The share with which no spring gives more than it can.
