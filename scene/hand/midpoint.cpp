@@ -130,7 +130,7 @@ int MidpointRule::substeps(double time)
     const double swing = time * std::sqrt(square) / swing_max;
     const double turn = time * std::sqrt(glm::dot(turning, turning)) / rotation_max;
     const double most = std::max(swing, turn);
-    constexpr int substeps_max = MidpointBudget::substeps_max;
+    const int substeps_max = static_cast<int>(MidpointBudget::substeps_max(rows_));
     return most < substeps_max ? std::min(1 + static_cast<int>(most), substeps_max) : substeps_max;
 }
 
@@ -282,21 +282,26 @@ void MidpointRule::solve(double substep)
 {
     constexpr double converged = 1e-13;
     constexpr double overshot = 0.5;
+    double easiest = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < rows_; ++i) {
+        easiest = std::max(easiest, dot(row_[i].response, row_[i].response));
+        size = std::max(size, std::abs(row_[i].closing));
+    }
+    const double negligible = converged * size / substep; // of a scaled velocity
+    const auto is_negligible = [&](const Six& six) {
+        return dot(six, six) * easiest <= negligible * negligible;
+    };
     Six velocities;
     Six missed = update_forces(velocities, substep);
-    for (int step = 1; step < MidpointBudget::newton_steps_max; ++step) {
+    for (std::size_t step = 1; step < MidpointBudget::newton_steps_max; ++step) {
+        // A step is no longer than what is missed.
+        if (is_negligible(missed)) return;
         const Six change = newton_step(missed, substep);
         const double falls = dot(missed, change);
-        if (!(falls < 0.0)) return;
         velocities.add(1.0, change);
-        double moves = 0.0;
-        double size = 0.0;
-        for (std::size_t i = 0; i < rows_; ++i) {
-            moves = std::max(moves, substep * std::abs(dot(row_[i].response, change)));
-            size = std::max(size, std::abs(row_[i].closing) + std::abs(row_[i].mean));
-        }
         missed = update_forces(velocities, substep);
-        if (moves <= converged * size) return;
+        if (is_negligible(change)) return;
         const double rises = dot(missed, change);
         if (!(rises > -overshot * falls) || step + 1 == MidpointBudget::newton_steps_max) continue;
         velocities.add(-rises / (rises - falls), change);

@@ -5,21 +5,28 @@
 #include "scene/hand/plane_drag.hpp"
 #include "scene/hand/surface.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 
 namespace hapnet::scene {
 
-/// The most that a tick of the midpoint rule may cost: rows (a spring that pushes has one, one that
-/// holds three) times substeps times steps of Newton's method.
+/// The most that a tick of the midpoint rule may cost: substeps times steps of Newton's method
+/// times rows (a spring that pushes has one, one that holds three). With few rows there are more
+/// substeps.
 struct MidpointBudget {
     static constexpr std::size_t springs_max = 8;
     static constexpr std::size_t rows_max = 3 * springs_max;
-    static constexpr int substeps_max = 8;
-    static constexpr int newton_steps_max = 6;
-    static constexpr std::size_t rows_solved_max = rows_max * substeps_max * newton_steps_max;
+    static constexpr std::size_t newton_steps_max = 6;
+    static constexpr std::size_t rows_solved_max = 1500;
+    [[nodiscard]] static constexpr std::size_t substeps_max(std::size_t rows)
+    {
+        constexpr std::size_t most = 32;
+        return std::min(most,
+                        rows_solved_max / (newton_steps_max * std::max<std::size_t>(rows, 1)));
+    }
 };
-static_assert(MidpointBudget::rows_solved_max <= 1500);
 
 /// A rigid body under any number of springs, which may hold, and drag along a plane: the implicit
 /// midpoint rule, in substeps short against the stiffest mode as far as the budget goes. The mean
