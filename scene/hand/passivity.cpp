@@ -81,8 +81,15 @@ public:
     {
         const double rounding = energy_rounding * (before_ + after_ + stored + std::abs(driven_));
         const glm::dmat3& light = body_.dynamics.inverse_inertia;
-        const double share =
-            energy_with(light, light).share_within(stored + rounding + turning_slack());
+        const EnergyOfShare at_start = energy_with(light, light);
+        double share = 1.0;
+        // What is vague by turning shrinks with the share.
+        constexpr int rounds_max = 8;
+        for (int round = 0; round < rounds_max; ++round) {
+            const double before = share;
+            share = at_start.share_within(stored + rounding + turning_slack(before));
+            if (share >= before) break;
+        }
         if (at_end == SpringsAtEnd::ignored) return share;
         // What is stored at the end belongs to how the body lies then, as does its inertia.
         const EnergyOfShare energy =
@@ -165,17 +172,17 @@ private:
     }
 
     /// By how much the energy of turning may be wrong that the inertia of the start says.
-    [[nodiscard]] double turning_slack() const
+    [[nodiscard]] double turning_slack(double share) const
     {
         const MomentsRatio moments = moments_of(body_.dynamics);
         if (moments.spread == 0.0) return 0.0;
         const glm::dmat3& light = body_.dynamics.inverse_inertia;
         const glm::dvec3& before = body_.start.angular_momentum;
-        const glm::dvec3& after = body_.end.angular_momentum;
+        const glm::dvec3 given = share * angular_momentum_;
+        const glm::dvec3 after = free_.angular_momentum + given;
         const double spin = std::max(length(light * before), length(light * after));
         const double angle = spin * body_.tick;
-        const double slack =
-            moments.spread * std::min(angle, 1.0) * spin * length(angular_momentum_);
+        const double slack = moments.spread * std::min(angle, 1.0) * spin * length(given);
         if (angle <= far_turn) return slack;
         return slack + moments.range * (glm::dot(before, before) + glm::dot(after, after));
     }
