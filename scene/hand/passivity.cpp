@@ -22,6 +22,24 @@ constexpr double force_rounding = 1e-9;
 // Radians in a tick beyond which the inertia at the start says little of the end.
 constexpr double far_turn = 0.25;
 
+/// Of a spring at the start of its tick.
+double stored_energy(const HandSpring& spring)
+{
+    if (!spring.holds) return spring_energy(spring, -spring.gap);
+    return spring_energy(spring, length(spring.stretch));
+}
+
+/// What the springs store at the start, and what the hands' motion did by these impulses.
+HandEnergy energy_of(std::span<const HandSpring> springs, std::span<const SpringImpulse> work)
+{
+    HandEnergy energy;
+    for (std::size_t i = 0; i < springs.size(); ++i) {
+        energy.stored += stored_energy(springs[i]);
+        energy.driven += glm::dot(work[i].impulse, springs[i].velocity);
+    }
+    return energy;
+}
+
 /// The energy that a body gains by its hands when their impulses are scaled by a share, less the
 /// work of the hands' own motion: none + linear share + square share^2.
 struct EnergyOfShare {

@@ -4,9 +4,8 @@
 
 #include "scene/hand/advance.hpp"
 
-#include <cmath>
 #include <cstdint>
-#include <glm/geometric.hpp>
+#include <span>
 
 namespace hapnet::scene {
 
@@ -20,25 +19,6 @@ namespace hapnet::scene {
     return spring.force_max * (depth - 0.5 * spring.force_max / spring.stiffness);
 }
 
-/// Of a spring at the start of its tick.
-[[nodiscard]] inline double stored_energy(const HandSpring& spring)
-{
-    if (!spring.holds) return spring_energy(spring, -spring.gap);
-    return spring_energy(spring, std::sqrt(glm::dot(spring.stretch, spring.stretch)));
-}
-
-/// What the springs store at the start, and what the hands' motion did by these impulses.
-[[nodiscard]] inline HandEnergy energy_of(std::span<const HandSpring> springs,
-                                          std::span<const SpringImpulse> work)
-{
-    HandEnergy energy;
-    for (std::size_t i = 0; i < springs.size(); ++i) {
-        energy.stored += stored_energy(springs[i]);
-        energy.driven += glm::dot(work[i].impulse, springs[i].velocity);
-    }
-    return energy;
-}
-
 /// A body's tick under its hands.
 struct HandTick {
     const MovingBody& start;
@@ -50,14 +30,18 @@ struct HandTick {
 /// Whether what the springs store at the end counts.
 enum class SpringsAtEnd : std::uint8_t { ignored, counted };
 
-/// Makes the hands passive: they give the body what their springs stored and what their own motion
-/// put in, and no more. Where an outcome has more, the impulses of all springs are scaled down by
-/// one share, towards the tick without hands; so does a spring that gave more than it can. They
-/// may lose any energy. Kinetic energy is 1/2 m v^2 and, with the inertia as it is at the start,
-/// 1/2 L I^-1 L: along the share it is a parabola, so that the share is found at once, and 0 always
-/// does. What a body that is not a cube turns in the tick makes this energy vague: as much is let
-/// pass. Where springs at the end count, what they store then counts as given, but for three
-/// hundredths: rules of second order hold directions while they turn.
+/// Makes the hands passive: they give a body what their springs had stored and the work of their
+/// own motion, and no more; they may lose any energy. When an outcome has more, the impulses of all
+/// springs are scaled by one share, towards the tick without hands. The same happens when a spring
+/// gave more than its greatest force can.
+///
+/// Kinetic energy is 1/2 m v^2 + 1/2 L I^-1 L, with the inertia at the start of the tick. It is a
+/// parabola in the share, so the largest passive share has a formula, and share 0 is passive. When
+/// the moments of inertia differ, this energy is vague by what the body turns in the tick; as much
+/// is tolerated.
+///
+/// When the springs at the end are counted, what they store then is given, too, by the inertia at
+/// the end. A rule of second order may gain 3 % there, as it holds directions that turn.
 HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> springs,
                         std::span<SpringImpulse> work, SpringsAtEnd at_end);
 
