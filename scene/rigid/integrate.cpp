@@ -33,14 +33,6 @@ bool is_negligible(const glm::dvec3& angle)
            std::abs(angle.z) < nothing;
 }
 
-/// In a spring that is bent so far; beyond its greatest force it stores by that force alone.
-double stored_energy(const HandSpring& spring, double bent)
-{
-    const double force = spring.stiffness * bent;
-    if (force <= spring.force_max) return 0.5 * force * bent;
-    return spring.force_max * (bent - 0.5 * spring.force_max / spring.stiffness);
-}
-
 glm::dvec3 tangential_part(const glm::dvec3& v, const glm::dvec3& normal)
 {
     return v - glm::dot(v, normal) * normal;
@@ -65,7 +57,6 @@ void set_start(BodyIntegration& integration, const WorldState& state, Slot slot,
         about_unlocked_axes(bodies.properties[slot], integration.contact_angular_impulse);
     integration.start = {bodies.velocity.at(slot), response.inverse_inertia * momentum,
                          glm::dvec3{0.0}};
-    integration.angular_momentum = momentum + integration.contact_angular_impulse;
 }
 
 void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, Slot slot,
@@ -128,6 +119,8 @@ void reset(BodyIntegration& integration)
     integration.friction_contacts = 0;
     integration.drag = 0.0;
     integration.has_hands = false;
+    integration.hand_energy_stored = 0.0;
+    integration.hand_energy_driven = 0.0;
 }
 
 void begin_bounces(BodyIntegration& integration)
@@ -142,6 +135,8 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
 {
     const double tick = config.tick;
     set_start(integration, state, slot, response);
+    integration.angular_momentum =
+        state.bodies.angular_momentum.at(slot) + integration.contact_angular_impulse;
     const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
     const glm::dvec3& before = integration.start.velocity;
     integration.predicted = {before + tick * rate,
@@ -182,45 +177,21 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     set_start(integration, state, slot, response);
     const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
     const double per_second = 1.0 / config.tick;
-    BodyDynamics dynamics{bodies.properties[slot].half,
-                          response.inverse_mass,
-                          response.inverse_inertia,
-                          rotates_uniformly(bodies.properties[slot]),
-                          rate,
-                          per_second * integration.contact_angular_impulse};
-    MovingBody body;
-    const auto advance_against = [&](const glm::dvec3& drag) {
-        body.position = bodies.position.at(slot);
-        body.orientation = bodies.orientation.at(slot);
-        body.velocity = integration.start.velocity;
-        body.angular_momentum = bodies.angular_momentum.at(slot);
-        dynamics.acceleration = rate - unlocked_part(bodies.properties[slot], drag);
-        advance(body, dynamics, hands.springs, hands.work, config.tick);
-    };
-    // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
-    // says when it is too strong for that.
-    constexpr double strong = 0.5;
-    if (integration.drag == 0.0) {
-        advance_against(glm::dvec3{0.0});
-    } else if (integration.drag * config.tick < strong) {
-        const glm::dvec3 before =
-            tangential_part(integration.start.velocity, integration.support_normal);
-        advance_against(integration.drag * before);
-        const glm::dvec3 after = tangential_part(body.velocity, integration.support_normal);
-        advance_against((0.5 * integration.drag) * (before + after));
-    } else {
-        const glm::dvec3 before =
-            tangential_part(integration.start.velocity, integration.support_normal);
-        advance_against((per_second * (1.0 - base::exp(-integration.drag * config.tick))) * before);
-    }
+    const BodyDynamics dynamics{bodies.properties[slot].half,
+                                response.inverse_mass,
+                                response.inverse_inertia,
+                                rotates_uniformly(bodies.properties[slot]),
+                                rate,
+                                per_second * integration.contact_angular_impulse,
+                                integration.drag,
+                                integration.support_normal};
+    MovingBody body{bodies.position.at(slot), bodies.orientation.at(slot),
+                    integration.start.velocity, bodies.angular_momentum.at(slot)};
+    const HandEnergy energy = advance(body, dynamics, hands.springs, hands.work, config.tick);
+    integration.hand_energy_stored = energy.stored;
+    integration.hand_energy_driven = energy.driven;
+    integration.hands_are_braked = energy.is_braked;
     integration.has_hands = true;
-    integration.hand_energy_stored = integration.hand_energy_driven = 0.0;
-    for (std::size_t i = 0; i < hands.springs.size(); ++i) {
-        const HandSpring& spring = hands.springs[i];
-        const double bent = spring.holds ? length(spring.stretch) : std::max(-spring.gap, 0.0);
-        integration.hand_energy_stored += stored_energy(spring, bent);
-        integration.hand_energy_driven += glm::dot(hands.work[i].impulse, spring.velocity);
-    }
     integration.position = body.position;
     integration.orientation = body.orientation;
     integration.angular_momentum =

@@ -328,8 +328,7 @@ void RigidStepper<broad_phase>::warm_start()
 /// Finds the velocities of the active bodies at the end of the tick, without what their contacts
 /// have to change.
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config,
-                                                     const WorldState& state)
+void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, WorldState& state)
 {
     for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
     integrate_hand_springs(config, state);
@@ -342,8 +341,7 @@ void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config,
 }
 
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config,
-                                                       const WorldState& state)
+void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config, WorldState& state)
 {
     for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
         const Slot slot = state.bodies.slot_of[spring.body];
@@ -354,6 +352,7 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
         integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
                                       {springs, work, config});
         hand_contacts_.store_impulses(spring.body);
+        if (integration.hands_are_braked) ++state.interventions.hands_braked;
     }
 }
 

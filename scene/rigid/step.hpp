@@ -62,8 +62,8 @@ private:
     void collide_planes(const WorldConfig& config, WorldState& state);
     void collide_bodies(WorldState& state);
     void warm_start();
-    void integrate_velocities(const WorldConfig& config, const WorldState& state);
     bool solve_velocities(Work& work);
+    void integrate_velocities(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
     void correct_positions(Work& work);
@@ -79,7 +79,7 @@ private:
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
     ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,
                               ContactMemory& memory);
-    void integrate_hand_springs(const WorldConfig& config, const WorldState& state);
+    void integrate_hand_springs(const WorldConfig& config, WorldState& state);
 
     Scales scales_;
     PairFinder<search> pairs_;
