@@ -127,6 +127,14 @@ Approach approach_of(const ContactBlock& block, std::span<const BodyIntegration>
             std::max(a.last_bounce, b.last_bounce)};
 }
 
+/// Whether forces act on the body that would be others after a bounce: hands, other contacts. They
+/// count as constant over the tick, so a bounce may gain energy against none of its velocities.
+bool is_driven(const BodyIntegration& body)
+{
+    return body.has_hands || body.contact_impulse != glm::dvec3{0.0} ||
+           body.contact_angular_impulse != glm::dvec3{0.0};
+}
+
 } // namespace
 
 bool Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
@@ -176,7 +184,11 @@ double Restitution::bounce(ContactBlock& block, ContactSolver& solver,
             hits ? -block.restitution * speed : -inactive_speed * scales.size / scales.tick;
     }
     ContactVector change = solver.solve_alone(block, then, 0.0);
-    const double kept_share = share_without_energy_gain(block, then, change);
+    double kept_share = share_without_energy_gain(block, then, change);
+    if (is_driven(integrations[block.a]) || is_driven(integrations[block.b])) {
+        kept_share =
+            std::min(kept_share, share_without_energy_gain(block, approach.to, change));
+    }
     for (double& part : change) part *= kept_share;
     block.impulse = kept;
     block.speed_min = least;
