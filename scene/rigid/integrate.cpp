@@ -4,6 +4,7 @@
 
 #include "proto/base/math.hpp"
 #include "scene/maths/rotation.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/rigid/free_flight.hpp"
 
 #include <algorithm>
@@ -13,9 +14,6 @@
 namespace hapnet::scene {
 
 namespace {
-
-/// How far a body may come off its straight path within a tick, in half edges of the smallest body.
-constexpr double stray_max = 0.5;
 
 /// An angular impulse changes the momentum only about axes that the body may turn about.
 glm::dvec3 about_unlocked_axes(const BodyProperties& properties, const glm::dvec3& angular)
@@ -71,22 +69,16 @@ void set_start(BodyIntegration& integration, const WorldState& state, Slot slot,
 void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, Slot slot,
                            const BodyMotion& mean, double tick)
 {
-    const BodyProperties& properties = bodies.properties[slot];
     if (integration.has_hands) {
         const glm::dvec3 more = tick * (mean.spin - integration.mean.spin);
         bodies.orientation.put(slot, is_negligible(more) ? integration.orientation
                                                          : rotated(integration.orientation, more));
         return;
     }
-    const glm::dquat now = bodies.orientation.at(slot);
     if (is_negligible(tick * mean.spin)) return;
-    if (rotates_uniformly(properties)) {
-        bodies.orientation.put(slot, rotated(now, tick * mean.spin));
-        return;
-    }
-    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) +
-                                0.5 * integration.contact_angular_impulse + mean.angular_impulse;
-    bodies.orientation.put(slot, rotated_freely(now, {momentum, properties.inverse_inertia}, tick));
+    bodies.orientation.put(
+        slot, rotated(bodies.orientation.at(slot),
+                      tick * spin_through_tick(integration, bodies, slot, mean, tick)));
 }
 
 } // namespace
@@ -120,6 +112,25 @@ void reset(BodyIntegration& integration)
     integration.friction_contacts = 0;
     integration.drag = 0.0;
     integration.has_hands = false;
+    integration.first_touch.time = std::numeric_limits<double>::infinity();
+}
+
+glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state, Slot slot)
+{
+    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
+    const BodyProperties& properties = state.bodies.properties[slot];
+    return gravity_on(properties, config.gravity) +
+           properties.inverse_mass * state.pushes[properties.id];
+}
+
+glm::dvec3 spin_through_tick(const BodyIntegration& integration, const Bodies& bodies, Slot slot,
+                             const BodyMotion& mean, double tick)
+{
+    const BodyProperties& properties = bodies.properties[slot];
+    if (rotates_uniformly(properties)) return mean.spin;
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) +
+                                0.5 * integration.contact_angular_impulse + mean.angular_impulse;
+    return mean_spin(bodies.orientation.at(slot), {momentum, properties.inverse_inertia}, tick);
 }
 
 void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
@@ -237,30 +248,36 @@ void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
-bool keep_within_swept_path(std::span<const Slot> slots,
+Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots,
                             std::span<const BodyIntegration> integrations, ContactSolver& solver,
                             const Scales& scales)
 {
-    bool any_strays = false;
+    Ways ways;
+    const double most = far_way * scales.least * scales.rate;
     for (const Slot slot : slots) {
         const SolverIndex i = slot + 1;
+        BodyMotion& mean = solver.mean_motion(i);
+        glm::dvec3& way = mean.velocity;
+        const double turning =
+            sum_of_sizes(mean.spin) * sum_of_sizes(state.bodies.properties[slot].half);
+        if (sum_of_sizes(way) + turning <= most) continue;
+        ways.any_far = true;
         const BodyIntegration& integration = integrations[i];
-        const double most = stray_max * scales.least / scales.tick;
-        const glm::dvec3& path = integration.start.velocity;
-        glm::dvec3 low = glm::min(path, glm::dvec3{0.0});
-        glm::dvec3 high = glm::max(path, glm::dvec3{0.0});
+        const glm::dvec3& start = integration.start.velocity;
+        const glm::dvec3& end = solver.end_motion(i).velocity;
+        glm::dvec3 low = glm::min(glm::min(start, end), glm::dvec3{0.0});
+        glm::dvec3 high = glm::max(glm::max(start, end), glm::dvec3{0.0});
         if (integration.has_hands) {
             low = glm::min(low, integration.mean.velocity);
             high = glm::max(high, integration.mean.velocity);
         }
-        glm::dvec3& way = solver.mean_motion(i).velocity;
         const glm::dvec3 kept = glm::min(glm::max(way, low - most), high + most);
         if (kept == way) continue;
         way = kept;
         solver.response(i) = {};
-        any_strays = true;
+        ++ways.cut;
     }
-    return any_strays;
+    return ways;
 }
 
 void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,

@@ -4,6 +4,7 @@
 
 #include "scene/collide/pair_finder.hpp"
 #include "scene/collide/sweep.hpp"
+#include "scene/rigid/continuous.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
@@ -62,9 +63,10 @@ private:
     void solve_velocities();
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
-    void correct_positions();
+    void correct_positions(WorldState& state);
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
+    void solve_continuous(const WorldConfig& config, WorldState& state);
     void report_hand_forces(const WorldConfig& config, WorldState& state);
     void update_sleep(WorldState& state);
 
@@ -84,6 +86,8 @@ private:
     ActiveBodies active_;
     Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;
+    ContinuousCollision continuous_;
+    bool any_far_ = false; // some body could pass another in this tick
     Counts counts_;
 };
 
