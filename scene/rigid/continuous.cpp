@@ -78,7 +78,45 @@ glm::dvec3 turning_part(const BodyProperties& properties, const glm::dvec3& angu
             properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
 
-/// The impulse at a touch: each point that approaches bounces, none approaches afterwards. Zero
+/// An impulse, and what it does.
+struct Answer {
+    ContactVector impulse{};
+    double share = 1.0; // of it that gains no energy
+    bool parts = false; // no point approaches any more
+};
+
+Answer answer_of(ContactBlock& block, const Toucher& a, const Toucher& b)
+{
+    const ContactVector before = velocity_at(block, a.motion, b.motion);
+    block.impulse = {};
+    Answer answer{.impulse = solve(block, before, 0.0)};
+    BodyMotion after_a = a.motion;
+    BodyMotion after_b = b.motion;
+    Wrench push = wrench(block, answer.impulse);
+    if (b.moves) apply(push, block.arm_b, b.response, after_b);
+    push = {-push.impulse, -push.angular};
+    if (a.moves) apply(push, block.arm_a, a.response, after_a);
+    const ContactVector after = velocity_at(block, after_a, after_b);
+    double work = 0.0;  // at the velocities before
+    double twice = 0.0; // and by what it changes in them, twice
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        work += answer.impulse[i] * before[i];
+        twice += answer.impulse[i] * (after[i] - before[i]);
+    }
+    if (!(work + 0.5 * twice <= 0.0))
+        answer.share = work < 0.0 && twice > 0.0 ? std::min(1.0, -2.0 * work / twice) : 0.0;
+    double slowest = 0.0;
+    double fastest = 0.0; // that approached
+    for (std::size_t i = 0; i < block.count; ++i) {
+        slowest = std::min(slowest, block.normal_speed(after, i));
+        fastest = std::max(fastest, -block.normal_speed(before, i));
+    }
+    constexpr double rounding = 1e-9;
+    answer.parts = slowest >= -rounding * fastest;
+    return answer;
+}
+
+/// The impulse at a touch: each point that approaches bounces, and none approaches afterwards. Zero
 /// when none did.
 ContactVector impulse_of(ContactBlock& block, const Toucher& a, const Toucher& b,
                          double bounces_from)
@@ -92,26 +130,15 @@ ContactVector impulse_of(ContactBlock& block, const Toucher& a, const Toucher& b
     }
     if (!any) return {};
     build_matrix(block, a.response, b.response);
-    ContactVector impulse = solve(block, before, 0.0);
-    // Restitution and friction together can ask for more energy than there is; and so do rounding
-    // errors where a body is locked. What the impulse does is looked at, and not what it should.
-    BodyMotion after_a = a.motion;
-    BodyMotion after_b = b.motion;
-    Wrench push = wrench(block, impulse);
-    if (b.moves) apply(push, block.arm_b, b.response, after_b);
-    push = {-push.impulse, -push.angular};
-    if (a.moves) apply(push, block.arm_a, a.response, after_a);
-    const ContactVector after = velocity_at(block, after_a, after_b);
-    double work = 0.0;  // of the velocities before
-    double twice = 0.0; // and of what it changes, twice
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        work += impulse[i] * before[i];
-        twice += impulse[i] * (after[i] - before[i]);
+    Answer answer = answer_of(block, a, b);
+    // A bounce with friction may ask for more energy than there is (Kane and Levinson, 1985), and
+    // a slip may have no answer. The touch is smooth then, which always has one.
+    if (block.friction != 0.0 && !(answer.parts && answer.share == 1.0)) {
+        block.friction = 0.0;
+        answer = answer_of(block, a, b);
     }
-    double share = 1.0;
-    if (!(work + 0.5 * twice <= 0.0)) share = work < 0.0 && twice > 0.0 ? -2.0 * work / twice : 0.0;
-    for (double& part : impulse) part *= std::min(share, 1.0);
-    return impulse;
+    for (double& part : answer.impulse) part *= answer.share;
+    return answer.impulse;
 }
 
 } // namespace
