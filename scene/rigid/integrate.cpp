@@ -275,7 +275,7 @@ Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots
         if (kept == way) continue;
         way = kept;
         solver.response(i) = {};
-        ++ways.cut;
+        ways.any_kept = true;
     }
     return ways;
 }

@@ -76,7 +76,7 @@ inline constexpr double far_way = 0.5;
 
 /// What keep_within_swept_path() saw.
 struct Ways {
-    std::uint32_t cut = 0; // bodies that were held back
+    bool any_kept = false; // some body was held back
     bool any_far = false;  // some body goes far, turning included: ContinuousCollision has work
 };
 

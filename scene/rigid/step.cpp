@@ -397,7 +397,7 @@ void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 /// Changes the mean velocities so that nothing overlaps at the end of the tick. The velocities at
 /// the end stay as they are: nothing gains speed by being moved apart (nonlinear Gauss-Seidel).
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::correct_positions(WorldState& state)
+void RigidStepper<broad_phase>::correct_positions(const WorldState& state)
 {
     for (ContactBlock& block : solver_.blocks()) {
         for (std::uint32_t i = 0; i < block.count; ++i) {
@@ -414,8 +414,7 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
         const Ways ways =
             keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
         any_far_ = ways.any_far;
-        state.interventions.paths_cut += ways.cut;
-        return ways.cut != 0;
+        return ways.any_kept;
     };
     if (!keep()) return;
     solver_.correct_positions_again(limits);

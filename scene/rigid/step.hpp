@@ -63,7 +63,7 @@ private:
     void solve_velocities();
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
-    void correct_positions(WorldState& state);
+    void correct_positions(const WorldState& state);
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
     void solve_continuous(const WorldConfig& config, WorldState& state);
