@@ -258,22 +258,32 @@ Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots
         const SolverIndex i = slot + 1;
         BodyMotion& mean = solver.mean_motion(i);
         glm::dvec3& way = mean.velocity;
-        const double turning =
-            sum_of_sizes(mean.spin) * sum_of_sizes(state.bodies.properties[slot].half);
-        if (sum_of_sizes(way) + turning <= most) continue;
+        const double half = sum_of_sizes(state.bodies.properties[slot].half);
+        if (sum_of_sizes(way) + half * sum_of_sizes(mean.spin) <= most) continue;
         ways.any_far = true;
         const BodyIntegration& integration = integrations[i];
-        const glm::dvec3& start = integration.start.velocity;
-        const glm::dvec3& end = solver.end_motion(i).velocity;
-        glm::dvec3 low = glm::min(glm::min(start, end), glm::dvec3{0.0});
-        glm::dvec3 high = glm::max(glm::max(start, end), glm::dvec3{0.0});
-        if (integration.has_hands) {
-            low = glm::min(low, integration.mean.velocity);
-            high = glm::max(high, integration.mean.velocity);
+        const BodyMotion& end = solver.end_motion(i);
+        const auto kept = [&](const glm::dvec3& now, const glm::dvec3& from, const glm::dvec3& to,
+                              const glm::dvec3& with_hands, double stray) {
+            glm::dvec3 low = glm::min(glm::min(from, to), glm::dvec3{0.0});
+            glm::dvec3 high = glm::max(glm::max(from, to), glm::dvec3{0.0});
+            if (integration.has_hands) {
+                low = glm::min(low, with_hands);
+                high = glm::max(high, with_hands);
+            }
+            return glm::min(glm::max(now, low - stray), high + stray);
+        };
+        const glm::dvec3 velocity =
+            kept(way, integration.start.velocity, end.velocity, integration.mean.velocity, most);
+        const glm::dvec3 spin =
+            kept(mean.spin, integration.start.spin, end.spin, integration.mean.spin, most / half);
+        if (velocity == way && spin == mean.spin) continue;
+        way = velocity;
+        if (spin != mean.spin) {
+            mean.spin = spin;
+            mean.angular_impulse =
+                integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse;
         }
-        const glm::dvec3 kept = glm::min(glm::max(way, low - most), high + most);
-        if (kept == way) continue;
-        way = kept;
         solver.response(i) = {};
         ways.any_kept = true;
     }
