@@ -485,6 +485,9 @@ ContinuousCollision::MeetingIndex ContinuousCollision::earliest() const
 void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, double from)
 {
     const Flyer& a = flyers_[meeting.a];
+    const auto stays = [](const Flyer& flyer) { return flyer.has_stopped || !flyer.is_movable; };
+    meeting.is_over = stays(a) && (meeting.is_plane || stays(flyers_[meeting.b]));
+    if (meeting.is_over) return;
     GapSearch asked{.gap = meeting.gap,
                     .near = near_share * next_overlap(meeting.gap, meeting.smallest),
                     .from = from,
