@@ -345,10 +345,11 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
     const double left = scales_.tick - time;
     flyer.flight.velocity =
         bodies.velocity.at(slot) - (0.5 * left) * steady_acceleration(around.config, state, slot);
-    const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
-    flyer.flight.spin = rotates_uniformly(properties)
-                            ? properties.inverse_inertia * momentum
-                            : mean_spin(orientation, {momentum, properties.inverse_inertia}, left);
+    // The spin that it has now, which is what a touch sees; with unequal moments of inertia it does
+    // not stay: see touch().
+    const OrientedBox box{centre, axes_of(orientation), properties.half};
+    flyer.flight.spin =
+        response_of(properties, box).inverse_inertia * bodies.angular_momentum.at(slot);
     set_place(flyer.flight, centre, orientation, time);
     flyer.is_released = true;
     flyer.has_changed = true;
@@ -532,8 +533,11 @@ void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
     for (std::size_t i = 0; i < count; ++i) {
         Flyer& flyer = flyers_[both[i]];
         if (!flyer.is_movable || flyer.has_stopped) continue;
-        if (pushed) release(around, flyer, time);
-        if (pushed || !any_released) ++flyer.touches;
+        // Without a push they only seemed to come nearer, while the spin was not what it was.
+        if (pushed || !any_released) {
+            release(around, flyer, time);
+            ++flyer.touches;
+        }
         const bool is_in_its_way = !pushed && !any_released && one_has_stopped;
         if (flyer.touches <= touches_max && !is_in_its_way) continue;
         ++around.state.interventions.paths_cut;
