@@ -154,6 +154,20 @@ private:
     }
 };
 
+/// Whether two spheres never come near each other: which most do not.
+bool spheres_miss(const SteadyBox& a, const SteadyBox& b, const GapSearch& search)
+{
+    const glm::dvec3 velocity = b.velocity - a.velocity;
+    const glm::dvec3 offset = b.centre - a.centre + search.from * velocity;
+    const double square = glm::dot(velocity, velocity);
+    const double along = -glm::dot(offset, velocity);
+    double time = search.to - search.from;
+    if (along < time * square) time = along > 0.0 ? along / square : 0.0;
+    const glm::dvec3 nearest = offset + time * velocity;
+    const double reach = a.radius + b.radius;
+    return glm::dot(nearest, nearest) > reach * reach;
+}
+
 template <typename Look>
 Advanced advance_by(const GapSearch& search, std::uint32_t& steps, Look look)
 {
@@ -226,6 +240,7 @@ OrientedBox SteadyBox::at(double time) const
 Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b, const GapSearch& search,
                         std::uint32_t& steps)
 {
+    if (spheres_miss(a, b, search)) return {search.to, Advanced::End::clear};
     return advance_by(search, steps, [&](double time) {
         const OrientedBox box_a = a.at(time);
         const OrientedBox box_b = b.at(time);
@@ -238,6 +253,11 @@ Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b, const GapSearch&
 Advanced advance_to_gap(const PlaneSurface& plane, const SteadyBox& box, const GapSearch& search,
                         std::uint32_t& steps)
 {
+    const auto height = [&](double time) {
+        return glm::dot(plane.normal, box.centre + time * box.velocity) - plane.offset;
+    };
+    if (std::min(height(search.from), height(search.to)) > box.radius)
+        return {search.to, Advanced::End::clear};
     return advance_by(search, steps, [&](double time) {
         const OrientedBox there = box.at(time);
         return Forecast{gap_between(plane, there).distance - search.gap,

@@ -202,14 +202,14 @@ void ContinuousCollision::solve(const WorldConfig& config, WorldState& state,
         if (!meets) continue;
         bend(around, i);
         find_others(around, pairs, i, 0.0);
-        advance_all(around, i, 0.0);
+        advance_all(around, i, 0.0, none);
     }
-    const auto go_on = [&](FlyerIndex index, double time) {
+    const auto go_on = [&](FlyerIndex index, double time, FlyerIndex done) {
         Flyer& flyer = flyers_[index];
         if (flyer.is_movable && !flyer.has_stopped && !flyer.is_fast)
             flyer.is_fast = goes_far(flyer.flight, time);
         if (flyer.is_fast && !flyer.has_stopped) find_others(around, pairs, index, time);
-        advance_all(around, index, time);
+        advance_all(around, index, time, done);
     };
     while (true) {
         const MeetingIndex next = earliest();
@@ -223,7 +223,7 @@ void ContinuousCollision::solve(const WorldConfig& config, WorldState& state,
         if (bent != none) {
             const double then = flyers_[bent].bend;
             release(around, flyers_[bent], then);
-            go_on(bent, then);
+            go_on(bent, then, none);
             continue;
         }
         if (next == none) break;
@@ -238,8 +238,8 @@ void ContinuousCollision::solve(const WorldConfig& config, WorldState& state,
         const FlyerIndex a = meeting.a;
         const std::uint32_t b = meeting.b;
         const bool is_plane = meeting.is_plane;
-        go_on(a, time);
-        if (!is_plane) go_on(b, time);
+        go_on(a, time, none);
+        if (!is_plane) go_on(b, time, a);
     }
     Bodies& bodies = state.bodies;
     for (const Flyer& flyer : flyers_.all()) {
@@ -507,9 +507,14 @@ void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, 
     meeting.is_over = advanced.end == Advanced::End::clear;
 }
 
-void ContinuousCollision::advance_all(const Surroundings& around, FlyerIndex index, double from)
+/// The same for all of a flyer's meetings, but for those with another that is `done`.
+void ContinuousCollision::advance_all(const Surroundings& around, FlyerIndex index, double from,
+                                      FlyerIndex done)
 {
-    for_meetings_of(index, [&](Meeting& meeting) { advance(around, meeting, from); });
+    for_meetings_of(index, [&](Meeting& meeting) {
+        const FlyerIndex other = meeting.a == index ? meeting.b : meeting.a;
+        if (meeting.is_plane || other != done) advance(around, meeting, from);
+    });
 }
 
 /// Two touch: if they come nearer, they push each other. After so many touches they stay.

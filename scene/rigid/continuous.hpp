@@ -105,7 +105,7 @@ private:
     [[nodiscard]] MeetingIndex earliest() const;
 
     void advance(const Surroundings& around, Meeting& meeting, double from);
-    void advance_all(const Surroundings& around, FlyerIndex index, double from);
+    void advance_all(const Surroundings& around, FlyerIndex index, double from, FlyerIndex done);
     void touch(const Surroundings& around, Meeting& meeting);
     bool exchange_impulse(const Surroundings& around, const Meeting& meeting);
 
