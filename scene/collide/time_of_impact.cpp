@@ -7,6 +7,7 @@
 #include "scene/maths/vector.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -84,6 +85,8 @@ private:
 
 // Squared sine of the angle below which two edges count as parallel: the faces tell enough then.
 constexpr double parallel_sine2 = 1e-6;
+// The share of the rest of the time that one axis should clear, before others are asked.
+constexpr double worthwhile = 0.25;
 
 /// How far a turning box reaches along a normal from its centre, and how that changes: at most
 /// sum |reach + t speed| + t^2 bend / 2 after a time t.
@@ -154,6 +157,28 @@ private:
     }
 };
 
+/// Calls visit(gap) for all 15 axes along which two boxes may be apart.
+template <typename Visit>
+void for_axes(const OrientedBox& a, const OrientedBox& b, Visit visit)
+{
+    const glm::dvec3 offset = b.centre - a.centre;
+    const auto consider = [&](const glm::dvec3& normal) {
+        const double place = glm::dot(normal, offset);
+        const double distance =
+            std::abs(place) - (half_projection(a, normal) + half_projection(b, normal));
+        visit(Gap{distance, place < 0.0 ? -normal : normal});
+    };
+    for (const int i : {0, 1, 2}) consider(a.axes[i]);
+    for (const int j : {0, 1, 2}) consider(b.axes[j]);
+    for (const int i : {0, 1, 2}) {
+        for (const int j : {0, 1, 2}) {
+            const glm::dvec3 direction = glm::cross(a.axes[i], b.axes[j]);
+            const double square = glm::dot(direction, direction);
+            if (square >= parallel_sine2) consider(direction / std::sqrt(square));
+        }
+    }
+}
+
 /// Whether two spheres never come near each other: which most do not.
 bool spheres_miss(const SteadyBox& a, const SteadyBox& b, const GapSearch& search)
 {
@@ -175,9 +200,9 @@ Advanced advance_by(const GapSearch& search, std::uint32_t& steps, Look look)
     while (time < search.to) {
         if (steps == 0) return {time, Advanced::End::unfinished};
         --steps;
-        const Forecast now = look(time);
-        if (now.room <= search.near) return {time, Advanced::End::reached};
-        time += now.time_left(search.to - time);
+        const double left = look(time, search.to - time);
+        if (left <= 0.0) return {time, Advanced::End::reached};
+        time += left;
     }
     return {search.to, Advanced::End::clear};
 }
@@ -204,23 +229,10 @@ std::optional<TimeOfImpact> time_of_impact(const OrientedBox& a, const OrientedB
 
 Gap gap_between(const OrientedBox& a, const OrientedBox& b)
 {
-    const glm::dvec3 offset = b.centre - a.centre;
     Gap widest{-HUGE_VAL, {}};
-    const auto consider = [&](const glm::dvec3& normal) {
-        const double place = glm::dot(normal, offset);
-        const double distance =
-            std::abs(place) - (half_projection(a, normal) + half_projection(b, normal));
-        if (distance > widest.distance) widest = {distance, place < 0.0 ? -normal : normal};
-    };
-    for (const int i : {0, 1, 2}) consider(a.axes[i]);
-    for (const int j : {0, 1, 2}) consider(b.axes[j]);
-    for (const int i : {0, 1, 2}) {
-        for (const int j : {0, 1, 2}) {
-            const glm::dvec3 direction = glm::cross(a.axes[i], b.axes[j]);
-            const double square = glm::dot(direction, direction);
-            if (square >= parallel_sine2) consider(direction / std::sqrt(square));
-        }
-    }
+    for_axes(a, b, [&](const Gap& gap) {
+        if (gap.distance > widest.distance) widest = gap;
+    });
     return widest;
 }
 
@@ -241,12 +253,29 @@ Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b, const GapSearch&
                         std::uint32_t& steps)
 {
     if (spheres_miss(a, b, search)) return {search.to, Advanced::End::clear};
-    return advance_by(search, steps, [&](double time) {
+    return advance_by(search, steps, [&](double time, double most) {
         const OrientedBox box_a = a.at(time);
         const OrientedBox box_b = b.at(time);
-        const Gap now = gap_between(box_a, box_b);
-        return Forecast{now.distance - search.gap, glm::dot(now.normal, a.velocity - b.velocity),
-                        reach_along(now.normal, box_a, a), reach_along(now.normal, box_b, b)};
+        std::array<Gap, 15> open; // those that are wider than asked for
+        std::size_t count = 0;
+        std::size_t widest = 0;
+        for_axes(box_a, box_b, [&](const Gap& gap) {
+            if (gap.distance - search.gap <= search.near) return;
+            if (count == 0 || gap.distance > open[widest].distance) widest = count;
+            open[count++] = gap;
+        });
+        if (count == 0) return 0.0;
+        const auto time_left = [&](const Gap& gap) {
+            const Forecast now{
+                gap.distance - search.gap, glm::dot(gap.normal, a.velocity - b.velocity),
+                reach_along(gap.normal, box_a, a), reach_along(gap.normal, box_b, b)};
+            return now.time_left(most);
+        };
+        double left = time_left(open[widest]);
+        // Any axis that stays open is as good. It pays to ask the others when it was not far.
+        for (std::size_t i = 0; i < count && left < worthwhile * most; ++i)
+            if (i != widest) left = std::max(left, time_left(open[i]));
+        return left;
     });
 }
 
@@ -258,12 +287,13 @@ Advanced advance_to_gap(const PlaneSurface& plane, const SteadyBox& box, const G
     };
     if (std::min(height(search.from), height(search.to)) > box.radius)
         return {search.to, Advanced::End::clear};
-    return advance_by(search, steps, [&](double time) {
+    return advance_by(search, steps, [&](double time, double most) {
         const OrientedBox there = box.at(time);
-        return Forecast{gap_between(plane, there).distance - search.gap,
-                        -glm::dot(plane.normal, box.velocity),
-                        {},
-                        reach_along(plane.normal, there, box)};
+        const double room = gap_between(plane, there).distance - search.gap;
+        if (room <= search.near) return 0.0;
+        const Forecast now{
+            room, -glm::dot(plane.normal, box.velocity), {}, reach_along(plane.normal, there, box)};
+        return now.time_left(most);
     });
 }
 

@@ -23,15 +23,17 @@ constexpr std::uint32_t touches_max = 64;
 // Looks at two bodies in a tick: some, and so many more for each movable body.
 constexpr std::uint32_t steps_base = 512, steps_per_body = 64;
 // Meetings for each movable body, on average.
-constexpr std::size_t meetings_per_body_max = 16, meetings_base = 64;
+constexpr std::size_t meetings_per_body_max = 64;
+constexpr std::size_t meetings_max = 65'536;
 // A search through all meetings costs about as much as one look for every so many.
 constexpr std::size_t meetings_per_step = 64;
 
 // Overlaps, in shares of the smallest half edge of the two. With each touch in a tick they may
 // overlap by a little more, so that those that slide on each other or come to rest are not held up
-// and the search ends; the more they overlap, the less, and never beyond `overlap_max`.
+// and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
 constexpr double overlap_step = 0.01;
 constexpr double overlap_max = 0.5;
+constexpr double least_step = 0.05; // of the above
 // One that came so far behind the face that it touched is not there by right.
 constexpr double behind = 0.1;
 // How near to that counts.
@@ -43,7 +45,7 @@ constexpr double least_bounce = 2.0;
 /// By how much two that overlap so far may overlap more at the next touch.
 double next_overlap(double gap, double smallest)
 {
-    return overlap_step * smallest * std::max(0.0, 1.0 + gap / (overlap_max * smallest));
+    return overlap_step * smallest * std::max(least_step, 1.0 + gap / (overlap_max * smallest));
 }
 
 /// The same motion, but at `time` it is there and turned so.
@@ -59,6 +61,12 @@ glm::dquat orientation_at(const SteadyBox& flight, double time)
 {
     return flight.spin == glm::dvec3{0.0} ? flight.orientation
                                           : rotated(flight.orientation, time * flight.spin);
+}
+
+std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
+{
+    const std::size_t each = std::min(bodies.size() + config.planes.size(), meetings_per_body_max);
+    return std::min(bodies.movable * each, meetings_max);
 }
 
 /// A body as it is at a touch.
@@ -143,12 +151,12 @@ ContactVector impulse_of(ContactBlock& block, const Toucher& a, const Toucher& b
 
 } // namespace
 
-ContinuousCollision::ContinuousCollision(const WorldConfig& /*config*/, const Bodies& bodies,
+ContinuousCollision::ContinuousCollision(const WorldConfig& config, const Bodies& bodies,
                                          const Scales& scales)
     : scales_{scales},
       departures_{bodies.movable},
       flyers_{bodies.size()},
-      meetings_{meetings_base + meetings_per_body_max * bodies.movable},
+      meetings_{room_for_meetings(config, bodies)},
       flyer_of_(bodies.size(), none),
       woken_{bodies.movable},
       steps_max_{steps_base + steps_per_body * bodies.movable}
