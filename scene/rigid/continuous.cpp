@@ -63,6 +63,15 @@ glm::dquat orientation_at(const SteadyBox& flight, double time)
                                           : rotated(flight.orientation, time * flight.spin);
 }
 
+/// Gravity and pushes: what acts on an awake body steadily through the tick, as an acceleration.
+glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state, Slot slot)
+{
+    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
+    const BodyProperties& properties = state.bodies.properties[slot];
+    return gravity_on(properties, config.gravity) +
+           properties.inverse_mass * state.pushes[properties.id];
+}
+
 std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
 {
     const std::size_t each = std::min(bodies.size() + config.planes.size(), meetings_per_body_max);

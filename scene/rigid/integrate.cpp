@@ -80,6 +80,10 @@ void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, S
         return;
     }
     if (is_negligible(tick * mean.spin)) return;
+    if (rotates_uniformly(bodies.properties[slot])) {
+        bodies.orientation.put(slot, rotated(bodies.orientation.at(slot), tick * mean.spin));
+        return;
+    }
     bodies.orientation.put(
         slot, rotated(bodies.orientation.at(slot),
                       tick * spin_through_tick(integration, bodies, slot, mean, tick)));
@@ -117,14 +121,6 @@ void reset(BodyIntegration& integration)
     integration.drag = 0.0;
     integration.has_hands = false;
     integration.first_touch.time = std::numeric_limits<double>::infinity();
-}
-
-glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state, Slot slot)
-{
-    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
-    const BodyProperties& properties = state.bodies.properties[slot];
-    return gravity_on(properties, config.gravity) +
-           properties.inverse_mass * state.pushes[properties.id];
 }
 
 glm::dvec3 spin_through_tick(const BodyIntegration& integration, const Bodies& bodies, Slot slot,

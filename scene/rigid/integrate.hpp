@@ -46,10 +46,6 @@ struct BodyIntegration {
 /// Starts with nothing acting on the body.
 void reset(BodyIntegration& integration);
 
-/// Gravity and pushes: what acts on an awake body steadily through the tick, as an acceleration.
-[[nodiscard]] glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state,
-                                             Slot slot);
-
 /// The springs on one body.
 struct HandForces {
     std::span<const HandSpring> springs;
