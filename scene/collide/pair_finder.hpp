@@ -57,6 +57,13 @@ public:
     /// their ids. To be asked after update(). Far from everything it costs a few compares.
     [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path);
 
+    /// Calls visit(id) for every body whose fat box overlaps the given. Asked after update().
+    template <typename Visit>
+    void for_overlapping(const Aabb& box, Visit visit) const
+    {
+        boxes_.for_overlapping(box, visit);
+    }
+
     /// Call after the body has crossed the border between awake and asleep: its pairs come to the
     /// lists or leave them. Sleep does.
     void on_wake(const Bodies& bodies, BodyId body);

@@ -50,7 +50,8 @@ SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, Bo
     const ContactPlaces here{a.box.centre, b.box.centre};
     if (margin < near) return {collide(a.box, b.box, margin, memory), here};
     const auto impact = time_of_impact(a.box, b.box, velocity, tick);
-    if (!impact) return {collide(a.box, b.box, near, memory), here};
+    if (!impact)
+        return {.manifold = collide(a.box, b.box, near, memory), .centres = here, .may_pass = true};
     OrientedBox there_a = a.box;
     OrientedBox there_b = b.box;
     there_a.centre += impact->time * a.velocity;
@@ -59,7 +60,7 @@ SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, Bo
     for (ContactPoint& point : manifold.points) {
         point.separation -= impact->time * glm::dot(velocity, manifold.normal);
     }
-    return {manifold, {there_a.centre, there_b.centre}};
+    return {manifold, {there_a.centre, there_b.centre}, impact->time, true};
 }
 
 SweptBoxes::SweptBoxes(const Bodies& bodies, const Scales& scales)

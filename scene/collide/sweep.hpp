@@ -7,6 +7,7 @@
 #include "scene/collide/pairs.hpp"
 #include "scene/state.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace hapnet::scene {
@@ -28,6 +29,8 @@ struct BoxSweep {
 struct SweptContact {
     Manifold manifold;
     ContactPlaces centres;
+    double first_touch = std::numeric_limits<double>::infinity(); // s: of those that go far
+    bool may_pass = false; // they go far, and may meet if they turn
 };
 
 /// Where two boxes touch, or will within the tick. For boxes that go far in it, where they touch at

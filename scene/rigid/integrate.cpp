@@ -15,8 +15,9 @@ namespace hapnet::scene {
 
 namespace {
 
-/// How far a body may come off its straight path within a tick, in half edges of the smallest body.
-constexpr double stray_max = 0.5;
+/// How far the correction of overlaps may throw such a body off its way, in half edges of the
+/// smallest body: some contacts together, each of which moves by 2 % of one.
+constexpr double stray_max = 0.1;
 
 /// The part of a displacement or velocity along unlocked axes.
 glm::dvec3 unlocked_part(const BodyProperties& properties, const glm::dvec3& way)
@@ -62,22 +63,20 @@ void set_start(BodyIntegration& integration, const WorldState& state, Slot slot,
 void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, Slot slot,
                            const BodyMotion& mean, double tick)
 {
-    const BodyProperties& properties = bodies.properties[slot];
     if (integration.has_hands) {
         const glm::dvec3 more = tick * (mean.spin - integration.mean_to_there.spin);
         bodies.orientation.put(slot, is_negligible(more) ? integration.orientation
                                                          : rotated(integration.orientation, more));
         return;
     }
-    const glm::dquat now = bodies.orientation.at(slot);
     if (is_negligible(tick * mean.spin)) return;
-    if (rotates_uniformly(properties)) {
-        bodies.orientation.put(slot, rotated(now, tick * mean.spin));
+    if (rotates_uniformly(bodies.properties[slot])) {
+        bodies.orientation.put(slot, rotated(bodies.orientation.at(slot), tick * mean.spin));
         return;
     }
-    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) +
-                                0.5 * integration.contact_angular_impulse + mean.angular_impulse;
-    bodies.orientation.put(slot, rotated_freely(now, {momentum, properties.inverse_inertia}, tick));
+    bodies.orientation.put(
+        slot, rotated(bodies.orientation.at(slot),
+                      tick * spin_through_tick(integration, bodies, slot, mean, tick)));
 }
 
 } // namespace
@@ -121,6 +120,7 @@ void reset(BodyIntegration& integration)
     integration.has_hands = false;
     integration.hand_energy_stored = 0.0;
     integration.hand_energy_driven = 0.0;
+    integration.first_touch.time = std::numeric_limits<double>::infinity();
 }
 
 void begin_bounces(BodyIntegration& integration)
@@ -128,6 +128,16 @@ void begin_bounces(BodyIntegration& integration)
     integration.start_after_bounces = integration.start;
     integration.bounce_offset = {};
     integration.last_bounce = 0.0;
+}
+
+glm::dvec3 spin_through_tick(const BodyIntegration& integration, const Bodies& bodies, Slot slot,
+                             const BodyMotion& mean, double tick)
+{
+    const BodyProperties& properties = bodies.properties[slot];
+    if (rotates_uniformly(properties)) return mean.spin;
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) +
+                                0.5 * integration.contact_angular_impulse + mean.angular_impulse;
+    return mean_spin(bodies.orientation.at(slot), {momentum, properties.inverse_inertia}, tick);
 }
 
 void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
@@ -231,30 +241,47 @@ void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
-bool keep_within_swept_path(std::span<const Slot> slots,
+Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots,
                             std::span<const BodyIntegration> integrations, ContactSolver& solver,
                             const Scales& scales)
 {
-    bool any_strays = false;
+    Ways ways;
+    const double most = far_way * scales.least * scales.rate;
+    const double aside = stray_max * scales.least * scales.rate;
     for (const Slot slot : slots) {
         const SolverIndex i = slot + 1;
+        BodyMotion& mean = solver.mean_motion(i);
+        glm::dvec3& way = mean.velocity;
+        const double half = sum_of_sizes(state.bodies.properties[slot].half);
+        if (sum_of_sizes(way) + half * sum_of_sizes(mean.spin) <= most) continue;
+        ways.any_far = true;
         const BodyIntegration& integration = integrations[i];
-        const double most = stray_max * scales.least / scales.tick;
-        const glm::dvec3& path = integration.start.velocity;
-        glm::dvec3 low = glm::min(path, glm::dvec3{0.0});
-        glm::dvec3 high = glm::max(path, glm::dvec3{0.0});
-        if (integration.has_hands) {
-            low = glm::min(low, integration.mean.velocity);
-            high = glm::max(high, integration.mean.velocity);
+        const BodyMotion& end = solver.end_motion(i);
+        const auto kept = [&](const glm::dvec3& now, const glm::dvec3& from, const glm::dvec3& to,
+                              const glm::dvec3& with_hands, double stray) {
+            glm::dvec3 low = glm::min(glm::min(from, to), glm::dvec3{0.0});
+            glm::dvec3 high = glm::max(glm::max(from, to), glm::dvec3{0.0});
+            if (integration.has_hands) {
+                low = glm::min(low, with_hands);
+                high = glm::max(high, with_hands);
+            }
+            return glm::min(glm::max(now, low - stray), high + stray);
+        };
+        const glm::dvec3 velocity =
+            kept(way, integration.start.velocity, end.velocity, integration.mean.velocity, aside);
+        const glm::dvec3 spin =
+            kept(mean.spin, integration.start.spin, end.spin, integration.mean.spin, aside / half);
+        if (velocity == way && spin == mean.spin) continue;
+        way = velocity;
+        if (spin != mean.spin) {
+            mean.spin = spin;
+            mean.angular_impulse =
+                integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse;
         }
-        glm::dvec3& way = solver.mean_motion(i).velocity;
-        const glm::dvec3 kept = glm::min(glm::max(way, low - most), high + most);
-        if (kept == way) continue;
-        way = kept;
         solver.response(i) = {};
-        any_strays = true;
+        ways.any_kept = true;
     }
-    return any_strays;
+    return ways;
 }
 
 void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,

@@ -83,7 +83,8 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       integrations_{state.bodies.movable + std::size_t{1}},
       solver_{state.bodies.movable, blocks_for(config, state.bodies)},
       restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
-      account_{state.bodies.movable}
+      account_{state.bodies.movable},
+      continuous_{config, state.bodies, scales_}
 {}
 
 template <BroadPhase broad_phase>
@@ -102,10 +103,12 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     const bool changed = solve_velocities(state.work);
     store_contact_impulses(state);
     stop_sliding_contacts(state);
-    correct_positions(state.work);
+    correct_positions(state);
     if (bounced || changed) settle_energy(config, state);
     integrate_positions(state);
     integrate_free_bodies(state);
+    if (any_far_) solve_continuous(config, state);
+    active_.clear();
     report_hand_forces(config, state);
     update_sleep(state);
 }
@@ -298,6 +301,11 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
         const Slot a = bodies.slot_of[pair.a];
         const Slot b = bodies.slot_of[pair.b];
         const SweptContact swept = collide_pair(state, pair);
+        if (swept.may_pass) {
+            // Whatever becomes of them, ContinuousCollision looks at their ways.
+            for (const Slot slot : {a, b})
+                if (slot < bodies.awake) activate(bodies, slot);
+        }
         ContactBlock* const block = add_contact(swept.manifold, swept.centres, pair.memory);
         if (block == nullptr) continue;
         const Material material =
@@ -306,6 +314,12 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
         block->b = index_of(b);
         block->friction = material.friction;
         block->restitution = material.restitution;
+        const auto note = [&](SolverIndex body, const glm::dvec3& normal, BodyId other) {
+            FirstTouch& first = integrations_[body].first_touch;
+            if (swept.first_touch < first.time) first = {swept.first_touch, normal, other};
+        };
+        note(block->a, block->normal, pair.b);
+        note(block->b, -block->normal, pair.a);
     }
 }
 
@@ -419,7 +433,7 @@ void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 /// Changes the mean velocities so that nothing overlaps at the end of the tick. The velocities at
 /// the end stay as they are: nothing gains speed by being moved apart (nonlinear Gauss-Seidel).
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::correct_positions(Work& work)
+void RigidStepper<broad_phase>::correct_positions(WorldState& state)
 {
     for (ContactBlock& block : solver_.blocks()) {
         for (std::uint32_t i = 0; i < block.count; ++i) {
@@ -427,13 +441,16 @@ void RigidStepper<broad_phase>::correct_positions(Work& work)
         }
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
-    work.visits += solver_.correct_positions(position_limits()).visits;
+    state.work.visits += solver_.correct_positions(position_limits()).visits;
     // A body that is thrown off its path is held back; the others go as far as that lets them.
     const auto keep = [&] {
-        return keep_within_swept_path(active_.slots(), integrations_.all(), solver_, scales_);
+        const Ways ways =
+            keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
+        any_far_ = ways.any_far;
+        return ways.any_kept;
     };
     if (!keep()) return;
-    work.visits += solver_.correct_positions_again(position_limits()).visits;
+    state.work.visits += solver_.correct_positions_again(position_limits()).visits;
     keep();
 }
 
@@ -448,6 +465,7 @@ void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldSt
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_positions(WorldState& state)
 {
+    if (any_far_) continuous_.begin(state.bodies, active_.slots(), integrations_.all(), solver_);
     for (const Slot slot : active_.slots()) {
         integrate_position(integrations_[slot + 1], state.bodies, slot, solver_, scales_);
     }
@@ -460,7 +478,16 @@ void RigidStepper<broad_phase>::integrate_free_bodies(WorldState& state)
     Bodies& bodies = state.bodies;
     active_.for_inactive(bodies.awake,
                          [&](SlotRange range) { free_bodies_.integrate(bodies, range); });
-    active_.clear();
+}
+
+/// Lets no body pass through another, and wakes what was hit on the way.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
+{
+    continuous_.solve(config, state, active_.slots(), pairs_);
+    if constexpr (sleeps) {
+        for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
+    }
 }
 
 template <BroadPhase broad_phase>

@@ -5,6 +5,7 @@
 #include "scene/collide/pair_finder.hpp"
 #include "scene/collide/sweep.hpp"
 #include "scene/rigid/energy_account.hpp"
+#include "scene/rigid/continuous.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
@@ -66,10 +67,11 @@ private:
     void integrate_velocities(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
-    void correct_positions(Work& work);
+    void correct_positions(WorldState& state);
     void settle_energy(const WorldConfig& config, WorldState& state);
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
+    void solve_continuous(const WorldConfig& config, WorldState& state);
     void report_hand_forces(const WorldConfig& config, WorldState& state);
     void update_sleep(WorldState& state);
 
@@ -92,6 +94,8 @@ private:
     ContactSolver solver_;
     Restitution restitution_;
     EnergyAccount account_;
+    ContinuousCollision continuous_;
+    bool any_far_ = false; // some body could pass another in this tick
     Counts counts_;
 };
 
