@@ -55,7 +55,13 @@ public:
 
     /// The bodies, movable or fixed, asleep or awake, that a hand may reach within the tick, by
     /// their ids. To be asked after update(). Far from everything it costs a few compares.
-    [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path);
+    [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path)
+    {
+        Hand& known = hands_[hand];
+        const Aabb needed = grown(hull(path.from, path.to), glm::dvec3{path.radius});
+        if (!contains(known.box, needed)) renew_hand(known, path, needed);
+        return known.bodies.all();
+    }
 
     /// Call after the body has crossed the border between awake and asleep: its pairs come to the
     /// lists or leave them. Sleep does.
@@ -92,6 +98,7 @@ private:
     void update_pairs(const Bodies& bodies, BodyId id);
     void update_plane_pairs(const Aabb& box, BodyId id, bool is_awake);
     void update_hand(Hand& hand, BodyId id);
+    void renew_hand(Hand& known, const HandPath& path, const Aabb& needed);
 
     std::vector<PlaneDescription> planes_of_scene_;
     FatAabbs fat_boxes_;

@@ -48,8 +48,11 @@ struct LocalOverlap {
     double depth = 0.0;
     glm::dvec3 normal{0.0};
     glm::dvec3 point{0.0};
-    bool is_amid_face = false; // nine tenths of its half edges from its middle at most
+    bool is_amid_face = false;
 };
+
+/// Amid a face is what is no farther from its middle than this share of the half edges.
+inline constexpr double amid_face_share = 0.9;
 
 /// How far a sphere's centre may come in one tick, or go behind the face where it went in, in
 /// units of the box's longest half edge; beyond it was put there, and nothing is remembered. A
@@ -77,6 +80,27 @@ public:
     /// A sphere in front of one of the faces, as most are, or far away costs a few compares.
     [[nodiscard]] std::optional<LocalOverlap> find(const glm::dvec3& half, const glm::dvec3& place,
                                                    double radius, const glm::dvec3* before);
+
+    /// Where a centre is that a tick ago was and still is in front of the face that it entered by,
+    /// and amid it: of what find() says there all else is the face's. Most ticks of most hands; null
+    /// when it has to be found.
+    struct AmidFace {
+        BoxFace face;
+        double gap = 0.0; // from the face to the centre, m
+    };
+    [[nodiscard]] std::optional<AmidFace> still_amid_face(const PerAxis& half, const PerAxis& place,
+                                                          const PerAxis& before) const
+    {
+        if (!entered_) return std::nullopt;
+        const std::size_t axis = entered_->axis;
+        const double sign = entered_->sign;
+        const double gap = sign * place[axis] - half[axis];
+        int within = 0;
+        for (const std::size_t i : {0U, 1U, 2U})
+            within += static_cast<int>(std::abs(place[i]) <= amid_face_share * half[i]);
+        if (!(gap > 0.0 && sign * before[axis] > half[axis] && within == 2)) return std::nullopt;
+        return AmidFace{*entered_, gap};
+    }
 
     void forget() { entered_.reset(); }
 

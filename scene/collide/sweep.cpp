@@ -29,14 +29,6 @@ OrientedBox box_of(const Bodies& bodies, Slot slot)
             bodies.properties[slot].half};
 }
 
-double reach_of(const Bodies& bodies, Slot slot, const Scales& scales)
-{
-    const glm::dvec3& half = bodies.properties[slot].half;
-    const double turning = length(bodies.angular_velocity(slot)) * length(half);
-    return scales.tick * (length(bodies.velocity.at(slot)) + turning + scales.fall) +
-           look_ahead * shortest(half);
-}
-
 SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, BoxBoxMemory& memory)
 {
     const double margin = a.reach + b.reach;
@@ -66,23 +58,29 @@ SweptBoxes::SweptBoxes(const Bodies& bodies, const Scales& scales)
     : scales_{scales}, entries_(bodies.size())
 {
     for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        const glm::dvec3& half = bodies.properties[slot].half;
-        const SweptBox now{box_of(bodies, slot), std::sqrt(glm::dot(half, half)),
-                           reach_of(bodies, slot, scales)};
-        entries_[bodies.properties[slot].id] = {now, bodies.orientation.at(slot), 0};
+        const BodyId id = bodies.properties[slot].id;
+        Entry& entry = entries_[id];
+        entry.now.box = box_of(bodies, slot);
+        entry.now.radius = length(entry.now.box.half);
+        entry.orientation = bodies.orientation.at(slot);
+        renew(bodies, id, entry);
     }
 }
 
 void SweptBoxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
 {
     const Slot slot = bodies.slot_of[body];
+    SweptBox& now = entry.now;
     entry.seen = now_;
-    entry.now.box.centre = bodies.position.at(slot);
-    entry.now.reach = reach_of(bodies, slot, scales_);
+    now.box.centre = bodies.position.at(slot);
+    now.spin = bodies.angular_velocity(slot);
+    const double turning = length(now.spin) * now.radius;
+    now.reach = scales_.tick * (length(bodies.velocity.at(slot)) + turning + scales_.fall) +
+                look_ahead * shortest(now.box.half);
     const glm::dquat orientation = bodies.orientation.at(slot);
     if (orientation == entry.orientation) return;
     entry.orientation = orientation;
-    entry.now.box.axes = axes_of(orientation);
+    now.box.axes = axes_of(orientation);
 }
 
 } // namespace hapnet::scene

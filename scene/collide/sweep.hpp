@@ -13,9 +13,6 @@ namespace hapnet::scene {
 
 [[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
 
-/// How far any part of an awake body may come in the tick, and a little more, metres.
-[[nodiscard]] double reach_of(const Bodies& bodies, Slot slot, const Scales& scales);
-
 /// A box and where it is going.
 struct BoxSweep {
     const OrientedBox& box;
@@ -40,7 +37,10 @@ struct SweptContact {
 struct SweptBox {
     OrientedBox box;
     double radius = 0.0; // of the corners, m
-    double reach = 0.0;  // see reach_of(); of what is asleep, when it were awake
+    // How far any part of it may come in the tick, and a little more, m; of what is asleep, when it
+    // were awake.
+    double reach = 0.0;
+    glm::dvec3 spin{0.0}; // angular velocity, rad/s
 };
 
 /// The bodies' boxes at the start of a tick: found when they are asked for, and only of what has

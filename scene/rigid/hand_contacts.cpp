@@ -8,8 +8,18 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace hapnet::scene {
+
+namespace {
+
+const glm::dvec3& column(const glm::dmat3& axes, std::size_t axis)
+{
+    return axes[static_cast<glm::length_t>(axis)];
+}
+
+} // namespace
 
 HandContacts::HandContacts(const WorldConfig& config)
     : gravity_reach_{config.tick * config.tick *
@@ -82,6 +92,34 @@ bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::u
     return true;
 }
 
+/// Where a sphere overlaps a body's box.
+std::optional<HandContacts::Touched> HandContacts::find_touched(NearBody& near_body,
+                                                                const OrientedBox& box,
+                                                                const glm::dvec3& centre,
+                                                                double radius)
+{
+    const glm::dvec3 place = to_local(box, centre);
+    const std::optional<glm::dvec3> before = std::exchange(near_body.before, place);
+    near_body.is_current = true;
+    if (before) {
+        PerAxis point = per_axis(place);
+        const PerAxis half = per_axis(box.half);
+        const auto amid = near_body.memory.still_amid_face(half, point, per_axis(*before));
+        if (amid && amid->gap < radius) {
+            const std::size_t axis = amid->face.axis;
+            const double sign = amid->face.sign;
+            point[axis] = sign * half[axis];
+            return Touched{radius - amid->gap, sign * column(box.axes, axis),
+                           box.axes * vector(point), true};
+        }
+    }
+    const auto overlap =
+        near_body.memory.find(box.half, place, radius, before ? &*before : nullptr);
+    if (!overlap) return std::nullopt;
+    return Touched{overlap->depth, box.axes * overlap->normal, box.axes * overlap->point,
+                   overlap->is_amid_face};
+}
+
 void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,
                             const Target& target)
 {
@@ -95,15 +133,11 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
     const double ahead =
         config.tick * (sum_of_sizes(input.velocity.value - target.velocity) + turning) +
         0.5 * gravity_reach_;
-    const glm::dvec3 place = to_local(target.box, centre);
-    const auto overlap = near_body->memory.find(target.box.half, place, hands.radius_m + ahead,
-                                                near_body->before ? &*near_body->before : nullptr);
-    near_body->is_current = true;
-    near_body->before = place;
-    if (!overlap) return;
-    const double depth = overlap->depth - ahead;
-    const glm::dvec3 normal = target.box.axes * overlap->normal;
-    const glm::dvec3 arm = target.box.axes * overlap->point;
+    const auto touched = find_touched(*near_body, target.box, centre, hands.radius_m + ahead);
+    if (!touched) return;
+    const double depth = touched->depth - ahead;
+    const glm::dvec3& normal = touched->normal;
+    const glm::dvec3& arm = touched->arm;
     const glm::dvec3 here = target.velocity + glm::cross(target.spin, arm);
     const double closing = glm::dot(here - input.velocity.value, normal);
     HandTouch& touch = state.touches[index];
@@ -125,7 +159,7 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
     spring.stiffness = hands.stiffness_n_per_m;
     spring.damping = hands.damping_ns_per_m;
     spring.force_max = hands.force_max_n;
-    spring.is_amid_face = overlap->is_amid_face;
+    spring.is_amid_face = touched->is_amid_face;
     spring.holds = false;
 }
 
@@ -162,7 +196,9 @@ void HandContacts::forget_departed(std::uint32_t index)
     Hand& hand = hands_[index];
     std::size_t kept = 0;
     for (std::size_t i = 0; i < hand.count; ++i) {
-        if (hand.nearby[i].is_current) hand.nearby[kept++] = hand.nearby[i];
+        if (!hand.nearby[i].is_current) continue;
+        if (kept != i) hand.nearby[kept] = hand.nearby[i];
+        ++kept;
     }
     hand.count = kept;
 }

@@ -77,6 +77,15 @@ private:
         std::optional<Holding> holding;
     };
 
+    /// How a hand's sphere and a box overlap, in the world's frame.
+    struct Touched {
+        double depth = 0.0;
+        glm::dvec3 normal{0.0};
+        glm::dvec3 arm{0.0}; // from the box's centre to the point of its surface
+        bool is_amid_face = false;
+    };
+    static std::optional<Touched> find_touched(NearBody& near_body, const OrientedBox& box,
+                                               const glm::dvec3& centre, double radius);
     HandSpring& add(std::uint32_t hand, BodyId body);
     bool add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
                   const Target& target);

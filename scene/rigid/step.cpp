@@ -135,9 +135,10 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
             for (const BodyId id : pairs_.near_hand(
                      hand, {from, from + scales_.tick * input.velocity.value, radius})) {
                 const Slot slot = bodies.slot_of[id];
+                const SweptBox& now = boxes_.at(bodies, id);
                 hand_contacts_.collide(config, state, hand,
-                                       {id, slot < bodies.movable, boxes_.at(bodies, id).box,
-                                        bodies.velocity.at(slot), bodies.angular_velocity(slot)});
+                                       {id, slot < bodies.movable, now.box,
+                                        bodies.velocity.at(slot), now.spin});
             }
         }
         hand_contacts_.forget_departed(hand);
