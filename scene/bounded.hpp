@@ -105,6 +105,7 @@ public:
         if (size_ == elements_.size()) elements_.emplace_back();
         return elements_[size_++];
     }
+    void drop_last() { --size_; }
     void clear() { size_ = 0; }
     /// At most what was reserved.
     void resize(std::size_t size)

@@ -51,6 +51,8 @@ public:
     [[nodiscard]] Pair& pair(PairIndex index) { return pairs_[index]; }
     /// Awake bodies (`a`) near planes (`b`, an index into WorldConfig::planes).
     [[nodiscard]] std::span<const PairIndex> plane_pairs() const { return plane_pairs_.active(); }
+    /// How many there can be, at most.
+    [[nodiscard]] std::size_t plane_pairs_max() const { return plane_pairs_.size_max(); }
     [[nodiscard]] Pair& plane_pair(PairIndex index) { return plane_pairs_[index]; }
 
     /// The bodies, movable or fixed, asleep or awake, that a hand may reach within the tick, by
@@ -58,8 +60,11 @@ public:
     [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path)
     {
         Hand& known = hands_[hand];
-        const Aabb needed = grown(hull(path.from, path.to), glm::dvec3{path.radius});
-        if (!contains(known.box, needed)) renew_hand(known, path, needed);
+        const glm::dvec3 away = glm::max(glm::abs(path.from - known.middle),
+                                         glm::abs(path.to - known.middle));
+        if (!(away.x <= known.room.x && away.y <= known.room.y && away.z <= known.room.z &&
+              path.radius <= known.radius))
+            renew_hand(known, path);
         return known.bodies.all();
     }
 
@@ -88,9 +93,12 @@ public:
     [[nodiscard]] Counts counts() const;
 
 private:
-    /// A hand's fat AABB and the bodies in it, by their ids.
+    /// A hand's fat AABB and the bodies in it, by their ids. It holds a sphere of that radius as
+    /// long as its centre is no farther than `room` from the middle.
     struct Hand {
         Aabb box;
+        glm::dvec3 middle{0.0}, room{-1.0};
+        double radius = 0.0;
         Bounded<BodyId> bodies;
     };
     using Finder = std::conditional_t<broad_phase == BroadPhase::all_pairs, AabbScan, Grid>;
@@ -98,7 +106,7 @@ private:
     void update_pairs(const Bodies& bodies, BodyId id);
     void update_plane_pairs(const Aabb& box, BodyId id, bool is_awake);
     void update_hand(Hand& hand, BodyId id);
-    void renew_hand(Hand& known, const HandPath& path, const Aabb& needed);
+    void renew_hand(Hand& known, const HandPath& path);
 
     std::vector<PlaneDescription> planes_of_scene_;
     FatAabbs fat_boxes_;

@@ -81,27 +81,6 @@ public:
     [[nodiscard]] std::optional<LocalOverlap> find(const glm::dvec3& half, const glm::dvec3& place,
                                                    double radius, const glm::dvec3* before);
 
-    /// Where a centre is that a tick ago was and still is in front of the face that it entered by,
-    /// and amid it: of what find() says there all else is the face's. Most ticks of most hands; null
-    /// when it has to be found.
-    struct AmidFace {
-        BoxFace face;
-        double gap = 0.0; // from the face to the centre, m
-    };
-    [[nodiscard]] std::optional<AmidFace> still_amid_face(const PerAxis& half, const PerAxis& place,
-                                                          const PerAxis& before) const
-    {
-        if (!entered_) return std::nullopt;
-        const std::size_t axis = entered_->axis;
-        const double sign = entered_->sign;
-        const double gap = sign * place[axis] - half[axis];
-        int within = 0;
-        for (const std::size_t i : {0U, 1U, 2U})
-            within += static_cast<int>(std::abs(place[i]) <= amid_face_share * half[i]);
-        if (!(gap > 0.0 && sign * before[axis] > half[axis] && within == 2)) return std::nullopt;
-        return AmidFace{*entered_, gap};
-    }
-
     void forget() { entered_.reset(); }
 
     /// The face through which the centre went in, or would on its shortest path.

@@ -19,6 +19,15 @@ constexpr double look_ahead = 0.01;
 // A body that goes farther than this share of it in a tick could pass through another.
 constexpr double far_share = 0.5;
 
+/// Whether a box has turned by no more than rounding: what rests and is pushed turns to and fro by
+/// less, and its contacts would be found anew in every tick.
+bool is_as_good_as(const glm::dquat& kept, const glm::dquat& now)
+{
+    constexpr double rounding = 1e-13; // half of the turn
+    return std::abs(now.w - kept.w) <= rounding && std::abs(now.x - kept.x) <= rounding &&
+           std::abs(now.y - kept.y) <= rounding && std::abs(now.z - kept.z) <= rounding;
+}
+
 double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.y, half.z)); }
 
 } // namespace
@@ -62,7 +71,7 @@ SweptBoxes::SweptBoxes(const Bodies& bodies, const Scales& scales)
         Entry& entry = entries_[id];
         entry.now.box = box_of(bodies, slot);
         entry.now.radius = length(entry.now.box.half);
-        entry.orientation = bodies.orientation.at(slot);
+        entry.now.orientation = bodies.orientation.at(slot);
         renew(bodies, id, entry);
     }
 }
@@ -78,9 +87,15 @@ void SweptBoxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
     now.reach = scales_.tick * (length(bodies.velocity.at(slot)) + turning + scales_.fall) +
                 look_ahead * shortest(now.box.half);
     const glm::dquat orientation = bodies.orientation.at(slot);
-    if (orientation == entry.orientation) return;
-    entry.orientation = orientation;
+    if (is_as_good_as(now.orientation, orientation)) return;
+    now.orientation = orientation;
     now.box.axes = axes_of(orientation);
+}
+
+void SweptBoxes::forget(BodyId body)
+{
+    entries_[body].seen = 0;
+    entries_[body].now.orientation = {0.0, 0.0, 0.0, 0.0}; // like no other
 }
 
 } // namespace hapnet::scene

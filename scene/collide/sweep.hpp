@@ -36,6 +36,9 @@ struct SweptContact {
 /// Where a body's box is, and how far it comes.
 struct SweptBox {
     OrientedBox box;
+    // Of its axes: the body's, or one from which it has turned by no more than rounding. What
+    // follows from the axes stays with it.
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     double radius = 0.0; // of the corners, m
     // How far any part of it may come in the tick, and a little more, m; of what is asleep, when it
     // were awake.
@@ -50,6 +53,8 @@ public:
     SweptBoxes(const Bodies& bodies, const Scales& scales);
 
     void begin_tick() { ++now_; }
+    /// A body was put somewhere: nothing of it is kept.
+    void forget(BodyId body);
     /// The reference is good until the next tick.
     [[nodiscard]] const SweptBox& at(const Bodies& bodies, BodyId body)
     {
@@ -61,7 +66,6 @@ public:
 private:
     struct Entry {
         SweptBox now;
-        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
         std::uint64_t seen = 0;
     };
 

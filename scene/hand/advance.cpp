@@ -84,14 +84,14 @@ void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
 } // namespace
 
 void advance(MovingBody& body, const BodyDynamics& dynamics, std::span<const HandSpring> springs,
-             std::span<SpringImpulse> work, double tick)
+             std::span<SpringImpulse> work, double tick, PressedModes& modes)
 {
     base::ensure(work.size() >= springs.size());
     if (springs.empty()) {
         advance_freely(body, dynamics, tick);
         return;
     }
-    if (advance_in_constant_contact(body, dynamics, springs, work, tick)) return;
+    if (advance_in_constant_contact(body, dynamics, springs, work, tick, modes)) return;
     for (SpringImpulse& each : work) each = {};
     const Chosen chosen = choose(body, dynamics, springs, tick);
     if (!chosen.is_closed) {

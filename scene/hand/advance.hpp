@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/hand/pressed_modes.hpp"
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -60,8 +62,8 @@ struct SpringImpulse {
 /// in phases in which they turn by about a degree: second order, and bounces keep their energy (to
 /// 1e-5 for a cube, 2e-4 for other boxes, for stiffness tick^2 / mass from 0.01 to 1000). Two need
 /// the same damping over stiffness. More, or springs that hold: the midpoint rule in substeps,
-/// second order, stable however stiff.
+/// second order, stable however stiff. `modes` may be those of any earlier tick.
 void advance(MovingBody& body, const BodyDynamics& dynamics, std::span<const HandSpring> springs,
-             std::span<SpringImpulse> work, double tick);
+             std::span<SpringImpulse> work, double tick, PressedModes& modes);
 
 } // namespace hapnet::scene

@@ -20,14 +20,6 @@ constexpr double half_rotation_max = 0.01;
 // A rotation below this keeps all directions, to rounding.
 constexpr double negligible_rotation = 1e-10;
 
-constexpr std::size_t press_terms_max = 24;
-constexpr std::array<double, press_terms_max> press_shares = [] {
-    std::array<double, press_terms_max> r{};
-    for (std::size_t n = 0; n < press_terms_max; ++n)
-        r[n] = 1.0 / (static_cast<double>(n + 1) * static_cast<double>(n + 2));
-    return r;
-}();
-
 glm::dvec3 diagonal_of(const glm::dmat3& m) { return {m[0].x, m[1].y, m[2].z}; }
 
 /// One spring and the face that it presses. Set before it is read.
@@ -58,17 +50,17 @@ public:
     {}
 
     /// False: it is not steady.
-    bool advance(SpringImpulse* work)
+    bool advance(SpringImpulse* work, PressedModes& modes)
     {
         if (!set_geometry_halfway()) return false;
         set_couplings();
-        return integrate_contacts() && finish(work);
+        return integrate_contacts(modes) && finish(work);
     }
 
 private:
     bool set_geometry_halfway();
     void set_couplings();
-    bool integrate_contacts();
+    bool integrate_contacts(PressedModes& modes);
     bool finish(SpringImpulse* work);
     [[nodiscard]] double depth_change(std::size_t i) const;
 
@@ -125,65 +117,33 @@ void ConstantContact<count>::set_couplings()
     }
 }
 
-/// SpringDepths are d'' = acceleration - coupling * force and forces stiffness d + damping d': with
-/// d_n = d^(n)(0) tick^n / n! and f_n likewise, d_(n+2) = -tick^2 coupling f_n / ((n+1) (n+2)), and
-/// the integrals of the force are the sums of f_n / (n+1) and of f_n / ((n+1) (n+2)). The sum of
-/// all |f_n| but the first is the most that the force can change. False when the force may end
-/// or reach its greatest, or the tick is long for the springs.
+/// False when a force may end or reach its greatest, or the tick is long for the springs.
 template <std::size_t count>
-bool ConstantContact<count>::integrate_contacts()
+bool ConstantContact<count>::integrate_contacts(PressedModes& modes)
 {
-    using Each = std::array<double, count>;
-    const double square = tick_ * tick_;
-    Each next, stiffness, damping, damper, first, own, driven;
-    Each once{}, twice{}, change{};
-    double size = 0.0;
+    const HandSpring& spring = springs_[0];
+    PressedModes::Key key{.own = {contacts_[0].own, 0.0},
+                          .mutual = mutual_,
+                          .stiffness = spring.stiffness,
+                          .damping = spring.damping,
+                          .tick = tick_};
+    if constexpr (count == 2) key.own[1] = contacts_[1].own;
+    if (!modes.find(key)) return false;
+    PressedModes::Start start{};
     for (std::size_t i = 0; i < count; ++i) {
         const Contact& contact = contacts_[i];
-        next[i] = tick_ * contact.closing;
-        stiffness[i] = springs_[i].stiffness;
-        damper[i] = damping[i] = springs_[i].damping / tick_;
-        own[i] = square * contact.own;
-        driven[i] = 0.5 * square * contact.acceleration;
-        constexpr double slow = 0.5;
-        if (!(own[i] * (stiffness[i] + damping[i]) <= slow)) return false;
-        first[i] = stiffness[i] * contact.depth + damping[i] * next[i];
-        size += std::abs(first[i]);
+        start.depth[i] = contact.depth;
+        start.speed[i] = contact.closing;
+        start.acceleration[i] = contact.acceleration;
     }
-    constexpr double rounding = 1e-14; // what comes after two such terms is less
-    const double converged = rounding * size;
-    const double mutual = square * mutual_;
-    Each force = first;
-    double last = size;
-    double order = 2.0;
-    for (const double share : press_shares) {
-        Each substep;
-        for (std::size_t i = 0; i < count; ++i) {
-            substep[i] = share * force[i];
-            twice[i] += substep[i];
-            once[i] += order * substep[i];
-        }
-        double now = 0.0;
-        for (std::size_t i = 0; i < count; ++i) {
-            double then = driven[i] - own[i] * substep[i];
-            if constexpr (count == 2) then -= mutual * substep[1 - i];
-            driven[i] = 0.0;
-            damper[i] += damping[i];
-            force[i] = stiffness[i] * next[i] + damper[i] * then;
-            next[i] = then;
-            change[i] += std::abs(force[i]);
-            now += std::abs(force[i]);
-        }
-        last += now;
-        if (last <= converged) break;
-        last = now;
-        order += 1.0;
-    }
-    if (!(last <= converged)) return false;
+    const PressedModes::Outcome outcome = modes.outcome(start);
     for (std::size_t i = 0; i < count; ++i) {
-        if (!(first[i] > change[i] && first[i] + change[i] < springs_[i].force_max)) return false;
-        contacts_[i].impulse = tick_ * once[i];
-        contacts_[i].moment = square * twice[i];
+        Contact& contact = contacts_[i];
+        const double first = spring.stiffness * contact.depth + spring.damping * contact.closing;
+        const double change = outcome.change[i];
+        if (!(first > change && first + change < springs_[i].force_max)) return false;
+        contact.impulse = outcome.impulse[i];
+        contact.moment = outcome.moment[i];
     }
     return true;
 }
@@ -248,17 +208,18 @@ bool ConstantContact<count>::finish(SpringImpulse* work)
 
 bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
                                  std::span<const HandSpring> springs, std::span<SpringImpulse> work,
-                                 double tick)
+                                 double tick, PressedModes& modes)
 {
     if (!dynamics.rotates_uniformly) return false;
     for (const HandSpring& spring : springs) {
         if (!spring.is_amid_face || spring.gap > 0.0 || !(spring.stiffness > 0.0)) return false;
     }
     if (springs.size() == 1)
-        return ConstantContact<1>{body, dynamics, springs.data(), tick}.advance(work.data());
-    if (springs.size() == 2)
-        return ConstantContact<2>{body, dynamics, springs.data(), tick}.advance(work.data());
-    return false;
+        return ConstantContact<1>{body, dynamics, springs.data(), tick}.advance(work.data(), modes);
+    if (springs.size() != 2 || springs[0].stiffness != springs[1].stiffness ||
+        springs[0].damping != springs[1].damping)
+        return false;
+    return ConstantContact<2>{body, dynamics, springs.data(), tick}.advance(work.data(), modes);
 }
 
 } // namespace hapnet::scene

@@ -180,7 +180,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
         body.velocity = integration.start.velocity;
         body.angular_momentum = bodies.angular_momentum.at(slot);
         dynamics.acceleration = rate - unlocked_part(bodies.properties[slot], drag);
-        advance(body, dynamics, hands.springs, hands.work, config.tick);
+        advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes);
     };
     // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
     // says when it is too strong for that.

@@ -41,6 +41,7 @@ void reset(BodyIntegration& integration);
 struct HandForces {
     std::span<const HandSpring> springs;
     std::span<SpringImpulse> work;
+    PressedModes& modes;
     const WorldConfig& config;
 };
 

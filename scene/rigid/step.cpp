@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/rigid/step.hpp"
 
-#include "scene/collide/box_plane.hpp"
 #include "scene/collide/sweep.hpp"
 #include "scene/rigid/restitution.hpp"
 
@@ -75,9 +74,11 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       pairs_{config, state.bodies},
       sleep_{config, state.bodies},
       hand_contacts_{config},
+      modes_{config.hands.count},
       boxes_{state.bodies, scales_},
       free_bodies_{config, state.bodies},
       active_{state.bodies.movable},
+      plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.movable + std::size_t{1}},
       solver_{state.bodies.movable, blocks_for(config, state.bodies)}
 {}
@@ -110,6 +111,7 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
     // The bodies that it left and those that it now touches wake.
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(body);
+    boxes_.forget(body);
     hand_contacts_.forget(body);
 }
 
@@ -126,6 +128,7 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
 {
     Bodies& bodies = state.bodies;
     hand_contacts_.begin_step(config, state);
+    modes_.resize(config.hands.count);
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
         if (input.present) {
@@ -137,8 +140,8 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
                 const Slot slot = bodies.slot_of[id];
                 const SweptBox& now = boxes_.at(bodies, id);
                 hand_contacts_.collide(config, state, hand,
-                                       {id, slot < bodies.movable, now.box,
-                                        bodies.velocity.at(slot), now.spin});
+                                       {id, slot < bodies.movable, now,
+                                        bodies.velocity.at(slot)});
             }
         }
         hand_contacts_.forget_departed(hand);
@@ -182,13 +185,11 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
     reset(integrations_[slot + 1]);
 }
 
-/// A block for the solver that starts from last tick's impulses; null without a point or room.
+/// A block for the solver; null without a point or room.
 template <BroadPhase broad_phase>
-ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
-                                                     const ContactPlaces& centres,
-                                                     ContactMemory& memory)
+ContactBlock* RigidStepper<broad_phase>::add_contact(std::uint32_t points, ContactMemory& memory)
 {
-    if (manifold.count == 0) {
+    if (points == 0) {
         memory.count = 0;
         return nullptr;
     }
@@ -198,30 +199,40 @@ ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
         return nullptr;
     }
     ContactBlock& block = solver_.add();
-    prepare(block, manifold, centres, memory);
     block.memory = &memory;
+    return &block;
+}
+
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::set_least_speeds(ContactBlock& block)
+{
     for (std::uint32_t i = 0; i < block.count; ++i) {
         block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
     }
-    return &block;
 }
 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, const WorldState& state)
 {
     const Bodies& bodies = state.bodies;
-    for (const PairIndex index : pairs_.plane_pairs()) {
-        Pair& pair = pairs_.plane_pair(index);
+    const std::span<const PairIndex> pairs = pairs_.plane_pairs();
+    plane_contacts_.resize(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        Pair& pair = pairs_.plane_pair(pairs[i]);
         const PlaneDescription& plane = config.planes[pair.b];
         const Slot slot = bodies.slot_of[pair.a];
         const SweptBox& now = boxes_.at(bodies, pair.a);
         const OrientedBox& box = now.box;
-        const Manifold manifold =
-            collide(PlaneSurface{plane.normal, plane.offset_m}, box, now.reach);
+        PlaneContact& contact = plane_contacts_[i];
+        const double height = glm::dot(plane.normal, box.centre) - plane.offset_m;
+        const std::uint32_t points = contact.find(
+            {plane.normal, height, now.reach, box.axes, now.orientation, box.half});
         const bool is_supported =
-            touches(pair.memory) || lies_on(manifold, touch_distance * scales_.size);
-        ContactBlock* const block = add_contact(manifold, {box.centre, box.centre}, pair.memory);
+            touches(pair.memory) || contact.lies_on(touch_distance * scales_.size);
+        ContactBlock* const block = add_contact(points, pair.memory);
         if (block == nullptr) continue;
+        contact.prepare(*block, pair.memory);
+        set_least_speeds(*block);
         activate(bodies, slot);
         const BodyProperties& properties = bodies.properties[slot];
         block->a = 0;
@@ -263,8 +274,10 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
         const Slot a = bodies.slot_of[pair.a];
         const Slot b = bodies.slot_of[pair.b];
         const SweptContact swept = collide_pair(state, pair);
-        ContactBlock* const block = add_contact(swept.manifold, swept.centres, pair.memory);
+        ContactBlock* const block = add_contact(swept.manifold.count, pair.memory);
         if (block == nullptr) continue;
+        prepare(*block, swept.manifold, swept.centres, pair.memory);
+        set_least_speeds(*block);
         const Material material =
             combined(bodies.properties[a].material, bodies.properties[b].material);
         block->a = index_of(a);
@@ -279,14 +292,15 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::warm_start()
 {
+    const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push, double sign) {
+        if (index == 0) return;
+        BodyIntegration& body = integrations_[index];
+        body.contact_impulse += sign * push.impulse;
+        body.contact_angular_impulse += sign * (glm::cross(arm, push.impulse) + push.angular);
+    };
     for (const ContactBlock& block : solver_.blocks()) {
-        const Wrench push = wrench(block, contact_vector(block, block.impulse));
-        BodyIntegration& b = integrations_[block.b];
-        b.contact_impulse += push.impulse;
-        b.contact_angular_impulse += glm::cross(block.arm_b, push.impulse) + push.angular;
-        BodyIntegration& a = integrations_[block.a];
-        a.contact_impulse -= push.impulse;
-        a.contact_angular_impulse -= glm::cross(block.arm_a, push.impulse) + push.angular;
+        add(block.b, block.arm_b, block.start_push, 1.0);
+        add(block.a, block.arm_a, block.start_push, -1.0);
     }
 }
 
@@ -317,7 +331,7 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
         if (integration.has_hands) continue;
         const auto [springs, work] = hand_contacts_.springs_on(spring.body);
         integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
-                                      {springs, work, config});
+                                      {springs, work, modes_[spring.hand], config});
         hand_contacts_.store_impulses(spring.body);
     }
 }

@@ -9,6 +9,7 @@
 #include "scene/rigid/integrate.hpp"
 #include "scene/rigid/sleep.hpp"
 #include "scene/solver/contact_solver.hpp"
+#include "scene/solver/plane_contact.hpp"
 #include "scene/state.hpp"
 
 #include <type_traits>
@@ -70,8 +71,8 @@ private:
 
     void activate(const Bodies& bodies, Slot slot);
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
-    ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,
-                              ContactMemory& memory);
+    ContactBlock* add_contact(std::uint32_t points, ContactMemory& memory);
+    void set_least_speeds(ContactBlock& block);
     void integrate_hand_springs(const WorldConfig& config, const WorldState& state);
 
     Scales scales_;
@@ -79,9 +80,11 @@ private:
     PairFinder<search> pairs_;
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
     HandContacts hand_contacts_;
+    Scratch<PressedModes> modes_; // of the body that a hand presses, by the first hand on it
     SweptBoxes boxes_;
     FreeBodies free_bodies_;
     ActiveBodies active_;
+    Scratch<PlaneContact> plane_contacts_; // of the pairs with planes, in their order
     Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;
     Counts counts_;

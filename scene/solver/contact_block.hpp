@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 
 namespace hapnet::scene {
 
@@ -43,6 +44,12 @@ struct ContactImpulse {
     double torsion = 0.0;
 };
 
+/// An impulse in the world's frame, about the anchor.
+struct Wrench {
+    glm::dvec3 impulse{0.0};
+    glm::dvec3 angular{0.0};
+};
+
 /// Factors of a block that may be needed again: valid as long as its matrix is.
 struct BlockFactors {
     Ldl<6> whole{}; // of the matrix: three or four points, and friction
@@ -64,7 +71,6 @@ struct ContactBlock {
     double friction = 0.0;
     double torsion_arm = 0.0; // metres: the torsion's limit over the friction's
     glm::dvec3 normal{0.0}, tangent_1{0.0}, tangent_2{0.0};
-    glm::dvec3 anchor{0.0};
     glm::dvec3 arm_a{0.0}, arm_b{0.0};                            // from the centres to the anchor
     std::array<double, manifold_points_max> along_1{}, along_2{}; // the points from the anchor
     std::array<double, manifold_points_max> separation{};
@@ -73,6 +79,7 @@ struct ContactBlock {
     ContactImpulse impulse;
     std::array<double, manifold_points_max>
         start_impulse{}; // the normal impulses that it started from
+    Wrench start_push{}; // all of the impulses that it started from
     double restitution = 0.0;
     ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
     ContactVector
@@ -92,6 +99,21 @@ struct ContactBlock {
         return impulse.normal[0] + impulse.normal[1] + impulse.normal[2] + impulse.normal[3];
     }
 };
+
+/// For a face under even pressure, the mean distance from the middle of a square over the distance
+/// of its corners: (sqrt(2) + log(1 + sqrt(2))) / (3 sqrt(2)). So much of the points' mean distance
+/// is a contact's torsion arm.
+inline constexpr double even_pressure = 0.5410;
+
+/// Two directions along a contact, across its normal.
+struct Tangents {
+    glm::dvec3 first, second;
+};
+[[nodiscard]] Tangents tangents_of(const glm::dvec3& normal);
+
+/// Last tick's impulses of the points with these features, along such tangents.
+[[nodiscard]] ContactImpulse last_impulse(std::span<const std::uint32_t> features,
+                                          const Tangents& tangents, const ContactMemory& memory);
 
 /// Sets the geometry, and starts from last tick's impulses.
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
@@ -113,11 +135,6 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
 [[nodiscard]] ContactVector contact_vector(const ContactBlock& block,
                                            const ContactImpulse& impulse);
 
-/// An impulse in the world's frame, about the anchor.
-struct Wrench {
-    glm::dvec3 impulse{0.0};
-    glm::dvec3 angular{0.0};
-};
 [[nodiscard]] Wrench wrench(const ContactBlock& block, const ContactVector& impulse);
 /// On one body: `arm` from its centre to the anchor.
 void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
