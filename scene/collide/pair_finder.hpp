@@ -6,6 +6,7 @@
 #include "scene/collide/fat_aabbs.hpp"
 #include "scene/collide/grid.hpp"
 #include "scene/collide/pairs.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/state.hpp"
 
 #include <span>
@@ -60,8 +61,7 @@ public:
     [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path)
     {
         Hand& known = hands_[hand];
-        const glm::dvec3 away = glm::max(glm::abs(path.from - known.middle),
-                                         glm::abs(path.to - known.middle));
+        const glm::dvec3 away = glm::max(sizes(path.from - known.middle), sizes(path.to - known.middle));
         if (!(away.x <= known.room.x && away.y <= known.room.y && away.z <= known.room.z &&
               path.radius <= known.radius))
             renew_hand(known, path);

@@ -17,6 +17,8 @@ namespace {
 
 // The most that a normal may rotate in half a tick: then its mean is right to 1e-5.
 constexpr double half_rotation_max = 0.01;
+// A rotation below this is rounding.
+constexpr double no_rotation = 1e-13;
 // A rotation below this keeps all directions, to rounding.
 constexpr double negligible_rotation = 1e-10;
 
@@ -80,14 +82,19 @@ bool ConstantContact<count>::set_geometry_halfway()
 {
     const double half = 0.5 * tick_;
     const glm::dvec3 angle = half * (ease_ * body_.angular_momentum);
-    if (!(sum_of_sizes(angle) <= half_rotation_max)) return false;
+    const double most = sum_of_sizes(angle);
+    if (!(most <= half_rotation_max)) return false;
+    const bool turns = most > no_rotation;
     for (std::size_t i = 0; i < count; ++i) {
         const HandSpring& spring = springs_[i];
         Contact& contact = contacts_[i];
         contact.hand = spring.arm + (spring.radius + spring.gap) * spring.normal;
         contact.away = body_.velocity - spring.velocity;
-        const glm::dvec3 once = glm::cross(angle, spring.normal);
-        contact.normal = spring.normal + once + 0.5 * glm::cross(angle, once);
+        contact.normal = spring.normal;
+        if (turns) {
+            const glm::dvec3 once = glm::cross(angle, spring.normal);
+            contact.normal += once + 0.5 * glm::cross(angle, once);
+        }
         contact.lever = glm::cross(contact.hand - half * contact.away, contact.normal);
     }
     return true;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace hapnet::scene {
@@ -68,9 +69,9 @@ public:
             const double left = acceleration[j] - mode.response * force;
             impulse[j] = key_.tick * force + mode.once * speed[j] + mode.twice * left;
             moment[j] = half_square_ * force + mode.twice * speed[j] + mode.thrice * left;
-            change[j] = mode.change_by_speed * size(speed[j]) + mode.change_by_left * size(left);
+            change[j] = mode.change_by_speed * std::abs(speed[j]) + mode.change_by_left * std::abs(left);
         }
-        const double c = size(cosine_), s = size(sine_);
+        const double c = std::abs(cosine_), s = std::abs(sine_);
         return {to_springs(impulse), to_springs(moment),
                 {c * change[0] + s * change[1], s * change[0] + c * change[1]}};
     }
@@ -84,7 +85,6 @@ private:
         double change_by_left = 0.0; // of the force's integral
     };
 
-    [[nodiscard]] static double size(double x) { return x < 0.0 ? -x : x; }
     void renew(const Key& key);
     [[nodiscard]] bool set(Mode& mode, double response) const;
 

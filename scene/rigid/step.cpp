@@ -171,8 +171,7 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
 {
     solver_.begin(state.bodies.awake);
-    integrations_.resize(state.bodies.awake + std::size_t{1});
-    integrations_[0] = {};
+    integrations_.resize(state.bodies.awake + std::size_t{1}); // [0] does not move: nobody writes it
 }
 
 /// Starts the tick of an awake body that something acts on.
@@ -226,7 +225,7 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, const 
         PlaneContact& contact = plane_contacts_[i];
         const double height = glm::dot(plane.normal, box.centre) - plane.offset_m;
         const std::uint32_t points = contact.find(
-            {plane.normal, height, now.reach, box.axes, now.orientation, box.half});
+            {pair.a, pair.b, plane.normal, height, now.reach, box.axes, now.orientation, box.half});
         const bool is_supported =
             touches(pair.memory) || contact.lies_on(touch_distance * scales_.size);
         ContactBlock* const block = add_contact(points, pair.memory);
@@ -377,8 +376,8 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
         const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
         store_impulses(block, weight, *block.memory);
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
-        ++integrations_[block.a].friction_contacts;
-        ++integrations_[block.b].friction_contacts;
+        if (block.a != 0) ++integrations_[block.a].friction_contacts;
+        if (block.b != 0) ++integrations_[block.b].friction_contacts;
     }
 }
 
@@ -404,6 +403,7 @@ void RigidStepper<broad_phase>::correct_positions()
         for (std::uint32_t i = 0; i < block.count; ++i) {
             block.speed_min[i] = position_bias(block.separation[i], scales_);
         }
+        if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
     const double length = scales_.size * scales_.rate;

@@ -149,6 +149,7 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
     block.normal = manifold.normal;
     block.count = manifold.count;
     block.has_matrix = false;
+    block.is_on_plane = false;
     const Tangents tangents = tangents_of(manifold.normal);
     block.tangent_1 = tangents.first;
     block.tangent_2 = tangents.second;
@@ -164,6 +165,11 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
 
 void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory)
 {
+    if (block.is_on_plane && !block.has_matrix && memory.count == block.count &&
+        memory.feature == block.feature) {
+        ++memory.ticks; // it was in balance, and all is there
+        return;
+    }
     const double share = share_to_keep(block, weight, memory);
     const auto kept = [share](const auto& before, const auto& now) {
         return share < 1.0 ? before + share * (now - before) : now;
@@ -207,6 +213,13 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
                               const glm::dvec3& spin_b, double tick)
 {
     block.centripetal_velocity = {};
+    // What hardly turns: less than rounding, and less than a contact may miss.
+    constexpr double hardly = 1e-10; // radians
+    const auto hardly_turns = [&](const glm::dvec3& spin) {
+        return tick * tick * glm::dot(spin, spin) <= hardly * hardly;
+    };
+    block.turns = !hardly_turns(spin_a) || !hardly_turns(spin_b);
+    if (!block.turns) return; // and no least speed is more than standing still
     const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
         // For a body that rotates far in a tick this term alone is wrong: it fades out.
         constexpr double far = 0.1; // radians

@@ -84,6 +84,8 @@ struct ContactBlock {
     ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
     ContactVector
         centripetal_velocity{}; // m/s, what turning adds to its velocity by the end of the tick
+    bool turns = false;         // whether it adds anything
+    bool is_on_plane = false;   // its normal never changes
     double change = 0.0;        // m/s, what the last sweep changed in its speeds
 
     bool has_matrix = false;

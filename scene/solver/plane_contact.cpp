@@ -10,8 +10,8 @@ namespace hapnet::scene {
 
 std::uint32_t PlaneContact::find(const BoxOverPlane& box)
 {
-    if (!(box.orientation == corners_.orientation && box.normal == corners_.normal &&
-          box.half == corners_.half))
+    if (!(box.body == corners_.body && box.plane == corners_.plane &&
+          box.orientation == corners_.orientation))
         renew(box);
     height_ = box.height;
     touching_ = 0;
@@ -53,12 +53,14 @@ void PlaneContact::prepare(ContactBlock& block, const ContactMemory& memory)
     block.start_impulse = pressure.impulse.normal;
     block.start_push = pressure.push;
     block.has_matrix = false;
+    block.is_on_plane = true;
 }
 
 void PlaneContact::renew(const BoxOverPlane& box)
 {
     corners_.normal = box.normal;
-    corners_.half = box.half;
+    corners_.body = box.body;
+    corners_.plane = box.plane;
     corners_.orientation = box.orientation;
     corners_.tangents = tangents_of(box.normal);
     const auto corners = deepest_corners(box.normal, box.axes, box.half);

@@ -13,6 +13,7 @@ namespace hapnet::scene {
 
 /// Where a box lies over a plane.
 struct BoxOverPlane {
+    std::uint32_t body = 0, plane = 0; // which: their sizes and the normal never change
     const glm::dvec3& normal;
     double height = 0.0; // of the box's centre, m
     double margin = 0.0; // corners up to so high are looked at, m
@@ -41,7 +42,8 @@ private:
 
     /// What follows from how the box is turned. Heights are over its centre.
     struct Corners {
-        glm::dvec3 normal{0.0}, half{0.0};
+        std::uint32_t body = 0, plane = 0;
+        glm::dvec3 normal{0.0};
         glm::dquat orientation{0.0, 0.0, 0.0, 0.0};
         Tangents tangents{glm::dvec3{0.0}, glm::dvec3{0.0}};
         Each<double> rise{}, along_1{}, along_2{};
