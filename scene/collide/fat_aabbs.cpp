@@ -194,8 +194,8 @@ bool any_left(const Lanes& lanes, std::size_t first)
 bool FatAabbs::has_moved_out(const Bodies& bodies, Slot slot) const
 {
     const Bounds& bounds = bounds_[bodies.properties[slot].id];
-    const glm::dvec3 away = sizes(bodies.position.at(slot) - bounds.centre) +
-                            tick_ * sizes(bodies.velocity.at(slot));
+    const glm::dvec3 away =
+        sizes(bodies.position.at(slot) - bounds.centre) + tick_ * sizes(bodies.velocity.at(slot));
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
     const glm::dquat now = bodies.orientation.at(slot);
     const glm::dquat& then = bounds.orientation;

@@ -65,8 +65,8 @@ PairFinder<broad_phase>::PairFinder(const WorldConfig& config, const Bodies& bod
       stamps_(bodies.size(), 0)
 {
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand)
-        hands_.push_back({.box{glm::dvec3{1.0}, glm::dvec3{-1.0}},
-                          .bodies = Bounded<BodyId>{bodies.size()}});
+        hands_.push_back(
+            {.box{glm::dvec3{1.0}, glm::dvec3{-1.0}}, .bodies = Bounded<BodyId>{bodies.size()}});
     for (Slot slot = 0; slot < bodies.movable; ++slot)
         update_pairs(bodies, bodies.properties[slot].id);
     apply_changes();

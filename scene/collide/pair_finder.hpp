@@ -61,7 +61,8 @@ public:
     [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path)
     {
         Hand& known = hands_[hand];
-        const glm::dvec3 away = glm::max(sizes(path.from - known.middle), sizes(path.to - known.middle));
+        const glm::dvec3 away =
+            glm::max(sizes(path.from - known.middle), sizes(path.to - known.middle));
         if (!(away.x <= known.room.x && away.y <= known.room.y && away.z <= known.room.z &&
               path.radius <= known.radius))
             renew_hand(known, path);

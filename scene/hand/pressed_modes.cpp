@@ -26,21 +26,28 @@ void PressedModes::renew(const Key& key)
         tangent = std::copysign(1.0, ratio) / (std::abs(ratio) + std::sqrt(1.0 + ratio * ratio));
     }
     cosine_ = 1.0 / std::sqrt(1.0 + tangent * tangent);
-    sine_ = tangent * cosine_;
+    const double sine = tangent * cosine_;
+    sine_ = Two{sine, -sine};
     // What is left of rounding where they cancel is not negative: no force feeds itself.
     const double shift = tangent * key.mutual;
-    is_short_ = set(modes_[0], std::max(0.0, key.own[0] - shift)) &&
-                set(modes_[1], std::max(0.0, key.own[1] + shift));
+    response_ = Two{std::max(0.0, key.own[0] - shift), std::max(0.0, key.own[1] + shift)};
+    Mode a, b;
+    is_short_ = set(a, response_[0]) && set(b, response_[1]);
+    once_ = Two{a.once, b.once};
+    twice_ = Two{a.twice, b.twice};
+    thrice_ = Two{a.thrice, b.thrice};
+    change_by_speed_ = Two{a.change_by_speed, b.change_by_speed};
+    change_by_left_ = Two{a.change_by_left, b.change_by_left};
 }
 
-/// With y_n = y^(n)(0) tick^n / n! and f_n likewise, y_(n+2) = -tick^2 response f_n / ((n+1) (n+2)),
-/// and the integrals of the force are the sums of f_n over n+1, over (n+1) (n+2), and so on.
+/// With y_n = y^(n)(0) tick^n / n! and f_n likewise, y_(n+2) = -tick^2 response f_n / ((n+1)
+/// (n+2)), and the integrals of the force are the sums of f_n over n+1, over (n+1) (n+2), and so
+/// on.
 bool PressedModes::set(Mode& mode, double response) const
 {
     const double tick = key_.tick;
     const double damping = key_.damping / tick;
     const double stiff = tick * tick * response;
-    mode = {.response = response};
     constexpr double slow = 1.0;
     if (!(stiff * (key_.stiffness + damping) <= slow)) return false;
     constexpr double rounding = 1e-16; // what comes after two such terms is less

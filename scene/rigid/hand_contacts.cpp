@@ -96,10 +96,10 @@ inline void HandContacts::press(const AmidFace& face, const glm::dvec3& offset, 
     spring.is_amid_face = true;
 }
 
-/// Finds where the hand's sphere overlaps a body's box, or may within the tick, and whether it does.
+/// Finds where the hand's sphere overlaps a body's box, or may within the tick, and whether it
+/// does.
 inline bool HandContacts::touch(const WorldConfig& config, const HandInput& input,
-                                const Target& target, NearBody& near_body,
-                                HandSpring& spring) const
+                                const Target& target, NearBody& near_body, HandSpring& spring) const
 {
     const AmidFace& amid = near_body.amid;
     const glm::dvec3 offset = input.position.value - target.now.box.centre;

@@ -245,8 +245,7 @@ bool keep_within_swept_path(std::span<const Slot> slots,
     for (const Slot slot : slots) {
         const SolverIndex i = slot + 1;
         const BodyIntegration& integration = integrations[i];
-        if (integration.has_hands &&
-            solver.mean_motion(i).velocity == integration.mean.velocity)
+        if (integration.has_hands && solver.mean_motion(i).velocity == integration.mean.velocity)
             continue; // its contacts did not change its way
         const double most = stray_max * scales.least / scales.tick;
         const glm::dvec3& path = integration.start.velocity;

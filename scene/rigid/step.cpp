@@ -140,8 +140,7 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
                 const Slot slot = bodies.slot_of[id];
                 const SweptBox& now = boxes_.at(bodies, id);
                 hand_contacts_.collide(config, state, hand,
-                                       {id, slot < bodies.movable, now,
-                                        bodies.velocity.at(slot)});
+                                       {id, slot < bodies.movable, now, bodies.velocity.at(slot)});
             }
         }
         hand_contacts_.forget_departed(hand);
@@ -171,7 +170,8 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
 {
     solver_.begin(state.bodies.awake);
-    integrations_.resize(state.bodies.awake + std::size_t{1}); // [0] does not move: nobody writes it
+    integrations_.resize(state.bodies.awake +
+                         std::size_t{1}); // [0] does not move: nobody writes it
 }
 
 /// Starts the tick of an awake body that something acts on.
@@ -291,7 +291,8 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::warm_start()
 {
-    const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push, double sign) {
+    const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push,
+                         double sign) {
         if (index == 0) return;
         BodyIntegration& body = integrations_[index];
         body.contact_impulse += sign * push.impulse;

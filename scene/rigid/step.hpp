@@ -84,7 +84,7 @@ private:
     SweptBoxes boxes_;
     FreeBodies free_bodies_;
     ActiveBodies active_;
-    Scratch<PlaneContact> plane_contacts_; // of the pairs with planes, in their order
+    Scratch<PlaneContact> plane_contacts_;  // of the pairs with planes, in their order
     Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;
     Counts counts_;

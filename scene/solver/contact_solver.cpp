@@ -126,7 +126,8 @@ SolverOutcome ContactSolver::run(const Task& task)
     if (!is_only_one) count_contacts();
     for (ContactBlock& block : blocks_.all()) {
         const bool has_no_other = is_only_one || is_alone(block);
-        block.change = solve_block(block, task, has_no_other ? Effort::full : Effort::one_iteration);
+        block.change =
+            solve_block(block, task, has_no_other ? Effort::full : Effort::one_iteration);
         outcome.change = std::max(outcome.change, block.change);
     }
     if (outcome.change <= task.limits.converged || blocks_.size() < 2) return outcome;
