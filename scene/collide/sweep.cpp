@@ -90,6 +90,7 @@ void SweptBoxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
     if (is_as_good_as(now.orientation, orientation)) return;
     now.orientation = orientation;
     now.box.axes = axes_of(orientation);
+    ++now.turns;
 }
 
 void SweptBoxes::forget(BodyId body)

@@ -7,6 +7,7 @@
 #include "scene/collide/pairs.hpp"
 #include "scene/state.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace hapnet::scene {
@@ -39,7 +40,8 @@ struct SweptBox {
     // Of its axes: the body's, or one from which it has turned by no more than rounding. What
     // follows from the axes stays with it.
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
-    double radius = 0.0; // of the corners, m
+    std::uint64_t turns = 0; // how often the axes were found anew
+    double radius = 0.0;     // of the corners, m
     // How far any part of it may come in the tick, and a little more, m; of what is asleep, when it
     // were awake.
     double reach = 0.0;

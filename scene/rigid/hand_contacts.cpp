@@ -105,8 +105,7 @@ inline bool HandContacts::touch(const WorldConfig& config, const HandInput& inpu
     const glm::dvec3 offset = input.position.value - target.now.box.centre;
     near_body.is_current = true;
     // Mostly it presses the face that it pressed before.
-    if (sum_of_sizes(offset - amid.offset) <= amid.room &&
-        amid.orientation == target.now.orientation) {
+    if (amid.turns == target.now.turns && sum_of_sizes(offset - amid.offset) <= amid.room) {
         press(amid, offset, spring);
         if (spring.gap < 0.0 && spring.gap > -spring.radius) {
             near_body.offset = offset;
@@ -150,7 +149,7 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
         if (i != face.axis) room = std::min(room, amid_face_share * half[i] - std::abs(place[i]));
     }
     constexpr double all_but_rounding = 0.999;
-    amid = {target.now.orientation, offset, all_but_rounding * room,
+    amid = {target.now.turns, offset, all_but_rounding * room,
             static_cast<double>(face.sign) * box.axes[face.axis], half[face.axis]};
     press(amid, offset, spring);
     return true;

@@ -64,9 +64,9 @@ private:
     /// A face that a hand is in front of and amid. It stays so as long as the body does not turn
     /// and the hand comes no farther from where this was found: what was found then holds.
     struct AmidFace {
-        glm::dquat orientation{0.0, 0.0, 0.0, 0.0}; // of the body
-        glm::dvec3 offset{0.0};                     // of the hand from the body's centre
-        double room = -1.0;                         // along the face; < 0: not amid one
+        std::uint64_t turns = 0; // SweptBox::turns
+        glm::dvec3 offset{0.0};  // of the hand from the body's centre
+        double room = -1.0;      // along the face; < 0: not amid one
         glm::dvec3 normal{0.0};
         double half = 0.0; // from the body's centre to the face
     };

@@ -173,12 +173,11 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
                           rotates_uniformly(bodies.properties[slot]),
                           rate,
                           per_second * integration.contact_angular_impulse};
-    MovingBody body;
+    const MovingBody start{bodies.position.at(slot), bodies.orientation.at(slot),
+                           integration.start.velocity, bodies.angular_momentum.at(slot)};
+    MovingBody body = start;
     const auto advance_against = [&](const glm::dvec3& drag) {
-        body.position = bodies.position.at(slot);
-        body.orientation = bodies.orientation.at(slot);
-        body.velocity = integration.start.velocity;
-        body.angular_momentum = bodies.angular_momentum.at(slot);
+        body = start;
         dynamics.acceleration = rate - unlocked_part(bodies.properties[slot], drag);
         advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes);
     };
@@ -186,7 +185,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     // says when it is too strong for that.
     constexpr double strong = 0.5;
     if (integration.drag == 0.0) {
-        advance_against(glm::dvec3{0.0});
+        advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes);
     } else if (integration.drag * config.tick < strong) {
         const glm::dvec3 before =
             tangential_part(integration.start.velocity, integration.support_normal);
@@ -206,7 +205,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     integration.predicted.velocity = body.velocity;
     integration.predicted.spin = response.inverse_inertia * body.angular_momentum;
     integration.predicted.angular_impulse = glm::dvec3{0.0};
-    integration.mean.velocity = per_second * (body.position - bodies.position.at(slot));
+    integration.mean.velocity = per_second * (body.position - start.position);
     integration.mean.spin = 0.5 * (integration.start.spin + integration.predicted.spin);
     integration.mean.angular_impulse = glm::dvec3{0.0};
 }

@@ -226,20 +226,21 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, const 
         const double height = glm::dot(plane.normal, box.centre) - plane.offset_m;
         const std::uint32_t points = contact.find(
             {pair.a, pair.b, plane.normal, height, now.reach, box.axes, now.orientation, box.half});
-        const bool is_supported =
-            touches(pair.memory) || contact.lies_on(touch_distance * scales_.size);
+        const BodyProperties& properties = bodies.properties[slot];
+        const bool is_dragged =
+            properties.drag > 0.0 &&
+            (touches(pair.memory) || contact.lies_on(touch_distance * scales_.size));
         ContactBlock* const block = add_contact(points, pair.memory);
         if (block == nullptr) continue;
         contact.prepare(*block, pair.memory);
         set_least_speeds(*block);
         activate(bodies, slot);
-        const BodyProperties& properties = bodies.properties[slot];
         block->a = 0;
         block->b = slot + 1;
         const Material material = combined(properties.material, plane.material);
         block->friction = material.friction;
         block->restitution = material.restitution;
-        if (properties.drag > 0.0 && is_supported) {
+        if (is_dragged) {
             integrations_[block->b].drag = properties.drag / properties.mass;
             integrations_[block->b].support_normal = plane.normal;
         }
@@ -324,7 +325,10 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config,
                                                        const WorldState& state)
 {
-    for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
+    const auto springs_of_all = hand_contacts_.springs();
+    for (std::size_t i = 0; i < springs_of_all.size(); ++i) {
+        const HandContacts::Spring& spring = springs_of_all[i];
+        if (i > 0 && spring.body == springs_of_all[i - 1].body) continue; // done with that
         const Slot slot = state.bodies.slot_of[spring.body];
         activate(state.bodies, slot);
         BodyIntegration& integration = integrations_[slot + 1];
@@ -341,8 +345,6 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_velocities()
 {
-    solver_.end_motion(0) = {};
-    solver_.mean_motion(0) = {};
     for (const Slot slot : active_.slots()) {
         solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
     }
@@ -374,8 +376,10 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
         return index != 0 ? state.bodies.properties[index - 1].mass : 0.0;
     };
     for (const ContactBlock& block : solver_.blocks()) {
-        const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
-        store_impulses(block, weight, *block.memory);
+        if (!keeps_impulses(block, *block.memory)) {
+            const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
+            store_impulses(block, weight, *block.memory);
+        }
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
         if (block.a != 0) ++integrations_[block.a].friction_contacts;
         if (block.b != 0) ++integrations_[block.b].friction_contacts;

@@ -165,11 +165,6 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
 
 void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory)
 {
-    if (block.is_on_plane && !block.has_matrix && memory.count == block.count &&
-        memory.feature == block.feature) {
-        ++memory.ticks; // it was in balance, and all is there
-        return;
-    }
     const double share = share_to_keep(block, weight, memory);
     const auto kept = [share](const auto& before, const auto& now) {
         return share < 1.0 ? before + share * (now - before) : now;
@@ -192,21 +187,39 @@ void store_impulses(const ContactBlock& block, double weight, ContactMemory& mem
     memory.torsion_impulse *= room;
 }
 
+namespace {
+
+/// Of `b` against `a` where they touch.
+struct Slip {
+    glm::dvec3 velocity{0.0}, spin{0.0};
+};
+inline Slip slip_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
+{
+    Slip slip;
+    if (block.b != 0) slip = {b.velocity + glm::cross(b.spin, block.arm_b), b.spin};
+    if (block.a != 0) {
+        slip.velocity -= a.velocity + glm::cross(a.spin, block.arm_a);
+        slip.spin -= a.spin;
+    }
+    return slip;
+}
+
+} // namespace
+
 ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
 {
-    glm::dvec3 velocity{0.0};
-    glm::dvec3 spin{0.0};
-    if (block.b != 0) {
-        velocity = b.velocity + glm::cross(b.spin, block.arm_b);
-        spin = b.spin;
-    }
-    if (block.a != 0) {
-        velocity -= a.velocity + glm::cross(a.spin, block.arm_a);
-        spin -= a.spin;
-    }
+    const auto [velocity, spin] = slip_at(block, a, b);
     return {glm::dot(velocity, block.normal),    glm::dot(spin, block.tangent_1),
             glm::dot(spin, block.tangent_2),     glm::dot(velocity, block.tangent_1),
             glm::dot(velocity, block.tangent_2), glm::dot(spin, block.normal)};
+}
+
+ContactVector normal_velocity_at(const ContactBlock& block, const BodyMotion& a,
+                                 const BodyMotion& b)
+{
+    const auto [velocity, spin] = slip_at(block, a, b);
+    return {glm::dot(velocity, block.normal), glm::dot(spin, block.tangent_1),
+            glm::dot(spin, block.tangent_2)};
 }
 
 void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,

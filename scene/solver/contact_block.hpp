@@ -120,6 +120,17 @@ struct Tangents {
 /// Sets the geometry, and starts from last tick's impulses.
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
              const ContactMemory& memory);
+/// Whether a block was in balance and the next tick has all that it starts from: the impulses are
+/// as they were, and so is the normal. Counts the tick.
+[[nodiscard]] inline bool keeps_impulses(const ContactBlock& block, ContactMemory& memory)
+{
+    if (!block.is_on_plane || block.has_matrix || memory.count != block.count) return false;
+    for (std::size_t i = 0; i < manifold_points_max; ++i) {
+        if (memory.feature[i] != block.feature[i]) return false;
+    }
+    ++memory.ticks;
+    return true;
+}
 /// Keeps the impulses for the next tick, to start from: not those of a hit, which will not come
 /// again. So they at most double from tick to tick, but for `weight` (N s), about what carrying the
 /// two bodies takes.
@@ -127,6 +138,9 @@ void store_impulses(const ContactBlock& block, double weight, ContactMemory& mem
 
 [[nodiscard]] ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a,
                                         const BodyMotion& b);
+/// The same without friction's part.
+[[nodiscard]] ContactVector normal_velocity_at(const ContactBlock& block, const BodyMotion& a,
+                                               const BodyMotion& b);
 /// While a body turns, the points of it that touch go around its centre: what that adds to their
 /// velocity within a tick. Without it, a box that tips over an edge would gain energy. Second
 /// order; left out for what turns farther than a tenth of a radian. Lowers the least speeds to

@@ -84,7 +84,8 @@ SolverOutcome ContactSolver::solve_velocities(const SolverLimits& limits)
 SolverOutcome ContactSolver::correct_positions(const SolverLimits& limits)
 {
     const auto overlaps = [&](const ContactBlock& block) {
-        ContactVector velocity = velocity_at(block, mean_motions_[block.a], mean_motions_[block.b]);
+        ContactVector velocity =
+            normal_velocity_at(block, mean_motions_[block.a], mean_motions_[block.b]);
         if (block.turns) {
             for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.centripetal_velocity[i];
         }

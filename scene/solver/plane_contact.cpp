@@ -77,9 +77,13 @@ void PlaneContact::renew(const BoxOverPlane& box)
 bool PlaneContact::has_pressure_of(const ContactMemory& memory) const
 {
     const ContactMemory& known = pressure_.memory;
-    return pressure_.touching == touching_ && known.count == memory.count &&
-           known.feature == memory.feature && known.normal_impulse == memory.normal_impulse &&
-           known.friction_impulse == memory.friction_impulse &&
+    if (pressure_.touching != touching_ || known.count != memory.count) return false;
+    for (std::size_t i = 0; i < manifold_points_max; ++i) {
+        if (known.normal_impulse[i] != memory.normal_impulse[i] ||
+            known.feature[i] != memory.feature[i])
+            return false;
+    }
+    return known.friction_impulse == memory.friction_impulse &&
            known.torsion_impulse == memory.torsion_impulse;
 }
 

@@ -44,7 +44,7 @@ struct Reference {
 };
 Reference integrate(const PressedModes::Key& key, const PressedModes::Start& start)
 {
-    constexpr int steps = 200;
+    constexpr int steps = 1000;
     const double h = key.tick / steps;
     using State = std::array<Each, 4>; // depth, speed, impulse, moment
     const auto force = [&](const State& s, std::size_t i) {
@@ -86,7 +86,7 @@ TEST(PressedModes, AreTheSolutionOfTheSpringsEquations)
 {
     test::Dice dice{base::Seed{1}.stream("modes")};
     int solved = 0;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 100; ++i) {
         const int springs = 1 + i % 2;
         const PressedModes::Key key = random_key(dice, springs);
         const PressedModes::Start start = random_start(dice, springs);
@@ -105,7 +105,7 @@ TEST(PressedModes, AreTheSolutionOfTheSpringsEquations)
             EXPECT_GE(change[at], expected.change[at] * (1.0 - 1e-9));
         }
     }
-    EXPECT_GT(solved, 200);
+    EXPECT_GT(solved, 70);
 }
 
 TEST(PressedModes, ThatAreKeptHaveTheBitsOfNewOnes)

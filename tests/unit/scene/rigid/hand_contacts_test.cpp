@@ -28,6 +28,7 @@ Moment next(const Moment& last, test::Dice& dice)
     if (dice.one_in(7)) {
         now.box.orientation = rotated(now.box.orientation, 1e-2 * dice.vector());
         now.box.box.axes = axes_of(now.box.orientation);
+        ++now.box.turns;
     }
     glm::dvec3& hand = now.input.position.value;
     hand += dice.one_in(10) ? 5e-3 * dice.vector() : 1e-4 * dice.vector();
