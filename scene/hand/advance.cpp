@@ -65,6 +65,7 @@ struct Task {
     const BodyDynamics& dynamics;
     std::span<const HandSpring> springs;
     std::span<SpringImpulse> work;
+    PressedModes& modes;
 };
 template <std::size_t count>
 void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
@@ -146,7 +147,7 @@ glm::dvec3 along_plane(const BodyDynamics& dynamics, const glm::dvec3& v)
 
 void advance_with_drag(const Task& task, double tick)
 {
-    const auto& [body, dynamics, springs, work] = task;
+    const auto& [body, dynamics, springs, work, modes] = task;
     if (!are_soft(dynamics, springs, tick)) {
         for (SpringImpulse& each : work) each = {};
         MidpointRule{body, dynamics, springs, work}.advance(tick);
@@ -160,8 +161,8 @@ void advance_with_drag(const Task& task, double tick)
     for (int pass = 0; pass < 2; ++pass) {
         body = start;
         held.acceleration = dynamics.acceleration - dynamics.drag * along_plane(dynamics, mean);
-        if (!advance_in_constant_contact(body, held, springs, work, tick))
-            advance_by_events({body, held, springs, work}, tick);
+        if (!advance_in_constant_contact(body, held, springs, work, tick, modes))
+            advance_by_events({body, held, springs, work, modes}, tick);
         mean = 0.5 * (start.velocity + body.velocity);
     }
 }
@@ -169,7 +170,7 @@ void advance_with_drag(const Task& task, double tick)
 /// What most ticks do not need.
 HandEnergy advance_otherwise(const Task& task, const MovingBody& start, bool is_done, double tick)
 {
-    const auto& [body, dynamics, springs, work] = task;
+    const auto& [body, dynamics, springs, work, modes] = task;
     const HandTick outcome{start, body, dynamics, tick};
     if (is_done) return keep_passive(outcome, springs, work, SpringsAtEnd::ignored);
     if (springs.empty()) {
@@ -187,15 +188,16 @@ HandEnergy advance_otherwise(const Task& task, const MovingBody& start, bool is_
 } // namespace
 
 HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
-                   std::span<const HandSpring> springs, std::span<SpringImpulse> work, double tick)
+                   std::span<const HandSpring> springs, std::span<SpringImpulse> work, double tick,
+                   PressedModes& modes)
 {
     base::ensure(work.size() >= springs.size());
     const MovingBody start = body;
-    const bool is_done =
-        dynamics.drag == 0.0 && advance_in_constant_contact(body, dynamics, springs, work, tick);
+    const bool is_done = dynamics.drag == 0.0 &&
+                         advance_in_constant_contact(body, dynamics, springs, work, tick, modes);
     if (is_done && has_hardly_turned(start, body)) return energy_of_pressed(springs, work); // exact
-    return advance_otherwise({body, dynamics, springs, work.first(springs.size())}, start, is_done,
-                             tick);
+    return advance_otherwise({body, dynamics, springs, work.first(springs.size()), modes}, start,
+                             is_done, tick);
 }
 
 } // namespace hapnet::scene

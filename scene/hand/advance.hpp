@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/hand/pressed_modes.hpp"
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -72,8 +74,10 @@ struct HandEnergy {
 /// midpoint rule in substeps, second order, stable however stiff.
 ///
 /// Where a rule is not exact its outcome is checked: the hands are passive, and each spring's
-/// impulse is at most what its greatest force gives in the tick (see passivity.hpp).
+/// impulse is at most what its greatest force gives in the tick (see passivity.hpp). `modes` may be
+/// those of any earlier tick.
 HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
-                   std::span<const HandSpring> springs, std::span<SpringImpulse> work, double tick);
+                   std::span<const HandSpring> springs, std::span<SpringImpulse> work, double tick,
+                   PressedModes& modes);
 
 } // namespace hapnet::scene

@@ -24,6 +24,8 @@ glm::dvec3 angular_velocity(const glm::dquat& orientation, const FreeRotation& s
 
 HalfAngle half_angle(double z)
 {
+    constexpr double none = 1e-17; // both round to 1
+    if (z <= none) return {};
     if (z <= small_half_angle_max) return small_half_angle(z);
     const double half = std::sqrt(z);
     if (!(half <= 1e6)) return {};

@@ -195,9 +195,11 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
                                 per_second * integration.contact_angular_impulse,
                                 integration.drag,
                                 integration.support_normal};
-    MovingBody body{bodies.position.at(slot), bodies.orientation.at(slot),
-                    integration.start.velocity, bodies.angular_momentum.at(slot)};
-    const HandEnergy energy = advance(body, dynamics, hands.springs, hands.work, config.tick);
+    const MovingBody start{bodies.position.at(slot), bodies.orientation.at(slot),
+                           integration.start.velocity, bodies.angular_momentum.at(slot)};
+    MovingBody body = start;
+    const HandEnergy energy =
+        advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes);
     integration.hand_energy_stored = energy.stored;
     integration.hand_energy_driven = energy.driven;
     integration.hands_are_braked = energy.is_braked;
@@ -209,7 +211,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     integration.predicted.velocity = body.velocity;
     integration.predicted.spin = response.inverse_inertia * body.angular_momentum;
     integration.predicted.angular_impulse = glm::dvec3{0.0};
-    integration.mean.velocity = per_second * (body.position - bodies.position.at(slot));
+    integration.mean.velocity = per_second * (body.position - start.position);
     integration.mean.spin = 0.5 * (integration.start.spin + integration.predicted.spin);
     integration.mean.angular_impulse = glm::dvec3{0.0};
     integration.mean_to_there = integration.mean;

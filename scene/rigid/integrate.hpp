@@ -63,6 +63,7 @@ void begin_bounces(BodyIntegration& integration);
 struct HandForces {
     std::span<const HandSpring> springs;
     std::span<SpringImpulse> work;
+    PressedModes& modes;
     const WorldConfig& config;
 };
 

@@ -186,8 +186,7 @@ double Restitution::bounce(ContactBlock& block, ContactSolver& solver,
     ContactVector change = solver.solve_alone(block, then, 0.0);
     double kept_share = share_without_energy_gain(block, then, change);
     if (is_driven(integrations[block.a]) || is_driven(integrations[block.b])) {
-        kept_share =
-            std::min(kept_share, share_without_energy_gain(block, approach.to, change));
+        kept_share = std::min(kept_share, share_without_energy_gain(block, approach.to, change));
     }
     for (double& part : change) part *= kept_share;
     block.impulse = kept;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/rigid/step.hpp"
 
-#include "scene/collide/box_plane.hpp"
 #include "scene/collide/sweep.hpp"
 
 #include <algorithm>
@@ -77,9 +76,11 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       pairs_{config, state.bodies},
       sleep_{config, state.bodies},
       hand_contacts_{config},
+      modes_{config.hands.count},
       boxes_{state.bodies, scales_},
       free_bodies_{config, state.bodies},
       active_{state.bodies.movable},
+      plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.movable + std::size_t{1}},
       solver_{state.bodies.movable, blocks_for(config, state.bodies)},
       restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
@@ -119,6 +120,7 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
     // The bodies that it left and those that it now touches wake.
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(body);
+    boxes_.forget(body);
     hand_contacts_.forget(body);
 }
 
@@ -159,6 +161,7 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
 {
     Bodies& bodies = state.bodies;
     hand_contacts_.begin_step(config, state);
+    modes_.resize(config.hands.count);
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
         if (input.present) {
@@ -168,9 +171,9 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
             for (const BodyId id : pairs_.near_hand(
                      hand, {from, from + scales_.tick * input.velocity.value, radius})) {
                 const Slot slot = bodies.slot_of[id];
+                const SweptBox& now = boxes_.at(bodies, id);
                 hand_contacts_.collide(config, state, hand,
-                                       {id, slot < bodies.movable, boxes_.at(bodies, id).box,
-                                        bodies.velocity.at(slot), bodies.angular_velocity(slot)});
+                                       {id, slot < bodies.movable, now, bodies.velocity.at(slot)});
             }
         }
         hand_contacts_.forget_departed(hand);
@@ -204,8 +207,8 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
 {
     solver_.begin(state.bodies.awake);
-    integrations_.resize(state.bodies.awake + std::size_t{1});
-    integrations_[0] = {};
+    integrations_.resize(state.bodies.awake +
+                         std::size_t{1}); // [0] does not move: nobody writes it
 }
 
 /// Starts the tick of an awake body that something acts on.
@@ -218,13 +221,11 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
     reset(integrations_[slot + 1]);
 }
 
-/// A block for the solver that starts from last tick's impulses; null without a point or room.
+/// A block for the solver; null without a point or room.
 template <BroadPhase broad_phase>
-ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
-                                                     const ContactPlaces& centres,
-                                                     ContactMemory& memory)
+ContactBlock* RigidStepper<broad_phase>::add_contact(std::uint32_t points, ContactMemory& memory)
 {
-    if (manifold.count == 0) {
+    if (points == 0) {
         memory.count = 0;
         return nullptr;
     }
@@ -234,39 +235,50 @@ ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
         return nullptr;
     }
     ContactBlock& block = solver_.add();
-    prepare(block, manifold, centres, memory);
     block.memory = &memory;
+    return &block;
+}
+
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::set_least_speeds(ContactBlock& block)
+{
     for (std::uint32_t i = 0; i < block.count; ++i) {
         block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
     }
-    return &block;
 }
 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldState& state)
 {
     const Bodies& bodies = state.bodies;
-    state.work.pairs += pairs_.plane_pairs().size();
-    for (const PairIndex index : pairs_.plane_pairs()) {
-        Pair& pair = pairs_.plane_pair(index);
+    const std::span<const PairIndex> pairs = pairs_.plane_pairs();
+    state.work.pairs += pairs.size();
+    plane_contacts_.resize(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        Pair& pair = pairs_.plane_pair(pairs[i]);
         const PlaneDescription& plane = config.planes[pair.b];
         const Slot slot = bodies.slot_of[pair.a];
         const SweptBox& now = boxes_.at(bodies, pair.a);
         const OrientedBox& box = now.box;
-        const Manifold manifold =
-            collide(PlaneSurface{plane.normal, plane.offset_m}, box, now.reach);
-        const bool is_supported =
-            touches(pair.memory) || lies_on(manifold, touch_distance * scales_.size);
-        ContactBlock* const block = add_contact(manifold, {box.centre, box.centre}, pair.memory);
-        if (block == nullptr) continue;
-        activate(bodies, slot);
+        PlaneContact& contact = plane_contacts_[i];
+        const double height = glm::dot(plane.normal, box.centre) - plane.offset_m;
+        const std::uint32_t points = contact.find(
+            {pair.a, pair.b, plane.normal, height, now.reach, box.axes, now.orientation, box.half});
         const BodyProperties& properties = bodies.properties[slot];
+        const bool is_dragged =
+            properties.drag > 0.0 &&
+            (touches(pair.memory) || contact.lies_on(touch_distance * scales_.size));
+        ContactBlock* const block = add_contact(points, pair.memory);
+        if (block == nullptr) continue;
+        contact.prepare(*block, pair.memory);
+        set_least_speeds(*block);
+        activate(bodies, slot);
         block->a = 0;
         block->b = slot + 1;
         const Material material = combined(properties.material, plane.material);
         block->friction = material.friction;
         block->restitution = material.restitution;
-        if (properties.drag > 0.0 && is_supported) {
+        if (is_dragged) {
             integrations_[block->b].drag = properties.drag / properties.mass;
             integrations_[block->b].support_normal = plane.normal;
         }
@@ -306,8 +318,10 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
             for (const Slot slot : {a, b})
                 if (slot < bodies.awake) activate(bodies, slot);
         }
-        ContactBlock* const block = add_contact(swept.manifold, swept.centres, pair.memory);
+        ContactBlock* const block = add_contact(swept.manifold.count, pair.memory);
         if (block == nullptr) continue;
+        prepare(*block, swept.manifold, swept.centres, pair.memory);
+        set_least_speeds(*block);
         const Material material =
             combined(bodies.properties[a].material, bodies.properties[b].material);
         block->a = index_of(a);
@@ -328,14 +342,16 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::warm_start()
 {
+    const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push,
+                         double sign) {
+        if (index == 0) return;
+        BodyIntegration& body = integrations_[index];
+        body.contact_impulse += sign * push.impulse;
+        body.contact_angular_impulse += sign * (glm::cross(arm, push.impulse) + push.angular);
+    };
     for (const ContactBlock& block : solver_.blocks()) {
-        const Wrench push = wrench(block, contact_vector(block, block.impulse));
-        BodyIntegration& b = integrations_[block.b];
-        b.contact_impulse += push.impulse;
-        b.contact_angular_impulse += glm::cross(block.arm_b, push.impulse) + push.angular;
-        BodyIntegration& a = integrations_[block.a];
-        a.contact_impulse -= push.impulse;
-        a.contact_angular_impulse -= glm::cross(block.arm_a, push.impulse) + push.angular;
+        add(block.b, block.arm_b, block.start_push, 1.0);
+        add(block.a, block.arm_a, block.start_push, -1.0);
     }
 }
 
@@ -357,14 +373,17 @@ void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config, WorldState& state)
 {
-    for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
+    const auto springs_of_all = hand_contacts_.springs();
+    for (std::size_t i = 0; i < springs_of_all.size(); ++i) {
+        const HandContacts::Spring& spring = springs_of_all[i];
+        if (i > 0 && spring.body == springs_of_all[i - 1].body) continue; // done with that
         const Slot slot = state.bodies.slot_of[spring.body];
         activate(state.bodies, slot);
         BodyIntegration& integration = integrations_[slot + 1];
         if (integration.has_hands) continue;
         const auto [springs, work] = hand_contacts_.springs_on(spring.body);
         integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
-                                      {springs, work, config});
+                                      {springs, work, modes_[spring.hand], config});
         hand_contacts_.store_impulses(spring.body);
         if (integration.hands_are_braked) ++state.interventions.hands_braked;
     }
@@ -375,8 +394,6 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::solve_velocities(Work& work)
 {
-    solver_.end_motion(0) = {};
-    solver_.mean_motion(0) = {};
     for (const Slot slot : active_.slots()) {
         solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
     }
@@ -409,11 +426,13 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
         return index != 0 ? state.bodies.properties[index - 1].mass : 0.0;
     };
     for (const ContactBlock& block : solver_.blocks()) {
-        const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
-        store_impulses(block, weight, *block.memory);
+        if (!keeps_impulses(block, *block.memory)) {
+            const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
+            store_impulses(block, weight, *block.memory);
+        }
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
-        ++integrations_[block.a].friction_contacts;
-        ++integrations_[block.b].friction_contacts;
+        if (block.a != 0) ++integrations_[block.a].friction_contacts;
+        if (block.b != 0) ++integrations_[block.b].friction_contacts;
     }
 }
 
@@ -439,6 +458,7 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
         for (std::uint32_t i = 0; i < block.count; ++i) {
             block.speed_min[i] = position_bias(block.separation[i], scales_);
         }
+        if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
     state.work.visits += solver_.correct_positions(position_limits()).visits;

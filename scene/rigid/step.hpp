@@ -4,14 +4,15 @@
 
 #include "scene/collide/pair_finder.hpp"
 #include "scene/collide/sweep.hpp"
-#include "scene/rigid/energy_account.hpp"
 #include "scene/rigid/continuous.hpp"
+#include "scene/rigid/energy_account.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
 #include "scene/rigid/restitution.hpp"
 #include "scene/rigid/sleep.hpp"
 #include "scene/solver/contact_solver.hpp"
+#include "scene/solver/plane_contact.hpp"
 #include "scene/state.hpp"
 
 #include <type_traits>
@@ -79,17 +80,19 @@ private:
     [[nodiscard]] SolverLimits position_limits() const;
     void activate(const Bodies& bodies, Slot slot);
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
-    ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,
-                              ContactMemory& memory);
+    ContactBlock* add_contact(std::uint32_t points, ContactMemory& memory);
+    void set_least_speeds(ContactBlock& block);
     void integrate_hand_springs(const WorldConfig& config, WorldState& state);
 
     Scales scales_;
     PairFinder<search> pairs_;
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
     HandContacts hand_contacts_;
+    Scratch<PressedModes> modes_; // of the body that a hand presses, by the first hand on it
     SweptBoxes boxes_;
     FreeBodies free_bodies_;
     ActiveBodies active_;
+    Scratch<PlaneContact> plane_contacts_;  // of the pairs with planes, in their order
     Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;
     Restitution restitution_;

@@ -93,8 +93,11 @@ SolverOutcome ContactSolver::solve_velocities(const SolverLimits& limits)
 SolverOutcome ContactSolver::correct_positions(const SolverLimits& limits)
 {
     const auto overlaps = [&](const ContactBlock& block) {
-        ContactVector velocity = velocity_at(block, mean_motions_[block.a], mean_motions_[block.b]);
-        for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.centripetal_velocity[i];
+        ContactVector velocity =
+            normal_velocity_at(block, mean_motions_[block.a], mean_motions_[block.b]);
+        if (block.turns) {
+            for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.centripetal_velocity[i];
+        }
         for (std::size_t i = 0; i < block.count; ++i) {
             if (block.normal_speed(velocity, i) < block.speed_min[i] - limits.tolerance)
                 return true;
@@ -129,10 +132,12 @@ SolverOutcome ContactSolver::correct_positions_again(const SolverLimits& limits)
 SolverOutcome ContactSolver::run(const Task& task)
 {
     SolverOutcome outcome{.sweeps = 1};
-    count_contacts();
+    const bool is_only_one = blocks_.size() == 1;
+    if (!is_only_one) count_contacts();
     for (ContactBlock& block : blocks_.all()) {
+        const bool has_no_other = is_only_one || is_alone(block);
         block.change =
-            solve_block(block, task, is_alone(block) ? Effort::full : Effort::one_iteration);
+            solve_block(block, task, has_no_other ? Effort::full : Effort::one_iteration);
         outcome.change = std::max(outcome.change, block.change);
     }
     outcome.visits = blocks_.size();
@@ -317,7 +322,9 @@ void ContactSolver::restore(const Task& task, Island island)
 double ContactSolver::solve_block(ContactBlock& block, const Task& task, Effort depth)
 {
     ContactVector velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
-    for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.centripetal_velocity[i];
+    if (block.turns) {
+        for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.centripetal_velocity[i];
+    }
     const double tolerance = task.limits.tolerance;
     const bool pushes_only = task.mode == Mode::positions;
     if (pushes_only ? normals_are_solved(block, velocity, tolerance)
