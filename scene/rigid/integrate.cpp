@@ -154,13 +154,14 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
                              glm::dvec3{0.0}};
     if (!rotates_uniformly(state.bodies.properties[slot])) {
         // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
-        // For a body that rotates far in a tick this rate is wrong: it fades out.
+        // For a body that rotates far in a tick this rate is wrong: it fades out. It is that of the
+        // momentum at the start: what wedged contacts add may be anything.
         constexpr double far = 0.3; // radians
         const glm::dvec3& spin = integration.start.spin;
         const double fades = std::min(1.0, tick * tick * glm::dot(spin, spin) / (far * far));
         integration.predicted.spin +=
             ((1.0 - fades) * tick) *
-            (response.inverse_inertia * glm::cross(integration.angular_momentum, spin));
+            (response.inverse_inertia * glm::cross(state.bodies.angular_momentum.at(slot), spin));
     }
     integration.mean = {before + (0.5 * tick) * rate,
                         0.5 * (integration.start.spin + integration.predicted.spin),
