@@ -41,6 +41,7 @@ struct EngineOptions {
     bool begins_asleep = false;   // peers: all but body 0 sleep from the start
     bool is_stock = false;        // peers: without the tuning for bodies of centimetres
     bool has_fast_bodies = false; // peers: with continuous collision detection where there is one
+    bool has_own_planes = false;  // peers: a plane as the engine's own, also where a box is better
     HipForce hip_force = HipForce::held;
     std::optional<scene::StepperKind> stepper; // ours: instead of the cheapest
 };
