@@ -12,7 +12,7 @@ namespace hapnet::bench {
 
 namespace {
 
-constexpr std::array peer_families{"bullet", "ode"};
+constexpr std::array peer_families{"bullet", "ode", "mujoco"};
 
 /// The smallest value of a family; nullopt when it has none.
 std::optional<double> best_of(std::string_view family, std::span<const Reading> readings)
@@ -27,6 +27,7 @@ std::optional<double> best_of(std::string_view family, std::span<const Reading> 
 
 std::string number(double value)
 {
+    if (std::isnan(value)) return "–"; // it cannot run the scene
     const bool is_plain = std::abs(value) >= 1000.0 && std::abs(value) < 1e7;
     return is_plain ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }

@@ -18,6 +18,12 @@ namespace hapnet::bench {
 /// How often ODE has reported an internal error of its direct solver.
 [[nodiscard]] long ode_complaints();
 
+/// MuJoCo; defined when it was found.
+[[nodiscard]] std::unique_ptr<Engine> make_mujoco(const scene::Description& scene,
+                                                  const EngineOptions& options);
+/// How often MuJoCo has warned of something, such as contacts that it had to leave out.
+[[nodiscard]] long mujoco_complaints();
+
 /// Bullet in single and in double precision. Both give their functions the same names, so each
 /// lies in a module of its own that is loaded apart from everything else.
 [[nodiscard]] std::unique_ptr<Engine> make_bullet(const scene::Description& scene,

@@ -37,6 +37,7 @@ const char* colour_of(std::string_view subject)
     if (subject == "hapnet") return "#1b7837";
     if (subject == "bullet") return "#b2182b";
     if (subject == "bullet-double") return "#ef8a62";
+    if (subject == "mujoco") return "#762a83";
     return subject == "ode-quick" ? "#67a9cf" : "#2166ac";
 }
 
