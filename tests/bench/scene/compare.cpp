@@ -130,9 +130,9 @@ std::vector<Entry> entries_of(const Scenario& scenario, std::span<const Subject>
 {
     std::vector<Entry> entries;
     for (const Subject& subject : subjects) {
-        entries.push_back({subject.name, &subject, {}});
+        entries.push_back({subject.name, &subject, scenario.options});
         if (!scenario.has_native || !subject.has_native_hips) continue;
-        EngineOptions options;
+        EngineOptions options = scenario.options;
         options.hip_force = HipForce::native;
         entries.push_back({subject.name + " native", &subject, options});
     }
