@@ -131,6 +131,10 @@ std::vector<Entry> entries_of(const Scenario& scenario, std::span<const Subject>
     std::vector<Entry> entries;
     for (const Subject& subject : subjects) {
         entries.push_back({subject.name, &subject, scenario.options});
+        if (scenario.is_flight && subject.has_rk4) {
+            entries.push_back({subject.name + " rk4", &subject, scenario.options});
+            entries.back().options.integrator = Integrator::rk4;
+        }
         if (!scenario.has_native || !subject.has_native_hips) continue;
         EngineOptions options = scenario.options;
         options.hip_force = HipForce::native;

@@ -61,6 +61,7 @@ Scenario ballistic()
         return std::vector<Measure>{
             {"error_m", glm::length(engine.state(0).position.value - expected), 1e-12}};
     };
+    scenario.is_flight = true;
     return scenario;
 }
 
@@ -114,6 +115,7 @@ Scenario tumble()
                                     {"relative_momentum_drift_20s", std::abs(momentum), 1e-13}};
     };
     scenario.cost_ns_max = 150.0;
+    scenario.is_flight = true;
     return scenario;
 }
 

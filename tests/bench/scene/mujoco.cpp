@@ -75,16 +75,23 @@ public:
         const std::size_t contacts = things < 2 ? 1 : contacts_per_body * scene_.bodies.size();
         std::string text = fmt::format(
             "<mujoco>\n<compiler angle='radian'/>\n<size nconmax='{}' njmax='{}' nstack='{}'/>\n"
-            "<option timestep='{:.17g}' gravity='{}' cone='elliptic' impratio='{}'/>\n"
+            "<option timestep='{:.17g}' gravity='{}' cone='elliptic' impratio='{}' "
+            "integrator='{}'/>\n"
             "<worldbody>\n",
             contacts, rows_per_contact * contacts, stack_of(contacts), options_.tick_s,
-            words_of(scene_.gravity), options_.is_stock ? 1 : 100);
+            words_of(scene_.gravity), options_.is_stock ? 1 : 100, integrator());
         for (const auto& plane : scene_.planes) text += geometry(plane);
         for (const auto& body : scene_.bodies) text += element(body);
         return text + "</worldbody>\n</mujoco>\n";
     }
 
 private:
+    [[nodiscard]] const char* integrator() const
+    {
+        if (options_.integrator == Integrator::usual) return "Euler";
+        return options_.integrator == Integrator::rk4 ? "RK4" : "implicit";
+    }
+
     [[nodiscard]] std::size_t stack_of(std::size_t contacts) const
     {
         const std::size_t rows = rows_per_contact * contacts, columns = 6 * scene_.bodies.size();

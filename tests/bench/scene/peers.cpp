@@ -51,7 +51,7 @@ std::vector<Subject> subjects()
     all.push_back({"ode-step", "ode", true, make_ode_step});
 #endif
 #ifdef HAPNET_BENCH_MUJOCO
-    all.push_back({"mujoco", "mujoco", false, make_mujoco});
+    all.push_back({"mujoco", "mujoco", false, make_mujoco, true});
 #endif
     return all;
 }

@@ -23,6 +23,7 @@ struct Scenario {
     double cost_ratio_min = 0.0; // a peer's cost over Hapnet's, at least; 0: no target
     double cost_ns_max = 0.0;    // of Hapnet's step; 0: no target
     EngineOptions options{};     // of every subject
+    bool is_flight = false;      // also run with an integrator of fourth order
 };
 
 /// The cube of every scene here: 40 mm, 0.1 kg, friction 0.3.

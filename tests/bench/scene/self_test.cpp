@@ -174,6 +174,18 @@ TEST(Compare, SaysWhereAPeerIsBetterAndThatNothingBeatsNothing)
     }
 }
 
+TEST(Entries, HaveAFinerIntegratorInFlightAndTheScenariosOptions)
+{
+    const std::array all{Subject{"mujoco", "mujoco", false, make_idle, true}};
+    EXPECT_EQ(entries_of(steady_push(scene::Turning::free), all).size(), 1U);
+    const auto entries = entries_of(ballistic(), all);
+    ASSERT_EQ(entries.size(), 2U);
+    EXPECT_EQ(entries[1].name, "mujoco rk4");
+    EXPECT_EQ(entries[1].options.integrator, Integrator::rk4);
+    EXPECT_EQ(entries_of(stack_in_long_ticks(), all)[0].options.tick_s, 16e-3);
+    EXPECT_TRUE(entries_of(steady_push_on_own_plane(), all)[0].options.has_own_planes);
+}
+
 TEST(Orientations, AreUnitAndApart)
 {
     constexpr int count = 64;
@@ -279,10 +291,13 @@ TEST(WorkPrecision, TellsTheOrderOfAnErrorInTheTick)
     const std::vector<WorkPoint> points{{"a", "error_m", "hapnet", 4.0, 1e-15, 10.0},
                                         {"a", "error_m", "hapnet", 1.0, 2e-15, 20.0},
                                         {"a", "error_m", "ode-step", 4.0, 16.0, 10.0},
-                                        {"a", "error_m", "ode-step", 1.0, 1.0, 10.0}};
+                                        {"a", "error_m", "ode-step", 1.0, 1.0, 10.0},
+                                        {"b", "error_m", "ode-step", 4.0, 4.0, 10.0},
+                                        {"b", "error_m", "ode-step", 1.0, 1.0, 10.0}};
     EXPECT_EQ(precision_markdown(points), "| case | metric | hapnet | ode-step |\n"
                                           "| --- | --- | ---: | ---: |\n"
-                                          "| a | error_m | 2e-15 (exact) | 1 (2.0) |\n");
+                                          "| a | error_m | 2e-15 (exact) | 1 (2.0) |\n"
+                                          "| b | error_m | – | 1 (1.0) |\n");
 }
 
 TEST(Peers, FallWhereTheySayTheyAre)

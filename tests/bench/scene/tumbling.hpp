@@ -9,7 +9,7 @@ namespace hapnet::bench {
 /// A box of 60 x 40 x 20 mm that falls by 0.2 m onto a floor, spinning.
 [[nodiscard]] Course tumbling_box(double friction);
 
-/// A cube that spins on its corner.
+/// The same box spinning on its corner, at 300 rad/s.
 [[nodiscard]] Course top();
 
 /// A box that tips over a ledge, falls, and lands.
