@@ -4,6 +4,7 @@
 #include "tests/bench/scene/crowd.hpp"
 #include "tests/bench/scene/heaps.hpp"
 #include "tests/bench/scene/instructions.hpp"
+#include "tests/bench/scene/peers.hpp"
 #include "tests/bench/scene/precision.hpp"
 #include "tests/bench/scene/stress.hpp"
 #include "tests/bench/scene/tumbling.hpp"
@@ -51,6 +52,9 @@ base::Result<int> measure(const Options& options)
     append(rows, measure_limits(all, options.quick));
     append(rows, measure_tumbling(all));
     append(rows, measure_heaps(all, options.quick));
+    append(rows, compare({"every scene above", "", "guards", 0.0},
+                         std::vector<Reading>{
+                             {"hapnet", own_family, static_cast<double>(hapnet_guards())}}));
     if (!options.quick) append(rows, instructions(all));
     fmt::print("{}", rows_table(rows));
     files.write("--json", rows_json(machine, rows));

@@ -10,6 +10,9 @@ namespace hapnet::bench {
 [[nodiscard]] std::unique_ptr<Engine> make_hapnet(const scene::Description& scene,
                                                   const EngineOptions& options);
 
+/// How often Hapnet's guards have thrown motion away, in all engines that are gone.
+[[nodiscard]] std::uint64_t hapnet_guards();
+
 /// ODE with dWorldQuickStep (iterative) and dWorldStep (direct); defined when it was found.
 [[nodiscard]] std::unique_ptr<Engine> make_ode_quick(const scene::Description& scene,
                                                      const EngineOptions& options);
