@@ -89,6 +89,13 @@ void report_rounding(const WorldConfig& config, WorldState& state, const glm::dv
 void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotion& box)
 {
     const double per_tick = 1.0 / config.tick;
+    for (const HeldSpring& spring : box.active_held()) {
+        if (spring.force <= 0.0) continue;
+        HandTouch& touch = state.touches[spring.hand];
+        touch.touching = true;
+        touch.on_body.value -= spring.force * vector(spring.normal);
+        touch.on_hand.value += spring.force * vector(spring.normal);
+    }
     for (const SlantedSpring& spring : box.active_slanted()) {
         if (spring.impulse <= 0.0) continue;
         HandTouch& touch = state.touches[spring.hand];
@@ -102,6 +109,7 @@ void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotio
         touch.on_body.value += per_tick * vector(grip.impulse);
         touch.on_hand.value -= per_tick * vector(grip.impulse);
     }
+    if (box.oscillators.are_soft()) return; // as little rounding as force
     const glm::dvec3 given = vector(impulse_of_springs(box)) + vector(box.rounding) +
                              config.tick * vector(box.held_force);
     report_rounding(config, state, given - reported_impulse(config, state));
@@ -230,13 +238,19 @@ FaceContact BoxHands::collide_near_box(const WorldConfig& config, WorldState& st
     if (contact->face.axis != no_axis) return {index, contact->face, contact->depth};
     HandTouch& touch = state.touches[index];
     const PerAxis& normal = contact->edge_normal;
-    SlantedSpring& spring = box.slanted[box.slanted_count++];
-    spring.hand = index;
-    spring.normal = normal;
-    spring.depth = contact->depth;
-    spring.closing = -dot(normal, per_axis(input.velocity.value));
-    spring.impulse = 0.0;
-    const double force = spring.update_phase(hands, spring.along(box.velocity));
+    const double closing = -dot(normal, per_axis(input.velocity.value));
+    if (box.oscillators.are_soft()) {
+        box.held[box.held_count++] = {index, normal, contact->depth, closing, 0.0};
+    } else {
+        SlantedSpring& spring = box.slanted[box.slanted_count++];
+        spring.hand = index;
+        spring.normal = normal;
+        spring.depth = contact->depth;
+        spring.closing = closing;
+        spring.impulse = 0.0;
+        spring.update_phase(hands, spring.along(box.velocity));
+    }
+    const double force = force_at(hands, contact->depth, -dot(normal, approach.velocity));
     note_push(touch, contact->depth, force * vector(normal));
     box.note_inexact();
     return {index, {}, 0.0};
@@ -277,6 +291,39 @@ void BoxHands::collide_fixed_boxes(const WorldConfig& config, WorldState& state,
         touch.depth_m = std::max(touch.depth_m, contact->depth);
         touch.on_hand.value += mean * vector(normal);
         touch.on_hand_at_start.value += force_at(hands, contact->depth, closing) * vector(normal);
+    }
+}
+
+void BoxHands::add_held_springs(BoxMotion& box)
+{
+    const HandDescription& hands = box.hands;
+    const double half_tick = 0.5 * box.time_left;
+    const bool is_stuck = box.dry_friction.state == DryFriction::State::stuck;
+    const auto is_kept = [&](std::size_t i) { return is_stuck || box.axes[i].is_held(); };
+    for (HeldSpring& spring : box.active_held()) {
+        const PerAxis& normal = spring.normal;
+        double closing = spring.closing;
+        double bend = 0.0; // of the depth, without this spring
+        double ease = 0.0; // 1/mass along the normal
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (is_kept(i)) continue;
+            closing += normal[i] * box.velocity[i];
+            bend += normal[i] * box.axes[i].acceleration;
+            ease += normal[i] * normal[i] * box.oscillators.inverse_mass();
+        }
+        // depth and closing speed in the middle: linear in the force that acts meanwhile.
+        const double answer =
+            hands.stiffness_n_per_m * half_tick * half_tick + hands.damping_ns_per_m * half_tick;
+        const double depth = spring.depth + half_tick * closing;
+        const double free_force =
+            hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing + answer * bend;
+        spring.force = std::clamp(free_force / (1.0 + answer * ease), 0.0, hands.force_max_n);
+        if (depth + half_tick * half_tick * (bend - ease * spring.force) <= 0.0) spring.force = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double change = -box.oscillators.inverse_mass() * spring.force * normal[i];
+            box.axes[i].applied_acceleration += change;
+            if (!is_kept(i)) box.axes[i].acceleration += change;
+        }
     }
 }
 

@@ -250,6 +250,8 @@ AxisOscillators::AxisOscillators(const HandDescription& hands, const BodyPropert
                                  double tick)
     : inverse_mass_{1.0 / body.mass}
 {
+    constexpr double little = 1.0 / 16.0; // of the velocity in a tick
+    soft_ = tick * (tick * hands.stiffness_n_per_m + hands.damping_ns_per_m) <= little * body.mass;
     for (const bool with_drag : {false, true}) {
         for (std::size_t n = 0; n <= hands_max; ++n) {
             const auto springs = static_cast<double>(n);
@@ -289,9 +291,11 @@ BoxMotion BoxMotion::copy() const
     other.spring_count = spring_count;
     other.grip_count = grip_count;
     other.slanted_count = slanted_count;
+    other.held_count = held_count;
     std::copy_n(springs.begin(), spring_count, other.springs.begin());
     std::copy_n(grips.begin(), grip_count, other.grips.begin());
     std::copy_n(slanted.begin(), slanted_count, other.slanted.begin());
+    std::copy_n(held.begin(), held_count, other.held.begin());
     return other;
 }
 

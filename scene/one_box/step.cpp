@@ -143,6 +143,10 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& s
 {
     room_.root_steps = root_steps_max;
     start_interval<coulomb>(box);
+    if (box.held_count > 0) {
+        BoxHands::add_held_springs(box);
+        start_interval<coulomb>(box);
+    }
     for (int events = 1;; ++events) {
         const double reach =
             std::max(std::max(box.axes[0].reach, box.axes[1].reach), box.axes[2].reach);
