@@ -137,7 +137,7 @@ struct SlantedSpring : Spring {
 };
 
 /// A soft spring at an edge or a corner: its force is the midpoint rule's, held for the tick, which
-/// costs much less than the closed form and is as good while the spring is soft.
+/// costs less than the closed form and is as good while the spring is soft.
 struct HeldSpring {
     std::uint32_t hand;
     PerAxis normal; // unit, from the box to the hand
