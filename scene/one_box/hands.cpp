@@ -56,36 +56,10 @@ void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
     const PerAxis held = per_axis(force.value);
     for (std::size_t i = 0; i < 3; ++i) {
         box.axes[i].applied_acceleration += box.oscillators.inverse_mass() * held[i];
-        box.held_force[i] += held[i];
     }
 }
 
-/// What the hands report to have given, N s.
-glm::dvec3 reported_impulse(const WorldConfig& config, const WorldState& state)
-{
-    glm::dvec3 sum{0.0};
-    for (std::uint32_t i = 0; i < config.hands.count; ++i)
-        sum += config.tick * state.touches[i].on_body.value;
-    return sum;
-}
-
-/// What rounding leaves open between the box's momentum and what the hands report goes to the hand
-/// that acts least, which can tell such a little apart; it is far below what a hand could feel.
-void report_rounding(const WorldConfig& config, WorldState& state, const glm::dvec3& impulse)
-{
-    HandTouch* least = nullptr;
-    for (std::uint32_t i = 0; i < config.hands.count; ++i) {
-        HandTouch& touch = state.touches[i];
-        if (!touch.touching) continue;
-        if (!least || base::norm(touch.on_body) < base::norm(least->on_body)) least = &touch;
-    }
-    if (!least) return;
-    const glm::dvec3 force = impulse / config.tick;
-    least->on_body.value += force;
-    least->on_hand.value -= force;
-}
-
-/// What is not at a face, and the rounding of all.
+/// What is not at a face.
 void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotion& box)
 {
     const double per_tick = 1.0 / config.tick;
@@ -109,10 +83,6 @@ void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotio
         touch.on_body.value += per_tick * vector(grip.impulse);
         touch.on_hand.value -= per_tick * vector(grip.impulse);
     }
-    if (box.oscillators.are_soft()) return; // as little rounding as force
-    const glm::dvec3 given = vector(impulse_of_springs(box)) + vector(box.rounding) +
-                             config.tick * vector(box.held_force);
-    report_rounding(config, state, given - reported_impulse(config, state));
 }
 
 /// Adds the spring between a hand and a face of the box.
@@ -190,7 +160,7 @@ void BoxHands::add_grip(const WorldConfig& config, WorldState& state, BoxMotion&
     HandTouch& touch = state.touches[index];
     touch.touching = true;
     note_grip(touch, hands, distance(from_centre, half_), force);
-    box.note_inexact();
+    box.is_exact = false;
     if (force == wanted) {
         box.grips[box.grip_count++] = grip;
         return;
@@ -252,7 +222,7 @@ FaceContact BoxHands::collide_near_box(const WorldConfig& config, WorldState& st
     }
     const double force = force_at(hands, contact->depth, -dot(normal, approach.velocity));
     note_push(touch, contact->depth, force * vector(normal));
-    box.note_inexact();
+    box.is_exact = false;
     return {index, {}, 0.0};
 }
 

@@ -210,38 +210,13 @@ void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Way
     }
 }
 
-/// The momentum that the hands have given to the axes in `time`: all else is known. `was` is the
-/// velocity before.
-PerAxis gained_from_hands(const BoxMotion& box, const PerAxis& was, double time, const PerAxis& way)
+/// Also what only ticks that are not exact have.
+void advance_all(BoxMotion& box, double time)
 {
-    const double drag = box.oscillators.of(0, box.is_on_plane).oscillator.damping;
-    const DryFriction& dry = box.dry_friction;
-    const bool slides = dry.state == DryFriction::State::sliding;
-    const double friction = slides ? time * (dry.limit + 0.5 * time * dry.limit_ramp) : 0.0;
-    PerAxis gained{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (!box.trajectories[i].moves()) continue;
-        const double others = time * box.steady[i] - drag * way[i] -
-                              (box.axes[i].is_held() ? 0.0 : friction * dry.direction[i]);
-        gained[i] = (box.velocity[i] - was[i] - others) / box.oscillators.inverse_mass();
-    }
-    return gained;
-}
-
-void advance_audited(BoxMotion& box, double time)
-{
-    const PerAxis velocity = box.velocity;
-    const PerAxis impulse = impulse_of_springs(box);
     const Ways ways = box.is_coupled ? advance_coupled(box, time) : advance_axes(box, time);
     for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
     for (SlantedSpring& spring : box.active_slanted()) advance_spring(box, spring, time, ways);
     for (GripSpring& grip : box.active_grips()) advance_grip(box, grip, time, ways);
-    const PerAxis gained = gained_from_hands(box, velocity, time, ways.way);
-    const PerAxis given = impulse_of_springs(box);
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (box.trajectories[i].moves())
-            box.rounding[i] += gained[i] - (given[i] - impulse[i]) - time * box.held_force[i];
-    }
 }
 
 } // namespace
@@ -263,17 +238,6 @@ AxisOscillators::AxisOscillators(const HandDescription& hands, const BodyPropert
     }
 }
 
-PerAxis impulse_of_springs(const BoxMotion& box)
-{
-    PerAxis sum{};
-    for (const FaceSpring& spring : box.active_springs()) spring.add_along(sum, -spring.impulse);
-    for (const SlantedSpring& spring : box.active_slanted()) spring.add_along(sum, -spring.impulse);
-    for (const GripSpring& grip : box.active_grips()) {
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += grip.impulse[i];
-    }
-    return sum;
-}
-
 BoxMotion BoxMotion::copy() const
 {
     BoxMotion other{hands, oscillators, obstacles, room};
@@ -281,9 +245,6 @@ BoxMotion BoxMotion::copy() const
     other.clearance = clearance;
     other.time_left = time_left;
     other.is_exact = is_exact;
-    other.steady = steady;
-    other.held_force = held_force;
-    other.rounding = rounding;
     other.position = position;
     other.velocity = velocity;
     other.axes = axes;
@@ -352,11 +313,11 @@ void set_bounds(BoxMotion& box)
 
 void advance(BoxMotion& box, double time)
 {
-    if (!box.is_exact) {
-        advance_audited(box, time);
-    } else {
+    if (box.is_exact) {
         const Ways ways = advance_axes(box, time);
         for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
+    } else {
+        advance_all(box, time);
     }
     box.time_left -= time;
 }

@@ -180,14 +180,6 @@ struct BoxMotion {
         : hands{of_hands}, oscillators{of_oscillators}, obstacles{those}, room{for_tick}
     {}
 
-    /// From now on the tick is not exact but for rounding.
-    void note_inexact()
-    {
-        if (!is_exact) return;
-        is_exact = false;
-        rounding = held_force = {};
-        for (std::size_t i = 0; i < 3; ++i) steady[i] = axes[i].applied_acceleration;
-    }
     /// Another one like it, to try the tick again.
     [[nodiscard]] BoxMotion copy() const;
 
@@ -208,10 +200,6 @@ struct BoxMotion {
     std::array<AxisMotion, 3> axes;
     Trajectories trajectories;
     std::array<std::size_t, 3> spring_counts; // of faces and grips, per axis
-    // Only of a tick that is not exact:
-    PerAxis steady;     // acceleration by gravity and pushes
-    PerAxis held_force; // N: of the hands that hold with the same force throughout
-    PerAxis rounding;   // N s: by how much the momentum gained differs from all impulses
     DryFriction dry_friction;
 
     std::uint32_t spring_count = 0;
@@ -252,9 +240,6 @@ struct BoxMotion {
 /// then add_friction() where there is any, then set_bounds().
 void set_trajectories(BoxMotion& box);
 void set_bounds(BoxMotion& box);
-
-/// What all springs have given to the box so far, along each axis, N s.
-[[nodiscard]] PerAxis impulse_of_springs(const BoxMotion& box);
 
 /// Advances along the trajectories for `time` seconds.
 void advance(BoxMotion& box, double time);

@@ -21,7 +21,7 @@ protected:
         box_.velocity = {};
         for (AxisMotion& axis : box_.axes) axis = {};
         box_.position = {};
-        box_.note_inexact();
+        box_.is_exact = false;
     }
 
     /// The hand has pushed along x with this force, from this depth.
