@@ -56,39 +56,20 @@ void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
     const PerAxis held = per_axis(force.value);
     for (std::size_t i = 0; i < 3; ++i) {
         box.axes[i].applied_acceleration += box.oscillators.inverse_mass() * held[i];
-        box.held_force[i] += held[i];
     }
 }
 
-/// What the hands report to have given, N s.
-glm::dvec3 reported_impulse(const WorldConfig& config, const WorldState& state)
-{
-    glm::dvec3 sum{0.0};
-    for (std::uint32_t i = 0; i < config.hands.count; ++i)
-        sum += config.tick * state.touches[i].on_body.value;
-    return sum;
-}
-
-/// What rounding leaves open between the box's momentum and what the hands report goes to the hand
-/// that acts least, which can tell such a little apart; it is far below what a hand could feel.
-void report_rounding(const WorldConfig& config, WorldState& state, const glm::dvec3& impulse)
-{
-    HandTouch* least = nullptr;
-    for (std::uint32_t i = 0; i < config.hands.count; ++i) {
-        HandTouch& touch = state.touches[i];
-        if (!touch.touching) continue;
-        if (!least || base::norm(touch.on_body) < base::norm(least->on_body)) least = &touch;
-    }
-    if (!least) return;
-    const glm::dvec3 force = impulse / config.tick;
-    least->on_body.value += force;
-    least->on_hand.value -= force;
-}
-
-/// What is not at a face, and the rounding of all.
+/// What is not at a face.
 void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotion& box)
 {
     const double per_tick = 1.0 / config.tick;
+    for (const HeldSpring& spring : box.active_held()) {
+        if (spring.force <= 0.0) continue;
+        HandTouch& touch = state.touches[spring.hand];
+        touch.touching = true;
+        touch.on_body.value -= spring.force * vector(spring.normal);
+        touch.on_hand.value += spring.force * vector(spring.normal);
+    }
     for (const SlantedSpring& spring : box.active_slanted()) {
         if (spring.impulse <= 0.0) continue;
         HandTouch& touch = state.touches[spring.hand];
@@ -102,9 +83,6 @@ void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotio
         touch.on_body.value += per_tick * vector(grip.impulse);
         touch.on_hand.value -= per_tick * vector(grip.impulse);
     }
-    const glm::dvec3 given = vector(impulse_of_springs(box)) + vector(box.rounding) +
-                             config.tick * vector(box.held_force);
-    report_rounding(config, state, given - reported_impulse(config, state));
 }
 
 /// Adds the spring between a hand and a face of the box.
@@ -182,7 +160,7 @@ void BoxHands::add_grip(const WorldConfig& config, WorldState& state, BoxMotion&
     HandTouch& touch = state.touches[index];
     touch.touching = true;
     note_grip(touch, hands, distance(from_centre, half_), force);
-    box.note_inexact();
+    box.is_exact = false;
     if (force == wanted) {
         box.grips[box.grip_count++] = grip;
         return;
@@ -230,15 +208,21 @@ FaceContact BoxHands::collide_near_box(const WorldConfig& config, WorldState& st
     if (contact->face.axis != no_axis) return {index, contact->face, contact->depth};
     HandTouch& touch = state.touches[index];
     const PerAxis& normal = contact->edge_normal;
-    SlantedSpring& spring = box.slanted[box.slanted_count++];
-    spring.hand = index;
-    spring.normal = normal;
-    spring.depth = contact->depth;
-    spring.closing = -dot(normal, per_axis(input.velocity.value));
-    spring.impulse = 0.0;
-    const double force = spring.update_phase(hands, spring.along(box.velocity));
+    const double closing = -dot(normal, per_axis(input.velocity.value));
+    if (box.oscillators.are_soft()) {
+        box.held[box.held_count++] = {index, normal, contact->depth, closing, 0.0};
+    } else {
+        SlantedSpring& spring = box.slanted[box.slanted_count++];
+        spring.hand = index;
+        spring.normal = normal;
+        spring.depth = contact->depth;
+        spring.closing = closing;
+        spring.impulse = 0.0;
+        spring.update_phase(hands, spring.along(box.velocity));
+    }
+    const double force = force_at(hands, contact->depth, -dot(normal, approach.velocity));
     note_push(touch, contact->depth, force * vector(normal));
-    box.note_inexact();
+    box.is_exact = false;
     return {index, {}, 0.0};
 }
 
@@ -277,6 +261,39 @@ void BoxHands::collide_fixed_boxes(const WorldConfig& config, WorldState& state,
         touch.depth_m = std::max(touch.depth_m, contact->depth);
         touch.on_hand.value += mean * vector(normal);
         touch.on_hand_at_start.value += force_at(hands, contact->depth, closing) * vector(normal);
+    }
+}
+
+void BoxHands::add_held_springs(BoxMotion& box)
+{
+    const HandDescription& hands = box.hands;
+    const double half_tick = 0.5 * box.time_left;
+    const bool is_stuck = box.dry_friction.state == DryFriction::State::stuck;
+    const auto is_kept = [&](std::size_t i) { return is_stuck || box.axes[i].is_held(); };
+    for (HeldSpring& spring : box.active_held()) {
+        const PerAxis& normal = spring.normal;
+        double closing = spring.closing;
+        double bend = 0.0; // of the depth, without this spring
+        double ease = 0.0; // 1/mass along the normal
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (is_kept(i)) continue;
+            closing += normal[i] * box.velocity[i];
+            bend += normal[i] * box.axes[i].acceleration;
+            ease += normal[i] * normal[i] * box.oscillators.inverse_mass();
+        }
+        // depth and closing speed in the middle: linear in the force that acts meanwhile.
+        const double answer =
+            hands.stiffness_n_per_m * half_tick * half_tick + hands.damping_ns_per_m * half_tick;
+        const double depth = spring.depth + half_tick * closing;
+        const double free_force =
+            hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing + answer * bend;
+        spring.force = std::clamp(free_force / (1.0 + answer * ease), 0.0, hands.force_max_n);
+        if (depth + half_tick * half_tick * (bend - ease * spring.force) <= 0.0) spring.force = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double change = -box.oscillators.inverse_mass() * spring.force * normal[i];
+            box.axes[i].applied_acceleration += change;
+            if (!is_kept(i)) box.axes[i].acceleration += change;
+        }
     }
 }
 

@@ -26,6 +26,9 @@ public:
     /// Adds the springs between the hands and the box to `box`. What the hands feel of the fixed
     /// boxes is reported at once.
     void collide(const WorldConfig& config, WorldState& state, BoxMotion& box);
+    /// Adds the forces of soft springs at edges and corners, once the trajectories of the axes are
+    /// known. Midpoint rule: second order, and it neither makes nor loses energy.
+    static void add_held_springs(BoxMotion& box);
     /// Whether a hand held with more than its greatest force in the tick that `box` has run. Then
     /// `again`, the tick before it ran, has that force held throughout instead.
     static bool limit_grip(const WorldConfig& config, WorldState& state, const BoxMotion& box,

@@ -210,38 +210,13 @@ void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Way
     }
 }
 
-/// The momentum that the hands have given to the axes in `time`: all else is known. `was` is the
-/// velocity before.
-PerAxis gained_from_hands(const BoxMotion& box, const PerAxis& was, double time, const PerAxis& way)
+/// Also what only ticks that are not exact have.
+void advance_all(BoxMotion& box, double time)
 {
-    const double drag = box.oscillators.of(0, box.is_on_plane).oscillator.damping;
-    const DryFriction& dry = box.dry_friction;
-    const bool slides = dry.state == DryFriction::State::sliding;
-    const double friction = slides ? time * (dry.limit + 0.5 * time * dry.limit_ramp) : 0.0;
-    PerAxis gained{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (!box.trajectories[i].moves()) continue;
-        const double others = time * box.steady[i] - drag * way[i] -
-                              (box.axes[i].is_held() ? 0.0 : friction * dry.direction[i]);
-        gained[i] = (box.velocity[i] - was[i] - others) / box.oscillators.inverse_mass();
-    }
-    return gained;
-}
-
-void advance_audited(BoxMotion& box, double time)
-{
-    const PerAxis velocity = box.velocity;
-    const PerAxis impulse = impulse_of_springs(box);
     const Ways ways = box.is_coupled ? advance_coupled(box, time) : advance_axes(box, time);
     for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
     for (SlantedSpring& spring : box.active_slanted()) advance_spring(box, spring, time, ways);
     for (GripSpring& grip : box.active_grips()) advance_grip(box, grip, time, ways);
-    const PerAxis gained = gained_from_hands(box, velocity, time, ways.way);
-    const PerAxis given = impulse_of_springs(box);
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (box.trajectories[i].moves())
-            box.rounding[i] += gained[i] - (given[i] - impulse[i]) - time * box.held_force[i];
-    }
 }
 
 } // namespace
@@ -250,6 +225,8 @@ AxisOscillators::AxisOscillators(const HandDescription& hands, const BodyPropert
                                  double tick)
     : inverse_mass_{1.0 / body.mass}
 {
+    constexpr double little = 1.0 / 16.0; // of the velocity in a tick
+    soft_ = tick * (tick * hands.stiffness_n_per_m + hands.damping_ns_per_m) <= little * body.mass;
     for (const bool with_drag : {false, true}) {
         for (std::size_t n = 0; n <= hands_max; ++n) {
             const auto springs = static_cast<double>(n);
@@ -261,17 +238,6 @@ AxisOscillators::AxisOscillators(const HandDescription& hands, const BodyPropert
     }
 }
 
-PerAxis impulse_of_springs(const BoxMotion& box)
-{
-    PerAxis sum{};
-    for (const FaceSpring& spring : box.active_springs()) spring.add_along(sum, -spring.impulse);
-    for (const SlantedSpring& spring : box.active_slanted()) spring.add_along(sum, -spring.impulse);
-    for (const GripSpring& grip : box.active_grips()) {
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += grip.impulse[i];
-    }
-    return sum;
-}
-
 BoxMotion BoxMotion::copy() const
 {
     BoxMotion other{hands, oscillators, obstacles, room};
@@ -279,9 +245,6 @@ BoxMotion BoxMotion::copy() const
     other.clearance = clearance;
     other.time_left = time_left;
     other.is_exact = is_exact;
-    other.steady = steady;
-    other.held_force = held_force;
-    other.rounding = rounding;
     other.position = position;
     other.velocity = velocity;
     other.axes = axes;
@@ -289,9 +252,11 @@ BoxMotion BoxMotion::copy() const
     other.spring_count = spring_count;
     other.grip_count = grip_count;
     other.slanted_count = slanted_count;
+    other.held_count = held_count;
     std::copy_n(springs.begin(), spring_count, other.springs.begin());
     std::copy_n(grips.begin(), grip_count, other.grips.begin());
     std::copy_n(slanted.begin(), slanted_count, other.slanted.begin());
+    std::copy_n(held.begin(), held_count, other.held.begin());
     return other;
 }
 
@@ -348,11 +313,11 @@ void set_bounds(BoxMotion& box)
 
 void advance(BoxMotion& box, double time)
 {
-    if (!box.is_exact) {
-        advance_audited(box, time);
-    } else {
+    if (box.is_exact) {
         const Ways ways = advance_axes(box, time);
         for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
+    } else {
+        advance_all(box, time);
     }
     box.time_left -= time;
 }

@@ -19,6 +19,8 @@ public:
     AxisOscillators(const HandDescription& hands, const BodyProperties& body, double tick);
 
     [[nodiscard]] double inverse_mass() const { return inverse_mass_; }
+    /// Whether a spring hardly changes the box's velocity in a tick.
+    [[nodiscard]] bool are_soft() const { return soft_; }
     /// The oscillator of one spring alone.
     [[nodiscard]] const Oscillator& spring() const { return propagators_[0][1].oscillator; }
 
@@ -29,6 +31,7 @@ public:
 
 private:
     double inverse_mass_;
+    bool soft_;
     std::array<std::array<Propagator, hands_max + 1>, 2> propagators_;
 };
 
@@ -133,6 +136,16 @@ struct SlantedSpring : Spring {
     }
 };
 
+/// A soft spring at an edge or a corner: its force is the midpoint rule's, held for the tick, which
+/// costs less than the closed form and is as good while the spring is soft.
+struct HeldSpring {
+    std::uint32_t hand;
+    PerAxis normal; // unit, from the box to the hand
+    double depth;   // along it, at the start of the tick
+    double closing; // the hand's share of the closing speed
+    double force;   // on the hand along the normal
+};
+
 /// A hand that holds the box: a spring and a damper in all directions, which also pull.
 struct GripSpring {
     std::uint32_t hand;
@@ -167,14 +180,6 @@ struct BoxMotion {
         : hands{of_hands}, oscillators{of_oscillators}, obstacles{those}, room{for_tick}
     {}
 
-    /// From now on the tick is not exact but for rounding.
-    void note_inexact()
-    {
-        if (!is_exact) return;
-        is_exact = false;
-        rounding = held_force = {};
-        for (std::size_t i = 0; i < 3; ++i) steady[i] = axes[i].applied_acceleration;
-    }
     /// Another one like it, to try the tick again.
     [[nodiscard]] BoxMotion copy() const;
 
@@ -195,18 +200,16 @@ struct BoxMotion {
     std::array<AxisMotion, 3> axes;
     Trajectories trajectories;
     std::array<std::size_t, 3> spring_counts; // of faces and grips, per axis
-    // Only of a tick that is not exact:
-    PerAxis steady;     // acceleration by gravity and pushes
-    PerAxis held_force; // N: of the hands that hold with the same force throughout
-    PerAxis rounding;   // N s: by how much the momentum gained differs from all impulses
     DryFriction dry_friction;
 
     std::uint32_t spring_count = 0;
     std::uint32_t grip_count = 0;
     std::uint32_t slanted_count = 0;
+    std::uint32_t held_count = 0;
     std::array<FaceSpring, hands_max> springs;
     std::array<GripSpring, hands_max> grips;
     std::array<SlantedSpring, hands_max> slanted;
+    std::array<HeldSpring, hands_max> held;
 
     [[nodiscard]] std::span<FaceSpring> active_springs() { return {springs.data(), spring_count}; }
     [[nodiscard]] std::span<const FaceSpring> active_springs() const
@@ -217,6 +220,11 @@ struct BoxMotion {
     [[nodiscard]] std::span<const GripSpring> active_grips() const
     {
         return {grips.data(), grip_count};
+    }
+    [[nodiscard]] std::span<HeldSpring> active_held() { return {held.data(), held_count}; }
+    [[nodiscard]] std::span<const HeldSpring> active_held() const
+    {
+        return {held.data(), held_count};
     }
     [[nodiscard]] std::span<SlantedSpring> active_slanted()
     {
@@ -232,9 +240,6 @@ struct BoxMotion {
 /// then add_friction() where there is any, then set_bounds().
 void set_trajectories(BoxMotion& box);
 void set_bounds(BoxMotion& box);
-
-/// What all springs have given to the box so far, along each axis, N s.
-[[nodiscard]] PerAxis impulse_of_springs(const BoxMotion& box);
 
 /// Advances along the trajectories for `time` seconds.
 void advance(BoxMotion& box, double time);

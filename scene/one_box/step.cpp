@@ -44,7 +44,11 @@ OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const 
       hands_{config, state.bodies, movable_box(state.bodies)}
 {
     const PerAxis mobility = per_axis(movable_box(state.bodies).inverse_mass);
-    for (std::size_t i = 0; i < 3; ++i) locked_[i] = mobility[i] == 0.0;
+    is_alone_ = config.planes.empty() && state.bodies.size() == 1 && !oscillators_.are_soft();
+    for (std::size_t i = 0; i < 3; ++i) {
+        locked_[i] = mobility[i] == 0.0;
+        if (locked_[i]) is_alone_ = false;
+    }
 }
 
 template <bool coulomb>
@@ -55,7 +59,7 @@ void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
     query_obstacles(box, 0.0);
     if (obstacles_.push_out(box.nearby, box.position)) {
         query_obstacles(box, 0.0);
-        box.note_inexact();
+        box.is_exact = false;
     }
     hands_.collide(config, state, box);
     if (box.grip_count == 0) {
@@ -116,8 +120,37 @@ inline void OneBoxStepper<coulomb>::commit(const WorldConfig& config, WorldState
     const Slot slot = state.bodies.slot_of[body_];
     BoxHands::report(config, state, box);
     if (!box.is_exact) settle_tick(config, state, box);
+    if (is_alone_) box.velocity = velocity_from_hands(config, state);
     state.bodies.position.put(slot, vector(box.position));
     state.bodies.velocity.put(slot, vector(box.velocity));
+}
+
+template <bool coulomb>
+PerAxis OneBoxStepper<coulomb>::steady_acceleration(const WorldConfig& config,
+                                                    const WorldState& state) const
+{
+    PerAxis steady = per_axis(config.gravity);
+    const PerAxis push = state.pushed.is_empty() ? PerAxis{} : per_axis(state.pushes[body_]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        steady[i] += oscillators_.inverse_mass() * push[i];
+        if (locked_[i]) steady[i] = 0.0;
+    }
+    return steady;
+}
+
+template <bool coulomb>
+PerAxis OneBoxStepper<coulomb>::velocity_from_hands(const WorldConfig& config,
+                                                    const WorldState& state) const
+{
+    glm::dvec3 impulse{0.0};
+    for (std::uint32_t i = 0; i < config.hands.count; ++i)
+        impulse += config.tick * state.touches[i].on_body.value;
+    const PerAxis given = per_axis(impulse);
+    const PerAxis steady = steady_acceleration(config, state);
+    PerAxis velocity = per_axis(state.bodies.velocity.at(state.bodies.slot_of[body_]));
+    for (std::size_t i = 0; i < 3; ++i)
+        velocity[i] += config.tick * steady[i] + oscillators_.inverse_mass() * given[i];
+    return velocity;
 }
 
 template <bool coulomb>
@@ -127,12 +160,10 @@ void OneBoxStepper<coulomb>::settle_tick(const WorldConfig& config, WorldState& 
     const Slot slot = state.bodies.slot_of[body_];
     TickStart start{.position = per_axis(state.bodies.position.at(slot)),
                     .velocity = per_axis(state.bodies.velocity.at(slot)),
-                    .steady = per_axis(config.gravity)};
+                    .steady = steady_acceleration(config, state)};
     start.stored = hands_.stored_in_grips(config, state, start.position);
-    const PerAxis push = state.pushed.is_empty() ? PerAxis{} : per_axis(state.pushes[body_]);
     for (std::size_t i = 0; i < 3; ++i) {
-        start.steady[i] += oscillators_.inverse_mass() * push[i];
-        if (locked_[i]) start.velocity[i] = start.steady[i] = 0.0;
+        if (locked_[i]) start.velocity[i] = 0.0;
     }
     settle(config, state, start, box);
 }
@@ -143,6 +174,10 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& s
 {
     room_.root_steps = root_steps_max;
     start_interval<coulomb>(box);
+    if (box.held_count > 0) {
+        BoxHands::add_held_springs(box);
+        start_interval<coulomb>(box);
+    }
     for (int events = 1;; ++events) {
         const double reach =
             std::max(std::max(box.axes[0].reach, box.axes[1].reach), box.axes[2].reach);
@@ -158,7 +193,7 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& s
         start_interval<coulomb>(box);
         if (events < events_max && event.kind != Event::Kind::unknown) continue;
         ++crowded_ticks_;
-        box.note_inexact();
+        box.is_exact = false;
         if (finish_tick(box)) ++state.interventions.paths_cut;
         return;
     }

@@ -51,9 +51,18 @@ private:
     void solve_with_grips(const WorldConfig& config, WorldState& state, BoxMotion& start);
     void commit(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
     void settle_tick(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
+    /// By gravity and pushes.
+    [[nodiscard]] PerAxis steady_acceleration(const WorldConfig& config,
+                                              const WorldState& state) const;
+    /// The velocity that the box has by what the hands report. Stiff hands can press so hard
+    /// against each other that their sum has fewer digits than the velocity of the closed form;
+    /// where nothing else touches the box, momentum is what was given to the last of them.
+    [[nodiscard]] PerAxis velocity_from_hands(const WorldConfig& config,
+                                              const WorldState& state) const;
 
     BodyId body_;
     std::array<bool, 3> locked_{};
+    bool is_alone_ = false; // with stiff hands
     AxisOscillators oscillators_;
     Obstacles obstacles_;
     BoxHands hands_;
