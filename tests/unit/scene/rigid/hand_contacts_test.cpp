@@ -84,5 +84,35 @@ TEST(HandContacts, AFaceThatIsKeptHasTheBitsOfOneThatIsFoundAnew)
     EXPECT_GT(amid, 500);
 }
 
+TEST(HandContacts, WhatIsScaledAfterwardsIsReportedScaled)
+{
+    Description description;
+    description.bodies.resize(2);
+    description.bodies[1].position = base::Position{{0.1, 0.0, 0.0}};
+    WorldConfig config;
+    config.hands.count = 2;
+    config.hands.radius_m = 0.005;
+    WorldState state{.bodies = Bodies{description}};
+    state.hands[0].position = base::Position{{-0.024, 0.0, 0.0}};
+    state.hands[1].position = base::Position{{0.124, 0.0, 0.0}};
+
+    HandContacts contacts{config};
+    contacts.begin_step(config, state);
+    for (const BodyId body : {0U, 1U}) {
+        SweptBox box;
+        box.box.centre = description.bodies[body].position.value;
+        contacts.collide(config, state, body, {body, true, box, glm::dvec3{0.0}});
+        const auto [springs, work] = contacts.springs_on(body);
+        ASSERT_EQ(springs.size(), 1U);
+        work[0].impulse = {1e-3, 2e-3, 0.0};
+        contacts.store_impulses(body);
+    }
+    contacts.scale_impulses(1, 0.25);
+    contacts.report_forces(config, state);
+    EXPECT_EQ(state.touches[0].on_body.value, (glm::dvec3{1.0, 2.0, 0.0}));
+    EXPECT_EQ(state.touches[1].on_body.value, (glm::dvec3{0.25, 0.5, 0.0}));
+    EXPECT_EQ(state.touches[1].on_hand.value, (glm::dvec3{-0.25, -0.5, 0.0}));
+}
+
 } // namespace
 } // namespace hapnet::scene::hand_contacts_test
