@@ -18,10 +18,12 @@ namespace hapnet::scene {
 
 namespace {
 
-// Touches of one body in a tick.
-constexpr std::uint32_t touches_max = 64;
+// Touches of one body in a tick. After some it does not bounce any more, and overlaps by more with
+// each: where many are wedged into each other, touches would have no end.
+constexpr std::uint32_t touches_max = 64, touches_many = 12;
+constexpr double many_times = 4.0;
 // Looks at two bodies in a tick: some, and so many more for each movable body.
-constexpr std::uint32_t steps_base = 512, steps_per_body = 64;
+constexpr std::uint32_t steps_base = 2048, steps_per_body = 128;
 // Meetings for each movable body, on average.
 constexpr std::size_t meetings_per_body_max = 64;
 constexpr std::size_t meetings_max = 65'536;
@@ -549,7 +551,9 @@ void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
     }
     const bool pushed = exchange_impulse(around, meeting);
     if (pushed) ++around.state.interventions.sweeps_continued;
-    meeting.gap -= next_overlap(meeting.gap, meeting.smallest);
+    const bool many = flyers_[both[0]].touches >= touches_many ||
+                      flyers_[meeting.is_plane ? both[0] : both[1]].touches >= touches_many;
+    meeting.gap -= (many ? many_times : 1.0) * next_overlap(meeting.gap, meeting.smallest);
     const bool one_has_stopped =
         count == 2 && (flyers_[both[0]].has_stopped || flyers_[both[1]].has_stopped);
     for (std::size_t i = 0; i < count; ++i) {
@@ -613,7 +617,9 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, const Mee
     if (manifold.count == 0) return false;
     prepare(block, manifold, {a.centre, b.centre}, {});
     block.friction = material.friction;
-    block.restitution = material.restitution;
+    const bool many = first.touches >= touches_many ||
+                      (!meeting.is_plane && flyers_[meeting.b].touches >= touches_many);
+    block.restitution = many ? 0.0 : material.restitution;
     const ContactVector impulse = impulse_of(block, a, b, least_bounce * scales_.fall);
     if (std::all_of(impulse.begin(), impulse.end(), [](double part) { return part == 0.0; }))
         return false;
