@@ -8,7 +8,7 @@
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
 #include "scene/rigid/free_flight.hpp"
-#include "scene/solver/block_solver.hpp"
+#include "scene/rigid/touch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,86 +80,6 @@ std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
     return std::min(bodies.movable * each, meetings_max);
 }
 
-/// A body as it is at a touch.
-struct Toucher {
-    bool moves = false;
-    glm::dvec3 centre{0.0};
-    BodyResponse response;
-    BodyMotion motion;
-};
-
-/// What a push changes about the axes that the body may turn about.
-glm::dvec3 turning_part(const BodyProperties& properties, const glm::dvec3& angular)
-{
-    if (properties.turning == Turning::free) return angular;
-    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
-            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
-            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
-}
-
-/// An impulse, and what it does.
-struct Answer {
-    ContactVector impulse{};
-    double share = 1.0; // of it that gains no energy
-    bool parts = false; // no point approaches any more
-};
-
-Answer answer_of(ContactBlock& block, const Toucher& a, const Toucher& b)
-{
-    const ContactVector before = velocity_at(block, a.motion, b.motion);
-    block.impulse = {};
-    Answer answer{.impulse = solve(block, before, 0.0)};
-    BodyMotion after_a = a.motion;
-    BodyMotion after_b = b.motion;
-    Wrench push = wrench(block, answer.impulse);
-    if (b.moves) apply(push, block.arm_b, b.response, after_b);
-    push = {-push.impulse, -push.angular};
-    if (a.moves) apply(push, block.arm_a, a.response, after_a);
-    const ContactVector after = velocity_at(block, after_a, after_b);
-    double work = 0.0;  // at the velocities before
-    double twice = 0.0; // and by what it changes in them, twice
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        work += answer.impulse[i] * before[i];
-        twice += answer.impulse[i] * (after[i] - before[i]);
-    }
-    if (!(work + 0.5 * twice <= 0.0))
-        answer.share = work < 0.0 && twice > 0.0 ? std::min(1.0, -2.0 * work / twice) : 0.0;
-    double slowest = 0.0;
-    double fastest = 0.0; // that approached
-    for (std::size_t i = 0; i < block.count; ++i) {
-        slowest = std::min(slowest, block.normal_speed(after, i));
-        fastest = std::max(fastest, -block.normal_speed(before, i));
-    }
-    constexpr double rounding = 1e-9;
-    answer.parts = slowest >= -rounding * fastest;
-    return answer;
-}
-
-/// The impulse at a touch: each point that approaches bounces, and none approaches afterwards. Zero
-/// when none did.
-ContactVector impulse_of(ContactBlock& block, const Toucher& a, const Toucher& b,
-                         double bounces_from)
-{
-    const ContactVector before = velocity_at(block, a.motion, b.motion);
-    bool any = false;
-    for (std::size_t i = 0; i < block.count; ++i) {
-        const double speed = block.normal_speed(before, i);
-        any = any || speed < 0.0;
-        block.speed_min[i] = -speed > bounces_from ? -block.restitution * speed : 0.0;
-    }
-    if (!any) return {};
-    build_matrix(block, a.response, b.response);
-    Answer answer = answer_of(block, a, b);
-    // A bounce with friction may ask for more energy than there is (Kane and Levinson, 1985), and
-    // a slip may have no answer. The touch is smooth then, which always has one.
-    if (block.friction != 0.0 && !(answer.parts && answer.share == 1.0)) {
-        block.friction = 0.0;
-        answer = answer_of(block, a, b);
-    }
-    for (double& part : answer.impulse) part *= answer.share;
-    return answer.impulse;
-}
-
 } // namespace
 
 ContinuousCollision::ContinuousCollision(const WorldConfig& config, const Bodies& bodies,
@@ -213,53 +133,12 @@ void ContinuousCollision::solve(const WorldConfig& config, WorldState& state,
     const auto fast = static_cast<FlyerIndex>(flyers_.size());
     for (FlyerIndex i = 0; i < fast; ++i) find_others(around, pairs, i, 0.0);
     for (FlyerIndex i = 0; i < fast; ++i) {
-        const Slot slot = state.bodies.slot_of[flyers_[i].body];
-        const Departure& departure = departures_[slot];
-        if (departure.first_touch.time >= scales_.tick) continue;
-        bool meets = got_past(state.bodies, departure, slot);
-        for_meetings_of(i, [&](Meeting& meeting) { meets = meets || !meeting.is_over; });
-        if (!meets) continue;
+        if (!has_to_bend(state.bodies, i)) continue;
         bend(around, i);
         find_others(around, pairs, i, 0.0);
         advance_all(around, i, 0.0, none);
     }
-    const auto go_on = [&](FlyerIndex index, double time, FlyerIndex done) {
-        Flyer& flyer = flyers_[index];
-        if (flyer.is_movable && !flyer.has_stopped && !flyer.is_fast)
-            flyer.is_fast = goes_far(flyer.flight, time);
-        if (flyer.is_fast && !flyer.has_stopped) find_others(around, pairs, index, time);
-        advance_all(around, index, time, done);
-    };
-    while (true) {
-        const MeetingIndex next = earliest();
-        const double time = next == none ? scales_.tick : meetings_[next].time;
-        FlyerIndex bent = none;
-        for (FlyerIndex i = 0; i < flyers_.size(); ++i) {
-            const Flyer& flyer = flyers_[i];
-            if (flyer.is_released || flyer.has_stopped || flyer.bend > time) continue;
-            if (bent == none || flyer.bend < flyers_[bent].bend) bent = i;
-        }
-        if (bent != none) {
-            const double then = flyers_[bent].bend;
-            release(around, flyers_[bent], then);
-            go_on(bent, then, none);
-            continue;
-        }
-        if (next == none) break;
-        const auto cost = static_cast<std::uint32_t>(meetings_.size() / meetings_per_step);
-        steps_left_ -= std::min(steps_left_, cost);
-        if (steps_left_ == 0) {
-            stop_all(around, time);
-            break;
-        }
-        Meeting& meeting = meetings_[next];
-        touch(around, meeting);
-        const FlyerIndex a = meeting.a;
-        const std::uint32_t b = meeting.b;
-        const bool is_plane = meeting.is_plane;
-        go_on(a, time, none);
-        if (!is_plane) go_on(b, time, a);
-    }
+    while (go_to_next_touch(around, pairs)) {}
     Bodies& bodies = state.bodies;
     for (const Flyer& flyer : flyers_.all()) {
         flyer_of_[flyer.body] = none;
@@ -268,6 +147,41 @@ void ContinuousCollision::solve(const WorldConfig& config, WorldState& state,
         bodies.position.put(slot, flyer.flight.centre + scales_.tick * flyer.flight.velocity);
         bodies.orientation.put(slot, orientation_at(flyer.flight, scales_.tick));
     }
+}
+
+/// One touch, or one body that goes on otherwise: what comes first. False when nothing comes.
+template <BroadPhase search>
+bool ContinuousCollision::go_to_next_touch(const Surroundings& around,
+                                           const PairFinder<search>& pairs)
+{
+    const auto go_on = [&](FlyerIndex index, double time, FlyerIndex done) {
+        Flyer& flyer = flyers_[index];
+        if (flyer.is_movable && !flyer.has_stopped && !flyer.is_fast)
+            flyer.is_fast = goes_far(flyer.flight, time);
+        if (flyer.is_fast && !flyer.has_stopped) find_others(around, pairs, index, time);
+        advance_all(around, index, time, done);
+    };
+    const MeetingIndex next = earliest();
+    const double time = next == none ? scales_.tick : meetings_[next].time;
+    const FlyerIndex bent = next_bend(time);
+    if (bent != none) {
+        const double then = flyers_[bent].bend;
+        release(around, flyers_[bent], then);
+        go_on(bent, then, none);
+        return true;
+    }
+    if (next == none) return false;
+    const auto cost = static_cast<std::uint32_t>(meetings_.size() / meetings_per_step);
+    steps_left_ -= std::min(steps_left_, cost);
+    if (steps_left_ == 0) {
+        stop_all(around, time);
+        return false;
+    }
+    touch(around, meetings_[next]);
+    const Meeting met = meetings_[next];
+    go_on(met.a, time, none);
+    if (!met.is_plane) go_on(met.b, time, met.a);
+    return true;
 }
 
 /// From where it was to where it is now.
@@ -324,6 +238,29 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
     flyer.bend = HUGE_VAL;
     flyer.flight = chord(bodies, slot);
     return index;
+}
+
+/// Whether the straight way to where it was put is no way.
+bool ContinuousCollision::has_to_bend(const Bodies& bodies, FlyerIndex index)
+{
+    const Slot slot = bodies.slot_of[flyers_[index].body];
+    const Departure& departure = departures_[slot];
+    if (departure.first_touch.time >= scales_.tick) return false;
+    bool meets = got_past(bodies, departure, slot);
+    for_meetings_of(index, [&](Meeting& meeting) { meets = meets || !meeting.is_over; });
+    return meets;
+}
+
+/// The first body that comes to its bend before a moment.
+ContinuousCollision::FlyerIndex ContinuousCollision::next_bend(double time) const
+{
+    FlyerIndex found = none;
+    for (FlyerIndex i = 0; i < flyers_.size(); ++i) {
+        const Flyer& flyer = flyers_[i];
+        if (flyer.is_released || flyer.has_stopped || flyer.bend > time) continue;
+        if (found == none || flyer.bend < flyers_[found].bend) found = i;
+    }
+    return found;
 }
 
 /// Whether it came behind the face of the other that it was to touch first.
@@ -397,7 +334,6 @@ template <BroadPhase search>
 void ContinuousCollision::find_others(const Surroundings& around, const PairFinder<search>& pairs,
                                       FlyerIndex index, double time)
 {
-    const Bodies& bodies = around.state.bodies;
     const SteadyBox flight = flyers_[index].flight;
     const double until = std::min(scales_.tick, flyers_[index].bend);
     const double end = flyers_[index].is_released ? scales_.tick : until;
@@ -431,7 +367,6 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
         for (std::uint32_t plane = 0; plane < around.config.planes.size(); ++plane)
             meet(plane, true);
     }
-    std::ignore = bodies;
 }
 
 bool ContinuousCollision::are_to_meet(FlyerIndex a, std::uint32_t b, bool is_plane) const
@@ -448,7 +383,8 @@ bool ContinuousCollision::are_to_meet(FlyerIndex a, std::uint32_t b, bool is_pla
 void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting& wanted)
 {
     if (meetings_.is_full()) {
-        steps_left_ = 0; // which ends the search, and is counted
+        if (!flyers_[wanted.a].has_stopped) stop(flyers_[wanted.a], wanted.time);
+        ++around.state.interventions.budgets_spent;
         return;
     }
     const OrientedBox box = flyers_[wanted.a].flight.at(0.0);
@@ -571,72 +507,67 @@ void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
     }
 }
 
+/// A flyer as it is at a moment.
+Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& flyer,
+                                     double time) const
+{
+    const Bodies& bodies = around.state.bodies;
+    const Slot slot = bodies.slot_of[flyer.body];
+    const OrientedBox box = flyer.flight.at(time);
+    Toucher its{.moves = flyer.is_movable, .centre = box.centre, .response = {}, .motion = {}};
+    if (!its.moves) return its;
+    its.response = response_of(bodies.properties[slot], box);
+    its.motion.velocity =
+        bodies.velocity.at(slot) -
+        (scales_.tick - time) * steady_acceleration(around.config, around.state, slot);
+    its.motion.spin = its.response.inverse_inertia * bodies.angular_momentum.at(slot);
+    return its;
+}
+
 /// The impulse of a touch; whether there was one.
 bool ContinuousCollision::exchange_impulse(const Surroundings& around, const Meeting& meeting)
 {
     Bodies& bodies = around.state.bodies;
     const double time = meeting.time;
-    ContactBlock block;
-    Toucher a;
-    Toucher b;
-    const auto come = [&](const Flyer& flyer, SolverIndex index) {
-        Toucher toucher;
-        const Slot slot = bodies.slot_of[flyer.body];
-        const OrientedBox box = flyer.flight.at(time);
-        toucher.centre = box.centre;
-        if (!flyer.is_movable) return toucher;
-        toucher.moves = true;
-        toucher.response = response_of(bodies.properties[slot], box);
-        toucher.motion.velocity =
-            bodies.velocity.at(slot) -
-            (scales_.tick - time) * steady_acceleration(around.config, around.state, slot);
-        toucher.motion.spin = toucher.response.inverse_inertia * bodies.angular_momentum.at(slot);
-        (index == 1 ? block.a : block.b) = index;
-        return toucher;
-    };
-    Manifold manifold;
-    Material material;
     const Flyer& first = flyers_[meeting.a];
-    const Material& its = bodies.properties[bodies.slot_of[first.body]].material;
+    const Flyer& second = flyers_[meeting.is_plane ? meeting.a : meeting.b];
+    Toucher a;
+    const Toucher b = toucher(around, second, time);
+    Manifold manifold;
+    Material material = bodies.properties[bodies.slot_of[second.body]].material;
     const double margin = near_share * overlap_step * meeting.smallest;
     if (meeting.is_plane) {
         const PlaneDescription& plane = around.config.planes[meeting.b];
-        b = come(first, 2);
         a.centre = b.centre;
         manifold =
-            collide(PlaneSurface{plane.normal, plane.offset_m}, first.flight.at(time), margin);
-        material = combined(its, plane.material);
+            collide(PlaneSurface{plane.normal, plane.offset_m}, second.flight.at(time), margin);
+        material = combined(material, plane.material);
     } else {
-        const Flyer& second = flyers_[meeting.b];
-        a = come(first, 1);
-        b = come(second, 2);
+        a = toucher(around, first, time);
         BoxBoxMemory memory;
         manifold = collide(first.flight.at(time), second.flight.at(time), margin, memory);
-        material = combined(its, bodies.properties[bodies.slot_of[second.body]].material);
+        material = combined(material, bodies.properties[bodies.slot_of[first.body]].material);
     }
     if (manifold.count == 0) return false;
+    ContactBlock block;
+    block.a = a.moves ? 1 : 0;
+    block.b = b.moves ? 2 : 0;
     prepare(block, manifold, {a.centre, b.centre}, {});
     block.friction = material.friction;
-    const bool many = first.touches >= touches_many ||
-                      (!meeting.is_plane && flyers_[meeting.b].touches >= touches_many);
+    const bool many = first.touches >= touches_many || second.touches >= touches_many;
     block.restitution = many ? 0.0 : material.restitution;
-    const ContactVector impulse = impulse_of(block, a, b, least_bounce * scales_.fall);
+    const ContactVector impulse = touch_impulse(block, a, b, least_bounce * scales_.fall);
     if (std::all_of(impulse.begin(), impulse.end(), [](double part) { return part == 0.0; }))
         return false;
-    const auto push = [&](FlyerIndex index, const Wrench& by, const glm::dvec3& arm) {
-        const BodyId body = flyers_[index].body;
+    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm) {
         const Slot slot = bodies.slot_of[body];
-        const BodyProperties& properties = bodies.properties[slot];
-        bodies.velocity.put(slot, bodies.velocity.at(slot) + properties.inverse_mass * by.impulse);
-        bodies.angular_momentum.put(
-            slot, bodies.angular_momentum.at(slot) +
-                      turning_part(properties, glm::cross(arm, by.impulse) + by.angular));
+        apply_impulse(bodies, slot, by, arm);
         if (slot < bodies.awake) return;
         if (std::find(woken_.begin(), woken_.end(), body) == woken_.end()) woken_.add(body);
     };
     const Wrench on_b = wrench(block, impulse);
-    if (b.moves) push(meeting.is_plane ? meeting.a : meeting.b, on_b, block.arm_b);
-    if (a.moves) push(meeting.a, {-on_b.impulse, -on_b.angular}, block.arm_a);
+    if (b.moves) push(second.body, on_b, block.arm_b);
+    if (a.moves) push(first.body, {-on_b.impulse, -on_b.angular}, block.arm_a);
     return true;
 }
 

@@ -6,6 +6,7 @@
 #include "scene/collide/pair_finder.hpp"
 #include "scene/collide/time_of_impact.hpp"
 #include "scene/rigid/integrate.hpp"
+#include "scene/rigid/touch.hpp"
 #include "scene/state.hpp"
 
 #include <span>
@@ -86,10 +87,15 @@ private:
         WorldState& state;
     };
 
+    template <BroadPhase search>
+    bool go_to_next_touch(const Surroundings& around, const PairFinder<search>& pairs);
+
     FlyerIndex add_flyer(const Surroundings& around, BodyId body);
     [[nodiscard]] SteadyBox chord(const Bodies& bodies, Slot slot) const;
     [[nodiscard]] bool goes_far(const SteadyBox& flight, double time) const;
     [[nodiscard]] bool got_past(const Bodies& bodies, const Departure& departure, Slot slot) const;
+    [[nodiscard]] bool has_to_bend(const Bodies& bodies, FlyerIndex index);
+    [[nodiscard]] FlyerIndex next_bend(double time) const;
     void bend(const Surroundings& around, FlyerIndex index);
     void release(const Surroundings& around, Flyer& flyer, double time);
     void stop(Flyer& flyer, double time);
@@ -107,6 +113,8 @@ private:
     void advance(const Surroundings& around, Meeting& meeting, double from);
     void advance_all(const Surroundings& around, FlyerIndex index, double from, FlyerIndex done);
     void touch(const Surroundings& around, Meeting& meeting);
+    [[nodiscard]] Toucher toucher(const Surroundings& around, const Flyer& flyer,
+                                  double time) const;
     bool exchange_impulse(const Surroundings& around, const Meeting& meeting);
 
     Scales scales_;

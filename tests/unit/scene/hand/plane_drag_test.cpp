@@ -100,7 +100,8 @@ TEST(PlaneDrag, ASteadyPushAgainstItHoldsItsForceAndLagsByNothing)
                 BodyDynamics dynamics = dragged(drag);
                 dynamics.half = rig.half;
                 const HandSpring spring = rig.touch(rig.body, rig.hands[0]);
-                advance(rig.body, dynamics, {&spring, 1}, rig.work, ms);
+                PressedModes modes;
+                advance(rig.body, dynamics, {&spring, 1}, rig.work, ms, modes);
                 rig.hands[0].position += ms * rig.hands[0].velocity;
             }
             EXPECT_NEAR(rig.body.position.x, 0.1, 1e-12) << drag << ' ' << stiffness;
@@ -126,7 +127,8 @@ TEST(PlaneDrag, StiffHandsOnADraggedBodyNeverAddEnergy)
                 dynamics.drag_normal = {0.0, 1.0, 0.0};
                 const std::array<HandSpring, 2> springs{rig.touch(rig.body, rig.hands[0]),
                                                         rig.touch(rig.body, rig.hands[1])};
-                advance(rig.body, dynamics, springs, rig.work, ms);
+                PressedModes modes;
+                advance(rig.body, dynamics, springs, rig.work, ms, modes);
                 const double now = rig.energy();
                 ASSERT_LE(now, before + 1e-3 * start) << drag << ' ' << stiffness << ' ' << i;
                 before = now;
