@@ -52,7 +52,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Scar{713, "WobblingFasterThanItsTick"}, Scar{3639, "WedgedByAHair"},
                     Scar{3790, "SqueezedByTwelve"}, Scar{914, "BouncingWithFriction"},
                     Scar{1381, "BouncingOffThreeAtOnce"}, Scar{457, "HeldInAHeap"},
-                    Scar{62533, "PushedWhileItTurnsFast"}, Scar{1550, "ThrownOutOfItsWay"}),
+                    Scar{62533, "PushedWhileItTurnsFast"}, Scar{1550, "ThrownOutOfItsWay"},
+                    Scar{1818, "HitAgainInTheFirstTick"}, Scar{8316, "HitAgainInTheSameTick"},
+                    Scar{9050, "HitAgainAndAgain"}),
     [](const auto& each) { return each.param.name; });
 
 } // namespace
