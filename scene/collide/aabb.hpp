@@ -30,6 +30,16 @@ struct Aabb {
            static_cast<int>(a.low.z <= b.high.z) & static_cast<int>(b.low.z <= a.high.z);
 }
 
+[[nodiscard]] inline bool contains(const Aabb& outer, const Aabb& inner)
+{
+    return static_cast<int>(outer.low.x <= inner.low.x) &
+           static_cast<int>(inner.high.x <= outer.high.x) &
+           static_cast<int>(outer.low.y <= inner.low.y) &
+           static_cast<int>(inner.high.y <= outer.high.y) &
+           static_cast<int>(outer.low.z <= inner.low.z) &
+           static_cast<int>(inner.high.z <= outer.high.z);
+}
+
 [[nodiscard]] inline Aabb hull(const glm::dvec3& a, const glm::dvec3& b)
 {
     return {glm::min(a, b), glm::max(a, b)};
