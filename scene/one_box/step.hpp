@@ -27,7 +27,7 @@ template <bool coulomb>
 class OneBoxStepper {
 public:
     static constexpr int events_max = 8;
-    static constexpr int root_steps_max = 1000;
+    static constexpr int root_steps_max = 500;
 
     OneBoxStepper(const Description& description, const WorldConfig& config,
                   const WorldState& state);
