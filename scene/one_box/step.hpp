@@ -13,12 +13,13 @@ namespace hapnet::scene {
 /// scalar motion with a closed form, and what begins or ends within a tick is found in it. With
 /// `coulomb`, dry friction on what supports the box.
 ///
-/// Exact up to rounding: flight; drag on a plane (along it, while a plane supports the box); hands
-/// on faces and hands that hold, any number, with their beginning, end and limit of force at their
-/// moments; impacts and bounces at theirs; dry friction along a straight path, with its exact stop
-/// and slip. Second order in the tick: dry friction while other forces bend the path; hands at
-/// edges and corners (their normals hold for a tick). First order: a hand that holds at its
-/// greatest force, at the start of a tick or in the mean over it: that force is held throughout.
+/// Exact up to rounding: flight; drag on a plane (along it, while a plane supports the box or it is
+/// locked onto one); hands on faces and hands that hold, any number, with their beginning, end and
+/// limit of force at their moments; impacts and bounces at theirs; dry friction along a straight
+/// path, with its exact stop and slip. Second order in the tick: dry friction while other forces
+/// bend the path; hands at edges and corners (their normals hold for a tick). First order: a hand
+/// that holds at its greatest force, at the start of a tick or in the mean over it: that force is
+/// held throughout.
 ///
 /// A bounce that would be over before one tick has passed does not happen. After `events_max`
 /// events in a tick its springs stay as they are and impacts are inelastic, until its end.

@@ -122,6 +122,21 @@ TEST(PaperCube, IsLiftedByMoreThanItsWeightOnly)
     EXPECT_NEAR(world.body(0).position.y(), 0.5 * (1.2 - 0.981) / 0.1 * 0.01, rounding);
 }
 
+TEST(PaperCube, LockedOntoThePlatformIsSlowedByTheDragWhateverPullsItUp)
+{
+    Description scene = paper_scene();
+    scene.bodies[0].locked.y = true;
+    for (const StepperKind kind : {StepperKind::sliding, StepperKind::lone, StepperKind::few}) {
+        for (const double up : {0.0, 0.98, 0.982, 3.3}) { // it weighs 0.981 N
+            World world = World::freeze(scene, {.stepper = kind}).value();
+            place(world, {}, {0.2, 0.0, 0.0});
+            push(world, {0.0, up, 0.0}, 500); // 50 time constants of 0.1 kg / (10 N s/m)
+            EXPECT_NEAR(world.body(0).position.x(), 0.2 * 0.01, rounding)
+                << name_of(kind) << ' ' << up;
+        }
+    }
+}
+
 TEST(PaperCube, HasEnoughDragForSoftnessToGrowWithDelay)
 {
     const Description scene = paper_scene();
