@@ -75,7 +75,9 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{934, "HeldAtHighSpeed"}, Scar{1509, "PressedOffCentreAtHighSpeed"},
         Scar{7427, "BouncingLightly"}, Scar{8575, "BouncingOffTwoInOneTick"},
         Scar{30580, "StoppedByDrag"}, Scar{7008381, "BouncingInACrowd"},
-        Scar{7023885, "SlidingInACrowd"}, Scar{7056537, "BouncingWhileItSlides"}),
+        Scar{7023885, "SlidingInACrowd"}, Scar{7056537, "BouncingWhileItSlides"},
+        Scar{30011485, "GrippedWhileItSpins"}, Scar{7015132, "GrippedLightlyWhileItSpins"},
+        Scar{7029090, "GrippedHardWhileItSpins"}, Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
     [](const auto& each) { return each.param.name; });
 
 } // namespace
