@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint32_t touches_max = 64, touches_many = 12;
 constexpr double many_times = 4.0;
 // Looks at two bodies in a tick: some, and so many more for each movable body.
-constexpr std::uint32_t steps_base = 2048, steps_per_body = 128;
+constexpr std::uint32_t steps_base = 512, steps_per_body = 32;
 // Meetings for each movable body, on average.
 constexpr std::size_t meetings_per_body_max = 64;
 constexpr std::size_t meetings_max = 65'536;

@@ -3,6 +3,7 @@
 #include "scene/rigid/step.hpp"
 
 #include "scene/collide/sweep.hpp"
+#include "scene/hand/midpoint.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -125,13 +126,17 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 }
 
 template <BroadPhase broad_phase>
-Work RigidStepper<broad_phase>::work_bound(const WorldConfig& /*config*/) const
+Work RigidStepper<broad_phase>::work_bound(const WorldConfig& config) const
 {
+    const std::uint64_t pushed =
+        std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
     // Overlaps are looked at once more where a body is held back.
     return {.pairs = (sleeps ? 1 + wake_rounds_max : 1) * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
             .visits = solver_.visits_bound(velocity_limits()) +
-                      2 * solver_.visits_bound(position_limits())};
+                      2 * solver_.visits_bound(position_limits()),
+            .springs = 2 * pushed * MidpointBudget::rows_solved_max, // against drag, twice
+            .looks = continuous_.looks_max()};
 }
 
 template <BroadPhase broad_phase>
@@ -386,6 +391,7 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
                                       {springs, work, modes_[spring.hand], config});
         hand_contacts_.store_impulses(spring.body);
         if (integration.hands_are_braked) ++state.interventions.hands_braked;
+        state.work.springs += integration.hand_rows;
     }
 }
 
@@ -505,6 +511,7 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
     continuous_.solve(config, state, active_.slots(), pairs_);
+    state.work.looks = continuous_.looks();
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
     }
