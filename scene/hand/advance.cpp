@@ -200,8 +200,17 @@ HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
                          advance_in_constant_contact(body, dynamics, springs, work, tick, modes);
     if (is_done && has_hardly_turned(start, body)) return energy_of_pressed(springs, work); // exact
     std::size_t rows = 0;
-    return advance_otherwise({body, dynamics, springs, work.first(springs.size()), modes, rows},
-                             start, is_done, tick);
+    const HandEnergy energy = advance_otherwise(
+        {body, dynamics, springs, work.first(springs.size()), modes, rows}, start, is_done, tick);
+    // What stiff hands against each other leave of the velocity is what their impulses leave, to
+    // the last digit that such large ones have.
+    if (springs.size() > 1 && dynamics.drag == 0.0) {
+        glm::dvec3 impulse{0.0};
+        for (std::size_t i = 0; i < springs.size(); ++i) impulse += work[i].impulse;
+        body.velocity =
+            start.velocity + tick * dynamics.acceleration + dynamics.inverse_mass * impulse;
+    }
+    return energy;
 }
 
 } // namespace hapnet::scene

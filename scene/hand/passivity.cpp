@@ -155,6 +155,16 @@ public:
         end = less;
     }
 
+    /// What a grip has stored it gives by its impulse alone: it becomes part of what is driven.
+    void count_grips(double share, HandEnergy& energy) const
+    {
+        if (grips_.impulse == 0.0) return;
+        const double most = within_tick * share * grips_.impulse * fastest(share);
+        const double driven = share * grips_.driven;
+        energy.stored -= grips_.stored;
+        energy.driven += std::min(grips_.stored, std::max(most - driven, 0.0));
+    }
+
 private:
     /// With the inverse inertia at the end, and the one that it has there without hands.
     [[nodiscard]] EnergyOfShare energy_with(const glm::dmat3& light,
@@ -292,11 +302,13 @@ HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> spring
     PassivityCheck check{body, springs, work, energy.driven};
     const double share =
         std::min(check.share(energy.stored, at_end), share_within_forces(springs, work, body.tick));
-    if (share >= 1.0) return energy;
-    check.scale(share);
-    for (std::size_t i = 0; i < springs.size(); ++i) work[i].impulse *= share;
-    energy.driven *= share;
-    energy.is_braked = true;
+    if (share < 1.0) {
+        check.scale(share);
+        for (std::size_t i = 0; i < springs.size(); ++i) work[i].impulse *= share;
+        energy.driven *= share;
+        energy.is_braked = true;
+    }
+    check.count_grips(share, energy);
     return energy;
 }
 
