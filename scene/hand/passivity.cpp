@@ -162,7 +162,7 @@ public:
         const double most = within_tick * share * grips_.impulse * fastest(share);
         const double driven = share * grips_.driven;
         energy.stored -= grips_.stored;
-        energy.driven += std::min(grips_.stored, std::max(most - driven, 0.0));
+        energy.driven += std::min(grips_.stored, most - driven);
     }
 
 private:
@@ -239,9 +239,10 @@ private:
         const glm::dvec3 after = free_.angular_momentum + given;
         const double spin = std::max(length(light * before), length(light * after));
         const double angle = spin * body_.tick;
-        const double slack = moments.spread * std::min(angle, 1.0) * spin * length(given);
+        // Half of what it may be at most: the spin may be the smaller one of the end.
+        const double slack = 0.5 * moments.spread * std::min(angle, 1.0) * spin * length(given);
         if (angle <= far_turn) return slack;
-        return slack + moments.range * (glm::dot(before, before) + glm::dot(after, after));
+        return slack + 0.5 * moments.range * (glm::dot(before, before) + glm::dot(after, after));
     }
 
     [[nodiscard]] double stored_at(const MovingBody& body) const

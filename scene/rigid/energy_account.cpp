@@ -121,7 +121,7 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, Slot slot)
                          glm::dot(motion.momentum, motion.spin) + std::abs(work);
     const double miss2 =
         speed_tolerance * speed_tolerance * glm::dot(motion.forced, motion.forced) +
-        rest * rest * tick.scales.size * tick.scales.size * tick.scales.rate * tick.scales.rate;
+        rest * rest * tick.scales.least * tick.scales.least * tick.scales.rate * tick.scales.rate;
     balance.stored += energy_tolerance * there + mass * miss2;
     balance.driven += turning_slack(properties, motion, tick.config.tick);
     return balance;

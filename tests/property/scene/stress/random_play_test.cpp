@@ -76,8 +76,12 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{7427, "BouncingLightly"}, Scar{8575, "BouncingOffTwoInOneTick"},
         Scar{30580, "StoppedByDrag"}, Scar{7008381, "BouncingInACrowd"},
         Scar{7023885, "SlidingInACrowd"}, Scar{7056537, "BouncingWhileItSlides"},
-        Scar{30011485, "GrippedWhileItSpins"}, Scar{7015132, "GrippedLightlyWhileItSpins"},
-        Scar{7029090, "GrippedHardWhileItSpins"}, Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
+        Scar{58103, "PushedByFourFromRest"}, Scar{87789, "HardlyTouched"},
+        Scar{153192, "SqueezedByStiffHands"}, Scar{532650, "SqueezedByStifferHands"},
+        Scar{231289, "WokenBesideASmallerOne"}, Scar{540562, "HeldAmongOthers"},
+        Scar{753380, "PushedWhileItSpinsFar"}, Scar{30011485, "GrippedWhileItSpins"},
+        Scar{7015132, "GrippedLightlyWhileItSpins"}, Scar{7029090, "GrippedHardWhileItSpins"},
+        Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
     [](const auto& each) { return each.param.name; });
 
 } // namespace
