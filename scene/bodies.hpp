@@ -38,6 +38,16 @@ struct BodyProperties {
     double drag = 0.0; // N s/m
 };
 
+/// An angular impulse changes the momentum only about axes that the body may turn about.
+[[nodiscard]] inline glm::dvec3 about_unlocked_axes(const BodyProperties& properties,
+                                                    const glm::dvec3& angular)
+{
+    if (properties.turning == Turning::free) return angular;
+    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
+            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
+            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
+}
+
 /// The state of all bodies. The hot half lies in lanes, one number of every body after the other,
 /// so that a loop over many bodies reads only what it needs and compilers can vectorise it. Slots
 /// are kept in three ranges: awake [0, awake), asleep [awake, movable), fixed [movable, size).

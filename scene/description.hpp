@@ -117,6 +117,8 @@ inline constexpr double mass_max_kg = 1e6;
 inline constexpr double stiffness_max_n_per_m = 1e9;
 inline constexpr double damping_max_ns_per_m = 1e6;
 inline constexpr double force_max_n = 1e6;
+inline constexpr double torque_max_n_m = 1e6;
+inline constexpr double impulse_max_n_s = 1e6;
 inline constexpr double friction_max = 10.0;
 inline constexpr double gravity_max_m_per_s2 = 1e3;
 

@@ -65,8 +65,10 @@ struct WorldState {
     std::array<HandInput, hands_max> hands{};
     std::array<HandTouch, hands_max> touches{};
     std::vector<glm::dvec3> pushes{};      // newtons by id, held for the next tick, then cleared
-    Bounded<BodyId> pushed{};              // the bodies with a push, each once
-    std::vector<std::uint8_t> is_pushed{}; // by id
+    std::vector<glm::dvec3> torques{};     // newton metres by id, about the centre, likewise
+    Bounded<BodyId> pushed{};              // the bodies with a push or a torque, each once
+    Bounded<BodyId> twisted{};             // those of them with a torque, each once
+    std::vector<std::uint8_t> is_pushed{}; // by id: 1 in `pushed`, 2 in `twisted`
     std::uint64_t ticks = 0;
     Interventions interventions{};
 };

@@ -7,11 +7,16 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::scene {
 
 namespace {
+
+// Of WorldState::is_pushed.
+constexpr std::uint8_t is_pushed_mark = 1;
+constexpr std::uint8_t is_twisted_mark = 2;
 
 /// Why a vector cannot be taken.
 std::optional<Refusal> objection(const glm::dvec3& v, double most)
@@ -74,7 +79,9 @@ WorldState initial_state(const Description& description)
     WorldState state{.bodies = Bodies{description}};
     for (HandInput& hand : state.hands) hand.present = false;
     state.pushes.resize(description.bodies.size());
+    state.torques.resize(description.bodies.size());
     state.pushed = Bounded<BodyId>{description.bodies.size()};
+    state.twisted = Bounded<BodyId>{description.bodies.size()};
     state.is_pushed.resize(description.bodies.size());
     return state;
 }
@@ -140,9 +147,71 @@ std::optional<Refusal> World::push(BodyId body, base::Force force)
     const glm::dvec3 sum = state_.pushes[body] + force.value;
     if (const auto why = objection(sum, force_max_n)) return refuse(*why);
     if (state_.is_pushed[body] == 0) state_.pushed.add(body);
-    state_.is_pushed[body] = 1;
+    state_.is_pushed[body] |= is_pushed_mark;
     state_.pushes[body] = sum;
     return std::nullopt;
+}
+
+std::optional<Refusal> World::push(BodyId body, base::Force force, base::Position at)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(force.value, force_max_n)) return refuse(*why);
+    if (const auto why = objection(at.value, reach_max_m)) return refuse(*why);
+    const glm::dvec3 torque = glm::cross(at.value - position(body).value, force.value);
+    for (const glm::dvec3& twist : {torque, state_.torques[body] + torque}) {
+        if (const auto why = objection(twist, torque_max_n_m)) return refuse(*why);
+    }
+    if (const auto refused = push(body, force)) return refused;
+    return push_torque(body, torque);
+}
+
+std::optional<Refusal> World::push_torque(BodyId body, const glm::dvec3& torque)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(torque, torque_max_n_m)) return refuse(*why);
+    const glm::dvec3 sum = state_.torques[body] + torque;
+    if (const auto why = objection(sum, torque_max_n_m)) return refuse(*why);
+    std::uint8_t& marks = state_.is_pushed[body];
+    if (marks == 0) state_.pushed.add(body);
+    if ((marks & is_twisted_mark) == 0) state_.twisted.add(body);
+    marks |= is_pushed_mark | is_twisted_mark;
+    state_.torques[body] = sum;
+    return std::nullopt;
+}
+
+std::optional<Refusal> World::apply_impulse(BodyId body, const glm::dvec3& impulse,
+                                            base::Position at)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(impulse, impulse_max_n_s)) return refuse(*why);
+    if (const auto why = objection(at.value, reach_max_m)) return refuse(*why);
+    Bodies& bodies = state_.bodies;
+    const Slot slot = bodies.slot_of[body];
+    const BodyProperties& properties = bodies.properties[slot];
+    const glm::dvec3 velocity = bodies.velocity.at(slot) + properties.inverse_mass * impulse;
+    const glm::dvec3 turning =
+        about_unlocked_axes(properties, glm::cross(at.value - bodies.position.at(slot), impulse));
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) + turning;
+    if (const auto why = objection(velocity, speed_max_m_per_s)) return refuse(*why);
+    if (const auto why =
+            objection(bodies.apply_inverse_inertia(slot, momentum), turn_max_rad_per_s)) {
+        return refuse(*why);
+    }
+    wake(body);
+    const Slot awake = bodies.slot_of[body];
+    bodies.velocity.put(awake, velocity);
+    bodies.angular_momentum.put(awake, momentum);
+    return std::nullopt;
+}
+
+/// So that it takes part in the next tick; nothing else about it changes.
+void World::wake(BodyId body)
+{
+    std::visit(
+        [&](auto& stepper) {
+            if constexpr (requires { stepper.wake(state_, body); }) stepper.wake(state_, body);
+        },
+        stepper_);
 }
 
 std::optional<Refusal> World::place(BodyId body, const BodyState& state)
@@ -194,12 +263,19 @@ std::optional<Refusal> World::place(BodyId body, base::Position position, base::
 void World::tick()
 {
     std::visit([&](auto& stepper) { stepper.step(config_, state_); }, stepper_);
+    if (!state_.pushed.is_empty()) forget_pushes();
+    ++state_.ticks;
+}
+
+void World::forget_pushes()
+{
     for (const BodyId body : state_.pushed) {
         state_.pushes[body] = glm::dvec3{0.0};
+        state_.torques[body] = glm::dvec3{0.0};
         state_.is_pushed[body] = 0;
     }
     state_.pushed.clear();
-    ++state_.ticks;
+    state_.twisted.clear();
 }
 
 bool World::is_movable(BodyId id) const

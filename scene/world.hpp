@@ -37,7 +37,7 @@ using RefusalCounts = std::array<std::uint64_t, refusals>;
 
 /// What moves a world on, chosen when the scene is frozen. Each is a value with two verbs:
 /// step(config, state), and on_body_placed(state, body) after a body was put somewhere from
-/// outside. The order is that of StepperKind.
+/// outside. Those whose bodies sleep have wake(state, body), too. The order is that of StepperKind.
 using Stepper = std::variant<FreeFlightStepper, OneBoxStepper<false>, OneBoxStepper<true>,
                              RigidStepper<BroadPhase::none>, RigidStepper<BroadPhase::all_pairs>,
                              RigidStepper<BroadPhase::grid>>;
@@ -57,6 +57,15 @@ public:
     std::optional<Refusal> set_hand(std::uint32_t index, const HandInput& input);
     /// A force on a movable body's centre, held for the next tick; pushes of one tick add up.
     std::optional<Refusal> push(BodyId body, base::Force force);
+    /// The same at a point in the world's frame: it turns the body, too, as far as that can turn.
+    /// The torque is that about the centre where it is now.
+    std::optional<Refusal> push(BodyId body, base::Force force, base::Position at);
+    /// A torque in N m, in the world's frame, held for the next tick; those of one tick add up. A
+    /// body that cannot turn about its axis does not.
+    std::optional<Refusal> push_torque(BodyId body, const glm::dvec3& torque);
+    /// A blow, in N s, at a point in the world's frame: velocity and angular momentum change at
+    /// once. Refused as out of range if the body were then faster than place() may make it.
+    std::optional<Refusal> apply_impulse(BodyId body, const glm::dvec3& impulse, base::Position at);
     /// Puts a movable body somewhere and wakes it. Locked coordinates stay as they are; an
     /// orientation that the body cannot have is refused.
     std::optional<Refusal> place(BodyId body, const BodyState& state);
@@ -99,6 +108,8 @@ public:
 private:
     World(const Description& description, const FreezeOptions& options, StepperKind kind);
     std::optional<Refusal> refuse(Refusal refusal);
+    void wake(BodyId body);
+    void forget_pushes();
     [[nodiscard]] Slot slot_of(BodyId id) const
     {
         base::ensure(id < state_.bodies.size());

@@ -17,15 +17,6 @@ namespace {
 /// How far a body may come off its straight path within a tick, in half edges of the smallest body.
 constexpr double stray_max = 0.5;
 
-/// An angular impulse changes the momentum only about axes that the body may turn about.
-glm::dvec3 about_unlocked_axes(const BodyProperties& properties, const glm::dvec3& angular)
-{
-    if (properties.turning == Turning::free) return angular;
-    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
-            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
-            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
-}
-
 /// The part of a displacement or velocity along unlocked axes.
 glm::dvec3 unlocked_part(const BodyProperties& properties, const glm::dvec3& way)
 {

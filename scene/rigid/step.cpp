@@ -114,6 +114,12 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 }
 
 template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::wake(WorldState& state, BodyId body)
+{
+    if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
+}
+
+template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::update_pairs(const WorldState& state)
 {
     pairs_.update(state.bodies);
@@ -296,6 +302,11 @@ void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config,
                                                      const WorldState& state)
 {
     for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
+    // A torque is held for the tick, as last tick's contact forces are.
+    for (const BodyId body : state.twisted) {
+        integrations_[state.bodies.slot_of[body] + 1].contact_angular_impulse +=
+            scales_.tick * state.torques[body];
+    }
     integrate_hand_springs(config, state);
     for (const Slot slot : active_.slots()) {
         BodyIntegration& integration = integrations_[slot + 1];

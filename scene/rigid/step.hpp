@@ -31,6 +31,7 @@ public:
 
     void step(const WorldConfig& config, WorldState& state);
     void on_body_placed(WorldState& state, BodyId body);
+    void wake(WorldState& state, BodyId body);
 
     /// What was done, for tests and measurements.
     struct Counts {
