@@ -89,6 +89,7 @@ public:
     [[nodiscard]] const WorldState& state() const { return state_; }
     [[nodiscard]] const WorldConfig& frozen() const { return config_; }
     [[nodiscard]] StepperKind stepper_kind() const { return kind_; }
+    [[nodiscard]] const Stepper& stepper() const { return stepper_; }
     [[nodiscard]] std::uint64_t ticks() const { return state_.ticks; }
     [[nodiscard]] const RefusalCounts& refused() const { return refused_; }
 

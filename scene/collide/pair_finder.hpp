@@ -70,6 +70,7 @@ public:
     void forget(BodyId body);
 
     [[nodiscard]] const PairSet& all_pairs() const { return pairs_; }
+    [[nodiscard]] const PairSet& all_plane_pairs() const { return plane_pairs_; }
 
     /// What was done, for tests and measurements.
     struct Counts {

@@ -120,6 +120,7 @@ void apply_restitution_to(ContactBlock& block, ContactSolver& solver,
     for (double& part : change) part *= kept_share;
     block.impulse = kept;
     block.speed_min = least;
+    block.bounce_impulse = change[0];
     Wrench push = wrench(block, change);
     if (block.b != 0)
         add({integrations[block.b], solver.response(block.b), block.arm_b}, push, 1.0 - share);

@@ -205,6 +205,7 @@ ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
     ContactBlock& block = solver_.add();
     prepare(block, manifold, centres, memory);
     block.memory = &memory;
+    block.bounce_impulse = 0.0;
     for (std::uint32_t i = 0; i < block.count; ++i) {
         block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
     }
@@ -372,6 +373,7 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
     for (const ContactBlock& block : solver_.blocks()) {
         const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
         store_impulses(block, weight, *block.memory);
+        block.memory->normal_impulse_of_tick = block.normal_sum() + block.bounce_impulse;
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
         ++integrations_[block.a].friction_contacts;
         ++integrations_[block.b].friction_contacts;

@@ -26,6 +26,10 @@ namespace hapnet::scene {
 template <BroadPhase broad_phase>
 class RigidStepper {
 public:
+    /// Fixed bodies and hands have to be found, too, where there is but one movable body.
+    static constexpr BroadPhase search =
+        broad_phase == BroadPhase::grid ? BroadPhase::grid : BroadPhase::all_pairs;
+
     RigidStepper(const Description& description, const WorldConfig& config,
                  const WorldState& state);
 
@@ -41,11 +45,9 @@ public:
         double change = 0.0;                 // m/s, of the last sweep
     };
     [[nodiscard]] const Counts& counts() const { return counts_; }
+    [[nodiscard]] const PairFinder<search>& pairs() const { return pairs_; }
 
 private:
-    /// Fixed bodies and hands have to be found, too, where there is but one movable body.
-    static constexpr BroadPhase search =
-        broad_phase == BroadPhase::grid ? BroadPhase::grid : BroadPhase::all_pairs;
     static constexpr bool sleeps = broad_phase != BroadPhase::none;
     struct NoSleep {
         NoSleep(const WorldConfig& /*config*/, const Bodies& /*bodies*/) {}

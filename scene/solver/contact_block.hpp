@@ -74,6 +74,7 @@ struct ContactBlock {
     std::array<double, manifold_points_max>
         start_impulse{}; // the normal impulses that it started from
     double restitution = 0.0;
+    double bounce_impulse = 0.0; // N s, along the normal, of this tick
     ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
     ContactVector
         centripetal_velocity{}; // m/s, what turning adds to its velocity by the end of the tick
