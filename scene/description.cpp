@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/description.hpp"
 
+#include "proto/base/math.hpp"
+
 #include <bit>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
@@ -60,6 +62,21 @@ void check_material(Check& check, const Material& material)
     check.within("restitution", material.restitution, 0.0, 1.0);
 }
 
+void check_sway(Check& check, const Sway& sway)
+{
+    check.within("sway in m", sway.by, -reach_max_m, reach_max_m);
+    if (sway.period == base::Duration{}) {
+        check.holds(sway.by == glm::dvec3{0.0}, "sway needs a sway_period");
+        return;
+    }
+    check.within("sway_period in s", base::to_seconds(sway.period), base::to_seconds(period_min),
+                 base::to_seconds(period_max));
+    const double fastest =
+        0.5 * base::two_pi / base::to_seconds(sway.period) * std::sqrt(square(sway.by));
+    check.holds(fastest <= speed_max_m_per_s,
+                fmt::format("sways faster than {} m/s", speed_max_m_per_s));
+}
+
 base::Result<void> check_body(const BodyDescription& body, std::size_t number)
 {
     Check check{fmt::format("body {} '{}'", number, body.name)};
@@ -68,8 +85,14 @@ base::Result<void> check_body(const BodyDescription& body, std::size_t number)
     check.holds(is_unit(square(body.orientation)), "orientation is not a unit quaternion");
     check_material(check, body.material);
     check.within("drag in N s/m", body.drag_ns_per_m, 0.0, damping_max_ns_per_m);
-    if (!body.movable) return check.result();
-    check.within("mass in kg", body.mass_kg, mass_min_kg, mass_max_kg);
+    check.holds(!(body.kinematic && body.movable), "a kinematic body is not movable");
+    if (!body.movable && !body.kinematic) return check.result();
+    if (body.movable) check.within("mass in kg", body.mass_kg, mass_min_kg, mass_max_kg);
+    if (body.kinematic) {
+        check_sway(check, body.sway);
+        check.holds(body.sway.period == base::Duration{} || body.velocity.value == glm::dvec3{0.0},
+                    "a body that sways has no velocity of its own");
+    }
     check.within("velocity in m/s", body.velocity.value, -speed_max_m_per_s, speed_max_m_per_s);
     check.within("angular velocity in rad/s", body.angular_velocity, -turn_max_rad_per_s,
                  turn_max_rad_per_s);
@@ -140,9 +163,9 @@ private:
 
 void add(Hash& hash, const BodyDescription& body)
 {
-    const auto flags = (body.movable ? 1U : 0U) | (body.locked.x ? 2U : 0U) |
-                       (body.locked.y ? 4U : 0U) | (body.locked.z ? 8U : 0U) |
-                       static_cast<unsigned>(body.turning) << 4U;
+    const auto flags = (body.movable ? 1U : 0U) | (body.kinematic ? 128U : 0U) |
+                       (body.locked.x ? 2U : 0U) | (body.locked.y ? 4U : 0U) |
+                       (body.locked.z ? 8U : 0U) | static_cast<unsigned>(body.turning) << 4U;
     hash.add(std::uint64_t{flags});
     hash.add(body.half);
     hash.add(body.position.value);
@@ -152,10 +175,12 @@ void add(Hash& hash, const BodyDescription& body)
     }
     hash.add(body.material);
     hash.add(body.drag_ns_per_m);
-    if (!body.movable) return;
+    if (!body.movable && !body.kinematic) return;
     hash.add(body.velocity.value);
     hash.add(body.angular_velocity);
-    hash.add(body.mass_kg);
+    if (body.movable) return hash.add(body.mass_kg);
+    hash.add(body.sway.by);
+    hash.add(base::to_seconds(body.sway.period));
 }
 
 } // namespace

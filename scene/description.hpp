@@ -5,6 +5,7 @@
 #include "proto/base/names.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
+#include "proto/base/time.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,10 +47,23 @@ struct LockedAxes {
     friend bool operator==(const LockedAxes&, const LockedAxes&) = default;
 };
 
+/// How a kinematic body goes to and fro: from where it is to `by` from there, and back, starting
+/// and turning round at rest. It is by * (1 - cos(2 pi t / period)) / 2 from its position.
+struct Sway {
+    glm::dvec3 by{0.0};      // m
+    base::Duration period{}; // 0: it does not sway
+
+    friend bool operator==(const Sway&, const Sway&) = default;
+};
+
 /// A solid box of even density.
 struct BodyDescription {
     std::string name;
     bool movable = true;
+    /// Not movable, but it moves: with its velocity and angular velocity for ever, or as it sways,
+    /// until World::drive() or World::move() says otherwise. It pushes and is not pushed.
+    bool kinematic = false;
+    Sway sway{};
     glm::dvec3 half{0.02}; // half the edges, metres
     base::Position position{};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // unit, from the body's frame to the world's
@@ -121,6 +135,8 @@ inline constexpr double torque_max_n_m = 1e6;
 inline constexpr double impulse_max_n_s = 1e6;
 inline constexpr double friction_max = 10.0;
 inline constexpr double gravity_max_m_per_s2 = 1e3;
+inline constexpr base::Duration period_min{std::chrono::milliseconds{10}};
+inline constexpr base::Duration period_max{std::chrono::hours{24}};
 
 /// Says what is wrong with a description: the name of the part and what was expected.
 [[nodiscard]] base::Result<void> check(const Description& description);

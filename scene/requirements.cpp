@@ -21,6 +21,7 @@ constexpr std::size_t scan_max = 64;
 struct Census {
     std::size_t movable = 0;
     std::size_t fixed = 0;
+    std::size_t kinematic = 0;   // of those
     std::size_t turning = 0;     // movable
     std::size_t skew = 0;        // boxes and planes not parallel to the axes
     std::size_t bouncing = 0;    // bodies and planes with restitution
@@ -42,6 +43,7 @@ Census census_of(const Description& description)
     Census census;
     for (const BodyDescription& body : description.bodies) {
         ++(body.movable ? census.movable : census.fixed);
+        if (body.kinematic) ++census.kinematic;
         if (body.movable && body.turning != Turning::locked) ++census.turning;
         if (!is_parallel(body.orientation)) ++census.skew;
         if (body.material.restitution > 0.0) ++census.bouncing;
@@ -95,8 +97,8 @@ Requirement without_contact(Feature feature)
 std::string_view name_of(Feature feature)
 {
     constexpr std::array<std::string_view, features> names{
-        "contact",     "hips", "skew",   "rotation", "friction",
-        "restitution", "drag", "bodies", "sleep",    "grid"};
+        "contact", "hips",   "skew",  "rotation", "friction", "restitution",
+        "drag",    "bodies", "sleep", "grid",     "kinematic"};
     return names.at(static_cast<std::size_t>(feature));
 }
 
@@ -116,7 +118,7 @@ FeatureSet abilities_of(StepperKind kind)
     case StepperKind::flight: add(rotation, skew); break;
     case StepperKind::many: add(grid); [[fallthrough]];
     case StepperKind::few: add(bodies, sleep); [[fallthrough]];
-    case StepperKind::lone: add(rotation, skew); [[fallthrough]];
+    case StepperKind::lone: add(rotation, skew, kinematic); [[fallthrough]];
     case StepperKind::sliding_coulomb: add(friction); [[fallthrough]];
     case StepperKind::sliding: add(contact, hands, restitution, drag); break;
     }
@@ -148,10 +150,13 @@ Requirements requirements_of(const Description& description, bool sleeping)
                 sleeping ? fmt::format("movable bodies: {}", census.movable)
                          : std::string{"switched off"}),
         require(grid, total > scan_max && census.movable > 0,
-                fmt::format("bodies: {}; up to {} a scan is faster", total, scan_max))};
+                fmt::format("bodies: {}; up to {} a scan is faster", total, scan_max)),
+        require(kinematic, census.kinematic > 0,
+                fmt::format("bodies that move by themselves: {}", census.kinematic))};
     if (!needs[0].is_required) {
         for (Requirement& each : needs) {
-            const bool is_own = each.feature == contact || each.feature == rotation;
+            const bool is_own =
+                each.feature == contact || each.feature == rotation || each.feature == kinematic;
             if (!is_own) each = without_contact(each.feature);
         }
     }

@@ -40,6 +40,18 @@ struct WorldConfig {
     bool sleeping = true; // whether bodies at rest may fall asleep
 };
 
+/// How a kinematic body goes on.
+struct KinematicScript {
+    enum class Kind : std::uint8_t {
+        steady, // as it moves
+        sways,  // about the target's position
+        target, // where it is at the end of the next tick, then steadily on
+    };
+    Kind kind = Kind::steady;
+    Sway sway{};
+    BodyState target{};
+};
+
 /// How often the ticks since freeze() stepped in where the plain algorithm would have broken a law.
 struct Interventions {
     // Guards: motion was thrown away.
@@ -64,11 +76,12 @@ struct WorldState {
     Bodies bodies;
     std::array<HandInput, hands_max> hands{};
     std::array<HandTouch, hands_max> touches{};
-    std::vector<glm::dvec3> pushes{};      // newtons by id, held for the next tick, then cleared
-    std::vector<glm::dvec3> torques{};     // newton metres by id, about the centre, likewise
-    Bounded<BodyId> pushed{};              // the bodies with a push or a torque, each once
-    Bounded<BodyId> twisted{};             // those of them with a torque, each once
-    std::vector<std::uint8_t> is_pushed{}; // by id: 1 in `pushed`, 2 in `twisted`
+    std::vector<glm::dvec3> pushes{};       // newtons by id, held for the next tick, then cleared
+    std::vector<glm::dvec3> torques{};      // newton metres by id, about the centre, likewise
+    Bounded<BodyId> pushed{};               // the bodies with a push or a torque, each once
+    Bounded<BodyId> twisted{};              // those of them with a torque, each once
+    std::vector<std::uint8_t> is_pushed{};  // by id: 1 in `pushed`, 2 in `twisted`
+    std::vector<KinematicScript> scripts{}; // of the kinematic bodies, in the order of their slots
     std::uint64_t ticks = 0;
     Interventions interventions{};
 };

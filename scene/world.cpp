@@ -83,6 +83,14 @@ WorldState initial_state(const Description& description)
     state.pushed = Bounded<BodyId>{description.bodies.size()};
     state.twisted = Bounded<BodyId>{description.bodies.size()};
     state.is_pushed.resize(description.bodies.size());
+    for (Slot slot = state.bodies.movable; slot < state.bodies.moving; ++slot) {
+        const Sway& sway = description.bodies[state.bodies.properties[slot].id].sway;
+        const bool sways = sway.period != base::Duration{};
+        state.scripts.push_back(
+            {.kind = sways ? KinematicScript::Kind::sways : KinematicScript::Kind::steady,
+             .sway = sway,
+             .target = state.bodies.state(slot)});
+    }
     return state;
 }
 
@@ -260,6 +268,36 @@ std::optional<Refusal> World::place(BodyId body, base::Position position, base::
     return std::nullopt;
 }
 
+std::optional<Refusal> World::drive(BodyId body, base::Velocity velocity,
+                                    const glm::dvec3& angular_velocity)
+{
+    if (!is_kinematic(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(velocity.value, speed_max_m_per_s)) return refuse(*why);
+    if (const auto why = objection(angular_velocity, turn_max_rad_per_s)) return refuse(*why);
+    const Slot slot = slot_of(body);
+    state_.scripts[slot - state_.bodies.movable] = {};
+    state_.bodies.velocity.put(slot, velocity.value);
+    state_.bodies.angular_momentum.put(slot, angular_velocity);
+    return std::nullopt;
+}
+
+std::optional<Refusal> World::move(BodyId body, const BodyState& target)
+{
+    if (!is_kinematic(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(target.position.value, reach_max_m)) return refuse(*why);
+    if (const auto why = objection(target.orientation)) return refuse(*why);
+    if (const auto why = objection(target.velocity.value, speed_max_m_per_s)) return refuse(*why);
+    if (const auto why = objection(target.angular_velocity, turn_max_rad_per_s)) {
+        return refuse(*why);
+    }
+    const glm::dvec3 way = target.position.value - position(body).value;
+    if (const auto why = objection(way / config_.tick, speed_max_m_per_s)) return refuse(*why);
+    KinematicScript& script = state_.scripts[slot_of(body) - state_.bodies.movable];
+    script = {.kind = KinematicScript::Kind::target, .target = target};
+    script.target.orientation = base::normalized(target.orientation);
+    return std::nullopt;
+}
+
 void World::tick()
 {
     std::visit([&](auto& stepper) { stepper.step(config_, state_); }, stepper_);
@@ -281,6 +319,12 @@ void World::forget_pushes()
 bool World::is_movable(BodyId id) const
 {
     return id < state_.bodies.size() && state_.bodies.slot_of[id] < state_.bodies.movable;
+}
+
+bool World::is_kinematic(BodyId id) const
+{
+    return id < state_.bodies.size() &&
+           state_.bodies.properties[state_.bodies.slot_of[id]].is_kinematic;
 }
 
 BodyState World::body(BodyId id) const { return state_.bodies.state(slot_of(id)); }

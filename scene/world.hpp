@@ -72,6 +72,13 @@ public:
     /// The same; orientation and angular velocity stay.
     std::optional<Refusal> place(BodyId body, base::Position position, base::Velocity velocity);
 
+    /// A kinematic body moves on like that from where it is, until it is told otherwise.
+    std::optional<Refusal> drive(BodyId body, base::Velocity velocity,
+                                 const glm::dvec3& angular_velocity);
+    /// A kinematic body comes there by the end of the next tick, on a straight way and by the
+    /// shortest turn, and then goes on with that velocity and angular velocity.
+    std::optional<Refusal> move(BodyId body, const BodyState& target);
+
     void tick();
 
     [[nodiscard]] BodyState body(BodyId id) const;
@@ -117,6 +124,7 @@ private:
         return state_.bodies.slot_of[id];
     }
     [[nodiscard]] bool is_movable(BodyId id) const;
+    [[nodiscard]] bool is_kinematic(BodyId id) const;
 
     WorldConfig config_;
     StepperKind kind_;

@@ -202,11 +202,12 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     integration.mean.angular_impulse = glm::dvec3{0.0};
 }
 
-void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
+void apply_stop(const ContactBlock& block, const SlidingBody& body,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean)
 {
-    const double sign = block.b != 0 ? 1.0 : -1.0;
-    const glm::dvec3& set_start = integration.start.velocity;
+    const BodyIntegration& integration = body.integration;
+    const double sign = body.is_second ? 1.0 : -1.0;
+    const glm::dvec3 set_start = integration.start.velocity - body.ground;
     const glm::dvec3 slip =
         unlocked_part(properties, set_start - glm::dot(set_start, block.normal) * block.normal);
     const double speed = std::sqrt(glm::dot(slip, slip));

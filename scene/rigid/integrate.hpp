@@ -52,9 +52,16 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
 void integrate_velocity_with_hands(BodyIntegration& integration, const WorldState& state, Slot slot,
                                    const BodyResponse& response, const HandForces& hands);
 
+/// What slides on something that does not turn.
+struct SlidingBody {
+    const BodyIntegration& integration;
+    const glm::dvec3& ground; // the velocity of what it slides on
+    bool is_second = true;    // of the contact
+};
+
 /// A contact that stops slipping within the tick does so at its moment: until then friction has
 /// its full strength, and not a mean one until the end. For a body whose only friction it is.
-void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
+void apply_stop(const ContactBlock& block, const SlidingBody& body,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
 /// A body's contacts were looked for in the box around its straight path through the tick. When it

@@ -78,13 +78,16 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       boxes_{state.bodies, scales_},
       free_bodies_{config, state.bodies},
       active_{state.bodies.movable},
-      integrations_{state.bodies.movable + std::size_t{1}},
-      solver_{state.bodies.movable, blocks_for(config, state.bodies)}
+      kinematics_{state.bodies},
+      integrations_{state.bodies.moving + std::size_t{1}},
+      solver_{state.bodies.moving, blocks_for(config, state.bodies)}
 {}
 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& state)
 {
+    const bool has_kinematics = state.bodies.moving != state.bodies.movable;
+    if (has_kinematics) kinematics_.begin_tick(config, state);
     update_pairs(state);
     collide_hands(config, state);
     wake_disturbed(state);
@@ -100,6 +103,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     correct_positions();
     integrate_positions(state);
     integrate_free_bodies(state);
+    if (has_kinematics) kinematics_.end_tick(state);
     report_hand_forces(config, state);
     update_sleep(state);
 }
@@ -162,6 +166,7 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
     if constexpr (sleeps) {
         Bodies& bodies = state.bodies;
         for (const BodyId body : state.pushed) sleep_.wake(body, bodies, pairs_);
+        wake_carried(state);
         const auto are_touching = [&](PairIndex index) {
             return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
         };
@@ -169,12 +174,57 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
     }
 }
 
+/// Wakes what touches a body that moves by itself, and keeps it awake.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::wake_carried(WorldState& state)
+{
+    if constexpr (sleeps) {
+        Bodies& bodies = state.bodies;
+        const PairSet& pairs = pairs_.all_pairs();
+        for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
+            if (!kinematics_.of(bodies, slot).moves) continue;
+            const BodyId id = bodies.properties[slot].id;
+            const auto wake = [&](PairIndex index, BodyId other) {
+                const bool is_awake = bodies.slot_of[other] < bodies.awake;
+                const bool touches_it =
+                    is_awake ? touches(pairs[index].memory)
+                             : collide_pair(state, pairs_.pair(index)).manifold.count > 0;
+                if (touches_it) sleep_.wake(other, bodies, pairs_);
+            };
+            pairs.for_first(id, [&](PairIndex i) { wake(i, pairs[i].b); });
+            pairs.for_second(id, [&](PairIndex i) { wake(i, pairs[i].a); });
+        }
+    }
+}
+
+/// Kinematic bodies come after the awake ones; what does not move is 0.
+template <BroadPhase broad_phase>
+SolverIndex RigidStepper<broad_phase>::index_of(const Bodies& bodies, Slot slot) const
+{
+    if (slot < bodies.awake) return slot + 1;
+    if (slot < bodies.movable || slot >= bodies.moving) return 0;
+    return kinematics_.of(bodies, slot).moves ? bodies.awake + 1 + (slot - bodies.movable) : 0;
+}
+
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
 {
-    solver_.begin(state.bodies.awake);
-    integrations_.resize(state.bodies.awake + std::size_t{1});
+    const Bodies& bodies = state.bodies;
+    awake_ = bodies.awake;
+    const std::size_t last = bodies.awake + std::size_t{bodies.moving - bodies.movable};
+    solver_.begin(last);
+    integrations_.resize(last + 1);
     integrations_[0] = {};
+    for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
+        const std::size_t index = bodies.awake + std::size_t{1} + (slot - bodies.movable);
+        const KinematicTick& now = kinematics_.of(bodies, slot);
+        BodyIntegration& integration = integrations_[index];
+        integration = {};
+        integration.start = integration.start_after_bounces = now.start;
+        integration.predicted = now.end;
+        integration.mean = now.mean;
+        solver_.response(static_cast<SolverIndex>(index)) = {};
+    }
 }
 
 /// Starts the tick of an awake body that something acts on.
@@ -249,8 +299,8 @@ SweptContact RigidStepper<broad_phase>::collide_pair(const WorldState& state, Pa
     const auto box_sweep = [&](BodyId id) {
         const SweptBox& now = boxes_.at(bodies, id);
         const Slot slot = bodies.slot_of[id];
-        return BoxSweep{now.box, bodies.velocity.at(slot), slot < bodies.awake ? now.reach : 0.0,
-                        now.radius};
+        const bool moves = slot < bodies.awake || (slot >= bodies.movable && slot < bodies.moving);
+        return BoxSweep{now.box, bodies.velocity.at(slot), moves ? now.reach : 0.0, now.radius};
     };
     return collide_swept(box_sweep(pair.a), box_sweep(pair.b), scales_.tick, pair.memory.axis);
 }
@@ -259,10 +309,9 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
 {
     const Bodies& bodies = state.bodies;
-    const auto index_of = [&](Slot slot) -> SolverIndex {
-        if (slot >= bodies.awake) return 0;
-        activate(bodies, slot);
-        return slot + 1;
+    const auto index_of_active = [&](Slot slot) -> SolverIndex {
+        if (slot < bodies.awake) activate(bodies, slot);
+        return index_of(bodies, slot);
     };
     for (const PairIndex index : pairs_.pairs()) {
         Pair& pair = pairs_.pair(index);
@@ -273,8 +322,8 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
         if (block == nullptr) continue;
         const Material material =
             combined(bodies.properties[a].material, bodies.properties[b].material);
-        block->a = index_of(a);
-        block->b = index_of(b);
+        block->a = index_of_active(a);
+        block->b = index_of_active(b);
         block->friction = material.friction;
         block->restitution = material.restitution;
     }
@@ -343,6 +392,10 @@ void RigidStepper<broad_phase>::solve_velocities()
     for (const Slot slot : active_.slots()) {
         solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
     }
+    for (std::size_t i = awake_ + 1; i < integrations_.size(); ++i) {
+        solver_.end_motion(static_cast<SolverIndex>(i)) = integrations_[i].predicted;
+        solver_.mean_motion(static_cast<SolverIndex>(i)) = integrations_[i].mean;
+    }
     for (ContactBlock& block : solver_.blocks()) {
         set_centripetal_velocity(block, integrations_[block.a].start.spin,
                                  integrations_[block.b].start.spin, scales_.tick);
@@ -368,7 +421,7 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
 {
     const auto mass_of = [&](SolverIndex index) {
-        return index != 0 ? state.bodies.properties[index - 1].mass : 0.0;
+        return is_awake(index) ? state.bodies.properties[index - 1].mass : 0.0;
     };
     for (const ContactBlock& block : solver_.blocks()) {
         const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
@@ -385,11 +438,14 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 {
     for (const ContactBlock& block : solver_.blocks()) {
-        if (block.friction == 0.0 || (block.a != 0) == (block.b != 0)) continue;
-        const SolverIndex index = block.a + block.b;
+        if (block.friction == 0.0 || is_awake(block.a) == is_awake(block.b)) continue;
+        const SolverIndex index = is_awake(block.a) ? block.a : block.b;
         if (integrations_[index].friction_contacts != 1) continue;
-        apply_stop(block, integrations_[index], state.bodies.properties[index - 1], scales_,
-                   solver_.mean_motion(index));
+        const SolverIndex other = block.a + block.b - index;
+        const BodyMotion& ground = integrations_[other].start;
+        if (other != 0 && ground.spin != glm::dvec3{0.0}) continue;
+        apply_stop(block, {integrations_[index], ground.velocity, index == block.b},
+                   state.bodies.properties[index - 1], scales_, solver_.mean_motion(index));
     }
 }
 

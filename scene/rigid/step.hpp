@@ -7,6 +7,7 @@
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
+#include "scene/rigid/kinematics.hpp"
 #include "scene/rigid/sleep.hpp"
 #include "scene/solver/contact_solver.hpp"
 #include "scene/state.hpp"
@@ -72,19 +73,26 @@ private:
     void update_sleep(WorldState& state);
 
     void activate(const Bodies& bodies, Slot slot);
+    void wake_carried(WorldState& state);
+    [[nodiscard]] SolverIndex index_of(const Bodies& bodies, Slot slot) const;
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
     ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,
                               ContactMemory& memory);
     void integrate_hand_springs(const WorldConfig& config, const WorldState& state);
 
+    /// Whether it is a body that impulses move.
+    [[nodiscard]] bool is_awake(SolverIndex index) const { return index - 1 < awake_; }
+
     Scales scales_;
     bool bounces_ = false;
+    Slot awake_ = 0; // when the contacts of the tick began
     PairFinder<search> pairs_;
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
     HandContacts hand_contacts_;
     SweptBoxes boxes_;
     FreeBodies free_bodies_;
     ActiveBodies active_;
+    Kinematics kinematics_;
     Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;
     Counts counts_;

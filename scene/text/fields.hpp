@@ -64,6 +64,17 @@ constexpr auto fields_of(base::Tag<PlaneDescription>)
                         base::part(&PlaneDescription::material));
 }
 
+constexpr auto fields_of(base::Tag<Sway>)
+{
+    return base::fields(
+        "sway",
+        base::field("sway", &Sway::by,
+                    text::PerAxis{{base::length_kind, -reach_max_m, reach_max_m}},
+                    "how far a kinematic body goes from its position, and back, over and over"),
+        base::field("sway_period", &Sway::period, base::Time{base::Duration{}, period_max},
+                    "how long it takes there and back, 10 ms at least"));
+}
+
 constexpr auto fields_of(base::Tag<BodyDescription>)
 {
     constexpr text::PerAxis place{{base::length_kind, -reach_max_m, reach_max_m}};
@@ -73,6 +84,9 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
         "body", base::field("name", &BodyDescription::name, "for readers"),
         base::field("fixed", &BodyDescription::movable, text::Fixed{},
                     "it never moves; its mass, velocities, drag and locks are then ignored"),
+        base::field("kinematic", &BodyDescription::kinematic, base::Flag{},
+                    "it moves with its velocities, or as it sways, whatever it pushes; it needs no "
+                    "mass and counts as fixed"),
         base::field("size", &BodyDescription::half, text::Edges{}, "the edges").required(),
         base::field("position", &BodyDescription::position, place, "of the centre").always(),
         base::field("orientation", &BodyDescription::orientation, text::Orientation{},
@@ -80,6 +94,7 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
         base::field("velocity", &BodyDescription::velocity, speed, "of the centre"),
         base::field("angular_velocity", &BodyDescription::angular_velocity, turn,
                     "about the axes of the world"),
+        base::part(&BodyDescription::sway),
         base::field("mass", &BodyDescription::mass_kg,
                     base::Quantity{base::mass_kind, mass_min_kg, mass_max_kg},
                     "required unless the body is fixed or has a `density`")

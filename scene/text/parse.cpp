@@ -47,6 +47,7 @@ BodyDescription read_body_keys(TableReader& table)
 {
     BodyDescription body;
     base::read_fields(table, body);
+    if (body.kinematic) body.movable = false;
     read_density(table, body);
     return body;
 }

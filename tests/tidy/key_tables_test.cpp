@@ -157,7 +157,7 @@ const std::vector<KeyTable>& tables()
 const std::set<std::string>& without_table()
 {
     static const std::set<std::string> names{
-        "Material", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
+        "Material", "Sway", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
         "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "WrittenCorner",
         "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
         // JSON, CSV and the settings in a record's header

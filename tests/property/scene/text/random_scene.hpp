@@ -79,12 +79,19 @@ private:
     {
         BodyDescription drawn{.name = name()};
         drawn.movable = below(3) != 0;
+        drawn.kinematic = !drawn.movable && below(2) == 0;
         drawn.half = glm::dvec3{between(size_min_m, size_max_m)};
         if (below(2) == 0) drawn.half.z = between(size_min_m, size_max_m);
         drawn.position.value = vector(reach_max_m);
         drawn.orientation = orientation();
         drawn.velocity.value = vector(speed_max_m_per_s);
         drawn.angular_velocity = vector(turn_max_rad_per_s);
+        if (drawn.kinematic && below(2) == 0) {
+            drawn.velocity = {};
+            drawn.sway.period = base::Duration{static_cast<std::int64_t>(1 + below(1000)) *
+                                               std::chrono::milliseconds{77}};
+            drawn.sway.by = vector(1.0);
+        }
         drawn.mass_kg = between(mass_min_kg, mass_max_kg);
         drawn.turning = static_cast<Turning>(below(5));
         drawn.locked.x = below(2) == 0;

@@ -41,6 +41,13 @@ TEST(SharedBody, IsRefusedWhenItCanTurn)
     }
 }
 
+TEST(SharedBody, IsRefusedAmongBodiesThatMoveByThemselves)
+{
+    scene::Description scene = scene::paper_scene();
+    scene.bodies[1].kinematic = true;
+    EXPECT_NE(refusal_of(scene).find("kinematic"), std::string::npos);
+}
+
 TEST(SharedBody, NeedsAHandAndANumberThatAMessageCanTell)
 {
     scene::Description scene = scene::paper_scene();
