@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,16 @@ struct Sway {
     friend bool operator==(const Sway&, const Sway&) = default;
 };
 
+/// A stiffness and a damping of a hand's spring that replace those of all hands, where they are
+/// set.
+struct Feel {
+    std::optional<double> stiffness_n_per_m{};
+    std::optional<double> damping_ns_per_m{};
+
+    [[nodiscard]] bool is_own() const { return stiffness_n_per_m || damping_ns_per_m; }
+    friend bool operator==(const Feel&, const Feel&) = default;
+};
+
 /// A solid box of even density.
 struct BodyDescription {
     std::string name;
@@ -74,18 +86,37 @@ struct BodyDescription {
     LockedAxes locked{};
     Material material{};
     double drag_ns_per_m = 0.0; // viscous friction on the plane that supports it, tangential
+    Feel feel{};                // of every hand on it; it counts before a hand's own
 
     friend bool operator==(const BodyDescription&, const BodyDescription&) = default;
 };
 
-/// A half-space that supports bodies and that no hand feels: the work platform, walls.
+/// A half-space that supports bodies: the work platform, walls. Hands feel it only when it says so.
 struct PlaneDescription {
     std::string name;
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, out of the solid side
     double offset_m = 0.0;            // of its points p: dot(normal, p) = offset
     Material material{};
+    bool felt = false; // by hands, through their own spring and damper
 
     friend bool operator==(const PlaneDescription&, const PlaneDescription&) = default;
+};
+
+/// A field of force in a region of space: a constant force, less what a damper takes, less what a
+/// spring pulls to a point or a line. On a body it acts at the centre.
+struct FieldDescription {
+    std::string name;
+    base::Position position{};        // the middle of the region, and where the spring pulls to
+    std::optional<glm::dvec3> half{}; // half the edges of the region, m; unset: everywhere
+    base::Force force{};
+    double damping_ns_per_m = 0.0;
+    double stiffness_n_per_m = 0.0;
+    std::optional<glm::dvec3> line{}; // unit: the spring pulls to the line through `position`
+    double force_limit_n = std::numeric_limits<double>::infinity();
+    bool on_hands = true;
+    bool on_bodies = false;
+
+    friend bool operator==(const FieldDescription&, const FieldDescription&) = default;
 };
 
 /// The hands' spheres (haptic interface points), all alike: a spring and a damper between the
@@ -111,6 +142,8 @@ struct Description {
     std::vector<PlaneDescription> planes{};
     HandDescription hands{};
     glm::dvec3 gravity{0.0, -9.81, 0.0}; // m/s^2
+    std::vector<Feel> own_hands{};       // of the first hands, each its own
+    std::vector<FieldDescription> fields{};
 
     friend bool operator==(const Description&, const Description&) = default;
 };
@@ -118,6 +151,7 @@ struct Description {
 inline constexpr std::uint32_t hands_max = 8;
 inline constexpr std::uint32_t bodies_max = 100'000;
 inline constexpr std::uint32_t planes_max = 64;
+inline constexpr std::uint32_t fields_max = 64;
 
 // The ranges of a description and of inputs. Values beyond them are refused; within them nothing
 // overflows.
@@ -137,6 +171,11 @@ inline constexpr double friction_max = 10.0;
 inline constexpr double gravity_max_m_per_s2 = 1e3;
 inline constexpr base::Duration period_min{std::chrono::milliseconds{10}};
 inline constexpr base::Duration period_max{std::chrono::hours{24}};
+
+/// What a hand's spring on a body is made of: the body's own feel, then the hand's, then that of
+/// all hands, as CHAI3D has it.
+[[nodiscard]] HandDescription hand_on(const HandDescription& hands, const Feel& own_hand,
+                                      const Feel& body);
 
 /// Says what is wrong with a description: the name of the part and what was expected.
 [[nodiscard]] base::Result<void> check(const Description& description);

@@ -31,6 +31,29 @@ struct HandTouch {
     base::Force on_hand_at_start{}; // the spring and damper at the start of the tick
 };
 
+/// The springs of each hand on each body, where they are not all alike; else nothing.
+class HandFeels {
+public:
+    HandFeels() = default;
+    explicit HandFeels(const Description& description);
+
+    [[nodiscard]] const HandDescription& of(std::uint32_t hand, BodyId body,
+                                            const HandDescription& alike) const
+    {
+        return kind_of_.empty() ? alike : kinds_[kind_of_[body] + hand];
+    }
+
+    /// On what has no feel of its own.
+    [[nodiscard]] const HandDescription& of(std::uint32_t hand, const HandDescription& alike) const
+    {
+        return kinds_.empty() ? alike : kinds_[hand];
+    }
+
+private:
+    std::vector<std::uint32_t> kind_of_{}; // by body: where the hands on bodies like it begin
+    std::vector<HandDescription> kinds_{};
+};
+
 /// What holds from a world's first tick to its last.
 struct WorldConfig {
     std::vector<PlaneDescription> planes{};
@@ -38,6 +61,8 @@ struct WorldConfig {
     glm::dvec3 gravity{0.0};
     double tick = 1e-3;   // seconds
     bool sleeping = true; // whether bodies at rest may fall asleep
+    HandFeels feels{};
+    std::vector<FieldDescription> fields{};
 };
 
 /// How a kinematic body goes on.

@@ -3,6 +3,7 @@
 #include "scene/world.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "scene/fields.hpp"
 
 #include <array>
 #include <bit>
@@ -71,7 +72,9 @@ WorldConfig config_from(const Description& description, const FreezeOptions& opt
             .hands = description.hands,
             .gravity = description.gravity,
             .tick = base::to_seconds(options.tick),
-            .sleeping = options.sleeping};
+            .sleeping = options.sleeping,
+            .feels = HandFeels{description},
+            .fields = description.fields};
 }
 
 WorldState initial_state(const Description& description)
@@ -300,9 +303,28 @@ std::optional<Refusal> World::move(BodyId body, const BodyState& target)
 
 void World::tick()
 {
+    const bool has_fields = !config_.fields.empty();
+    if (has_fields) push_by_fields();
     std::visit([&](auto& stepper) { stepper.step(config_, state_); }, stepper_);
+    if (has_fields) feel_fields(config_, state_);
     if (!state_.pushed.is_empty()) forget_pushes();
     ++state_.ticks;
+}
+
+void World::push_by_fields()
+{
+    Bodies& bodies = state_.bodies;
+    if (kind_ == StepperKind::flight) state_.touches.fill({}); // it knows no hands
+    for (Slot slot = 0; slot < bodies.movable; ++slot) {
+        glm::dvec3 force{0.0};
+        for (const FieldDescription& field : config_.fields)
+            force += force_on_body(field, config_, bodies, slot);
+        if (force == glm::dvec3{0.0}) continue;
+        const BodyId body = bodies.properties[slot].id;
+        if (state_.is_pushed[body] == 0) state_.pushed.add(body);
+        state_.is_pushed[body] |= is_pushed_mark;
+        state_.pushes[body] += force;
+    }
 }
 
 void World::forget_pushes()

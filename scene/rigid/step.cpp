@@ -150,6 +150,7 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
                                         bodies.velocity.at(slot), bodies.angular_velocity(slot)});
             }
         }
+        if (input.present) hand_contacts_.feel_planes(config, state, hand);
         hand_contacts_.forget_departed(hand);
     }
     if constexpr (sleeps) {

@@ -51,6 +51,33 @@ constexpr auto fields_of(base::Tag<HandDescription>)
                     "Coulomb's coefficient between finger and body, in a session"));
 }
 
+constexpr auto fields_of(base::Tag<FieldDescription>)
+{
+    constexpr text::PerAxis place{{base::length_kind, -reach_max_m, reach_max_m}};
+    constexpr text::PerAxis force{{base::force_kind, -force_max_n, force_max_n}};
+    return base::fields(
+        "field", base::field("name", &FieldDescription::name, "for readers"),
+        base::field("position", &FieldDescription::position, place,
+                    "the middle of the region, and where the spring pulls to")
+            .always(),
+        base::field("size", &FieldDescription::half, text::Edges{},
+                    "the edges of the region; without it the field is everywhere"),
+        base::field("force", &FieldDescription::force, force, "constant"),
+        base::field("damping", &FieldDescription::damping_ns_per_m,
+                    base::Quantity{base::damping_kind, 0.0, damping_max_ns_per_m},
+                    "against the velocity"),
+        base::field("stiffness", &FieldDescription::stiffness_n_per_m,
+                    base::Quantity{base::stiffness_kind, 0.0, stiffness_max_n_per_m},
+                    "of a spring to the position, or to the line through it"),
+        base::field("line", &FieldDescription::line, text::Direction{},
+                    "along which the spring does not pull"),
+        base::field("force_max", &FieldDescription::force_limit_n, text::ForceLimit{},
+                    "limit of the field's force"),
+        base::field("hands", &FieldDescription::on_hands, base::Flag{}, "whether hands feel it"),
+        base::field("bodies", &FieldDescription::on_bodies, base::Flag{},
+                    "whether it acts on movable bodies"));
+}
+
 constexpr auto fields_of(base::Tag<PlaneDescription>)
 {
     return base::fields("plane", base::field("name", &PlaneDescription::name, "for readers"),
@@ -61,7 +88,21 @@ constexpr auto fields_of(base::Tag<PlaneDescription>)
                                     base::Quantity{base::length_kind, -reach_max_m, reach_max_m},
                                     "distance of the surface from the origin along the normal")
                             .always(),
-                        base::part(&PlaneDescription::material));
+                        base::part(&PlaneDescription::material),
+                        base::field("felt", &PlaneDescription::felt, base::Flag{},
+                                    "hands feel it as they feel bodies"));
+}
+
+constexpr auto fields_of(base::Tag<Feel>)
+{
+    return base::fields(
+        "hand",
+        base::field("stiffness", &Feel::stiffness_n_per_m,
+                    base::Quantity{base::stiffness_kind, 0.0, stiffness_max_n_per_m},
+                    "of the spring of a hand, instead of that of `[hips]`"),
+        base::field("damping", &Feel::damping_ns_per_m,
+                    base::Quantity{base::damping_kind, 0.0, damping_max_ns_per_m},
+                    "of the damper of a hand, instead of that of `[hips]`"));
 }
 
 constexpr auto fields_of(base::Tag<Sway>)
@@ -106,7 +147,8 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
         base::part(&BodyDescription::material),
         base::field("drag", &BodyDescription::drag_ns_per_m,
                     base::Quantity{base::damping_kind, 0.0, damping_max_ns_per_m},
-                    "viscous friction on the plane below it"));
+                    "viscous friction on the plane below it"),
+        base::part(&BodyDescription::feel));
 }
 
 namespace text {
