@@ -16,7 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double tick_s = 1e-3;
 constexpr double mass = 0.1;
 
 /// A cube of 100 g in space, and a field on bodies.

@@ -239,6 +239,30 @@ TEST(Push, ATorqueAndABlowWakeWhatSleepsAndItStillCarriesWhatIsOnIt)
     }
 }
 
+TEST(Push, TheGreatestTorquesAndForcesOnTheSmallestBodyLeaveEverythingFinite)
+{
+    Description scene = paper_scene();
+    scene.bodies[0].turning = Turning::free;
+    scene.bodies[0].half = {size_min_m, 2.0 * size_min_m, 3.0 * size_min_m};
+    scene.bodies[0].mass_kg = mass_min_kg;
+    scene.bodies[0].position = {{0.0, -0.0199, 0.0}};
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies.back().position = {{0.0, -0.0195, 0.0}};
+    World world = World::freeze(scene).value();
+    for (int i = 0; i < 100; ++i) {
+        const double sign = i % 3 == 0 ? -1.0 : 1.0;
+        ASSERT_FALSE(world.push_torque(0, sign * glm::dvec3{9e5, -1e6, 1e5}));
+        ASSERT_FALSE(world.push(0, {{0.0, sign * 1e4, 0.0}}));
+        world.tick();
+        for (const BodyId body : {0U, 2U}) {
+            const BodyState state = world.body(body);
+            ASSERT_TRUE(base::is_finite(state.position) && base::is_finite(state.velocity)) << i;
+            ASSERT_TRUE(base::is_finite(state.angular_velocity)) << i;
+            ASSERT_NEAR(glm::dot(state.orientation, state.orientation), 1.0, 1e-12) << i;
+        }
+    }
+}
+
 TEST(Push, RefusesWhatIsNotFiniteOutOfRangeOrOfNoBodyAndStaysAsItWas)
 {
     World world = World::freeze(cube_in_space()).value();
