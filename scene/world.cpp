@@ -303,10 +303,18 @@ std::optional<Refusal> World::move(BodyId body, const BodyState& target)
 
 void World::tick()
 {
-    const bool has_fields = !config_.fields.empty();
-    if (has_fields) push_by_fields();
+    if (config_.fields.empty()) {
+        step();
+        return;
+    }
+    push_by_fields();
+    step();
+    feel_fields(config_, state_);
+}
+
+inline void World::step()
+{
     std::visit([&](auto& stepper) { stepper.step(config_, state_); }, stepper_);
-    if (has_fields) feel_fields(config_, state_);
     if (!state_.pushed.is_empty()) forget_pushes();
     ++state_.ticks;
 }

@@ -117,6 +117,7 @@ private:
     World(const Description& description, const FreezeOptions& options, StepperKind kind);
     std::optional<Refusal> refuse(Refusal refusal);
     void wake(BodyId body);
+    void step();
     void push_by_fields();
     void forget_pushes();
     [[nodiscard]] Slot slot_of(BodyId id) const
