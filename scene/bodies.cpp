@@ -141,18 +141,10 @@ Slot Bodies::wake(Slot slot)
     return awake++;
 }
 
-glm::dvec3 Bodies::apply_inverse_inertia(Slot slot, const glm::dvec3& momentum) const
+glm::dvec3 Bodies::apply_rotated_inverse_inertia(Slot slot, const glm::dvec3& momentum) const
 {
-    const BodyProperties& body = properties[slot];
-    // Alike about every axis, or about the world's own axes: no frame to turn into.
-    if (body.is_isotropic || body.turning != Turning::free) return body.inverse_inertia * momentum;
     const glm::dmat3 axes = glm::mat3_cast(orientation.at(slot));
-    return axes * (body.inverse_inertia * (momentum * axes));
-}
-
-glm::dvec3 Bodies::angular_velocity(Slot slot) const
-{
-    return apply_inverse_inertia(slot, angular_momentum.at(slot));
+    return axes * (properties[slot].inverse_inertia * (momentum * axes));
 }
 
 void Bodies::set_angular_velocity(Slot slot, const glm::dvec3& angular_velocity)

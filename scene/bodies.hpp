@@ -101,14 +101,27 @@ struct Bodies {
     Slot wake(Slot slot);
 
     /// The inverse inertia times a vector, in the world's frame.
-    [[nodiscard]] glm::dvec3 apply_inverse_inertia(Slot slot,
-                                                   const glm::dvec3& angular_momentum) const;
-    [[nodiscard]] glm::dvec3 angular_velocity(Slot slot) const;
+    [[nodiscard]] glm::dvec3 apply_inverse_inertia(Slot slot, const glm::dvec3& momentum) const
+    {
+        const BodyProperties& body = properties[slot];
+        // Alike about every axis, or about the world's own axes: no frame to turn into.
+        if (body.is_isotropic || body.turning != Turning::free)
+            return body.inverse_inertia * momentum;
+        return apply_rotated_inverse_inertia(slot, momentum);
+    }
+    [[nodiscard]] glm::dvec3 angular_velocity(Slot slot) const
+    {
+        return apply_inverse_inertia(slot, angular_momentum.at(slot));
+    }
     /// Sets the angular momentum that belongs to an angular velocity.
     void set_angular_velocity(Slot slot, const glm::dvec3& angular_velocity);
 
     [[nodiscard]] BodyState state(Slot slot) const;
     void put(Slot slot, const BodyState& state);
+
+private:
+    [[nodiscard]] glm::dvec3 apply_rotated_inverse_inertia(Slot slot,
+                                                           const glm::dvec3& momentum) const;
 };
 
 /// The moments of inertia of a solid box about its axes, kg m^2: m/3 (b^2 + c^2) with half edges.

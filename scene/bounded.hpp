@@ -5,6 +5,7 @@
 #include "proto/base/ensure.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -102,14 +103,15 @@ public:
     /// Another element, with whatever it held before.
     T& add()
     {
-        if (size_ == elements_.size()) elements_.emplace_back();
+        if (elements_.data() + size_ == made()) elements_.emplace_back();
         return elements_[size_++];
     }
+    void drop_last() { --size_; }
     void clear() { size_ = 0; }
     /// At most what was reserved.
     void resize(std::size_t size)
     {
-        if (size > elements_.size()) elements_.resize(size);
+        if (elements_.data() + size > made()) elements_.resize(size);
         size_ = size;
     }
 
@@ -120,6 +122,9 @@ public:
     [[nodiscard]] std::span<const T> all() const { return {elements_.data(), size_}; }
 
 private:
+    /// The end of those that there are: compared as an address, as a size would be divided out.
+    [[nodiscard]] const T* made() const { return std::to_address(elements_.end()); }
+
     std::vector<T> elements_;
     std::size_t size_ = 0;
 };

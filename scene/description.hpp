@@ -157,8 +157,10 @@ inline constexpr std::uint32_t fields_max = 64;
 // overflows.
 inline constexpr double reach_max_m = 1e3;
 inline constexpr double speed_max_m_per_s = 1e4;
-inline constexpr double turn_max_rad_per_s = 1e4;
 inline constexpr double size_min_m = 1e-4;
+// A small cube that hits a wall with a corner leaves with its speed over its size: as fast as the
+// smallest body turns when its corners have the greatest speed.
+inline constexpr double turn_max_rad_per_s = speed_max_m_per_s / size_min_m;
 inline constexpr double size_max_m = 1e2;
 inline constexpr double mass_min_kg = 1e-6;
 inline constexpr double mass_max_kg = 1e6;

@@ -4,6 +4,7 @@
 
 #include "scene/bodies.hpp"
 #include "scene/bounded.hpp"
+#include "scene/work.hpp"
 
 #include <array>
 #include <cstdint>
@@ -80,17 +81,29 @@ struct KinematicScript {
 /// How often the ticks since freeze() stepped in where the plain algorithm would have broken a law.
 struct Interventions {
     // Guards: motion was thrown away.
-    std::uint64_t islands_limited = 0; // an island's impulses were scaled down, or taken back
+    std::uint64_t islands_limited = 0; // an island lost a tenth of its impulses or more
     std::uint64_t paths_cut = 0;       // a body lost the rest of its way in the tick
     std::uint64_t budgets_spent = 0;   // the work of a tick ended before it was done
     // Mechanisms: nothing was lost but what a law forbids.
     std::uint64_t hands_braked = 0;     // a hand's impulse was scaled down so that it stays passive
+    std::uint64_t impulses_trimmed = 0; // an island lost less than a tenth of its impulses
     std::uint64_t bounces_limited = 0;  // a bounce was made weaker so that no energy is gained
     std::uint64_t sweeps_continued = 0; // a body went on after its first touch within the tick
 
     [[nodiscard]] std::uint64_t guards() const
     {
         return islands_limited + paths_cut + budgets_spent;
+    }
+    Interventions& operator+=(const Interventions& other)
+    {
+        islands_limited += other.islands_limited;
+        paths_cut += other.paths_cut;
+        budgets_spent += other.budgets_spent;
+        hands_braked += other.hands_braked;
+        impulses_trimmed += other.impulses_trimmed;
+        bounces_limited += other.bounces_limited;
+        sweeps_continued += other.sweeps_continued;
+        return *this;
     }
 };
 
@@ -108,6 +121,7 @@ struct WorldState {
     std::vector<std::uint8_t> is_pushed{};  // by id: 1 in `pushed`, 2 in `twisted`
     std::vector<KinematicScript> scripts{}; // of the kinematic bodies, in the order of their slots
     std::uint64_t ticks = 0;
+    Work work{}; // of the last tick
     Interventions interventions{};
 };
 

@@ -301,8 +301,14 @@ std::optional<Refusal> World::move(BodyId body, const BodyState& target)
     return std::nullopt;
 }
 
+Work World::work_bound() const
+{
+    return std::visit([&](const auto& stepper) { return stepper.work_bound(config_); }, stepper_);
+}
+
 void World::tick()
 {
+    state_.work = {};
     if (config_.fields.empty()) {
         step();
         return;

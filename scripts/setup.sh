@@ -14,7 +14,7 @@ packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev lib
     libhidapi-dev librandom123-dev libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev
     libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 libbenchmark-dev libbullet-dev
-    libclang-rt-14-dev libgtest-dev libode-dev libumockdev-dev lld-14 shellcheck
+    libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14 shellcheck
     tshark umockdev valgrind)
 
 for argument in "$@"; do

@@ -4,8 +4,10 @@
 
 #include "proto/base/quantity.hpp"
 #include "proto/base/text.hpp"
+#include "scene/world.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
 
@@ -88,6 +90,30 @@ std::string hips_text(const scene::HandDescription& hips)
                                   : std::string{"not limited"});
 }
 
+Json json_of(const scene::Work& work)
+{
+    return {{"pairs", work.pairs},     {"contacts", work.contacts}, {"visits", work.visits},
+            {"springs", work.springs}, {"events", work.events},     {"touches", work.touches}};
+}
+
+/// What is not there at all is left out.
+std::string bound_text(const scene::Work& bound)
+{
+    const std::array<std::pair<std::uint64_t, std::string_view>, 6> kinds{
+        {{bound.pairs, "pairs examined"},
+         {bound.contacts, "contacts prepared"},
+         {bound.visits, "visits of the solver to a contact"},
+         {bound.springs, "steps of hands' springs"},
+         {bound.events, "events"},
+         {bound.touches, "further touches"}}};
+    std::vector<std::string> parts;
+    for (const auto& [count, name] : kinds) {
+        if (count > 0) parts.push_back(fmt::format("{} {}", count, name));
+    }
+    if (parts.empty()) return "\nA tick moves each body once; nothing else can happen.\n";
+    return fmt::format("\nA tick takes at most:\n  {}\n", fmt::join(parts, "\n  "));
+}
+
 } // namespace
 
 Explanation explain(const scene::Description& description, base::Duration tick, bool sleeping)
@@ -110,6 +136,10 @@ Explanation explain(const scene::Description& description, base::Duration tick, 
     }
     explanation.needs = scene::requirements_of(description, sleeping);
     explanation.profile = scene::cheapest_stepper(scene::required_features(explanation.needs));
+    if (const auto world =
+            scene::World::freeze(description, {.tick = tick, .sleeping = sleeping})) {
+        explanation.bound = world->work_bound();
+    }
     explanation.cheaper = cheaper_than(explanation.profile, explanation.needs);
     return explanation;
 }
@@ -144,7 +174,8 @@ nlohmann::ordered_json to_json(const Explanation& explanation)
         {"hand_k_dt2_over_m", explanation.hand_factor ? Json(*explanation.hand_factor) : nullptr},
         {"features", json_of(explanation.needs)},
         {"profile", scene::name_of(explanation.profile)},
-        {"cheaper", cheaper}};
+        {"cheaper", cheaper},
+        {"tick_bound", json_of(explanation.bound)}};
 }
 
 std::string to_table(const Explanation& explanation)
@@ -169,7 +200,7 @@ std::string to_table(const Explanation& explanation)
         text += fmt::format("  cheaper: {:<15}  has no {}\n", scene::name_of(tick.profile),
                             fmt::join(names_of(tick.lacks), ", "));
     }
-    return text;
+    return text + bound_text(explanation.bound);
 }
 
 } // namespace hapnet::lab::scenes

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/collide/box_plane.hpp"
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -12,8 +13,7 @@ namespace {
 using Triple = std::array<double, 3>;
 using Corners = std::array<std::uint32_t, manifold_points_max>;
 
-/// The four deepest corners when the axes add `rise` to a corner's height: of the face that looks
-/// most at the plane, or, when the box stands on a corner, that one and its three neighbours.
+/// When the axes add `rise` to a corner's height.
 Corners deepest(const Triple& rise)
 {
     const Triple size{std::abs(rise[0]), std::abs(rise[1]), std::abs(rise[2])};
@@ -36,29 +36,37 @@ Corners deepest(const Triple& rise)
 
 } // namespace
 
-Manifold collide(const PlaneSurface& plane, const OrientedBox& box, double margin)
+std::array<PlaneCorner, manifold_points_max>
+deepest_corners(const glm::dvec3& normal, const glm::dmat3& axes, const glm::dvec3& half)
 {
-    const glm::dvec3& normal = plane.normal;
-    const std::array<glm::dvec3, 3> edge{box.half.x * box.axes[0], box.half.y * box.axes[1],
-                                         box.half.z * box.axes[2]};
+    const std::array<glm::dvec3, 3> edge{half.x * axes[0], half.y * axes[1], half.z * axes[2]};
     const Triple rise{glm::dot(normal, edge[0]), glm::dot(normal, edge[1]),
                       glm::dot(normal, edge[2])};
-    const double height = glm::dot(normal, box.centre) - plane.offset;
-
-    Manifold manifold;
-    manifold.normal = normal;
-    if (height - (std::abs(rise[0]) + std::abs(rise[1]) + std::abs(rise[2])) > margin)
-        return manifold;
-    for (const std::uint32_t corner : deepest(rise)) {
+    const Corners which = deepest(rise);
+    std::array<PlaneCorner, manifold_points_max> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::uint32_t corner = which[i];
         const double x = (corner & 1U) != 0 ? 1.0 : -1.0;
         const double y = (corner & 2U) != 0 ? 1.0 : -1.0;
         const double z = (corner & 4U) != 0 ? 1.0 : -1.0;
-        const double separation = height + (x * rise[0] + y * rise[1] + z * rise[2]);
+        corners[i] = {x * edge[0] + y * edge[1] + z * edge[2],
+                      x * rise[0] + y * rise[1] + z * rise[2], corner};
+    }
+    return corners;
+}
+
+Manifold collide(const PlaneSurface& plane, const OrientedBox& box, double margin)
+{
+    const double height = glm::dot(plane.normal, box.centre) - plane.offset;
+    Manifold manifold;
+    manifold.normal = plane.normal;
+    for (const PlaneCorner& corner : deepest_corners(plane.normal, box.axes, box.half)) {
+        const double separation = height + corner.rise;
         if (separation > margin) continue;
-        const glm::dvec3 place = box.centre + (x * edge[0] + y * edge[1] + z * edge[2]);
-        manifold.points[manifold.count++] = {.position = place - (0.5 * separation) * normal,
-                                             .separation = separation,
-                                             .feature = corner};
+        manifold.points[manifold.count++] = {
+            .position = box.centre + corner.place - (0.5 * separation) * plane.normal,
+            .separation = separation,
+            .feature = corner.feature};
     }
     return manifold;
 }

@@ -4,6 +4,9 @@
 
 #include "scene/collide/manifold.hpp"
 
+#include <array>
+#include <cstdint>
+
 namespace hapnet::scene {
 
 /// A half-space's border, normal out of the solid.
@@ -12,8 +15,21 @@ struct PlaneSurface {
     double offset = 0.0;
 };
 
-/// The corners of a box below a plane or at most `margin` above it, the deepest four in a fixed
-/// order; the normal is the plane's (from the plane to the box).
+/// A corner of a box over a plane.
+struct PlaneCorner {
+    glm::dvec3 place{0.0};     // from the box's centre
+    double rise = 0.0;         // along the plane's normal, likewise
+    std::uint32_t feature = 0; // which corner: a bit for each axis on whose positive side it is
+};
+
+/// The four deepest corners of a box over a plane with such a normal (out of the solid), in a fixed
+/// order: of the face that looks most at the plane, or, when the box stands on a corner, that one
+/// and its three neighbours. How high the box is does not matter.
+[[nodiscard]] std::array<PlaneCorner, manifold_points_max>
+deepest_corners(const glm::dvec3& normal, const glm::dmat3& axes, const glm::dvec3& half);
+
+/// Those of them below a plane or at most `margin` above it; the normal is the plane's (from the
+/// plane to the box).
 [[nodiscard]] Manifold collide(const PlaneSurface& plane, const OrientedBox& box, double margin);
 
 } // namespace hapnet::scene

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/collide/fat_aabbs.hpp"
 
+#include "scene/maths/vector.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -197,8 +199,8 @@ bool any_left(const Lanes& lanes, std::size_t first)
 bool FatAabbs::has_moved_out(const Bodies& bodies, Slot slot) const
 {
     const Bounds& bounds = bounds_[bodies.properties[slot].id];
-    const glm::dvec3 away = glm::abs(bodies.position.at(slot) - bounds.centre) +
-                            tick_ * glm::abs(bodies.velocity.at(slot));
+    const glm::dvec3 away =
+        sizes(bodies.position.at(slot) - bounds.centre) + tick_ * sizes(bodies.velocity.at(slot));
     const glm::dvec3 momentum = bodies.angular_momentum.at(slot);
     const glm::dquat now = bodies.orientation.at(slot);
     const glm::dquat& then = bounds.orientation;

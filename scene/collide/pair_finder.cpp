@@ -65,7 +65,8 @@ PairFinder<broad_phase>::PairFinder(const WorldConfig& config, const Bodies& bod
       stamps_(bodies.size(), 0)
 {
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand)
-        hands_.push_back({Aabb{glm::dvec3{1.0}, glm::dvec3{-1.0}}, Bounded<BodyId>{bodies.size()}});
+        hands_.push_back(
+            {.box{glm::dvec3{1.0}, glm::dvec3{-1.0}}, .bodies = Bounded<BodyId>{bodies.size()}});
     for (Slot slot = 0; slot < bodies.movable; ++slot)
         update_pairs(bodies, bodies.properties[slot].id);
     apply_changes();
@@ -157,26 +158,25 @@ void PairFinder<broad_phase>::update_hand(Hand& hand, BodyId id)
     }
 }
 
+/// A box for a hand, around where it is going, and the bodies in it.
 template <BroadPhase broad_phase>
-std::span<const BodyId> PairFinder<broad_phase>::near_hand(std::uint32_t hand, const HandPath& path)
+void PairFinder<broad_phase>::renew_hand(Hand& known, const HandPath& path)
 {
-    Hand& known = hands_[hand];
-    const Aabb needed = grown(hull(path.from, path.to), glm::dvec3{path.radius});
-    if (!contains(known.box, needed)) {
-        ++hands_renewed_;
-        glm::dvec3 ahead = (path.to - path.from) * hand_look_ahead_ticks;
-        const glm::dvec3 size = glm::abs(ahead);
-        const double length = std::max({size.x, size.y, size.z});
-        if (length > hand_stretch_max * path.radius)
-            ahead *= hand_stretch_max * path.radius / length;
-        const Aabb along = hull(glm::dvec3{0.0}, ahead);
-        known.box =
-            grown({needed.low + along.low, needed.high + along.high}, glm::dvec3{path.radius});
-        known.bodies.clear();
-        boxes_.for_overlapping(known.box, [&](BodyId id) { known.bodies.add(id); });
-        std::sort(known.bodies.begin(), known.bodies.end());
-    }
-    return known.bodies.all();
+    ++hands_renewed_;
+    glm::dvec3 ahead = (path.to - path.from) * hand_look_ahead_ticks;
+    const glm::dvec3 size = glm::abs(ahead);
+    const double length = std::max({size.x, size.y, size.z});
+    if (length > hand_stretch_max * path.radius) ahead *= hand_stretch_max * path.radius / length;
+    const Aabb along = hull(glm::dvec3{0.0}, ahead);
+    const Aabb way = hull(path.from, path.to);
+    const Aabb inner = grown({way.low + along.low, way.high + along.high}, glm::dvec3{path.radius});
+    known.radius = path.radius;
+    known.box = grown(inner, glm::dvec3{path.radius});
+    known.middle = inner.centre();
+    known.room = 0.5 * inner.size();
+    known.bodies.clear();
+    boxes_.for_overlapping(known.box, [&](BodyId id) { known.bodies.add(id); });
+    std::sort(known.bodies.begin(), known.bodies.end());
 }
 
 template <BroadPhase broad_phase>

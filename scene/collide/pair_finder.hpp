@@ -6,6 +6,7 @@
 #include "scene/collide/fat_aabbs.hpp"
 #include "scene/collide/grid.hpp"
 #include "scene/collide/pairs.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/state.hpp"
 
 #include <span>
@@ -51,11 +52,29 @@ public:
     [[nodiscard]] Pair& pair(PairIndex index) { return pairs_[index]; }
     /// Awake bodies (`a`) near planes (`b`, an index into WorldConfig::planes).
     [[nodiscard]] std::span<const PairIndex> plane_pairs() const { return plane_pairs_.active(); }
+    /// How many there can be, at most.
+    [[nodiscard]] std::size_t plane_pairs_max() const { return plane_pairs_.size_max(); }
     [[nodiscard]] Pair& plane_pair(PairIndex index) { return plane_pairs_[index]; }
 
     /// The bodies, movable or fixed, asleep or awake, that a hand may reach within the tick, by
     /// their ids. To be asked after update(). Far from everything it costs a few compares.
-    [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path);
+    [[nodiscard]] std::span<const BodyId> near_hand(std::uint32_t hand, const HandPath& path)
+    {
+        Hand& known = hands_[hand];
+        const glm::dvec3 away =
+            glm::max(sizes(path.from - known.middle), sizes(path.to - known.middle));
+        if (!(away.x <= known.room.x && away.y <= known.room.y && away.z <= known.room.z &&
+              path.radius <= known.radius))
+            renew_hand(known, path);
+        return known.bodies.all();
+    }
+
+    /// Calls visit(id) for every body whose fat box overlaps the given. Asked after update().
+    template <typename Visit>
+    void for_overlapping(const Aabb& box, Visit visit) const
+    {
+        boxes_.for_overlapping(box, visit);
+    }
 
     /// Call after the body has crossed the border between awake and asleep: its pairs come to the
     /// lists or leave them. Sleep does.
@@ -72,6 +91,12 @@ public:
     [[nodiscard]] const PairSet& all_pairs() const { return pairs_; }
     [[nodiscard]] const PairSet& all_plane_pairs() const { return plane_pairs_; }
 
+    /// How many pairs of both kinds there may be.
+    [[nodiscard]] std::size_t pairs_max() const
+    {
+        return pairs_.size_max() + plane_pairs_.size_max();
+    }
+
     /// What was done, for tests and measurements.
     struct Counts {
         std::uint64_t renewed = 0;       // bodies that left their fat boxes
@@ -83,9 +108,12 @@ public:
     [[nodiscard]] Counts counts() const;
 
 private:
-    /// A hand's fat AABB and the bodies in it, by their ids.
+    /// A hand's fat AABB and the bodies in it, by their ids. It holds a sphere of that radius as
+    /// long as its centre is no farther than `room` from the middle.
     struct Hand {
         Aabb box;
+        glm::dvec3 middle{0.0}, room{-1.0};
+        double radius = 0.0;
         Bounded<BodyId> bodies;
     };
     using Finder = std::conditional_t<broad_phase == BroadPhase::all_pairs, AabbScan, Grid>;
@@ -93,6 +121,7 @@ private:
     void update_pairs(const Bodies& bodies, BodyId id);
     void update_plane_pairs(const Aabb& box, BodyId id, bool is_awake);
     void update_hand(Hand& hand, BodyId id);
+    void renew_hand(Hand& known, const HandPath& path);
 
     std::vector<PlaneDescription> planes_of_scene_;
     FatAabbs fat_boxes_;

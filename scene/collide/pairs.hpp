@@ -57,6 +57,7 @@ public:
     /// Which of them the last apply_changes() added, by (a, b).
     [[nodiscard]] std::span<const PairIndex> added() const { return added_.all(); }
     [[nodiscard]] std::uint32_t size() const { return size_; }
+    [[nodiscard]] std::size_t size_max() const { return pairs_.size_max(); }
     /// How often there was no room.
     [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 

@@ -139,9 +139,9 @@ std::optional<LocalOverlap> SphereBoxMemory::find(const glm::dvec3& half, const 
             PerAxis point = here;
             normal[axis] = side;
             point[axis] = side * edge[axis];
-            constexpr double amid = 0.9;
             int within = 0;
-            for (const std::size_t i : {0U, 1U, 2U}) within += std::abs(here[i]) <= amid * edge[i];
+            for (const std::size_t i : {0U, 1U, 2U})
+                within += static_cast<int>(std::abs(here[i]) <= amid_face_share * edge[i]);
             return LocalOverlap{radius - gap, vector(normal), vector(point), within == 2};
         }
     }

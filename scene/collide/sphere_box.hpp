@@ -48,8 +48,11 @@ struct LocalOverlap {
     double depth = 0.0;
     glm::dvec3 normal{0.0};
     glm::dvec3 point{0.0};
-    bool is_amid_face = false; // nine tenths of its half edges from its middle at most
+    bool is_amid_face = false;
 };
+
+/// Amid a face is what is no farther from its middle than this share of the half edges.
+inline constexpr double amid_face_share = 0.9;
 
 /// How far a sphere's centre may come in one tick, or go behind the face where it went in, in
 /// units of the box's longest half edge; beyond it was put there, and nothing is remembered. A

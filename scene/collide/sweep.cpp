@@ -19,6 +19,15 @@ constexpr double look_ahead = 0.01;
 // A body that goes farther than this share of it in a tick could pass through another.
 constexpr double far_share = 0.5;
 
+/// Whether a box has turned by no more than rounding: what rests and is pushed turns to and fro by
+/// less, and its contacts would be found anew in every tick.
+bool is_as_good_as(const glm::dquat& kept, const glm::dquat& now)
+{
+    constexpr double rounding = 1e-13; // half of the turn
+    return std::abs(now.w - kept.w) <= rounding && std::abs(now.x - kept.x) <= rounding &&
+           std::abs(now.y - kept.y) <= rounding && std::abs(now.z - kept.z) <= rounding;
+}
+
 double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.y, half.z)); }
 
 } // namespace
@@ -27,14 +36,6 @@ OrientedBox box_of(const Bodies& bodies, Slot slot)
 {
     return {bodies.position.at(slot), axes_of(bodies.orientation.at(slot)),
             bodies.properties[slot].half};
-}
-
-double reach_of(const Bodies& bodies, Slot slot, const Scales& scales)
-{
-    const glm::dvec3& half = bodies.properties[slot].half;
-    const double turning = length(bodies.angular_velocity(slot)) * length(half);
-    return scales.tick * (length(bodies.velocity.at(slot)) + turning + scales.fall) +
-           look_ahead * shortest(half);
 }
 
 SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, BoxBoxMemory& memory)
@@ -50,7 +51,8 @@ SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, Bo
     const ContactPlaces here{a.box.centre, b.box.centre};
     if (margin < near) return {collide(a.box, b.box, margin, memory), here};
     const auto impact = time_of_impact(a.box, b.box, velocity, tick);
-    if (!impact) return {collide(a.box, b.box, near, memory), here};
+    if (!impact)
+        return {.manifold = collide(a.box, b.box, near, memory), .centres = here, .may_pass = true};
     OrientedBox there_a = a.box;
     OrientedBox there_b = b.box;
     there_a.centre += impact->time * a.velocity;
@@ -59,30 +61,43 @@ SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, Bo
     for (ContactPoint& point : manifold.points) {
         point.separation -= impact->time * glm::dot(velocity, manifold.normal);
     }
-    return {manifold, {there_a.centre, there_b.centre}};
+    return {manifold, {there_a.centre, there_b.centre}, impact->time, true};
 }
 
 SweptBoxes::SweptBoxes(const Bodies& bodies, const Scales& scales)
     : scales_{scales}, entries_(bodies.size())
 {
     for (Slot slot = 0; slot < bodies.size(); ++slot) {
-        const glm::dvec3& half = bodies.properties[slot].half;
-        const SweptBox now{box_of(bodies, slot), std::sqrt(glm::dot(half, half)),
-                           reach_of(bodies, slot, scales)};
-        entries_[bodies.properties[slot].id] = {now, bodies.orientation.at(slot), 0};
+        const BodyId id = bodies.properties[slot].id;
+        Entry& entry = entries_[id];
+        entry.now.box = box_of(bodies, slot);
+        entry.now.radius = length(entry.now.box.half);
+        entry.now.orientation = bodies.orientation.at(slot);
+        renew(bodies, id, entry);
     }
 }
 
 void SweptBoxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
 {
     const Slot slot = bodies.slot_of[body];
+    SweptBox& now = entry.now;
     entry.seen = now_;
-    entry.now.box.centre = bodies.position.at(slot);
-    entry.now.reach = reach_of(bodies, slot, scales_);
+    now.box.centre = bodies.position.at(slot);
+    now.spin = bodies.angular_velocity(slot);
+    const double turning = length(now.spin) * now.radius;
+    now.reach = scales_.tick * (length(bodies.velocity.at(slot)) + turning + scales_.fall) +
+                look_ahead * shortest(now.box.half);
     const glm::dquat orientation = bodies.orientation.at(slot);
-    if (orientation == entry.orientation) return;
-    entry.orientation = orientation;
-    entry.now.box.axes = axes_of(orientation);
+    if (is_as_good_as(now.orientation, orientation)) return;
+    now.orientation = orientation;
+    now.box.axes = axes_of(orientation);
+    ++now.turns;
+}
+
+void SweptBoxes::forget(BodyId body)
+{
+    entries_[body].seen = 0;
+    entries_[body].now.orientation = {0.0, 0.0, 0.0, 0.0}; // like no other
 }
 
 } // namespace hapnet::scene

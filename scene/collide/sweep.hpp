@@ -7,14 +7,13 @@
 #include "scene/collide/pairs.hpp"
 #include "scene/state.hpp"
 
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hapnet::scene {
 
 [[nodiscard]] OrientedBox box_of(const Bodies& bodies, Slot slot);
-
-/// How far any part of an awake body may come in the tick, and a little more, metres.
-[[nodiscard]] double reach_of(const Bodies& bodies, Slot slot, const Scales& scales);
 
 /// A box and where it is going.
 struct BoxSweep {
@@ -28,6 +27,8 @@ struct BoxSweep {
 struct SweptContact {
     Manifold manifold;
     ContactPlaces centres;
+    double first_touch = std::numeric_limits<double>::infinity(); // s: of those that go far
+    bool may_pass = false; // they go far, and may meet if they turn
 };
 
 /// Where two boxes touch, or will within the tick. For boxes that go far in it, where they touch at
@@ -39,8 +40,15 @@ struct SweptContact {
 /// Where a body's box is, and how far it comes.
 struct SweptBox {
     OrientedBox box;
-    double radius = 0.0; // of the corners, m
-    double reach = 0.0;  // see reach_of(); of what is asleep, when it were awake
+    // Of its axes: the body's, or one from which it has turned by no more than rounding. What
+    // follows from the axes stays with it.
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    std::uint64_t turns = 0; // how often the axes were found anew
+    double radius = 0.0;     // of the corners, m
+    // How far any part of it may come in the tick, and a little more, m; of what is asleep, when it
+    // were awake.
+    double reach = 0.0;
+    glm::dvec3 spin{0.0}; // angular velocity, rad/s
 };
 
 /// The bodies' boxes at the start of a tick: found when they are asked for, and only of what has
@@ -50,6 +58,8 @@ public:
     SweptBoxes(const Bodies& bodies, const Scales& scales);
 
     void begin_tick() { ++now_; }
+    /// A body was put somewhere: nothing of it is kept.
+    void forget(BodyId body);
     /// The reference is good until the next tick.
     [[nodiscard]] const SweptBox& at(const Bodies& bodies, BodyId body)
     {
@@ -61,7 +71,6 @@ public:
 private:
     struct Entry {
         SweptBox now;
-        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
         std::uint64_t seen = 0;
     };
 

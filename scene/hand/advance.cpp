@@ -6,6 +6,7 @@
 #include "scene/hand/constant_contact.hpp"
 #include "scene/hand/contact_phases.hpp"
 #include "scene/hand/midpoint.hpp"
+#include "scene/hand/passivity.hpp"
 #include "scene/maths/vector.hpp"
 
 #include <array>
@@ -64,6 +65,7 @@ struct Task {
     const BodyDynamics& dynamics;
     std::span<const HandSpring> springs;
     std::span<SpringImpulse> work;
+    PressedModes& modes;
 };
 template <std::size_t count>
 void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
@@ -81,32 +83,121 @@ void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
     for (std::size_t i = 0; i < count; ++i) task.work[chosen.which[i]].impulse += rest[i].impulse;
 }
 
-} // namespace
-
-void advance(MovingBody& body, const BodyDynamics& dynamics, std::span<const HandSpring> springs,
-             std::span<SpringImpulse> work, double tick)
+/// So little that the directions of springs are what they were, to rounding.
+bool has_hardly_turned(const MovingBody& start, const MovingBody& end)
 {
-    base::ensure(work.size() >= springs.size());
-    if (springs.empty()) {
-        advance_freely(body, dynamics, tick);
-        return;
+    constexpr double hardly = 5e-11; // half of the angle
+    const glm::dquat& from = start.orientation;
+    const glm::dquat& to = end.orientation;
+    return std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z) <= hardly;
+}
+
+/// The same as energy_of() where all springs press, and none with its greatest force.
+HandEnergy energy_of_pressed(std::span<const HandSpring> springs,
+                             std::span<const SpringImpulse> work)
+{
+    HandEnergy energy;
+    for (std::size_t i = 0; i < springs.size(); ++i) {
+        const HandSpring& spring = springs[i];
+        energy.stored += 0.5 * spring.stiffness * spring.gap * spring.gap;
+        energy.driven += glm::dot(work[i].impulse, spring.velocity);
     }
-    if (advance_in_constant_contact(body, dynamics, springs, work, tick)) return;
-    for (SpringImpulse& each : work) each = {};
-    const Chosen chosen = choose(body, dynamics, springs, tick);
+    return energy;
+}
+
+/// Whether the springs hardly change the body's velocity within a tick: then drag may be a constant
+/// force.
+bool are_soft(const BodyDynamics& dynamics, std::span<const HandSpring> springs, double tick)
+{
+    const glm::dvec3& light = dynamics.inverse_mass;
+    const glm::dmat3& turn = dynamics.inverse_inertia;
+    double most = 0.0;
+    for (const HandSpring& spring : springs) {
+        const double own = std::max(light.x, std::max(light.y, light.z)) +
+                           (turn[0].x + turn[1].y + turn[2].z) * glm::dot(spring.arm, spring.arm);
+        most += own * tick * (spring.stiffness * tick + spring.damping);
+    }
+    constexpr double soft = 0.5;
+    return most <= soft && dynamics.drag * tick < soft;
+}
+
+/// Whatever the springs do, without drag.
+void advance_by_events(const Task& task, double tick)
+{
+    for (SpringImpulse& each : task.work) each = {};
+    const Chosen chosen = choose(task.body, task.dynamics, task.springs, tick);
     if (!chosen.is_closed) {
+        MidpointRule{task.body, task.dynamics, task.springs, task.work}.advance(tick);
+    } else if (chosen.count == 0) {
+        advance_freely(task.body, task.dynamics, tick);
+    } else if (chosen.count == 1) {
+        advance_by_phases<1>(task, chosen, tick);
+    } else {
+        advance_by_phases<2>(task, chosen, tick);
+    }
+}
+
+glm::dvec3 along_plane(const BodyDynamics& dynamics, const glm::dvec3& v)
+{
+    const glm::dvec3 along = v - glm::dot(v, dynamics.drag_normal) * dynamics.drag_normal;
+    const glm::dvec3& light = dynamics.inverse_mass;
+    return {light.x > 0.0 ? along.x : 0.0, light.y > 0.0 ? along.y : 0.0,
+            light.z > 0.0 ? along.z : 0.0};
+}
+
+void advance_with_drag(const Task& task, double tick)
+{
+    const auto& [body, dynamics, springs, work, modes] = task;
+    if (!are_soft(dynamics, springs, tick)) {
+        for (SpringImpulse& each : work) each = {};
         MidpointRule{body, dynamics, springs, work}.advance(tick);
         return;
     }
-    if (chosen.count == 0) {
+    // Drag as a constant force: of the mean velocity, which takes two passes.
+    BodyDynamics held = dynamics;
+    held.drag = 0.0;
+    const MovingBody start = body;
+    glm::dvec3 mean = start.velocity;
+    for (int pass = 0; pass < 2; ++pass) {
+        body = start;
+        held.acceleration = dynamics.acceleration - dynamics.drag * along_plane(dynamics, mean);
+        if (!advance_in_constant_contact(body, held, springs, work, tick, modes))
+            advance_by_events({body, held, springs, work, modes}, tick);
+        mean = 0.5 * (start.velocity + body.velocity);
+    }
+}
+
+/// What most ticks do not need.
+HandEnergy advance_otherwise(const Task& task, const MovingBody& start, bool is_done, double tick)
+{
+    const auto& [body, dynamics, springs, work, modes] = task;
+    const HandTick outcome{start, body, dynamics, tick};
+    if (is_done) return keep_passive(outcome, springs, work, SpringsAtEnd::ignored);
+    if (springs.empty()) {
         advance_freely(body, dynamics, tick);
-        return;
+        return {};
     }
-    if (chosen.count == 1) {
-        advance_by_phases<1>({body, dynamics, springs, work}, chosen, tick);
+    if (dynamics.drag > 0.0) {
+        advance_with_drag(task, tick);
     } else {
-        advance_by_phases<2>({body, dynamics, springs, work}, chosen, tick);
+        advance_by_events(task, tick);
     }
+    return keep_passive(outcome, springs, work, SpringsAtEnd::counted);
+}
+
+} // namespace
+
+HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
+                   std::span<const HandSpring> springs, std::span<SpringImpulse> work, double tick,
+                   PressedModes& modes)
+{
+    base::ensure(work.size() >= springs.size());
+    const MovingBody start = body;
+    const bool is_done = dynamics.drag == 0.0 &&
+                         advance_in_constant_contact(body, dynamics, springs, work, tick, modes);
+    if (is_done && has_hardly_turned(start, body)) return energy_of_pressed(springs, work); // exact
+    return advance_otherwise({body, dynamics, springs, work.first(springs.size()), modes}, start,
+                             is_done, tick);
 }
 
 } // namespace hapnet::scene

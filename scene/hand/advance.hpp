@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/hand/pressed_modes.hpp"
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -27,6 +29,8 @@ struct BodyDynamics {
         false; // rotation does not change it, and it is diagonal: a cube, or one axis
     glm::dvec3 acceleration{0.0}; // of everything but the hands
     glm::dvec3 torque{0.0};       // of everything but the hands, N m
+    double drag = 0.0;            // 1/s, of the centre's velocity along a plane
+    glm::dvec3 drag_normal{0.0};  // of that plane, unit
 };
 
 /// A hand's spring on a body: unilateral along its normal, or, when it holds, in all directions.
@@ -51,6 +55,13 @@ struct SpringImpulse {
     glm::dvec3 impulse{0.0}; // on the body, N s
 };
 
+/// What passed between a body and its hands in a tick.
+struct HandEnergy {
+    double stored = 0.0;    // J, in the springs on the body at the start
+    double driven = 0.0;    // J: the work of the hands' own motion on the springs
+    bool is_braked = false; // the springs' impulses were scaled down
+};
+
 /// Advances a body by one tick under constant other forces and its hands' springs; at most
 /// hips_max of them, and `work` as long. What a spring begins or ceases to do within the tick it
 /// does at its moment.
@@ -59,9 +70,14 @@ struct SpringImpulse {
 /// as they are, as on a body that cannot turn. While they turn they are held as they are halfway,
 /// in phases in which they turn by about a degree: second order, and bounces keep their energy (to
 /// 1e-5 for a cube, 2e-4 for other boxes, for stiffness tick^2 / mass from 0.01 to 1000). Two need
-/// the same damping over stiffness. More, or springs that hold: the midpoint rule in substeps,
-/// second order, stable however stiff.
-void advance(MovingBody& body, const BodyDynamics& dynamics, std::span<const HandSpring> springs,
-             std::span<SpringImpulse> work, double tick);
+/// the same damping over stiffness. More, or springs that hold, or stiff ones with drag: the
+/// midpoint rule in substeps, second order, stable however stiff.
+///
+/// Where a rule is not exact its outcome is checked: the hands are passive, and each spring's
+/// impulse is at most what its greatest force gives in the tick (see passivity.hpp). `modes` may be
+/// those of any earlier tick.
+HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
+                   std::span<const HandSpring> springs, std::span<SpringImpulse> work, double tick,
+                   PressedModes& modes);
 
 } // namespace hapnet::scene

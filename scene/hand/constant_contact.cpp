@@ -3,6 +3,7 @@
 #include "scene/hand/constant_contact.hpp"
 
 #include "scene/hand/surface.hpp"
+#include "scene/maths/lanes.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
 
@@ -17,229 +18,153 @@ namespace {
 
 // The most that a normal may rotate in half a tick: then its mean is right to 1e-5.
 constexpr double half_rotation_max = 0.01;
+// A rotation below this is rounding.
+constexpr double no_rotation = 1e-13;
 // A rotation below this keeps all directions, to rounding.
 constexpr double negligible_rotation = 1e-10;
 
-constexpr std::size_t press_terms_max = 24;
-constexpr std::array<double, press_terms_max> press_shares = [] {
-    std::array<double, press_terms_max> r{};
-    for (std::size_t n = 0; n < press_terms_max; ++n)
-        r[n] = 1.0 / (static_cast<double>(n + 1) * static_cast<double>(n + 2));
-    return r;
-}();
-
 glm::dvec3 diagonal_of(const glm::dmat3& m) { return {m[0].x, m[1].y, m[2].z}; }
 
-/// One spring and the face that it presses. Set before it is read.
+/// The springs that press and the faces, both at once; where there is one, the other pushes along
+/// nothing. Everything is set before it is read.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
-struct Contact {
-    glm::dvec3 hand; // seen from the body's centre, at the start
-    glm::dvec3 away; // the body's velocity over the hand's, at the start
-    glm::dvec3 normal;
-    glm::dvec3 lever;
-    double own = 0.0; // 1/kg
-    double depth = 0.0;
-    double closing = 0.0;
-    double acceleration = 0.0; // of the depth, by everything but the springs
-    double impulse = 0.0;      // of the force, N s
-    double moment = 0.0;       // the integral of the impulse, N s^2
-};
-
-template <std::size_t count>
 class ConstantContact {
 public:
-    ConstantContact(MovingBody& body, const BodyDynamics& dynamics, const HandSpring* springs,
-                    double tick)
+    ConstantContact(MovingBody& body, const BodyDynamics& dynamics,
+                    std::span<const HandSpring> springs, double tick)
         : body_{body},
           dynamics_{dynamics},
           springs_{springs},
+          has_two_{springs.size() == 2},
           tick_{tick},
           ease_{diagonal_of(dynamics.inverse_inertia)}
     {}
 
     /// False: it is not steady.
-    bool advance(SpringImpulse* work)
+    bool advance(std::span<SpringImpulse> work, PressedModes& modes)
     {
         if (!set_geometry_halfway()) return false;
         set_couplings();
-        return integrate_contacts() && finish(work);
+        return integrate_contacts(modes) && finish(work);
     }
 
 private:
     bool set_geometry_halfway();
     void set_couplings();
-    bool integrate_contacts();
-    bool finish(SpringImpulse* work);
-    [[nodiscard]] double depth_change(std::size_t i) const;
+    bool integrate_contacts(PressedModes& modes);
+    bool finish(std::span<SpringImpulse> work);
+    [[nodiscard]] Two depth_change() const;
 
     MovingBody& body_;
     const BodyDynamics& dynamics_;
-    const HandSpring* springs_;
+    std::span<const HandSpring> springs_;
+    bool has_two_;
     double tick_;
     glm::dvec3 ease_; // 1/(kg m^2), about each axis
-    std::array<Contact, count> contacts_;
-    double mutual_ = 0.0; // 1/kg
+    TwoVectors hand_; // seen from the body's centre, at the start
+    TwoVectors away_; // the body's velocity over the hand's, at the start
+    TwoVectors normal_, lever_;
+    Two own_;              // 1/kg
+    double mutual_ = 0.0;  // 1/kg
+    Two depth_, closing_;  // at the start
+    Two acceleration_;     // of the depths, by everything but the springs
+    Two impulse_, moment_; // of the forces, N s, and its integral, N s^2
 };
 
 /// Turns what is held to where it is halfway at the speeds of the start: what the forces change
 /// until then is of second order, and where they are in balance nothing.
-template <std::size_t count>
-bool ConstantContact<count>::set_geometry_halfway()
+bool ConstantContact::set_geometry_halfway()
 {
     const double half = 0.5 * tick_;
     const glm::dvec3 angle = half * (ease_ * body_.angular_momentum);
-    if (!(sum_of_sizes(angle) <= half_rotation_max)) return false;
-    for (std::size_t i = 0; i < count; ++i) {
-        const HandSpring& spring = springs_[i];
-        Contact& contact = contacts_[i];
-        contact.hand = spring.arm + (spring.radius + spring.gap) * spring.normal;
-        contact.away = body_.velocity - spring.velocity;
-        const glm::dvec3 once = glm::cross(angle, spring.normal);
-        contact.normal = spring.normal + once + 0.5 * glm::cross(angle, once);
-        contact.lever = glm::cross(contact.hand - half * contact.away, contact.normal);
+    const double most = sum_of_sizes(angle);
+    if (!(most <= half_rotation_max)) return false;
+    const HandSpring& a = springs_.front();
+    const HandSpring& b = springs_.back();
+    normal_ = both(a.normal, has_two_ ? b.normal : glm::dvec3{0.0});
+    hand_ = both(a.arm, b.arm) + Two{a.radius + a.gap, b.radius + b.gap} * normal_;
+    away_ = both(body_.velocity) - both(a.velocity, b.velocity);
+    depth_ = Two{-a.gap, has_two_ ? -b.gap : 0.0};
+    if (most > no_rotation) {
+        const TwoVectors turn = both(angle);
+        const TwoVectors once = cross(turn, normal_);
+        normal_ = normal_ + once + scene::both(0.5) * cross(turn, once);
     }
+    lever_ = cross(hand_ - both(half) * away_, normal_);
     return true;
 }
 
-template <std::size_t count>
-void ConstantContact<count>::set_couplings()
+void ConstantContact::set_couplings()
 {
-    const glm::dvec3& light = dynamics_.inverse_mass;
-    for (std::size_t i = 0; i < count; ++i) {
-        Contact& contact = contacts_[i];
-        const glm::dvec3& normal = contact.normal;
-        const glm::dvec3 inverse_inertia_lever = ease_ * contact.lever;
-        contact.own =
-            glm::dot(normal, light * normal) + glm::dot(contact.lever, inverse_inertia_lever);
-        contact.depth = -springs_[i].gap;
-        contact.closing = glm::dot(normal, contact.away) +
-                          glm::dot(inverse_inertia_lever, body_.angular_momentum);
-        contact.acceleration = glm::dot(normal, dynamics_.acceleration) +
-                               glm::dot(inverse_inertia_lever, dynamics_.torque);
-        if constexpr (count == 2) {
-            if (i == 1) {
-                mutual_ = glm::dot(contacts_[0].normal, light * normal) +
-                          glm::dot(contacts_[0].lever, inverse_inertia_lever);
-            }
-        }
-    }
+    const TwoVectors pushed = both(dynamics_.inverse_mass) * normal_;
+    const TwoVectors turned = both(ease_) * lever_;
+    own_ = dot(normal_, pushed) + dot(lever_, turned);
+    closing_ = dot(normal_, away_) + dot(turned, both(body_.angular_momentum));
+    acceleration_ =
+        dot(normal_, both(dynamics_.acceleration)) + dot(turned, both(dynamics_.torque));
+    mutual_ = glm::dot(first(normal_), second(pushed)) + glm::dot(first(lever_), second(turned));
 }
 
-/// SpringDepths are d'' = acceleration - coupling * force and forces stiffness d + damping d': with
-/// d_n = d^(n)(0) tick^n / n! and f_n likewise, d_(n+2) = -tick^2 coupling f_n / ((n+1) (n+2)), and
-/// the integrals of the force are the sums of f_n / (n+1) and of f_n / ((n+1) (n+2)). The sum of
-/// all |f_n| but the first is the most that the force can change. False when the force may end
-/// or reach its greatest, or the tick is long for the springs.
-template <std::size_t count>
-bool ConstantContact<count>::integrate_contacts()
+/// False when a force may end or reach its greatest, or the tick is long for the springs.
+bool ConstantContact::integrate_contacts(PressedModes& modes)
 {
-    using Each = std::array<double, count>;
-    const double square = tick_ * tick_;
-    Each next, stiffness, damping, damper, first, own, driven;
-    Each once{}, twice{}, change{};
-    double size = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Contact& contact = contacts_[i];
-        next[i] = tick_ * contact.closing;
-        stiffness[i] = springs_[i].stiffness;
-        damper[i] = damping[i] = springs_[i].damping / tick_;
-        own[i] = square * contact.own;
-        driven[i] = 0.5 * square * contact.acceleration;
-        constexpr double slow = 0.5;
-        if (!(own[i] * (stiffness[i] + damping[i]) <= slow)) return false;
-        first[i] = stiffness[i] * contact.depth + damping[i] * next[i];
-        size += std::abs(first[i]);
-    }
-    constexpr double rounding = 1e-14; // what comes after two such terms is less
-    const double converged = rounding * size;
-    const double mutual = square * mutual_;
-    Each force = first;
-    double last = size;
-    double order = 2.0;
-    for (const double share : press_shares) {
-        Each substep;
-        for (std::size_t i = 0; i < count; ++i) {
-            substep[i] = share * force[i];
-            twice[i] += substep[i];
-            once[i] += order * substep[i];
-        }
-        double now = 0.0;
-        for (std::size_t i = 0; i < count; ++i) {
-            double then = driven[i] - own[i] * substep[i];
-            if constexpr (count == 2) then -= mutual * substep[1 - i];
-            driven[i] = 0.0;
-            damper[i] += damping[i];
-            force[i] = stiffness[i] * next[i] + damper[i] * then;
-            next[i] = then;
-            change[i] += std::abs(force[i]);
-            now += std::abs(force[i]);
-        }
-        last += now;
-        if (last <= converged) break;
-        last = now;
-        order += 1.0;
-    }
-    if (!(last <= converged)) return false;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!(first[i] > change[i] && first[i] + change[i] < springs_[i].force_max)) return false;
-        contacts_[i].impulse = tick_ * once[i];
-        contacts_[i].moment = square * twice[i];
-    }
+    const HandSpring& a = springs_.front();
+    const HandSpring& b = springs_.back();
+    if (!modes.find({own_, mutual_, a.stiffness, a.damping, tick_})) return false;
+    const PressedModes::Outcome outcome = modes.outcome({depth_, closing_, acceleration_});
+    const Two start = both(a.stiffness) * depth_ + both(a.damping) * closing_;
+    const Two least = start - outcome.change, most = start + outcome.change;
+    if (!(least[0] > 0.0 && most[0] < a.force_max)) return false;
+    if (has_two_ && !(least[1] > 0.0 && most[1] < b.force_max)) return false;
+    impulse_ = outcome.impulse;
+    moment_ = outcome.moment;
     return true;
 }
 
-/// By how much a depth has grown, by what was held.
-template <std::size_t count>
-double ConstantContact<count>::depth_change(std::size_t i) const
+/// By how much the depths have grown, by what was held.
+Two ConstantContact::depth_change() const
 {
-    const Contact& contact = contacts_[i];
-    double pushed = contact.own * contact.moment;
-    if constexpr (count == 2) pushed += mutual_ * contacts_[1 - i].moment;
-    return tick_ * (contact.closing + (0.5 * tick_) * contact.acceleration) - pushed;
+    const Two pushed = own_ * moment_ + both(mutual_) * swapped(moment_);
+    return both(tick_) * (closing_ + both(0.5 * tick_) * acceleration_) - pushed;
 }
 
-template <std::size_t count>
-bool ConstantContact<count>::finish(SpringImpulse* work)
+bool ConstantContact::finish(std::span<SpringImpulse> work)
 {
     const double t = tick_;
-    glm::dvec3 impulse{0.0};
-    glm::dvec3 moment{0.0};
-    glm::dvec3 twist = t * dynamics_.torque;
-    glm::dvec3 swept = t * (body_.angular_momentum + (0.5 * t) * dynamics_.torque);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Contact& contact = contacts_[i];
-        work[i].impulse = -contact.impulse * contact.normal; // `advance` clears what is refused
-        impulse += work[i].impulse;
-        moment -= contact.moment * contact.normal;
-        twist -= contact.impulse * contact.lever;
-        swept -= contact.moment * contact.lever;
-    }
-    const glm::dvec3 moved =
-        t * (body_.velocity + (0.5 * t) * dynamics_.acceleration) + dynamics_.inverse_mass * moment;
+    const TwoVectors push = impulse_ * normal_;
+    const glm::dvec3 moved = t * (body_.velocity + (0.5 * t) * dynamics_.acceleration) -
+                             dynamics_.inverse_mass * sum(moment_ * normal_);
+    const glm::dvec3 swept =
+        t * (body_.angular_momentum + (0.5 * t) * dynamics_.torque) - sum(moment_ * lever_);
     const glm::dvec3 angle = ease_ * swept;
     // From amid a face to beside it is a tenth of a half edge at least.
     const glm::dvec3& size = dynamics_.half;
     const double room = 0.1 * std::min(size.x, std::min(size.y, size.z));
     const double corner = (size.x + size.y + size.z) * sum_of_sizes(angle);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!(sum_of_sizes(t * springs_[i].velocity - moved) + corner <= room)) return false;
-    }
+    const HandSpring& a = springs_.front();
+    const HandSpring& b = springs_.back();
+    const TwoVectors gone = both(t) * both(a.velocity, b.velocity) - both(moved);
+    const Two farthest = sum_of_sizes(gone) + both(corner);
+    if (!(farthest[0] <= room && farthest[1] <= room)) return false;
+    work[0].impulse = -first(push); // `advance` clears what is refused
+    if (has_two_) work[1].impulse = -second(push);
     body_.position += moved;
-    body_.velocity += t * dynamics_.acceleration + dynamics_.inverse_mass * impulse;
-    body_.angular_momentum += twist;
+    body_.velocity += t * dynamics_.acceleration - dynamics_.inverse_mass * sum(push);
+    body_.angular_momentum += t * dynamics_.torque - sum(impulse_ * lever_);
     if (angle == glm::dvec3{0.0}) return true;
     const glm::dquat turn = rotation_by(angle);
     body_.orientation = unit_again(turn * body_.orientation);
     if (glm::dot(angle, angle) < negligible_rotation * negligible_rotation) return true;
-    for (std::size_t i = 0; i < count; ++i) {
+    const TwoVectors hands = hand_ + gone;
+    const std::array<glm::dvec3, 2> hand{first(hands), second(hands)};
+    const Two depth = depth_ + depth_change();
+    for (std::size_t i = 0; i < springs_.size(); ++i) {
         const HandSpring& spring = springs_[i];
-        const Contact& contact = contacts_[i];
-        const glm::dvec3 hand = contact.hand + t * spring.velocity - moved;
         const double above =
-            glm::dot(turn * spring.normal, hand) - // the face turns about the centre
+            glm::dot(turn * spring.normal, hand[i]) - // the face turns about the centre
             glm::dot(spring.normal, spring.arm);
         correct_energy({body_, dynamics_, dynamics_.inverse_inertia, t}, spring,
-                       {contact.depth + depth_change(i), spring.radius - above}, work[i]);
+                       {depth[i], spring.radius - above}, work[i]);
     }
     return true;
 }
@@ -248,17 +173,16 @@ bool ConstantContact<count>::finish(SpringImpulse* work)
 
 bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
                                  std::span<const HandSpring> springs, std::span<SpringImpulse> work,
-                                 double tick)
+                                 double tick, PressedModes& modes)
 {
-    if (!dynamics.rotates_uniformly) return false;
+    if (!dynamics.rotates_uniformly || springs.empty() || springs.size() > 2) return false;
     for (const HandSpring& spring : springs) {
         if (!spring.is_amid_face || spring.gap > 0.0 || !(spring.stiffness > 0.0)) return false;
     }
-    if (springs.size() == 1)
-        return ConstantContact<1>{body, dynamics, springs.data(), tick}.advance(work.data());
-    if (springs.size() == 2)
-        return ConstantContact<2>{body, dynamics, springs.data(), tick}.advance(work.data());
-    return false;
+    const HandSpring& a = springs.front();
+    const HandSpring& b = springs.back();
+    if (a.stiffness != b.stiffness || a.damping != b.damping) return false;
+    return ConstantContact{body, dynamics, springs, tick}.advance(work, modes);
 }
 
 } // namespace hapnet::scene

@@ -10,11 +10,12 @@ namespace hapnet::scene {
 
 /// Advances a body by a tick in which nothing begins and nothing ends, which is what most ticks
 /// are: one or two springs press amid faces of the box from the start to the end, and it turns
-/// evenly and little. What ContactPhases does in one phase, with depths and impulses as Taylor's
-/// series to rounding. False, and the body has not changed, when it is not so; `work` is set and
-/// not added to.
+/// evenly and little. What ContactPhases does in one phase, with depths and impulses in closed
+/// form. Two springs need the same stiffness and damping. False, and the body has not changed, when
+/// it is not so; `work` is set and not added to.
 [[nodiscard]] bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
                                                std::span<const HandSpring> springs,
-                                               std::span<SpringImpulse> work, double tick);
+                                               std::span<SpringImpulse> work, double tick,
+                                               PressedModes& modes);
 
 } // namespace hapnet::scene

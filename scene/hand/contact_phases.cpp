@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/hand/contact_phases.hpp"
 
+#include "scene/hand/plane_drag.hpp"
 #include "scene/hand/surface.hpp"
 #include "scene/maths/rotation.hpp"
 
@@ -12,7 +13,7 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr int phases_max = 64;          // of a tick
+constexpr int phases_max = 24;          // of a tick
 constexpr double part_min = 1.0 / 32.0; // of a tick, that is cut off only because something turns
 // The most that a normal may rotate in half an interval: then its mean is right to 1e-5.
 constexpr double normal_rotation_max = 0.01;
@@ -29,8 +30,14 @@ bool is_zero(const glm::dmat3& m) { return m[0][0] == 0.0 && m[1][1] == 0.0 && m
 
 void advance_freely(MovingBody& body, const BodyDynamics& dynamics, double tick)
 {
-    body.position += tick * (body.velocity + (0.5 * tick) * dynamics.acceleration);
-    body.velocity += tick * dynamics.acceleration;
+    if (dynamics.drag == 0.0) {
+        body.position += tick * (body.velocity + (0.5 * tick) * dynamics.acceleration);
+        body.velocity += tick * dynamics.acceleration;
+    } else {
+        const PlaneDrag drag{dynamics, tick};
+        body.position += tick * drag.mean_velocity(body.velocity, dynamics.acceleration);
+        body.velocity = drag.velocity_after(body.velocity, dynamics.acceleration);
+    }
     if (is_zero(dynamics.inverse_inertia)) return;
     const glm::dvec3 mean = body.angular_momentum + (0.5 * tick) * dynamics.torque;
     glm::dvec3 angle = tick * (dynamics.inverse_inertia * mean);

@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hapnet::scene {
 
 namespace {
 
-constexpr int substeps_max = 64;
 constexpr double swing_max = 0.25;    // radians of the stiffest mode in a sub-tick
 constexpr double rotation_max = 0.05; // radians of the body in a sub-tick
 
@@ -37,7 +37,8 @@ Elastic elastic(double depth, double bend)
 /// The mean force of a unilateral spring whose depth grows evenly from `depth` at `closing`.
 Mean mean_force(const HandSpring& spring, double depth, double closing, double substep)
 {
-    const double bend = spring.force_max / spring.stiffness;
+    const double bend = spring.stiffness > 0.0 ? spring.force_max / spring.stiffness
+                                               : std::numeric_limits<double>::infinity();
     const double way = substep * closing;
     const double after = depth + way;
     if (depth <= 0.0 && after <= 0.0) return {};
@@ -62,6 +63,33 @@ Mean mean_force(const HandSpring& spring, double depth, double closing, double s
     if (mean.force >= spring.force_max) return {spring.force_max, 0.0};
     return mean;
 }
+
+/// G with G G^T = m / 2 for an inverse inertia, lower triangular; taken of a vector as G^T v. Rows
+/// of axes about which the body does not turn are zero.
+class RootOfHalf {
+public:
+    explicit RootOfHalf(const glm::dmat3& m)
+    {
+        for (int j = 0; j < 3; ++j) {
+            double square = 0.5 * m[j][j];
+            for (int k = 0; k < j; ++k) square -= lower_[k][j] * lower_[k][j];
+            if (!(square > 0.0)) continue;
+            lower_[j][j] = std::sqrt(square);
+            for (int i = j + 1; i < 3; ++i) {
+                double sum = 0.5 * m[j][i];
+                for (int k = 0; k < j; ++k) sum -= lower_[k][i] * lower_[k][j];
+                lower_[j][i] = sum / lower_[j][j];
+            }
+        }
+    }
+    [[nodiscard]] glm::dvec3 of(const glm::dvec3& v) const
+    {
+        return {glm::dot(lower_[0], v), glm::dot(lower_[1], v), glm::dot(lower_[2], v)};
+    }
+
+private:
+    glm::dmat3 lower_{0.0}; // by columns
+};
 
 } // namespace
 
@@ -96,31 +124,34 @@ int MidpointRule::substeps(double time)
     double square = 0.0;
     for (std::size_t i = 0; i < rows_; ++i) {
         const Row& row = row_[i];
-        square += spring_[row.spring].form->stiffness *
-                  (glm::dot(row.normal, dynamics_.inverse_mass * row.normal) +
-                   glm::dot(row.lever, row.inverse_inertia_lever));
+        square += 2.0 * spring_[row.spring].form->stiffness * dot(row.response, row.response);
     }
     const glm::dvec3 turning = inertia_now_ * body_.angular_momentum;
     const double swing = time * std::sqrt(square) / swing_max;
     const double turn = time * std::sqrt(glm::dot(turning, turning)) / rotation_max;
     const double most = std::max(swing, turn);
-    return most < substeps_max ? 1 + static_cast<int>(most) : substeps_max;
+    const int substeps_max = static_cast<int>(MidpointBudget::substeps_max(rows_));
+    return most < substeps_max ? std::min(1 + static_cast<int>(most), substeps_max) : substeps_max;
 }
 
 void MidpointRule::advance(double time)
 {
     const int count = substeps(time);
     const double substep = time / count;
+    const PlaneDrag drag{dynamics_, substep};
     for (int i = 0; i < count; ++i) {
         set_rows(substep);
         solve(substep);
-        apply(substep);
+        apply(drag, substep);
     }
 }
 
 void MidpointRule::set_rows(double substep)
 {
+    const PlaneDrag drag{dynamics_, substep};
     const double half = 0.5 * substep;
+    const glm::dvec3 velocity = drag.mean_velocity(body_.velocity, dynamics_.acceleration);
+    const glm::dvec3 momentum = body_.angular_momentum + half * dynamics_.torque;
     const glm::dvec3 moved = half * body_.velocity;
     const glm::dvec3 angle = half * (inertia_now_ * body_.angular_momentum);
     inverse_inertia_ = inertia_now_;
@@ -128,20 +159,18 @@ void MidpointRule::set_rows(double substep)
         const glm::dmat3 turn = axes_of(rotation_by(angle));
         inverse_inertia_ = turn * inertia_now_ * glm::transpose(turn);
     }
+    const RootOfHalf root{inverse_inertia_};
     const glm::dmat3 now = axes_of(body_.orientation);
     const glm::dmat3 axes = axes_of(rotation_by(angle) * body_.orientation);
+    const glm::dvec3 spin = inverse_inertia_ * momentum;
     rows_ = 0;
     const auto add = [&](std::size_t i, const glm::dvec3& normal, const glm::dvec3& arm,
                          double depth) {
         Row& row = row_[rows_++];
-        row = {i, normal, glm::cross(arm, normal)};
-        row.inverse_inertia_lever = inverse_inertia_ * row.lever;
-        row.depth = depth;
+        row = {i, normal, glm::cross(arm, normal), depth};
         row.closing =
-            glm::dot(normal,
-                     body_.velocity - spring_[i].form->velocity + half * dynamics_.acceleration) +
-            glm::dot(row.inverse_inertia_lever, body_.angular_momentum + half * dynamics_.torque);
-        row.mean = row.closing;
+            glm::dot(normal, velocity - spring_[i].form->velocity) + glm::dot(row.lever, spin);
+        row.response = {drag.root_of_response(normal), root.of(row.lever)};
     };
     for (std::size_t i = 0; i < springs_; ++i) {
         Spring& spring = spring_[i];
@@ -160,20 +189,15 @@ void MidpointRule::set_rows(double substep)
         const ContactGeometry geometry = spring.surface.at(axes, hand);
         add(i, geometry.normal, hand, spring.depth);
     }
-    for (std::size_t i = 0; i < rows_; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) {
-            coupling_[i][j] = coupling_[j][i] =
-                glm::dot(row_[i].normal, dynamics_.inverse_mass * row_[j].normal) +
-                glm::dot(row_[i].lever, row_[j].inverse_inertia_lever);
-        }
-    }
 }
 
-void MidpointRule::update_forces(double substep)
+MidpointRule::Six MidpointRule::update_forces(const Six& velocities, double substep)
 {
+    Six missed = velocities;
     for (std::size_t i = 0; i < rows_; ++i) {
         Row& row = row_[i];
         const HandSpring& spring = *spring_[row.spring].form;
+        row.mean = row.closing - substep * dot(row.response, velocities);
         if (spring.holds) {
             row.slope = 0.5 * spring.stiffness * substep + spring.damping;
             row.force = spring.stiffness * row.depth + row.slope * row.mean;
@@ -184,97 +208,124 @@ void MidpointRule::update_forces(double substep)
             row.slope = mean.slope;
         }
     }
+    for (std::size_t i = 0; i < rows_; ++i) missed.add(-row_[i].force, row_[i].response);
+    return missed;
 }
 
 /// The three rows of a spring that holds pull no more together than it can.
 void MidpointRule::limit_grip_force(std::size_t first)
 {
     Row* const rows = &row_[first];
-    const double square = rows[0].force * rows[0].force + rows[1].force * rows[1].force +
-                          rows[2].force * rows[2].force;
-    const double most = spring_[rows[0].spring].form->force_max;
-    if (square <= most * most) return;
-    const double share = most / std::sqrt(square);
+    Spring& spring = spring_[rows[0].spring];
+    const glm::dvec3 force{rows[0].force, rows[1].force, rows[2].force};
+    const double square = glm::dot(force, force);
+    const double most = spring.form->force_max;
+    spring.is_limited = square > most * most;
+    if (!spring.is_limited) return;
+    const double size = std::sqrt(square);
+    spring.pull = force / size;
     for (std::size_t i = 0; i < 3; ++i) {
-        rows[i].force *= share;
-        rows[i].slope = 0.0;
+        rows[i].force *= most / size;
+        rows[i].slope *= most / size;
     }
 }
 
-/// One of Newton's steps for the mean closing speeds: each force is taken to follow its slope.
-void MidpointRule::newton_step(double substep)
+/// One of Newton's steps: each force is taken to follow its slope. In the scaled velocities the
+/// matrix is 1 + symmetric: Cholesky.
+MidpointRule::Six MidpointRule::newton_step(const Six& missed, double substep) const
 {
-    // In x = sqrt(slope) * change of closing, the matrix is 1 + symmetric: Cholesky.
-    // The first rows_ are written before they are read.
-    // NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
-    std::array<std::array<double, rows_max>, rows_max> lower;
-    std::array<double, rows_max> root;
-    std::array<double, rows_max> x;
-    // NOLINTEND(cppcoreguidelines-pro-type-member-init)
-    const double half = 0.5 * substep;
+    std::array<std::array<double, 6>, 6> lower{};
+    for (std::size_t i = 0; i < 6; ++i) lower[i][i] = 1.0;
+    const auto add = [&](const Six& direction, double scale) {
+        const std::array<double, 6> d{direction.linear.x,  direction.linear.y,
+                                      direction.linear.z,  direction.angular.x,
+                                      direction.angular.y, direction.angular.z};
+        for (std::size_t i = 0; i < 6; ++i) {
+            for (std::size_t j = 0; j <= i; ++j) lower[i][j] += scale * d[i] * d[j];
+        }
+    };
     for (std::size_t i = 0; i < rows_; ++i) {
-        root[i] = std::sqrt(std::max(row_[i].slope, 0.0));
-        double reached = row_[i].closing;
-        for (std::size_t j = 0; j < rows_; ++j) reached -= half * coupling_[i][j] * row_[j].force;
-        x[i] = root[i] * (reached - row_[i].mean);
+        const Row& row = row_[i];
+        if (row.slope > 0.0) add(row.response, substep * row.slope);
+        const Spring& spring = spring_[row.spring];
+        const bool is_last = i + 1 == rows_ || row_[i + 1].spring != row.spring;
+        if (!spring.form->holds || !is_last || !spring.is_limited) continue;
+        // With all its force it only turns: along the pull there is no slope.
+        Six pull;
+        for (int axis : {0, 1, 2})
+            pull.add(spring.pull[axis], row_[i - 2 + static_cast<std::size_t>(axis)].response);
+        add(pull, -substep * row.slope);
     }
-    std::array<double, rows_max> residual{};
-    for (std::size_t i = 0; i < rows_; ++i) {
+    std::array<double, 6> x{-missed.linear.x,  -missed.linear.y,  -missed.linear.z,
+                            -missed.angular.x, -missed.angular.y, -missed.angular.z};
+    for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
-            double sum = half * root[i] * coupling_[i][j] * root[j] + (i == j ? 1.0 : 0.0);
+            double sum = lower[i][j];
             for (std::size_t k = 0; k < j; ++k) sum -= lower[i][k] * lower[j][k];
-            lower[i][j] = i == j ? std::sqrt(sum) : sum / lower[j][j];
+            // No eigenvalue is below 1; less is rounding.
+            lower[i][j] = i == j ? std::sqrt(std::max(sum, 1.0)) : sum / lower[j][j];
         }
         for (std::size_t k = 0; k < i; ++k) x[i] -= lower[i][k] * x[k];
         x[i] /= lower[i][i];
     }
-    for (std::size_t i = rows_; i-- > 0;) {
-        for (std::size_t k = i + 1; k < rows_; ++k) x[i] -= lower[k][i] * x[k];
+    for (std::size_t i = 6; i-- > 0;) {
+        for (std::size_t k = i + 1; k < 6; ++k) x[i] -= lower[k][i] * x[k];
         x[i] /= lower[i][i];
-        residual[i] = root[i] * x[i]; // by how much the force changes
     }
-    for (std::size_t i = 0; i < rows_; ++i) {
-        double mean = row_[i].closing;
-        for (std::size_t j = 0; j < rows_; ++j)
-            mean -= half * coupling_[i][j] * (row_[j].force + residual[j]);
-        row_[i].mean = mean;
-    }
+    return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
 }
 
+/// The velocities at which the springs' forces are what brings them about: the lowest point of a
+/// convex function, since no force falls with its depth. Where a step goes beyond the lowest point
+/// of its line, what it has overshot is taken back.
 void MidpointRule::solve(double substep)
 {
-    constexpr int steps_max = 12;
     constexpr double converged = 1e-13;
-    for (int step = 0; step < steps_max; ++step) {
-        update_forces(substep);
-        double before = 0.0;
-        std::array<double, rows_max> mean{};
-        for (std::size_t i = 0; i < rows_; ++i) mean[i] = row_[i].mean;
-        newton_step(substep);
-        double change = 0.0;
-        for (std::size_t i = 0; i < rows_; ++i) {
-            change = std::max(change, std::abs(row_[i].mean - mean[i]));
-            before = std::max(before, std::abs(row_[i].closing) + std::abs(mean[i]));
-        }
-        if (change <= converged * before) break;
+    constexpr double overshot = 0.5;
+    double easiest = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < rows_; ++i) {
+        easiest = std::max(easiest, dot(row_[i].response, row_[i].response));
+        size = std::max(size, std::abs(row_[i].closing));
     }
-    update_forces(substep);
+    const double negligible = converged * size / substep; // of a scaled velocity
+    const auto is_negligible = [&](const Six& six) {
+        return dot(six, six) * easiest <= negligible * negligible;
+    };
+    Six velocities;
+    Six missed = update_forces(velocities, substep);
+    for (std::size_t step = 1; step < MidpointBudget::newton_steps_max; ++step) {
+        // A step is no longer than what is missed.
+        if (is_negligible(missed)) return;
+        const Six change = newton_step(missed, substep);
+        const double falls = dot(missed, change);
+        velocities.add(1.0, change);
+        missed = update_forces(velocities, substep);
+        if (is_negligible(change)) return;
+        const double rises = dot(missed, change);
+        if (!(rises > -overshot * falls) || step + 1 == MidpointBudget::newton_steps_max) continue;
+        velocities.add(-rises / (rises - falls), change);
+        missed = update_forces(velocities, substep);
+        ++step;
+    }
 }
 
-void MidpointRule::apply(double substep)
+void MidpointRule::apply(const PlaneDrag& drag, double substep)
 {
     glm::dvec3 force{0.0};
     glm::dvec3 torque = dynamics_.torque;
+    Six velocities;
     for (std::size_t i = 0; i < rows_; ++i) {
         const Row& row = row_[i];
         force -= row.force * row.normal;
         torque -= row.force * row.lever;
+        velocities.add(row.force, row.response);
         work_[row.spring].impulse -= (substep * row.force) * row.normal;
     }
-    const glm::dvec3 gained = substep * (dynamics_.acceleration + dynamics_.inverse_mass * force);
-    const glm::dvec3 moved = substep * (body_.velocity + 0.5 * gained);
+    const glm::dvec3 acceleration = dynamics_.acceleration + dynamics_.inverse_mass * force;
+    const glm::dvec3 moved = substep * drag.mean_velocity(body_.velocity, acceleration);
     body_.position += moved;
-    body_.velocity += gained;
+    body_.velocity = drag.velocity_after(body_.velocity, acceleration);
     if (rotates_) {
         const glm::dvec3 mean = body_.angular_momentum + (0.5 * substep) * torque;
         const glm::dvec3 angle = substep * (inverse_inertia_ * mean);
@@ -286,13 +337,11 @@ void MidpointRule::apply(double substep)
         }
     }
     for (std::size_t i = 0; i < rows_; ++i) {
-        Spring& spring = spring_[row_[i].spring];
-        if (!spring.form->holds) {
-            double reached = row_[i].closing;
-            for (std::size_t j = 0; j < rows_; ++j)
-                reached -= 0.5 * substep * coupling_[i][j] * row_[j].force;
-            spring.depth = row_[i].depth + substep * reached;
-        }
+        const Row& row = row_[i];
+        Spring& spring = spring_[row.spring];
+        if (spring.form->holds) continue;
+        const double closing = row.closing - substep * dot(row.response, velocities);
+        spring.depth = row.depth + substep * closing;
     }
     for (std::size_t i = 0; i < springs_; ++i)
         spring_[i].hand += substep * spring_[i].form->velocity - moved;

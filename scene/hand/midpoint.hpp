@@ -2,18 +2,40 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/hand/plane_drag.hpp"
 #include "scene/hand/surface.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 
 namespace hapnet::scene {
 
-/// A rigid body under any number of springs, which may hold: the implicit midpoint rule, in
-/// substeps short against the stiffest mode. The mean force of a unilateral spring over a substep
-/// is its energy's difference over its depth's (a discrete gradient): so with held directions
-/// neither contact that begins nor one that ends makes or loses energy. Second order; stable
-/// however stiff. Forces add to what is in `work`.
+/// The most that a tick of the midpoint rule may cost: substeps times steps of Newton's method
+/// times rows (a spring that pushes has one, one that holds three). With few rows there are more
+/// substeps.
+struct MidpointBudget {
+    static constexpr std::size_t springs_max = 8;
+    static constexpr std::size_t rows_max = 3 * springs_max;
+    static constexpr std::size_t newton_steps_max = 6;
+    static constexpr std::size_t rows_solved_max = 1500;
+    [[nodiscard]] static constexpr std::size_t substeps_max(std::size_t rows)
+    {
+        constexpr std::size_t most = 32;
+        return std::min(most,
+                        rows_solved_max / (newton_steps_max * std::max<std::size_t>(rows, 1)));
+    }
+};
+
+/// A rigid body under any number of springs, which may hold, and drag along a plane: the implicit
+/// midpoint rule, in substeps short against the stiffest mode as far as the budget goes. The mean
+/// force of a unilateral spring over a substep is its energy's difference over its depth's (a
+/// discrete gradient): so with held directions neither contact that begins nor one that ends makes
+/// or loses energy. Second order; stable however stiff. Forces add to what is in `work`.
+///
+/// All springs act on one body, so Newton's method goes on in its six velocities. Where its steps
+/// end before it has converged, momentum is kept all the same; energy is the caller's to check.
 class MidpointRule {
 public:
     MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
@@ -22,37 +44,53 @@ public:
     void advance(double time);
 
 private:
-    static constexpr std::size_t springs_max = 8;
-    static constexpr std::size_t rows_max = 3 * springs_max;
+    static constexpr std::size_t springs_max = MidpointBudget::springs_max;
+    static constexpr std::size_t rows_max = MidpointBudget::rows_max;
 
+    /// Velocities of the centre and of turning, scaled so that a force changes them by itself.
+    struct Six {
+        glm::dvec3 linear{0.0};
+        glm::dvec3 angular{0.0};
+        friend double dot(const Six& a, const Six& b)
+        {
+            return glm::dot(a.linear, b.linear) + glm::dot(a.angular, b.angular);
+        }
+        void add(double scale, const Six& other)
+        {
+            linear += scale * other.linear;
+            angular += scale * other.angular;
+        }
+    };
     /// One direction of one spring.
     struct Row {
         std::size_t spring = 0;
         glm::dvec3 normal{0.0};
         glm::dvec3 lever{0.0};
-        glm::dvec3 inverse_inertia_lever{0.0}; // the inverse inertia times the lever
-        double depth = 0.0;                    // at the start of the sub-tick
+        double depth = 0.0;   // at the start of the sub-tick
         double closing = 0.0; // mean over the sub-tick, without the springs' forces
-        double mean = 0.0;    // mean closing with them
+        Six response{};       // of the scaled velocities to its force
+        double mean = 0.0;    // mean closing with the springs' forces
         double force = 0.0;   // mean
         double slope = 0.0;   // of the force over the mean closing
     };
     struct Spring {
         const HandSpring* form = nullptr;
         BoxSurface surface;
-        glm::dvec3 hand{0.0};   // seen from the body's centre; of one that holds, where it pulls
-        glm::dvec3 anchor{0.0}; // of one that holds, in the body's frame
-        double depth = 0.0;     // kept from one substep to the next while it acts
+        glm::dvec3 hand{0.0};    // seen from the body's centre; of one that holds, where it pulls
+        glm::dvec3 anchor{0.0};  // of one that holds, in the body's frame
+        double depth = 0.0;      // kept from one substep to the next while it acts
+        bool is_limited = false; // it holds with all its force, along `pull`
+        glm::dvec3 pull{0.0};    // unit
     };
-    using Matrix = std::array<std::array<double, rows_max>, rows_max>;
 
     [[nodiscard]] int substeps(double time);
     void set_rows(double substep);
     void solve(double substep);
-    void update_forces(double substep);
-    void newton_step(double substep);
+    /// The forces at these velocities; returns how far they are from what the forces make of them.
+    Six update_forces(const Six& velocities, double substep);
+    [[nodiscard]] Six newton_step(const Six& missed, double substep) const;
     void limit_grip_force(std::size_t first);
-    void apply(double substep);
+    void apply(const PlaneDrag& drag, double substep);
 
     MovingBody& body_;
     const BodyDynamics& dynamics_;
@@ -64,7 +102,6 @@ private:
     std::size_t rows_ = 0;
     std::array<Spring, springs_max> spring_;
     std::array<Row, rows_max> row_;
-    Matrix coupling_{};
 };
 
 } // namespace hapnet::scene

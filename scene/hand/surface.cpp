@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/hand/surface.hpp"
 
+#include "scene/hand/passivity.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -53,15 +55,6 @@ ContactGeometry BoxSurface::at(const glm::dmat3& axes, const glm::dvec3& hand) c
 
 namespace {
 
-/// The energy of a spring; beyond its greatest force it grows evenly.
-double energy(const HandSpring& spring, double depth)
-{
-    if (depth <= 0.0) return 0.0;
-    const double bend = spring.force_max / spring.stiffness;
-    if (depth <= bend) return 0.5 * spring.stiffness * depth * depth;
-    return spring.force_max * (depth - 0.5 * bend);
-}
-
 /// The share of a further impulse with which a spring gives `most` together at most.
 double share_within(const glm::dvec3& given, const glm::dvec3& more, double most)
 {
@@ -74,7 +67,8 @@ double share_within(const glm::dvec3& given, const glm::dvec3& more, double most
     return (std::sqrt(along * along + square * room) - along) / square;
 }
 
-/// The mass of a body along each axis; 0 where it is locked.
+} // namespace
+
 glm::dvec3 mass_of(const BodyDynamics& dynamics)
 {
     const glm::dvec3& light = dynamics.inverse_mass;
@@ -83,21 +77,21 @@ glm::dvec3 mass_of(const BodyDynamics& dynamics)
     return {light.x > 0.0 ? mass : 0.0, light.y > 0.0 ? mass : 0.0, light.z > 0.0 ? mass : 0.0};
 }
 
-} // namespace
-
 void correct_energy(const EnergyCorrection& settling, const HandSpring& spring,
                     const SpringDepths& depths, SpringImpulse& work)
 {
     MovingBody& body = settling.body;
-    const double missed = energy(spring, depths.true_m) - energy(spring, depths.followed);
+    const double missed =
+        spring_energy(spring, depths.true_m) - spring_energy(spring, depths.followed);
     const glm::dvec3 velocity = body.velocity - spring.velocity;
     const glm::dvec3 momentum = mass_of(settling.dynamics) * velocity;
     const double twice =
         glm::dot(momentum, velocity) +
         glm::dot(body.angular_momentum, settling.inverse_inertia * body.angular_momentum);
-    constexpr double most = 0.03; // more cannot come from a geometry that is a little off
+    constexpr double most = 0.03;
     if (!(twice > 0.0)) return;
-    double scale = std::clamp(-missed / twice, -most, most);
+    double scale = std::min(-missed / twice, most);
+    if (scale < -most) scale = std::sqrt(std::max(1.0 + 2.0 * scale, 0.0)) - 1.0;
     scale *= share_within(work.impulse, scale * momentum, spring.force_max * settling.tick);
     body.velocity += scale * (settling.dynamics.inverse_mass * momentum);
     body.angular_momentum *= 1.0 + scale;

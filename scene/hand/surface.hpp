@@ -39,6 +39,9 @@ private:
     bool is_face_ = false;
 };
 
+/// The mass of a body along each axis; 0 where it is locked.
+[[nodiscard]] glm::dvec3 mass_of(const BodyDynamics& dynamics);
+
 /// A body at the end of its tick.
 struct EnergyCorrection {
     MovingBody& body;
@@ -54,7 +57,8 @@ struct SpringDepths {
 };
 
 /// Scales the speed relative to the hand by the little that makes the spring's energy what the
-/// true depth says; no more than the spring can give in the tick.
+/// true depth says; no more than the spring can give in the tick. It may lose any energy, and gain
+/// little: more cannot come from a geometry that is a little off.
 void correct_energy(const EnergyCorrection& settling, const HandSpring& spring,
                     const SpringDepths& depths, SpringImpulse& work);
 

@@ -6,6 +6,8 @@ namespace hapnet::scene {
 
 namespace {
 
+constexpr int steps_max = 200;
+
 struct Sample {
     double value, rate, second_derivative;
     double second_derivative_max; // of |bend| from then on
@@ -43,10 +45,10 @@ double safe_step(double value, const Sample& s)
 
 } // namespace
 
-std::optional<double> first_root(const WatchedQuantity& watched, const Trajectories& trajectories,
-                                 double from, double to)
+RootSearch search_root(const WatchedQuantity& watched, const Trajectories& trajectories,
+                       double from, double to, int& steps_left)
 {
-    constexpr int steps_max = 200;
+    using End = RootSearch::End;
     constexpr double near = 1e-14; // of the time searched: as good as reached
     constexpr double flat = 1e-9;  // of the greatest bend: no bend at all
     const double nearest = near * (to - from);
@@ -56,23 +58,35 @@ std::optional<double> first_root(const WatchedQuantity& watched, const Trajector
     if (s.value <= 0.0 || watched.leaves_zero) {
         const bool falls = s.rate < 0.0 ||
                            (s.rate == 0.0 && s.second_derivative < -flat * s.second_derivative_max);
-        if (!watched.leaves_zero && falls) return time;
+        if (!watched.leaves_zero && falls) return {End::found, time};
         // From 0 upwards: look again a moment later.
         if (watched.leaves_zero || safe_step(0.0, s) <= nearest) {
             time = from + (to - from) / 1024.0;
             s = sample(watched, trajectories, time, to);
-            if (s.value < 0.0) return time;
+            if (s.value < 0.0) return {End::found, time};
         }
     }
-    for (int steps = 0; steps < steps_max; ++steps) {
+    const int last = std::max(steps_left - steps_max, 0);
+    for (; steps_left > last; --steps_left) {
         const double step = safe_step(std::max(s.value, 0.0), s);
-        if (time + step >= to) return std::nullopt;
-        if (step <= nearest) return time;
+        if (time + step >= to) return {};
+        if (step <= nearest) return {End::found, time};
         time += step;
         s = sample(watched, trajectories, time, to);
     }
+    return {End::given_up, time};
+}
+
+std::optional<double> first_root(const WatchedQuantity& watched, const Trajectories& trajectories,
+                                 double from, double to)
+{
+    int steps = steps_max;
+    const RootSearch search = search_root(watched, trajectories, from, to, steps);
+    if (search.end == RootSearch::End::none) return std::nullopt;
+    if (search.end == RootSearch::End::found) return search.time;
     // Hundreds of periods in one tick, and none has come to it so far: only the end counts.
-    return sample(watched, trajectories, to, to).value < 0.0 ? std::optional{time} : std::nullopt;
+    const bool is_below = sample(watched, trajectories, to, to).value < 0.0;
+    return is_below ? std::optional{search.time} : std::nullopt;
 }
 
 } // namespace hapnet::scene

@@ -6,6 +6,7 @@
 #include "scene/maths/vector.hpp"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 namespace hapnet::scene {
@@ -32,10 +33,22 @@ struct WatchedQuantity {
     return value + std::min(rate, 0.0) * time - 0.5 * second_derivative * time * time >= 0.0;
 }
 
-/// When the quantity first falls to 0, in [from, to); nullopt when it does not. No root is missed:
-/// the search goes on by steps within which a bound of the second derivative rules one out, and
-/// approaches the root from before it as fast as Newton's method does. After 200 steps, which take
-/// a wave of some hundred periods, it only asks for the sign at the end.
+/// What a search for a root came to.
+struct RootSearch {
+    enum class End : std::uint8_t { none, found, given_up };
+    End end = End::none;
+    double time = 0.0; // of the root; given up: until when there is none
+};
+
+/// When the quantity first falls to 0, in [from, to). No root is missed: the search goes on by
+/// steps within which a bound of the second derivative rules one out, and approaches the root from
+/// before it as fast as Newton's method does. It is given up after 200 steps, which take a wave of
+/// some hundred periods, or when none of `steps_left` is left.
+[[nodiscard]] RootSearch search_root(const WatchedQuantity& watched,
+                                     const Trajectories& trajectories, double from, double to,
+                                     int& steps_left);
+
+/// ... nullopt when it does not. After 200 steps it only asks for the sign at the end.
 [[nodiscard]] std::optional<double> first_root(const WatchedQuantity& watched,
                                                const Trajectories& trajectories, double from,
                                                double to);

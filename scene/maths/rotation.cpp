@@ -24,6 +24,8 @@ glm::dvec3 angular_velocity(const glm::dquat& orientation, const FreeRotation& s
 
 HalfAngle half_angle(double z)
 {
+    constexpr double none = 1e-17; // both round to 1
+    if (z <= none) return {};
     if (z <= small_half_angle_max) return small_half_angle(z);
     const double half = std::sqrt(z);
     if (!(half <= 1e6)) return {};
@@ -55,11 +57,36 @@ glm::dmat3 axes_of(const glm::dquat& orientation)
             2.0 * (xz + wy),       2.0 * (yz - wx),       1.0 - 2.0 * (xx + yy)};
 }
 
-glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin, double tick)
+glm::dvec3 mean_spin(const glm::dquat& orientation, const FreeRotation& spin, double tick)
 {
     const glm::dvec3 first = angular_velocity(orientation, spin);
     const glm::dquat halfway = rotation_by((0.5 * tick) * first) * orientation;
-    return rotated(orientation, tick * angular_velocity(halfway, spin));
+    return angular_velocity(halfway, spin);
+}
+
+glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to)
+{
+    glm::dquat by = to * glm::conjugate(from);
+    if (by.w < 0.0) by = -by;
+    // The root of a unit quaternion turns half as far: after four the series for the arc sine has
+    // at most pi/32 to deal with.
+    double times = 2.0;
+    for (int root = 0; root < 4; ++root) {
+        by = glm::dquat{1.0 + by.w, by.x, by.y, by.z};
+        const double square = by.w * by.w + by.x * by.x + by.y * by.y + by.z * by.z;
+        by = by * (1.0 / std::sqrt(square));
+        times *= 2.0;
+    }
+    const double sine2 = by.x * by.x + by.y * by.y + by.z * by.z;
+    const double stretch =
+        1.0 + sine2 * (1.0 / 6.0 +
+                       sine2 * (3.0 / 40.0 + sine2 * (15.0 / 336.0 + sine2 * (105.0 / 3456.0))));
+    return (times * stretch) * glm::dvec3{by.x, by.y, by.z};
+}
+
+glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin, double tick)
+{
+    return rotated(orientation, tick * mean_spin(orientation, spin, tick));
 }
 
 } // namespace hapnet::scene

@@ -66,6 +66,13 @@ struct FreeRotation {
     glm::dvec3 inverse_inertia{0.0};  // about the body's own axes
 };
 
+/// The spin with which rotated_freely() turns a body steadily through a tick: that of its middle.
+[[nodiscard]] glm::dvec3 mean_spin(const glm::dquat& orientation, const FreeRotation& spin,
+                                   double tick);
+
+/// The shortest turn from one orientation to another: `to` is rotated(from, turn). Within 1e-10.
+[[nodiscard]] glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to);
+
 /// The orientation of a freely turning body one tick later, by the explicit midpoint rule on the
 /// rotation group: second order. Exact when the three moments of inertia are equal.
 [[nodiscard]] glm::dquat rotated_freely(const glm::dquat& orientation, const FreeRotation& spin,

@@ -19,6 +19,12 @@ namespace hapnet::scene {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
+/// What std::abs makes of each component: unlike glm's, no compares.
+[[nodiscard]] inline glm::dvec3 sizes(const glm::dvec3& v)
+{
+    return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+}
+
 /// Whether no component is larger than `most` or NaN.
 [[nodiscard]] inline bool is_within(const glm::dvec3& v, double most)
 {

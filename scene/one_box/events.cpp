@@ -2,107 +2,134 @@
 // SPDX-License-Identifier: MIT
 #include "scene/one_box/events.hpp"
 
+#include "scene/one_box/coupled.hpp"
+
 namespace hapnet::scene {
 
 namespace {
 
 using Kind = Event::Kind;
 
-/// `factor` times a spring's depth, plus `level`.
-WatchedQuantity watch_depth(const FaceSpring& spring, double factor)
+/// `factor` times a spring's depth.
+template <typename AnySpring>
+WatchedQuantity watch_depth(const AnySpring& spring, double factor)
 {
-    const auto axis = spring.axis;
     WatchedQuantity watch{.level = factor * spring.depth, .slope = factor * spring.closing};
-    watch.displacement_weight[axis] = factor * spring.sign;
+    spring.add_along(watch.displacement_weight, factor);
     return watch;
 }
 
 /// `factor` times what a spring's force is without limits, plus `level`.
-WatchedQuantity watch_tension(const BoxMotion& box, const FaceSpring& spring, double factor,
+template <typename AnySpring>
+WatchedQuantity watch_tension(const BoxMotion& box, const AnySpring& spring, double factor,
                               double level)
 {
     const double k = factor * box.hands.stiffness_n_per_m;
     const double c = factor * box.hands.damping_ns_per_m;
-    const auto axis = spring.axis;
     WatchedQuantity watch{.level = level + k * spring.depth + c * spring.closing,
                           .slope = k * spring.closing};
-    watch.displacement_weight[axis] = k * spring.sign;
-    watch.speed_weight[axis] = c * spring.sign;
+    spring.add_along(watch.displacement_weight, k);
+    spring.add_along(watch.speed_weight, c);
     return watch;
 }
 
+/// A spring's force without limits, how fast it changes, and how fast that can.
+struct Tension {
+    double force, rate, bend;
+    double closing;      // m/s
+    double acceleration; // m/s^2, the most that its depth can have
+
+    template <typename AnySpring>
+    Tension(const BoxMotion& box, const AnySpring& spring)
+    {
+        const double k = box.hands.stiffness_n_per_m;
+        const double c = box.hands.damping_ns_per_m;
+        const auto& axes = box.axes;
+        closing = spring.closing + spring.along(box.velocity);
+        acceleration =
+            spring.most_along([&](std::size_t i) { return axes[i].bounds.acceleration; });
+        force = k * spring.depth + c * closing;
+        rate = k * closing +
+               c * spring.along_each([&](std::size_t i) { return axes[i].acceleration; });
+        bend = k * acceleration +
+               c * spring.most_along([&](std::size_t i) { return axes[i].bounds.jerk; });
+    }
+};
+
 /// Whether a spring presses for the whole `time`, as most do.
-bool keeps_acting(const BoxMotion& box, const FaceSpring& spring, double time)
+template <typename AnySpring>
+bool keeps_acting(const BoxMotion& box, const AnySpring& spring, double time)
 {
     if (spring.phase != SpringPhase::pressing) return false;
-    const HandDescription& hands = box.hands;
-    const AxisMotion& axis = box.axes[spring.axis];
-    const double closing = spring.closing_at(box.velocity[spring.axis]);
-    const double k = hands.stiffness_n_per_m;
-    const double c = hands.damping_ns_per_m;
-    const double tension = k * spring.depth + c * closing;
-    const double rate = std::abs(k * closing + c * spring.sign * axis.acceleration);
-    const double bend = k * axis.bounds.acceleration + c * axis.bounds.jerk;
-    const double change = time * (rate + 0.5 * time * bend);
-    return tension >= change && hands.force_max_n - tension >= change;
+    const Tension tension{box, spring};
+    const double change = time * (std::abs(tension.rate) + 0.5 * time * tension.bend);
+    return tension.force >= change && box.hands.force_max_n - tension.force >= change;
 }
 
+/// `kind` says to which springs it belongs.
+template <typename AnySpring>
 struct SpringEventFinder {
     const BoxMotion& box;
-    std::uint32_t index;
+    const AnySpring& spring;
+    Event what; // but for the next phase
     Event& first;
 
-    void expect(const WatchedQuantity& watch, SpringPhase next) const
+    void expect_phase(const WatchedQuantity& watch, SpringPhase next) const
     {
-        const auto time = first_root(watch, box.trajectories, 0.0, first.time);
-        if (!time) return;
-        first = {.time = *time, .kind = Kind::spring, .spring = index, .phase = next};
+        Event event = what;
+        event.phase = next;
+        expect(box, watch, 0.0, first, event);
     }
 
     void find() const
     {
-        const FaceSpring& spring = box.springs[index];
         const HandDescription& hands = box.hands;
-        const AxisMotion& axis = box.axes[spring.axis];
-        const double closing = spring.closing_at(box.velocity[spring.axis]);
-        const double k = hands.stiffness_n_per_m;
-        const double c = hands.damping_ns_per_m;
         const double left = first.time;
+        const Tension tension{box, spring};
         if (spring.phase == SpringPhase::apart || spring.phase == SpringPhase::slack) {
             const double away = spring.phase == SpringPhase::apart ? -1.0 : 1.0;
-            if (!stays_positive(away * spring.depth, away * closing, axis.bounds.acceleration,
+            if (!stays_positive(away * spring.depth, away * tension.closing, tension.acceleration,
                                 left)) {
-                expect(watch_depth(spring, away), spring.phase == SpringPhase::apart
-                                                      ? SpringPhase::pressing
-                                                      : SpringPhase::apart);
+                expect_phase(watch_depth(spring, away), spring.phase == SpringPhase::apart
+                                                            ? SpringPhase::pressing
+                                                            : SpringPhase::apart);
             }
             if (spring.phase == SpringPhase::apart) return;
         }
-        const double tension = k * spring.depth + c * closing;
-        const double rate = k * closing + c * spring.sign * axis.acceleration;
-        const double bend = k * axis.bounds.acceleration + c * axis.bounds.jerk;
         if (spring.phase == SpringPhase::slack) {
-            if (!stays_positive(-tension, -rate, bend, left)) {
-                expect(watch_tension(box, spring, -1.0, 0.0), SpringPhase::pressing);
+            if (!stays_positive(-tension.force, -tension.rate, tension.bend, left)) {
+                expect_phase(watch_tension(box, spring, -1.0, 0.0), SpringPhase::pressing);
             }
             return;
         }
-        const double room = hands.force_max_n - tension;
+        const double room = hands.force_max_n - tension.force;
         if (spring.phase == SpringPhase::limited) {
-            if (!stays_positive(-room, rate, bend, left)) {
-                expect(watch_tension(box, spring, 1.0, -hands.force_max_n), SpringPhase::pressing);
+            if (!stays_positive(-room, tension.rate, tension.bend, left)) {
+                expect_phase(watch_tension(box, spring, 1.0, -hands.force_max_n),
+                             SpringPhase::pressing);
             }
             return;
         }
-        if (!stays_positive(tension, rate, bend, left)) {
-            expect(watch_tension(box, spring, 1.0, 0.0),
-                   c > 0.0 ? SpringPhase::slack : SpringPhase::apart);
+        if (!stays_positive(tension.force, tension.rate, tension.bend, left)) {
+            expect_phase(watch_tension(box, spring, 1.0, 0.0),
+                         hands.damping_ns_per_m > 0.0 ? SpringPhase::slack : SpringPhase::apart);
         }
-        if (!stays_positive(room, -rate, bend, left)) {
-            expect(watch_tension(box, spring, -1.0, hands.force_max_n), SpringPhase::limited);
+        if (!stays_positive(room, -tension.rate, tension.bend, left)) {
+            expect_phase(watch_tension(box, spring, -1.0, hands.force_max_n), SpringPhase::limited);
         }
     }
 };
+
+template <typename Springs>
+void find_spring_events(const BoxMotion& box, const Springs& springs, Kind kind, Event& first)
+{
+    std::uint32_t index = 0;
+    for (const auto& spring : springs) {
+        const Event what{.kind = kind, .spring = index++};
+        if (keeps_acting(box, spring, first.time)) continue;
+        SpringEventFinder{box, spring, what, first}.find();
+    }
+}
 
 /// `side` times how far the centre is from a face.
 WatchedQuantity watch_gap(const BoxMotion& box, std::size_t axis, double side, double face)
@@ -137,7 +164,7 @@ std::size_t separating_axis(const BoxMotion& box, const Obstacle& obstacle, doub
     double most = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
         if (i == but) continue;
-        const TrajectoryPoint motion = box.trajectories[i].after(time);
+        const TrajectoryPoint motion = motion_after(box, i, time);
         const double place = box.position[i] + motion.displacement;
         const double gap = obstacle.gap(i, place);
         const double speed = box.trajectories[i].moves() ? motion.speed : 0.0;
@@ -159,13 +186,15 @@ void find_impact(const BoxMotion& box, const Obstacle& obstacle, Event& first)
     std::size_t axis = separating_axis(box, obstacle, 0.0, nothing);
     double time = 0.0;
     for (int turn = 0; turn < rounds_max && axis != nothing; ++turn) {
-        const double place = box.position[axis] + box.trajectories[axis].after(time).displacement;
+        const double place = box.position[axis] + motion_after(box, axis, time).displacement;
         const double side = obstacle.side(axis, place);
         const double face = obstacle.face(axis, side);
-        const auto root =
-            first_root(watch_gap(box, axis, side, face), box.trajectories, time, first.time);
-        if (!root) return;
-        time = *root;
+        Event reached = first; // the axis reaches the face
+        if (!expect(box, watch_gap(box, axis, side, face), time, reached, {})) {
+            if (reached.kind == Kind::unknown) first = reached;
+            return;
+        }
+        time = reached.time;
         const std::size_t other = separating_axis(box, obstacle, time, axis);
         if (other == nothing) {
             first = {.time = time, .kind = Kind::impact, .axis = axis};
@@ -176,13 +205,17 @@ void find_impact(const BoxMotion& box, const Obstacle& obstacle, Event& first)
         }
         axis = other;
     }
+    if (axis != nothing) first = {.time = time, .kind = Kind::unknown};
 }
 
 /// An axis loses its support when other forces lift it off, or behind its edge.
 void find_loss_of_support(const BoxMotion& box, std::size_t i, Event& first)
 {
     const AxisMotion& axis = box.axes[i];
-    if (axis.load + axis.load_ramp * first.time < 0.0) {
+    if (box.is_coupled) {
+        const Event unloaded{.kind = Kind::unloading, .axis = i};
+        expect(box, watch_load(box, i), 0.0, first, unloaded);
+    } else if (axis.load + axis.load_ramp * first.time < 0.0) {
         first = {.time = axis.load / -axis.load_ramp, .kind = Kind::unloading, .axis = i};
     }
     if (axis.support->is_plane) return;
@@ -190,11 +223,9 @@ void find_loss_of_support(const BoxMotion& box, std::size_t i, Event& first)
         if (-axis.support->gap(j, box.position[j]) > box.axes[j].reach) continue;
         for (const double side : {1.0, -1.0}) {
             const double face = axis.support->face(j, side);
-            const auto time =
-                first_root(watch_gap(box, j, -side, face), box.trajectories, 0.0, first.time);
-            if (!time) continue;
-            first = {.time = *time, .kind = Kind::edge, .axis = j};
-            first.face = face;
+            Event event{.kind = Kind::edge, .axis = j};
+            event.face = face;
+            expect(box, watch_gap(box, j, -side, face), 0.0, first, event);
         }
     }
 }
@@ -204,30 +235,70 @@ void find_loss_of_support(const BoxMotion& box, std::size_t i, Event& first)
 void handle_impact(BoxMotion& box, const Event& event, double tick)
 {
     const std::size_t i = event.axis;
-    const Trajectory& trajectory = box.trajectories[i];
     const double closing = -event.side * box.velocity[i];
-    const double acceleration = trajectory.acceleration(event.time, trajectory.after(event.time));
-    const double back =
-        box.event_limit_reached ? 0.0 : event.obstacle->material.restitution * closing;
-    const double pressing = -event.side * acceleration;
+    const double back = event.obstacle->material.restitution * closing;
+    const double pressing = -event.side * acceleration_after(box, i, event.time);
     const bool is_over = 2.0 * back <= pressing * tick;
     box.velocity[i] = is_over ? 0.0 : event.side * back;
-    box.axes[i].is_stopped = box.event_limit_reached;
+}
+
+/// Where the velocity jumps, the dampers' forces jump too.
+void update_phases(BoxMotion& box)
+{
+    if (box.hands.damping_ns_per_m == 0.0) return;
+    for (FaceSpring& spring : box.active_springs())
+        spring.update_phase(box.hands, spring.along(box.velocity));
+    for (SlantedSpring& spring : box.active_slanted())
+        spring.update_phase(box.hands, spring.along(box.velocity));
+}
+
+template <typename AnySpring>
+void enter_phase(const BoxMotion& box, AnySpring& spring, SpringPhase phase)
+{
+    const HandDescription& hands = box.hands;
+    const bool touches = spring.phase == SpringPhase::apart;
+    spring.phase = phase;
+    if (touches && spring.tension(hands, spring.along(box.velocity)) >= hands.force_max_n)
+        spring.phase = SpringPhase::limited;
 }
 
 } // namespace
 
+bool expect(const BoxMotion& box, const WatchedQuantity& watch, double from, Event& first,
+            const Event& what)
+{
+    const RootSearch search = search_root(box, watch, from, first.time);
+    if (search.end == RootSearch::End::none) return false;
+    const bool is_found = search.end == RootSearch::End::found;
+    first = is_found ? what : Event{.kind = Kind::unknown};
+    first.time = search.time;
+    return is_found;
+}
+
+WatchedQuantity watch_load(const BoxMotion& box, std::size_t i)
+{
+    const double away = box.axes[i].support == box.axes[i].below ? 1.0 : -1.0;
+    const auto [damping, stiffness] = box.oscillators.spring();
+    WatchedQuantity watch{.level = -away * box.trajectories[i].push,
+                          .slope = -away * box.trajectories[i].ramp};
+    for (const SlantedSpring& spring : box.active_slanted()) {
+        if (spring.phase != SpringPhase::pressing) continue;
+        spring.add_along(watch.displacement_weight, away * spring.normal[i] * stiffness);
+        spring.add_along(watch.speed_weight, away * spring.normal[i] * damping);
+    }
+    return watch;
+}
+
 bool is_uneventful(const BoxMotion& box)
 {
-    if (!box.event_limit_reached) {
-        for (const FaceSpring& spring : box.active_springs()) {
-            if (!keeps_acting(box, spring, box.time_left)) return false;
-        }
-        for (const AxisMotion& axis : box.axes) {
-            if (!axis.support) continue;
-            if (!axis.support->is_plane) return false;
-            if (axis.load + axis.load_ramp * box.time_left < 0.0) return false;
-        }
+    if (box.slanted_count > 0) return false;
+    for (const FaceSpring& spring : box.active_springs()) {
+        if (!keeps_acting(box, spring, box.time_left)) return false;
+    }
+    for (const AxisMotion& axis : box.axes) {
+        if (!axis.support) continue;
+        if (!axis.support->is_plane) return false;
+        if (axis.load + axis.load_ramp * box.time_left < 0.0) return false;
     }
     for (const std::uint32_t id : box.nearby) {
         if (!is_out_of_reach(box, box.obstacles[id])) return false;
@@ -237,14 +308,10 @@ bool is_uneventful(const BoxMotion& box)
 
 void find_event(const BoxMotion& box, Event& first)
 {
-    if (!box.event_limit_reached) {
-        for (std::uint32_t i = 0; i < box.spring_count; ++i) {
-            if (keeps_acting(box, box.springs[i], first.time)) continue;
-            SpringEventFinder{box, i, first}.find();
-        }
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (box.axes[i].support) find_loss_of_support(box, i, first);
-        }
+    find_spring_events(box, box.active_springs(), Kind::spring, first);
+    find_spring_events(box, box.active_slanted(), Kind::slanted_spring, first);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (box.axes[i].support) find_loss_of_support(box, i, first);
     }
     for (const std::uint32_t id : box.nearby) {
         const Obstacle& obstacle = box.obstacles[id];
@@ -254,22 +321,15 @@ void find_event(const BoxMotion& box, Event& first)
 
 void handle_event(BoxMotion& box, const Event& event, double tick)
 {
-    const HandDescription& hands = box.hands;
     switch (event.kind) {
-    case Kind::none: break;
-    case Kind::spring: {
-        FaceSpring& spring = box.springs[event.spring];
-        const bool touches = spring.phase == SpringPhase::apart;
-        spring.phase = event.phase;
-        const double speed = box.velocity[spring.axis];
-        if (touches && spring.tension(hands, speed) >= hands.force_max_n) {
-            spring.phase = SpringPhase::limited;
-        }
-        break;
-    }
+    case Kind::none:
+    case Kind::unknown: break;
+    case Kind::spring: enter_phase(box, box.springs[event.spring], event.phase); break;
+    case Kind::slanted_spring: enter_phase(box, box.slanted[event.spring], event.phase); break;
     case Kind::impact:
         box.position[event.axis] = event.face;
         handle_impact(box, event, tick);
+        update_phases(box);
         break;
     case Kind::unloading: box.axes[event.axis].is_losing_support = true; break;
     case Kind::edge: box.position[event.axis] = event.face; break;
@@ -277,6 +337,7 @@ void handle_event(BoxMotion& box, const Event& event, double tick)
         for (std::size_t i = 0; i < 3; ++i) {
             if (box.trajectories[i].moves()) box.velocity[i] = 0.0;
         }
+        update_phases(box);
         break;
     case Kind::slip: box.dry_friction.starts_slipping = true; break;
     }

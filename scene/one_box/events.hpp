@@ -9,17 +9,19 @@ namespace hapnet::scene {
 /// What ends an interval of a tick.
 struct Event {
     enum class Kind : std::uint8_t {
-        none,      // the end of the tick
-        spring,    // a hand's spring comes into another phase
+        none,   // the end of the tick
+        spring, // a hand's spring comes into another phase
+        slanted_spring,
         impact,    // the box arrives at a fixed one or a plane
         unloading, // it no longer presses on its support
         edge,      // it slides off its support
         stop,      // friction has stopped it
         slip,      // friction does not hold it any more
+        unknown,   // the search for events was given up here
     };
     double time = 0.0; // from the start of the interval
     Kind kind = Kind::none;
-    std::uint32_t spring = 0;
+    std::uint32_t spring = 0;               // its index among those of its kind
     SpringPhase phase = SpringPhase::apart; // the spring's next one
     std::size_t axis = 0;                   // of an impact, an unloading or an edge
     double face = 0.0;                      // where the centre is at an impact or an edge
@@ -32,6 +34,12 @@ struct Event {
 [[nodiscard]] bool is_uneventful(const BoxMotion& box);
 /// The first event in the rest of the tick, if it comes before `first`.
 void find_event(const BoxMotion& box, Event& first);
+/// Takes the root of a quantity that is watched as the event `what`, if it comes before `first`;
+/// or, where the search for it was given up, that as an event. Whether there is a root.
+bool expect(const BoxMotion& box, const WatchedQuantity& watch, double from, Event& first,
+            const Event& what);
+/// What presses an axis on its support, per mass, while slanted springs couple it to the others.
+[[nodiscard]] WatchedQuantity watch_load(const BoxMotion& box, std::size_t axis);
 
 /// Applies the event to the box, once the box has been advanced to its moment. `tick` is the length
 /// of the whole tick.

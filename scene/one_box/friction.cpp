@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/one_box/friction.hpp"
 
+#include "scene/one_box/coupled.hpp"
+
 namespace hapnet::scene {
 
 namespace {
@@ -90,6 +92,37 @@ bool load(BoxMotion& box)
     return dry_friction.limit > 0.0 || dry_friction.limit_ramp > 0.0;
 }
 
+/// What presses on the supports in the middle of what is left of the tick, and the direction then,
+/// where slanted springs couple both to all that moves.
+void set_friction_halfway(BoxMotion& box, const Tangential& free)
+{
+    DryFriction& dry_friction = box.dry_friction;
+    dry_friction.limit_ramp = 0.0;
+    oppose(box, free, dry_friction.direction);
+    find_modes(box);
+    set_modes(box);
+    const double halfway = 0.5 * box.time_left;
+    std::array<TrajectoryPoint, 3> middle{};
+    PerAxis velocity{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        middle[i] = motion_after(box, i, halfway);
+        velocity[i] = middle[i].speed;
+    }
+    dry_friction.limit = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!box.axes[i].support) continue;
+        const WatchedQuantity watch = watch_load(box, i);
+        double load = watch.level + watch.slope * halfway;
+        for (std::size_t j = 0; j < 3; ++j) {
+            load += watch.displacement_weight[j] * middle[j].displacement +
+                    watch.speed_weight[j] * middle[j].speed;
+        }
+        dry_friction.limit += box.axes[i].support->material.friction * std::max(load, 0.0);
+    }
+    if (dot(velocity, dry_friction.direction) > 0.0) dry_friction.direction = unit(velocity);
+    oppose(box, free, dry_friction.direction);
+}
+
 } // namespace
 
 void add_friction(BoxMotion& box)
@@ -120,6 +153,10 @@ void add_friction(BoxMotion& box)
         dry_friction.direction = unit(free.velocity);
     }
     dry_friction.state = State::sliding;
+    if (box.is_coupled) {
+        set_friction_halfway(box, free);
+        return;
+    }
     if (!is_straight(box, free))
         dry_friction.direction = direction_halfway(box, free, dry_friction.direction);
     oppose(box, free, dry_friction.direction);
@@ -161,15 +198,13 @@ void find_stop(const BoxMotion& box, Event& first)
         bend += std::abs(direction[i]) * box.axes[i].bounds.jerk;
     }
     if (stays_positive(speed, rate, bend, first.time)) return;
-    const auto time = first_root(watch, box.trajectories, 0.0, first.time);
-    if (time) first = {.time = *time, .kind = Event::Kind::stop};
+    expect(box, watch, 0.0, first, {.kind = Event::Kind::stop});
 }
 
 } // namespace
 
 void find_friction_event(const BoxMotion& box, Event& first)
 {
-    if (box.event_limit_reached) return;
     if (box.dry_friction.state == State::stuck) find_slip(box, first);
     if (box.dry_friction.state == State::sliding) find_stop(box, first);
 }

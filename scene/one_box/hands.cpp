@@ -54,15 +54,41 @@ void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
     touch.on_body = force;
     touch.on_hand += -force;
     const PerAxis held = per_axis(force.value);
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
         box.axes[i].applied_acceleration += box.oscillators.inverse_mass() * held[i];
+    }
+}
+
+/// What is not at a face.
+void report_inexact(const WorldConfig& config, WorldState& state, const BoxMotion& box)
+{
+    const double per_tick = 1.0 / config.tick;
+    for (const HeldSpring& spring : box.active_held()) {
+        if (spring.force <= 0.0) continue;
+        HandTouch& touch = state.touches[spring.hand];
+        touch.touching = true;
+        touch.on_body.value -= spring.force * vector(spring.normal);
+        touch.on_hand.value += spring.force * vector(spring.normal);
+    }
+    for (const SlantedSpring& spring : box.active_slanted()) {
+        if (spring.impulse <= 0.0) continue;
+        HandTouch& touch = state.touches[spring.hand];
+        const glm::dvec3 force = (per_tick * spring.impulse) * vector(spring.normal);
+        touch.touching = true;
+        touch.on_body.value -= force;
+        touch.on_hand.value += force;
+    }
+    for (const GripSpring& grip : box.active_grips()) {
+        HandTouch& touch = state.touches[grip.hand];
+        touch.on_body.value += per_tick * vector(grip.impulse);
+        touch.on_hand.value -= per_tick * vector(grip.impulse);
+    }
 }
 
 /// Adds the spring between a hand and a face of the box.
 void add_face_spring(WorldState& state, BoxMotion& box, const FaceContact& found)
 {
     const std::size_t axis = found.face.axis;
-    const double speed = box.velocity[axis];
     FaceSpring& spring = box.springs[box.spring_count++];
     spring.hand = found.hand;
     spring.axis = axis;
@@ -70,7 +96,7 @@ void add_face_spring(WorldState& state, BoxMotion& box, const FaceContact& found
     spring.depth = found.depth;
     spring.closing = -spring.sign * part(state.hands[found.hand].velocity.value, axis);
     spring.impulse = 0.0;
-    const double force = spring.update_phase(box.hands, speed);
+    const double force = spring.update_phase(box.hands, spring.along(box.velocity));
     HandTouch& touch = state.touches[found.hand];
     touch.depth_m = std::max(touch.depth_m, found.depth);
     part(touch.on_hand_at_start.value, axis) += spring.sign * force;
@@ -134,6 +160,7 @@ void BoxHands::add_grip(const WorldConfig& config, WorldState& state, BoxMotion&
     HandTouch& touch = state.touches[index];
     touch.touching = true;
     note_grip(touch, hands, distance(from_centre, half_), force);
+    box.is_exact = false;
     if (force == wanted) {
         box.grips[box.grip_count++] = grip;
         return;
@@ -182,9 +209,20 @@ FaceContact BoxHands::collide_near_box(const WorldConfig& config, WorldState& st
     HandTouch& touch = state.touches[index];
     const PerAxis& normal = contact->edge_normal;
     const double closing = -dot(normal, per_axis(input.velocity.value));
-    box.edge_springs[box.edge_spring_count++] = {index, normal, contact->depth, closing, 0.0};
+    if (box.oscillators.are_soft()) {
+        box.held[box.held_count++] = {index, normal, contact->depth, closing, 0.0};
+    } else {
+        SlantedSpring& spring = box.slanted[box.slanted_count++];
+        spring.hand = index;
+        spring.normal = normal;
+        spring.depth = contact->depth;
+        spring.closing = closing;
+        spring.impulse = 0.0;
+        spring.update_phase(hands, spring.along(box.velocity));
+    }
     const double force = force_at(hands, contact->depth, -dot(normal, approach.velocity));
     note_push(touch, contact->depth, force * vector(normal));
+    box.is_exact = false;
     return {index, {}, 0.0};
 }
 
@@ -226,13 +264,13 @@ void BoxHands::collide_fixed_boxes(const WorldConfig& config, WorldState& state,
     }
 }
 
-void BoxHands::add_edge_springs(BoxMotion& box)
+void BoxHands::add_held_springs(BoxMotion& box)
 {
     const HandDescription& hands = box.hands;
     const double half_tick = 0.5 * box.time_left;
     const bool is_stuck = box.dry_friction.state == DryFriction::State::stuck;
     const auto is_kept = [&](std::size_t i) { return is_stuck || box.axes[i].is_held(); };
-    for (EdgeSpring& spring : box.active_edge_springs()) {
+    for (HeldSpring& spring : box.active_held()) {
         const PerAxis& normal = spring.normal;
         double closing = spring.closing;
         double bend = 0.0; // of the depth, without this spring
@@ -287,18 +325,24 @@ void BoxHands::report(const WorldConfig& config, WorldState& state, const BoxMot
         part(touch.on_body.value, spring.axis) -= force;
         part(touch.on_hand.value, spring.axis) += force;
     }
-    for (const EdgeSpring& spring : box.active_edge_springs()) {
-        if (spring.force <= 0.0) continue;
-        HandTouch& touch = state.touches[spring.hand];
-        touch.touching = true;
-        touch.on_body.value -= spring.force * vector(spring.normal);
-        touch.on_hand.value += spring.force * vector(spring.normal);
+    if (!box.is_exact) report_inexact(config, state, box);
+}
+
+double BoxHands::stored_in_grips(const WorldConfig& config, const WorldState& state,
+                                 const PerAxis& box_position) const
+{
+    const HandDescription& hands = config.hands;
+    const double bend = hands.force_max_n / hands.stiffness_n_per_m;
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < hands.count; ++i) {
+        if (!memory_[i].held_at) continue;
+        PerAxis stretch = difference(state.hands[i].position.value, box_position);
+        for (std::size_t k = 0; k < 3; ++k) stretch[k] -= (*memory_[i].held_at)[k];
+        const double size = std::sqrt(dot(stretch, stretch));
+        sum += size < bend ? 0.5 * hands.stiffness_n_per_m * size * size
+                           : hands.force_max_n * (size - 0.5 * bend);
     }
-    for (const GripSpring& grip : box.active_grips()) {
-        HandTouch& touch = state.touches[grip.hand];
-        touch.on_body.value += per_tick * vector(grip.impulse);
-        touch.on_hand.value -= per_tick * vector(grip.impulse);
-    }
+    return sum;
 }
 
 void BoxHands::forget_box()

@@ -26,15 +26,18 @@ public:
     /// Adds the springs between the hands and the box to `box`. What the hands feel of the fixed
     /// boxes is reported at once.
     void collide(const WorldConfig& config, WorldState& state, BoxMotion& box);
-    /// Adds the forces of hands at edges and corners, once the trajectories of the axes are known.
-    /// Midpoint rule: second order, and it neither makes nor loses energy.
-    static void add_edge_springs(BoxMotion& box);
+    /// Adds the forces of soft springs at edges and corners, once the trajectories of the axes are
+    /// known. Midpoint rule: second order, and it neither makes nor loses energy.
+    static void add_held_springs(BoxMotion& box);
     /// Whether a hand held with more than its greatest force in the tick that `box` has run. Then
     /// `again`, the tick before it ran, has that force held throughout instead.
     static bool limit_grip(const WorldConfig& config, WorldState& state, const BoxMotion& box,
                            BoxMotion& again);
     /// Reports what the springs did in the tick.
     static void report(const WorldConfig& config, WorldState& state, const BoxMotion& box);
+    /// What the springs of the hands that hold the box store, J.
+    [[nodiscard]] double stored_in_grips(const WorldConfig& config, const WorldState& state,
+                                         const PerAxis& box_position) const;
     /// The box has been put somewhere else.
     void forget_box();
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/one_box/motion.hpp"
 
+#include "scene/one_box/coupled.hpp"
+
 namespace hapnet::scene {
 
 namespace {
@@ -37,19 +39,34 @@ void note_touched_faces(BoxMotion& box, const Obstacle& obstacle)
 }
 
 /// Whether the axis rests on what it touches, pressed on it by its accelerations.
-void find_support(AxisMotion& axis, double speed, const Trajectory& trajectory)
+void find_support(AxisMotion& axis, double speed, double push, double ramp)
 {
     if (speed != 0.0 || axis.is_losing_support) return;
-    const bool is_idle = trajectory.push == 0.0;
-    if (axis.below && (trajectory.push < 0.0 || (is_idle && trajectory.ramp <= 0.0))) {
+    const bool is_idle = push == 0.0;
+    if (axis.below && (push < 0.0 || (is_idle && ramp <= 0.0))) {
         axis.support = axis.below;
-        axis.load = -trajectory.push;
-        axis.load_ramp = -trajectory.ramp;
-    } else if (axis.above && (trajectory.push > 0.0 || (is_idle && trajectory.ramp >= 0.0))) {
+        axis.load = -push;
+        axis.load_ramp = -ramp;
+    } else if (axis.above && (push > 0.0 || (is_idle && ramp >= 0.0))) {
         axis.support = axis.above;
-        axis.load = trajectory.push;
-        axis.load_ramp = trajectory.ramp;
+        axis.load = push;
+        axis.load_ramp = ramp;
     }
+}
+
+/// Whether one of the supports is a plane. `push` gives the acceleration along an axis.
+template <typename Push>
+bool find_supports(BoxMotion& box, const Push& push)
+{
+    bool is_on_plane = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        AxisMotion& axis = box.axes[i];
+        if (axis.below || axis.above)
+            find_support(axis, box.trajectories[i].speed, push(i), box.trajectories[i].ramp);
+        axis.is_losing_support = false;
+        if (axis.support && axis.support->is_plane) is_on_plane = true;
+    }
+    return is_on_plane;
 }
 
 /// Adds the hands' springs; how many there are on each axis.
@@ -78,12 +95,138 @@ std::array<std::size_t, 3> add_springs(BoxMotion& box)
     return count;
 }
 
+/// Adds the springs at edges and corners; whether one presses. `damped` is what a damper adds
+/// along an axis that does not move, because the others do.
+bool add_slanted_springs(BoxMotion& box, PerAxis& damped)
+{
+    const auto [damping, stiffness] = box.oscillators.spring();
+    bool any = false;
+    const auto add = [&](const SlantedSpring& spring, double push, double ramp) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            box.trajectories[i].push -= push * spring.normal[i];
+            box.trajectories[i].ramp -= ramp * spring.normal[i];
+        }
+    };
+    for (const SlantedSpring& spring : box.active_slanted()) {
+        if (spring.phase == SpringPhase::pressing) {
+            any = true;
+            add(spring, stiffness * spring.depth + damping * spring.closing,
+                stiffness * spring.closing);
+            spring.add_along(damped, -damping * spring.along(box.velocity));
+        } else if (spring.phase == SpringPhase::limited) {
+            add(spring, box.hands.force_max_n * box.oscillators.inverse_mass(), 0.0);
+        }
+    }
+    return any;
+}
+
+/// What comes of a trajectory: how far, and the integral of that over time where a spring holds it.
+struct Way {
+    TrajectoryPoint end;
+    double integral = 0.0;
+};
+
+Way way_of(const Trajectory& trajectory, double time)
+{
+    Way way{trajectory.after(time)};
+    const Oscillator& oscillator = trajectory.propagator->oscillator;
+    if (oscillator.stiffness > 0.0) { // from the equation of motion, integrated once
+        const double forces = time * (trajectory.push + 0.5 * time * trajectory.ramp);
+        way.integral = (forces - oscillator.damping * way.end.displacement -
+                        (way.end.speed - trajectory.speed)) /
+                       oscillator.stiffness;
+    }
+    return way;
+}
+
+/// How far the axes have come, and the integral of that over time.
+struct Ways {
+    PerAxis way{};
+    PerAxis integral{};
+};
+
+Ways advance_coupled(BoxMotion& box, double time)
+{
+    Ways all;
+    PerAxis velocity{};
+    for (std::size_t j = 0; j < 3; ++j) {
+        if (!box.room.coupled.modes[j].moves()) continue;
+        const Way mode = way_of(box.room.coupled.modes[j], time);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double share = box.room.coupled.direction[j][i];
+            velocity[i] += share * mode.end.speed;
+            all.way[i] += share * mode.end.displacement;
+            all.integral[i] += share * mode.integral;
+        }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!box.trajectories[i].moves()) continue;
+        box.position[i] += all.way[i];
+        box.velocity[i] = velocity[i];
+    }
+    return all;
+}
+
+inline Ways advance_axes(BoxMotion& box, double time)
+{
+    Ways all;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!box.trajectories[i].moves()) continue;
+        const Way axis = way_of(box.trajectories[i], time);
+        all.way[i] = axis.end.displacement;
+        all.integral[i] = axis.integral;
+        box.position[i] += axis.end.displacement;
+        box.velocity[i] = axis.end.speed;
+    }
+    return all;
+}
+
+template <typename AnySpring>
+void advance_spring(const BoxMotion& box, AnySpring& spring, double time, const Ways& ways)
+{
+    const double k = box.hands.stiffness_n_per_m;
+    const double c = box.hands.damping_ns_per_m;
+    const double closed = spring.closing * time + spring.along(ways.way);
+    if (spring.phase == SpringPhase::pressing) {
+        const double depths =
+            time * (spring.depth + 0.5 * time * spring.closing) + spring.along(ways.integral);
+        spring.impulse += k * depths + c * closed;
+    } else if (spring.phase == SpringPhase::limited) {
+        spring.impulse += box.hands.force_max_n * time;
+    }
+    spring.depth += closed;
+}
+
+void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Ways& ways)
+{
+    const double k = box.hands.stiffness_n_per_m;
+    const double c = box.hands.damping_ns_per_m;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double stretched = time * grip.velocity[i] - ways.way[i];
+        const double stretches =
+            time * (grip.stretch[i] + 0.5 * time * grip.velocity[i]) - ways.integral[i];
+        grip.impulse[i] += k * stretches + c * stretched;
+        grip.stretch[i] += stretched;
+    }
+}
+
+/// Also what only ticks that are not exact have.
+void advance_all(BoxMotion& box, double time)
+{
+    const Ways ways = box.is_coupled ? advance_coupled(box, time) : advance_axes(box, time);
+    for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
+    for (SlantedSpring& spring : box.active_slanted()) advance_spring(box, spring, time, ways);
+    for (GripSpring& grip : box.active_grips()) advance_grip(box, grip, time, ways);
+}
+
 } // namespace
 
 AxisOscillators::AxisOscillators(const HandDescription& hands, const BodyProperties& body,
                                  double tick)
     : inverse_mass_{1.0 / body.mass}
 {
+    constexpr double little = 1.0 / 16.0; // of the velocity in a tick
+    soft_ = tick * (tick * hands.stiffness_n_per_m + hands.damping_ns_per_m) <= little * body.mass;
     for (const bool with_drag : {false, true}) {
         for (std::size_t n = 0; n <= hands_max; ++n) {
             const auto springs = static_cast<double>(n);
@@ -97,22 +240,23 @@ AxisOscillators::AxisOscillators(const HandDescription& hands, const BodyPropert
 
 BoxMotion BoxMotion::copy() const
 {
-    BoxMotion other{hands, oscillators, obstacles};
+    BoxMotion other{hands, oscillators, obstacles, room};
     other.nearby = nearby;
     other.clearance = clearance;
     other.time_left = time_left;
-    other.event_limit_reached = event_limit_reached;
+    other.is_exact = is_exact;
     other.position = position;
     other.velocity = velocity;
     other.axes = axes;
-    other.trajectories = trajectories;
     other.dry_friction = dry_friction;
     other.spring_count = spring_count;
     other.grip_count = grip_count;
-    other.edge_spring_count = edge_spring_count;
+    other.slanted_count = slanted_count;
+    other.held_count = held_count;
     std::copy_n(springs.begin(), spring_count, other.springs.begin());
     std::copy_n(grips.begin(), grip_count, other.grips.begin());
-    std::copy_n(edge_springs.begin(), edge_spring_count, other.edge_springs.begin());
+    std::copy_n(slanted.begin(), slanted_count, other.slanted.begin());
+    std::copy_n(held.begin(), held_count, other.held.begin());
     return other;
 }
 
@@ -125,15 +269,22 @@ void set_trajectories(BoxMotion& box)
     }
     for (const std::uint32_t id : box.nearby) note_touched_faces(box, box.obstacles[id]);
     const auto springs = add_springs(box);
-
     bool is_on_plane = false;
-    for (std::size_t i = 0; i < 3; ++i) {
-        AxisMotion& axis = box.axes[i];
-        if (axis.below || axis.above)
-            find_support(axis, box.trajectories[i].speed, box.trajectories[i]);
-        axis.is_losing_support = false;
-        if (axis.support && axis.support->is_plane) is_on_plane = true;
+    if (box.slanted_count == 0) {
+        const auto push = [&](std::size_t i) { return box.trajectories[i].push; };
+        is_on_plane = find_supports(box, push);
+    } else {
+        PerAxis damped{};
+        box.is_coupled = add_slanted_springs(box, damped);
+        box.spring_counts = springs;
+        const auto push = [&](std::size_t i) { return box.trajectories[i].push + damped[i]; };
+        is_on_plane = find_supports(box, push);
+        for (std::size_t i = 0; i < 3; ++i) { // coupled, those move that would not on their own
+            if (box.is_coupled && !box.axes[i].is_held())
+                box.trajectories[i].propagator = &box.oscillators.of(springs[i], is_on_plane);
+        }
     }
+    box.is_on_plane = is_on_plane;
     for (std::size_t i = 0; i < 3; ++i) {
         const AxisMotion& axis = box.axes[i];
         if (axis.is_held() || box.trajectories[i].is_idle()) continue;
@@ -162,44 +313,11 @@ void set_bounds(BoxMotion& box)
 
 void advance(BoxMotion& box, double time)
 {
-    PerAxis way{};
-    PerAxis way_integral{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Trajectory& trajectory = box.trajectories[i];
-        if (!trajectory.moves()) continue;
-        const TrajectoryPoint motion = trajectory.after(time);
-        const Oscillator& oscillator = trajectory.propagator->oscillator;
-        if (oscillator.stiffness > 0.0) { // from the equation of motion, integrated once
-            const double forces = time * (trajectory.push + 0.5 * time * trajectory.ramp);
-            way_integral[i] = (forces - oscillator.damping * motion.displacement -
-                               (motion.speed - trajectory.speed)) /
-                              oscillator.stiffness;
-        }
-        way[i] = motion.displacement;
-        box.position[i] += motion.displacement;
-        box.velocity[i] = motion.speed;
-    }
-    const double k = box.hands.stiffness_n_per_m;
-    const double c = box.hands.damping_ns_per_m;
-    for (FaceSpring& spring : box.active_springs()) {
-        const double closed = spring.closing * time + spring.sign * way[spring.axis];
-        if (spring.phase == SpringPhase::pressing) {
-            const double depths = time * (spring.depth + 0.5 * time * spring.closing) +
-                                  spring.sign * way_integral[spring.axis];
-            spring.impulse += k * depths + c * closed;
-        } else if (spring.phase == SpringPhase::limited) {
-            spring.impulse += box.hands.force_max_n * time;
-        }
-        spring.depth += closed;
-    }
-    for (GripSpring& grip : box.active_grips()) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double stretched = time * grip.velocity[i] - way[i];
-            const double stretches =
-                time * (grip.stretch[i] + 0.5 * time * grip.velocity[i]) - way_integral[i];
-            grip.impulse[i] += k * stretches + c * stretched;
-            grip.stretch[i] += stretched;
-        }
+    if (box.is_exact) {
+        const Ways ways = advance_axes(box, time);
+        for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
+    } else {
+        advance_all(box, time);
     }
     box.time_left -= time;
 }

@@ -19,6 +19,8 @@ public:
     AxisOscillators(const HandDescription& hands, const BodyProperties& body, double tick);
 
     [[nodiscard]] double inverse_mass() const { return inverse_mass_; }
+    /// Whether a spring hardly changes the box's velocity in a tick.
+    [[nodiscard]] bool are_soft() const { return soft_; }
     /// The oscillator of one spring alone.
     [[nodiscard]] const Oscillator& spring() const { return propagators_[0][1].oscillator; }
 
@@ -29,6 +31,7 @@ public:
 
 private:
     double inverse_mass_;
+    bool soft_;
     std::array<std::array<Propagator, hands_max + 1>, 2> propagators_;
 };
 
@@ -62,21 +65,19 @@ struct DryFriction {
     double limit_ramp = 0.0;
 };
 
-/// A hand's spring on one face of the box, along one axis.
-struct FaceSpring {
+/// A hand's spring on the box: along one axis at a face, along any direction at an edge or a
+/// corner. The direction holds for the tick.
+struct Spring {
     std::uint32_t hand;
-    std::size_t axis;
-    double sign;    // of the normal, from the box to the hand
     double depth;   // at the start of the interval
     double closing; // the hand's share of the closing speed
     SpringPhase phase;
     double impulse; // so far in the tick, N s, >= 0
 
-    /// `speed` is the box's along the axis.
-    [[nodiscard]] double closing_at(double speed) const { return closing + sign * speed; }
+    /// `speed` is the box's along the normal.
     [[nodiscard]] double tension(const HandDescription& hands, double speed) const
     {
-        return hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * closing_at(speed);
+        return hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * (closing + speed);
     }
     /// Takes the phase that belongs to the present state; returns the force.
     double update_phase(const HandDescription& hands, double speed)
@@ -93,6 +94,58 @@ struct FaceSpring {
     }
 };
 
+struct FaceSpring : Spring {
+    std::size_t axis;
+    double sign; // of the normal, from the box to the hand
+
+    /// A vector's part along the normal.
+    [[nodiscard]] double along(const PerAxis& v) const { return sign * v[axis]; }
+    void add_along(PerAxis& v, double size) const { v[axis] += size * sign; }
+    /// ... of a vector of which a function gives the components.
+    template <typename Component>
+    [[nodiscard]] double along_each(const Component& component) const
+    {
+        return sign * component(axis);
+    }
+    /// The most that it can be when the sizes of the components are given.
+    template <typename Size>
+    [[nodiscard]] double most_along(const Size& size) const
+    {
+        return size(axis);
+    }
+};
+
+struct SlantedSpring : Spring {
+    PerAxis normal; // unit, from the box to the hand
+
+    [[nodiscard]] double along(const PerAxis& v) const { return dot(normal, v); }
+    void add_along(PerAxis& v, double size) const
+    {
+        for (std::size_t i = 0; i < 3; ++i) v[i] += size * normal[i];
+    }
+    template <typename Component>
+    [[nodiscard]] double along_each(const Component& component) const
+    {
+        return normal[0] * component(0) + normal[1] * component(1) + normal[2] * component(2);
+    }
+    template <typename Size>
+    [[nodiscard]] double most_along(const Size& size) const
+    {
+        return std::abs(normal[0]) * size(0) + std::abs(normal[1]) * size(1) +
+               std::abs(normal[2]) * size(2);
+    }
+};
+
+/// A soft spring at an edge or a corner: its force is the midpoint rule's, held for the tick, which
+/// costs less than the closed form and is as good while the spring is soft.
+struct HeldSpring {
+    std::uint32_t hand;
+    PerAxis normal; // unit, from the box to the hand
+    double depth;   // along it, at the start of the tick
+    double closing; // the hand's share of the closing speed
+    double force;   // on the hand along the normal
+};
+
 /// A hand that holds the box: a spring and a damper in all directions, which also pull.
 struct GripSpring {
     std::uint32_t hand;
@@ -101,13 +154,20 @@ struct GripSpring {
     PerAxis impulse; // on the box, so far in the tick
 };
 
-/// A hand at an edge or a corner: its force is the midpoint rule's, held for the tick.
-struct EdgeSpring {
-    std::uint32_t hand;
-    PerAxis normal; // unit, from the box to the hand
-    double depth;   // along it, at the start of the tick
-    double closing; // the hand's share of the closing speed
-    double force;   // on the hand along the normal
+/// The axes as slanted springs couple them. All hands are alike and drag is the same along every
+/// axis, so that mass, damping and stiffness are diagonal in the same basis, the eigenvectors of
+/// the sum of n n^T over the springs: each mode is an oscillator of its own, however many springs
+/// press.
+struct CoupledAxes {
+    std::array<PerAxis, 3> direction; // of each mode, unit
+    Trajectories modes;
+    std::array<Propagator, 3> propagators;
+};
+
+/// What a tick needs besides, if anything happens in it.
+struct TickRoom {
+    CoupledAxes coupled; // only while BoxMotion::is_coupled
+    int root_steps = 0;  // that the searches for events have left
 };
 
 /// A box within a tick. Events cut the tick into intervals; in each of them every axis follows a
@@ -116,8 +176,8 @@ struct BoxMotion {
     // Without values until they are set: clearing all of them would cost more than the tick.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     BoxMotion(const HandDescription& of_hands, const AxisOscillators& of_oscillators,
-              Obstacles& those)
-        : hands{of_hands}, oscillators{of_oscillators}, obstacles{those}
+              Obstacles& those, TickRoom& for_tick)
+        : hands{of_hands}, oscillators{of_oscillators}, obstacles{those}, room{for_tick}
     {}
 
     /// Another one like it, to try the tick again.
@@ -126,24 +186,30 @@ struct BoxMotion {
     const HandDescription& hands;
     const AxisOscillators& oscillators;
     Obstacles& obstacles;
+    TickRoom& room;
     std::span<const std::uint32_t> nearby{};
     double clearance = 0.0; // how far the box may go until something else is near
 
-    double time_left = 0.0; // of the tick, s
-    bool event_limit_reached =
-        false; // too much has happened in this tick: no more changes, no more bounces
+    double time_left = 0.0;  // of the tick, s
+    bool is_exact = true;    // but for rounding: so is every tick without slanted springs, grips
+                             // and crowds of events
+    bool is_coupled = false; // a slanted spring presses
+    bool is_on_plane;        // which drags
     PerAxis position;
     PerAxis velocity;
     std::array<AxisMotion, 3> axes;
     Trajectories trajectories;
+    std::array<std::size_t, 3> spring_counts; // of faces and grips, per axis
     DryFriction dry_friction;
 
     std::uint32_t spring_count = 0;
     std::uint32_t grip_count = 0;
-    std::uint32_t edge_spring_count = 0;
+    std::uint32_t slanted_count = 0;
+    std::uint32_t held_count = 0;
     std::array<FaceSpring, hands_max> springs;
     std::array<GripSpring, hands_max> grips;
-    std::array<EdgeSpring, hands_max> edge_springs;
+    std::array<SlantedSpring, hands_max> slanted;
+    std::array<HeldSpring, hands_max> held;
 
     [[nodiscard]] std::span<FaceSpring> active_springs() { return {springs.data(), spring_count}; }
     [[nodiscard]] std::span<const FaceSpring> active_springs() const
@@ -155,13 +221,18 @@ struct BoxMotion {
     {
         return {grips.data(), grip_count};
     }
-    [[nodiscard]] std::span<EdgeSpring> active_edge_springs()
+    [[nodiscard]] std::span<HeldSpring> active_held() { return {held.data(), held_count}; }
+    [[nodiscard]] std::span<const HeldSpring> active_held() const
     {
-        return {edge_springs.data(), edge_spring_count};
+        return {held.data(), held_count};
     }
-    [[nodiscard]] std::span<const EdgeSpring> active_edge_springs() const
+    [[nodiscard]] std::span<SlantedSpring> active_slanted()
     {
-        return {edge_springs.data(), edge_spring_count};
+        return {slanted.data(), slanted_count};
+    }
+    [[nodiscard]] std::span<const SlantedSpring> active_slanted() const
+    {
+        return {slanted.data(), slanted_count};
     }
 };
 

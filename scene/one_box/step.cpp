@@ -3,8 +3,11 @@
 #include "scene/one_box/step.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "scene/one_box/account.hpp"
+#include "scene/one_box/coupled.hpp"
 #include "scene/one_box/events.hpp"
 #include "scene/one_box/friction.hpp"
+#include "scene/one_box/rest_of_tick.hpp"
 
 namespace hapnet::scene {
 
@@ -21,7 +24,13 @@ void start_interval(BoxMotion& box)
 {
     set_trajectories(box);
     if constexpr (coulomb) add_friction(box);
-    set_bounds(box);
+    if (box.is_coupled) {
+        find_modes(box);
+        set_modes(box);
+        set_coupled_bounds(box);
+    } else {
+        set_bounds(box);
+    }
 }
 
 } // namespace
@@ -35,19 +44,26 @@ OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const 
       hands_{config, state.bodies, movable_box(state.bodies)}
 {
     const PerAxis mobility = per_axis(movable_box(state.bodies).inverse_mass);
-    for (std::size_t i = 0; i < 3; ++i) locked_[i] = mobility[i] == 0.0;
+    is_alone_ = config.planes.empty() && state.bodies.size() == 1 && !oscillators_.are_soft();
+    for (std::size_t i = 0; i < 3; ++i) {
+        locked_[i] = mobility[i] == 0.0;
+        if (locked_[i]) is_alone_ = false;
+    }
 }
 
 template <bool coulomb>
 void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 {
-    BoxMotion box{config.hands, oscillators_, obstacles_};
+    BoxMotion box{config.hands, oscillators_, obstacles_, room_};
     set_start(config, state, box);
     query_obstacles(box, 0.0);
-    if (obstacles_.push_out(box.nearby, box.position)) query_obstacles(box, 0.0);
+    if (obstacles_.push_out(box.nearby, box.position)) {
+        query_obstacles(box, 0.0);
+        box.is_exact = false;
+    }
     hands_.collide(config, state, box);
     if (box.grip_count == 0) {
-        run_events(config, box);
+        run_events(config, state, box);
         commit(config, state, box);
     } else {
         solve_with_grips(config, state, box);
@@ -89,10 +105,10 @@ template <bool coulomb>
 void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldState& state,
                                               BoxMotion& start)
 {
-    for (;;) { // each time a hand holds less
+    for (;;) { // each time a hand holds less: no more often than there are hands
         BoxMotion box = start.copy();
         query_obstacles(box, 0.0); // the last try may have asked elsewhere
-        run_events(config, box);
+        run_events(config, state, box);
         if (BoxHands::limit_grip(config, state, box, start)) continue;
         commit(config, state, box);
         return;
@@ -100,21 +116,68 @@ void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldSt
 }
 
 template <bool coulomb>
-void OneBoxStepper<coulomb>::commit(const WorldConfig& config, WorldState& state,
-                                    const BoxMotion& box) const
+inline void OneBoxStepper<coulomb>::commit(const WorldConfig& config, WorldState& state,
+                                           BoxMotion& box) const
 {
     const Slot slot = state.bodies.slot_of[body_];
+    BoxHands::report(config, state, box);
+    if (!box.is_exact) settle_tick(config, state, box);
+    if (is_alone_) box.velocity = velocity_from_hands(config, state);
     state.bodies.position.put(slot, vector(box.position));
     state.bodies.velocity.put(slot, vector(box.velocity));
-    BoxHands::report(config, state, box);
 }
 
 template <bool coulomb>
-void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, BoxMotion& box)
+PerAxis OneBoxStepper<coulomb>::steady_acceleration(const WorldConfig& config,
+                                                    const WorldState& state) const
 {
+    PerAxis steady = per_axis(config.gravity);
+    const PerAxis push = state.pushed.is_empty() ? PerAxis{} : per_axis(state.pushes[body_]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        steady[i] += oscillators_.inverse_mass() * push[i];
+        if (locked_[i]) steady[i] = 0.0;
+    }
+    return steady;
+}
+
+template <bool coulomb>
+PerAxis OneBoxStepper<coulomb>::velocity_from_hands(const WorldConfig& config,
+                                                    const WorldState& state) const
+{
+    glm::dvec3 impulse{0.0};
+    for (std::uint32_t i = 0; i < config.hands.count; ++i)
+        impulse += config.tick * state.touches[i].on_body.value;
+    const PerAxis given = per_axis(impulse);
+    const PerAxis steady = steady_acceleration(config, state);
+    PerAxis velocity = per_axis(state.bodies.velocity.at(state.bodies.slot_of[body_]));
+    for (std::size_t i = 0; i < 3; ++i)
+        velocity[i] += config.tick * steady[i] + oscillators_.inverse_mass() * given[i];
+    return velocity;
+}
+
+template <bool coulomb>
+void OneBoxStepper<coulomb>::settle_tick(const WorldConfig& config, WorldState& state,
+                                         BoxMotion& box) const
+{
+    const Slot slot = state.bodies.slot_of[body_];
+    TickStart start{.position = per_axis(state.bodies.position.at(slot)),
+                    .velocity = per_axis(state.bodies.velocity.at(slot)),
+                    .steady = steady_acceleration(config, state)};
+    start.stored = hands_.stored_in_grips(config, state, start.position);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (locked_[i]) start.velocity[i] = 0.0;
+    }
+    settle(config, state, start, box);
+}
+
+template <bool coulomb>
+void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& state,
+                                        BoxMotion& box)
+{
+    room_.root_steps = root_steps_max;
     start_interval<coulomb>(box);
-    if (box.edge_spring_count > 0) {
-        BoxHands::add_edge_springs(box);
+    if (box.held_count > 0) {
+        BoxHands::add_held_springs(box);
         start_interval<coulomb>(box);
     }
     for (int events = 1;; ++events) {
@@ -136,13 +199,14 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, BoxMotion& bo
         handle_event(box, event, config.tick);
         if (event.kind == Event::Kind::impact)
             contact_momentum_[event.axis] += box.velocity[event.axis] - before[event.axis];
-        if (events == events_max) {
-            box.event_limit_reached = true;
-            ++crowded_ticks_;
-        }
         if (box.time_left <= 0.0) return;
         box.clearance = obstacles_.clearance(box.position);
         start_interval<coulomb>(box);
+        if (events < events_max && event.kind != Event::Kind::unknown) continue;
+        ++crowded_ticks_;
+        box.is_exact = false;
+        if (finish_tick(box)) ++state.interventions.paths_cut;
+        return;
     }
 }
 

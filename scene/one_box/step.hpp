@@ -16,21 +16,27 @@ namespace hapnet::scene {
 /// Exact up to rounding: flight; drag on a plane (along it, while a plane supports the box); hands
 /// on faces and hands that hold, any number, with their beginning, end and limit of force at their
 /// moments; impacts and bounces at theirs; dry friction along a straight path, with its exact stop
-/// and slip. Second order in the tick: dry friction while other forces bend the path; hands at
-/// edges and corners (their normals hold for a tick). First order: a hand that holds at its
-/// greatest force, at the start of a tick or in the mean over it: that force is held throughout.
+/// and slip; hands at edges and corners while their normals hold, which is for a tick. Second order
+/// in the tick: dry friction while other forces bend the path or change the load; the normals.
+/// First order: a hand that holds at its greatest force, at the start of a tick or in the mean over
+/// it: that force is held throughout.
 ///
 /// A bounce that would be over before one tick has passed does not happen. After `events_max`
-/// events in a tick its springs stay as they are and impacts are inelastic, until its end.
+/// events in a tick, or `root_steps_max` steps of searching for them, finish_tick() runs the rest.
 template <bool coulomb>
 class OneBoxStepper {
 public:
     static constexpr int events_max = 8;
+    static constexpr int root_steps_max = 1000;
 
     OneBoxStepper(const Description& description, const WorldConfig& config,
                   const WorldState& state);
 
     void step(const WorldConfig& config, WorldState& state);
+    [[nodiscard]] Work work_bound(const WorldConfig& /*config*/) const
+    {
+        return {.events = events_max};
+    }
     void on_body_placed(WorldState& state, BodyId body);
 
     /// In how many ticks there were more events than are followed.
@@ -45,16 +51,27 @@ private:
     void add_support(const BoxMotion& box, double time);
     /// Lists the obstacles within `reach`.
     void query_obstacles(BoxMotion& box, double reach);
-    void run_events(const WorldConfig& config, BoxMotion& box);
+    void run_events(const WorldConfig& config, WorldState& state, BoxMotion& box);
     /// Tries the tick with the hands' grips; again with a limited one when it was too strong.
     void solve_with_grips(const WorldConfig& config, WorldState& state, BoxMotion& start);
-    void commit(const WorldConfig& config, WorldState& state, const BoxMotion& box) const;
+    void commit(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
+    void settle_tick(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
+    /// By gravity and pushes.
+    [[nodiscard]] PerAxis steady_acceleration(const WorldConfig& config,
+                                              const WorldState& state) const;
+    /// The velocity that the box has by what the hands report. Stiff hands can press so hard
+    /// against each other that their sum has fewer digits than the velocity of the closed form;
+    /// where nothing else touches the box, momentum is what was given to the last of them.
+    [[nodiscard]] PerAxis velocity_from_hands(const WorldConfig& config,
+                                              const WorldState& state) const;
 
     BodyId body_;
     std::array<bool, 3> locked_{};
+    bool is_alone_ = false; // with stiff hands
     AxisOscillators oscillators_;
     Obstacles obstacles_;
     BoxHands hands_;
+    TickRoom room_{};
     std::uint64_t crowded_ticks_ = 0;
     // Of the last tick, for contact_impulse().
     bool was_pushed_ = false;

@@ -8,11 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
 
 namespace hapnet::scene {
 
 HandContacts::HandContacts(const WorldConfig& config)
-    : any_felt_plane_{std::any_of(config.planes.begin(), config.planes.end(),
+    : hands_(config.hands.count),
+      any_felt_plane_{std::any_of(config.planes.begin(), config.planes.end(),
                                   [](const PlaneDescription& plane) { return plane.felt; })},
       gravity_reach_{config.tick * config.tick *
                      std::sqrt(glm::dot(config.gravity, config.gravity))},
@@ -61,26 +64,96 @@ bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::u
     const HandDescription& hands = config.feels.of(index, target.body, config.hands);
     const HandInput& input = state.hands[index];
     Hand& hand = hands_[index];
-    const double apart = distance(target.box, input.position.value);
+    const OrientedBox& box = target.now.box;
+    const double apart = distance(box, input.position.value);
     if (!hand.holding) {
         if (apart > grip_distance(hands)) return false;
-        hand.holding = Holding{target.body, to_local(target.box, input.position.value)};
+        hand.holding = Holding{target.body, to_local(box, input.position.value)};
     }
     if (hand.holding->body != target.body) return false;
-    const glm::dvec3 arm = target.box.axes * hand.holding->at;
+    const glm::dvec3 arm = box.axes * hand.holding->at;
     HandSpring spring{.arm = arm,
                       .velocity = input.velocity.value,
                       .stiffness = hands.stiffness_n_per_m,
                       .damping = hands.damping_ns_per_m,
                       .force_max = hands.force_max_n,
                       .holds = true,
-                      .stretch = input.position.value - (target.box.centre + arm)};
-    const glm::dvec3 here = target.velocity + glm::cross(target.spin, arm);
+                      .stretch = input.position.value - (box.centre + arm)};
+    const glm::dvec3 here = target.velocity + glm::cross(target.now.spin, arm);
     const base::Force wanted = grip_force(hands, spring.stretch, spring.velocity - here);
     HandTouch& touch = state.touches[index];
     touch.body = target.body;
     note_grip(touch, hands, apart, base::limited(wanted, hands.force_max_n));
     add(index, target.body) = spring;
+    return true;
+}
+
+/// `offset` is the hand's from the body's centre.
+inline void HandContacts::press(const AmidFace& face, const glm::dvec3& offset, HandSpring& spring)
+{
+    const double gap = glm::dot(face.normal, offset) - face.half;
+    spring.normal = face.normal;
+    spring.arm = offset - gap * face.normal;
+    spring.gap = gap - spring.radius;
+    spring.is_amid_face = true;
+}
+
+/// Finds where the hand's sphere overlaps a body's box, or may within the tick, and whether it
+/// does.
+inline bool HandContacts::touch(const WorldConfig& config, const HandInput& input,
+                                const Target& target, NearBody& near_body, HandSpring& spring) const
+{
+    const AmidFace& amid = near_body.amid;
+    const glm::dvec3 offset = input.position.value - target.now.box.centre;
+    near_body.is_current = true;
+    // Mostly it presses the face that it pressed before.
+    if (amid.turns == target.now.turns && sum_of_sizes(offset - amid.offset) <= amid.room) {
+        press(amid, offset, spring);
+        if (spring.gap < 0.0 && spring.gap > -spring.radius) {
+            near_body.offset = offset;
+            return true;
+        }
+    }
+    return find(config, input, target, near_body, spring);
+}
+
+bool HandContacts::find(const WorldConfig& config, const HandInput& input, const Target& target,
+                        NearBody& near_body, HandSpring& spring) const
+{
+    const OrientedBox& box = target.now.box;
+    const glm::dvec3 offset = input.position.value - box.centre;
+    const glm::dvec3 before = near_body.offset * near_body.axes; // in the body's frame
+    const glm::dvec3 here = offset * box.axes;
+    const bool has_before = std::exchange(near_body.has_before, true);
+    near_body.offset = offset;
+    near_body.axes = box.axes;
+    AmidFace& amid = near_body.amid;
+    amid.room = -1.0;
+    // Looks as far ahead as the two come nearer: a spring may begin to act within the tick.
+    const double turning = sum_of_sizes(target.now.spin) * sum_of_sizes(box.half);
+    const double ahead =
+        config.tick * (sum_of_sizes(input.velocity.value - target.velocity) + turning) +
+        0.5 * gravity_reach_;
+    const auto overlap = near_body.memory.find(box.half, here, spring.radius + ahead,
+                                               has_before ? &before : nullptr);
+    if (!overlap) return false;
+    if (!overlap->is_amid_face) {
+        spring.normal = box.axes * overlap->normal;
+        spring.arm = box.axes * overlap->point;
+        spring.gap = ahead - overlap->depth;
+        spring.is_amid_face = false;
+        return true;
+    }
+    const BoxFace face = *near_body.memory.entered();
+    const PerAxis half = per_axis(box.half), place = per_axis(here);
+    double room = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (i != face.axis) room = std::min(room, amid_face_share * half[i] - std::abs(place[i]));
+    }
+    constexpr double all_but_rounding = 0.999;
+    amid = {target.now.turns, offset, all_but_rounding * room,
+            static_cast<double>(face.sign) * box.axes[face.axis], half[face.axis]};
+    press(amid, offset, spring);
     return true;
 }
 
@@ -91,44 +164,34 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
     const HandInput& input = state.hands[index];
     NearBody* const near_body = find_near(hands_[index], target.body);
     if (near_body == nullptr) return;
-    // Looks as far ahead as the two come nearer: a spring may begin to act within the tick.
-    const glm::dvec3& centre = input.position.value;
-    const double turning = sum_of_sizes(target.spin) * sum_of_sizes(target.box.half);
-    const double ahead =
-        config.tick * (sum_of_sizes(input.velocity.value - target.velocity) + turning) +
-        0.5 * gravity_reach_;
-    const glm::dvec3 place = to_local(target.box, centre);
-    const auto overlap = near_body->memory.find(target.box.half, place, hands.radius_m + ahead,
-                                                near_body->before ? &*near_body->before : nullptr);
-    near_body->is_current = true;
-    near_body->before = place;
-    if (!overlap) return;
-    const double depth = overlap->depth - ahead;
-    const glm::dvec3 normal = target.box.axes * overlap->normal;
-    const glm::dvec3 arm = target.box.axes * overlap->point;
-    const glm::dvec3 here = target.velocity + glm::cross(target.spin, arm);
-    const double closing = glm::dot(here - input.velocity.value, normal);
+    HandSpring& spring = forces_.add();
+    spring.radius = hands.radius_m;
+    if (!touch(config, input, target, *near_body, spring)) {
+        forces_.drop_last();
+        return;
+    }
+    const double depth = -spring.gap;
+    const glm::dvec3 here = target.velocity + glm::cross(target.now.spin, spring.arm);
+    const double closing = glm::dot(here - input.velocity.value, spring.normal);
     HandTouch& touch = state.touches[index];
-    note_push(touch, depth, force_at(hands, depth, closing) * normal);
+    note_push(touch, depth, force_at(hands, depth, closing) * spring.normal);
     if (!target.is_movable) {
         const double impulse = impulse_at_constant_velocity(hands, depth, closing, config.tick);
-        touch.on_hand.value += (impulse / config.tick) * normal;
-        return;
+        touch.on_hand.value += (impulse / config.tick) * spring.normal;
     }
     // A spring that does not begin to act within the tick is left out; one that acts already stays,
     // also in the tick in which it ends.
-    if (depth < 0.0 && -depth > closing * config.tick + gravity_reach_) return;
-    HandSpring& spring = add(index, target.body);
-    spring.normal = normal;
-    spring.arm = arm;
-    spring.radius = hands.radius_m;
-    spring.gap = -depth;
+    const bool is_idle = depth < 0.0 && -depth > closing * config.tick + gravity_reach_;
+    if (!target.is_movable || is_idle) {
+        forces_.drop_last();
+        return;
+    }
     spring.velocity = input.velocity.value;
     spring.stiffness = hands.stiffness_n_per_m;
     spring.damping = hands.damping_ns_per_m;
     spring.force_max = hands.force_max_n;
-    spring.is_amid_face = overlap->is_amid_face;
     spring.holds = false;
+    springs_.add() = {index, target.body, glm::dvec3{0.0}};
 }
 
 void HandContacts::feel_planes(const WorldConfig& config, WorldState& state,
@@ -178,12 +241,21 @@ void HandContacts::store_impulses(BodyId body)
     }
 }
 
+void HandContacts::scale_impulses(BodyId body, double share)
+{
+    for (Spring& spring : springs_.all()) {
+        if (spring.body == body) spring.impulse *= share;
+    }
+}
+
 void HandContacts::forget_departed(std::uint32_t index)
 {
     Hand& hand = hands_[index];
     std::size_t kept = 0;
     for (std::size_t i = 0; i < hand.count; ++i) {
-        if (hand.nearby[i].is_current) hand.nearby[kept++] = hand.nearby[i];
+        if (!hand.nearby[i].is_current) continue;
+        if (kept != i) hand.nearby[kept] = hand.nearby[i];
+        ++kept;
     }
     hand.count = kept;
 }

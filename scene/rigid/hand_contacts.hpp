@@ -4,12 +4,14 @@
 
 #include "scene/bounded.hpp"
 #include "scene/collide/sphere_box.hpp"
+#include "scene/collide/sweep.hpp"
 #include "scene/hand/advance.hpp"
 #include "scene/state.hpp"
 
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace hapnet::scene {
 
@@ -35,9 +37,8 @@ public:
     struct Target {
         BodyId body = 0;
         bool is_movable = false;
-        const OrientedBox& box;
+        const SweptBox& now;
         glm::dvec3 velocity{0.0};
-        glm::dvec3 spin{0.0};
     };
     /// Finds what the hand does to one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
@@ -56,18 +57,33 @@ public:
     [[nodiscard]] BodySprings springs_on(BodyId body);
     /// Keeps the impulses that were found for them.
     void store_impulses(BodyId body);
+    /// Takes but a share of what the springs did to a body.
+    void scale_impulses(BodyId body, double share);
     /// Reports to the hands what the springs did.
     void report_forces(const WorldConfig& config, WorldState& state);
 
     void forget(BodyId body);
 
 private:
+    /// A face that a hand is in front of and amid. It stays so as long as the body does not turn
+    /// and the hand comes no farther from where this was found: what was found then holds.
+    struct AmidFace {
+        std::uint64_t turns = 0; // SweptBox::turns
+        glm::dvec3 offset{0.0};  // of the hand from the body's centre
+        double room = -1.0;      // along the face; < 0: not amid one
+        glm::dvec3 normal{0.0};
+        double half = 0.0; // from the body's centre to the face
+    };
     /// What is remembered of a body near a hand.
     struct NearBody {
         BodyId body = 0;
         bool is_current = false; // in this tick
         SphereBoxMemory memory;
-        std::optional<glm::dvec3> before{}; // the hand in the body's frame, a tick ago
+        // A tick ago: the hand from the body's centre, and the body's axes.
+        bool has_before = false;
+        glm::dvec3 offset{0.0};
+        glm::dmat3 axes{1.0};
+        AmidFace amid;
     };
     struct Holding {
         BodyId body = 0;
@@ -79,6 +95,11 @@ private:
         std::optional<Holding> holding;
     };
 
+    bool touch(const WorldConfig& config, const HandInput& input, const Target& target,
+               NearBody& near_body, HandSpring& spring) const;
+    bool find(const WorldConfig& config, const HandInput& input, const Target& target,
+              NearBody& near_body, HandSpring& spring) const;
+    static void press(const AmidFace& face, const glm::dvec3& offset, HandSpring& spring);
     HandSpring& add(std::uint32_t hand, BodyId body);
     bool add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
                   const Target& target);
@@ -86,7 +107,7 @@ private:
                   const Target& target);
     [[nodiscard]] NearBody* find_near(Hand& hand, BodyId body);
 
-    std::array<Hand, hands_max> hands_;
+    std::vector<Hand> hands_;
     bool any_felt_plane_;
     double gravity_reach_; // twice the distance that a body falls in a tick from rest, metres
     Scratch<Spring> springs_;

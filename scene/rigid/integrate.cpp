@@ -4,6 +4,7 @@
 
 #include "proto/base/math.hpp"
 #include "scene/maths/rotation.hpp"
+#include "scene/maths/vector.hpp"
 #include "scene/rigid/free_flight.hpp"
 
 #include <algorithm>
@@ -14,8 +15,9 @@ namespace hapnet::scene {
 
 namespace {
 
-/// How far a body may come off its straight path within a tick, in half edges of the smallest body.
-constexpr double stray_max = 0.5;
+/// How far the correction of overlaps may throw such a body off its way, in half edges of the
+/// smallest body: some contacts together, each of which moves by 2 % of one.
+constexpr double stray_max = 0.1;
 
 /// The part of a displacement or velocity along unlocked axes.
 glm::dvec3 unlocked_part(const BodyProperties& properties, const glm::dvec3& way)
@@ -56,28 +58,25 @@ void set_start(BodyIntegration& integration, const WorldState& state, Slot slot,
         about_unlocked_axes(bodies.properties[slot], integration.contact_angular_impulse);
     integration.start = {bodies.velocity.at(slot), response.inverse_inertia * momentum,
                          glm::dvec3{0.0}};
-    integration.angular_momentum = momentum + integration.contact_angular_impulse;
 }
 
 void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, Slot slot,
                            const BodyMotion& mean, double tick)
 {
-    const BodyProperties& properties = bodies.properties[slot];
     if (integration.has_hands) {
-        const glm::dvec3 more = tick * (mean.spin - integration.mean.spin);
+        const glm::dvec3 more = tick * (mean.spin - integration.mean_to_there.spin);
         bodies.orientation.put(slot, is_negligible(more) ? integration.orientation
                                                          : rotated(integration.orientation, more));
         return;
     }
-    const glm::dquat now = bodies.orientation.at(slot);
     if (is_negligible(tick * mean.spin)) return;
-    if (rotates_uniformly(properties)) {
-        bodies.orientation.put(slot, rotated(now, tick * mean.spin));
+    if (rotates_uniformly(bodies.properties[slot])) {
+        bodies.orientation.put(slot, rotated(bodies.orientation.at(slot), tick * mean.spin));
         return;
     }
-    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) +
-                                0.5 * integration.contact_angular_impulse + mean.angular_impulse;
-    bodies.orientation.put(slot, rotated_freely(now, {momentum, properties.inverse_inertia}, tick));
+    bodies.orientation.put(
+        slot, rotated(bodies.orientation.at(slot),
+                      tick * spin_through_tick(integration, bodies, slot, mean, tick)));
 }
 
 } // namespace
@@ -111,6 +110,26 @@ void reset(BodyIntegration& integration)
     integration.friction_contacts = 0;
     integration.drag = 0.0;
     integration.has_hands = false;
+    integration.hand_energy_stored = 0.0;
+    integration.energy_driven = 0.0;
+    integration.first_touch.time = std::numeric_limits<double>::infinity();
+}
+
+void begin_bounces(BodyIntegration& integration)
+{
+    integration.start_after_bounces = integration.start;
+    integration.bounce_offset = {};
+    integration.last_bounce = 0.0;
+}
+
+glm::dvec3 spin_through_tick(const BodyIntegration& integration, const Bodies& bodies, Slot slot,
+                             const BodyMotion& mean, double tick)
+{
+    const BodyProperties& properties = bodies.properties[slot];
+    if (rotates_uniformly(properties)) return mean.spin;
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) +
+                                0.5 * integration.contact_angular_impulse + mean.angular_impulse;
+    return mean_spin(bodies.orientation.at(slot), {momentum, properties.inverse_inertia}, tick);
 }
 
 void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
@@ -118,6 +137,8 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
 {
     const double tick = config.tick;
     set_start(integration, state, slot, response);
+    integration.angular_momentum =
+        state.bodies.angular_momentum.at(slot) + integration.contact_angular_impulse;
     const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
     const glm::dvec3& before = integration.start.velocity;
     integration.predicted = {before + tick * rate,
@@ -125,13 +146,14 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
                              glm::dvec3{0.0}};
     if (!rotates_uniformly(state.bodies.properties[slot])) {
         // With the body its moments of inertia turn: the angular momentum stays, the spin does not.
-        // For a body that rotates far in a tick this rate is wrong: it fades out.
+        // For a body that rotates far in a tick this rate is wrong: it fades out. It is that of the
+        // momentum at the start: what wedged contacts add may be anything.
         constexpr double far = 0.3; // radians
         const glm::dvec3& spin = integration.start.spin;
         const double fades = std::min(1.0, tick * tick * glm::dot(spin, spin) / (far * far));
         integration.predicted.spin +=
             ((1.0 - fades) * tick) *
-            (response.inverse_inertia * glm::cross(integration.angular_momentum, spin));
+            (response.inverse_inertia * glm::cross(state.bodies.angular_momentum.at(slot), spin));
     }
     integration.mean = {before + (0.5 * tick) * rate,
                         0.5 * (integration.start.spin + integration.predicted.spin),
@@ -158,37 +180,22 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     set_start(integration, state, slot, response);
     const glm::dvec3 rate = acceleration_without_hands(integration, state, slot, config);
     const double per_second = 1.0 / config.tick;
-    BodyDynamics dynamics{bodies.properties[slot].half,
-                          response.inverse_mass,
-                          response.inverse_inertia,
-                          rotates_uniformly(bodies.properties[slot]),
-                          rate,
-                          per_second * integration.contact_angular_impulse};
-    MovingBody body;
-    const auto advance_against = [&](const glm::dvec3& drag) {
-        body.position = bodies.position.at(slot);
-        body.orientation = bodies.orientation.at(slot);
-        body.velocity = integration.start.velocity;
-        body.angular_momentum = bodies.angular_momentum.at(slot);
-        dynamics.acceleration = rate - unlocked_part(bodies.properties[slot], drag);
-        advance(body, dynamics, hands.springs, hands.work, config.tick);
-    };
-    // Drag as a constant force: of the mean velocity, which takes two passes; of what the start
-    // says when it is too strong for that.
-    constexpr double strong = 0.5;
-    if (integration.drag == 0.0) {
-        advance_against(glm::dvec3{0.0});
-    } else if (integration.drag * config.tick < strong) {
-        const glm::dvec3 before =
-            tangential_part(integration.start.velocity, integration.support_normal);
-        advance_against(integration.drag * before);
-        const glm::dvec3 after = tangential_part(body.velocity, integration.support_normal);
-        advance_against((0.5 * integration.drag) * (before + after));
-    } else {
-        const glm::dvec3 before =
-            tangential_part(integration.start.velocity, integration.support_normal);
-        advance_against((per_second * (1.0 - base::exp(-integration.drag * config.tick))) * before);
-    }
+    const BodyDynamics dynamics{bodies.properties[slot].half,
+                                response.inverse_mass,
+                                response.inverse_inertia,
+                                rotates_uniformly(bodies.properties[slot]),
+                                rate,
+                                per_second * integration.contact_angular_impulse,
+                                integration.drag,
+                                integration.support_normal};
+    const MovingBody start{bodies.position.at(slot), bodies.orientation.at(slot),
+                           integration.start.velocity, bodies.angular_momentum.at(slot)};
+    MovingBody body = start;
+    const HandEnergy energy =
+        advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes);
+    integration.hand_energy_stored = energy.stored;
+    integration.energy_driven = energy.driven;
+    integration.hands_are_braked = energy.is_braked;
     integration.has_hands = true;
     integration.position = body.position;
     integration.orientation = body.orientation;
@@ -197,9 +204,10 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     integration.predicted.velocity = body.velocity;
     integration.predicted.spin = response.inverse_inertia * body.angular_momentum;
     integration.predicted.angular_impulse = glm::dvec3{0.0};
-    integration.mean.velocity = per_second * (body.position - bodies.position.at(slot));
+    integration.mean.velocity = per_second * (body.position - start.position);
     integration.mean.spin = 0.5 * (integration.start.spin + integration.predicted.spin);
     integration.mean.angular_impulse = glm::dvec3{0.0};
+    integration.mean_to_there = integration.mean;
 }
 
 void apply_stop(const ContactBlock& block, const SlidingBody& body,
@@ -229,30 +237,47 @@ void apply_stop(const ContactBlock& block, const SlidingBody& body,
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
-bool keep_within_swept_path(std::span<const Slot> slots,
+Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots,
                             std::span<const BodyIntegration> integrations, ContactSolver& solver,
                             const Scales& scales)
 {
-    bool any_strays = false;
+    Ways ways;
+    const double most = far_way * scales.least * scales.rate;
+    const double aside = stray_max * scales.least * scales.rate;
     for (const Slot slot : slots) {
         const SolverIndex i = slot + 1;
+        BodyMotion& mean = solver.mean_motion(i);
+        glm::dvec3& way = mean.velocity;
+        const double half = sum_of_sizes(state.bodies.properties[slot].half);
+        if (sum_of_sizes(way) + half * sum_of_sizes(mean.spin) <= most) continue;
+        ways.any_far = true;
         const BodyIntegration& integration = integrations[i];
-        const double most = stray_max * scales.least / scales.tick;
-        const glm::dvec3& path = integration.start.velocity;
-        glm::dvec3 low = glm::min(path, glm::dvec3{0.0});
-        glm::dvec3 high = glm::max(path, glm::dvec3{0.0});
-        if (integration.has_hands) {
-            low = glm::min(low, integration.mean.velocity);
-            high = glm::max(high, integration.mean.velocity);
+        const BodyMotion& end = solver.end_motion(i);
+        const auto kept = [&](const glm::dvec3& now, const glm::dvec3& from, const glm::dvec3& to,
+                              const glm::dvec3& with_hands, double stray) {
+            glm::dvec3 low = glm::min(glm::min(from, to), glm::dvec3{0.0});
+            glm::dvec3 high = glm::max(glm::max(from, to), glm::dvec3{0.0});
+            if (integration.has_hands) {
+                low = glm::min(low, with_hands);
+                high = glm::max(high, with_hands);
+            }
+            return glm::min(glm::max(now, low - stray), high + stray);
+        };
+        const glm::dvec3 velocity =
+            kept(way, integration.start.velocity, end.velocity, integration.mean.velocity, aside);
+        const glm::dvec3 spin =
+            kept(mean.spin, integration.start.spin, end.spin, integration.mean.spin, aside / half);
+        if (velocity == way && spin == mean.spin) continue;
+        way = velocity;
+        if (spin != mean.spin) {
+            mean.spin = spin;
+            mean.angular_impulse =
+                integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse;
         }
-        glm::dvec3& way = solver.mean_motion(i).velocity;
-        const glm::dvec3 kept = glm::min(glm::max(way, low - most), high + most);
-        if (kept == way) continue;
-        way = kept;
         solver.response(i) = {};
-        any_strays = true;
+        ways.any_kept = true;
     }
-    return any_strays;
+    return ways;
 }
 
 void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,
@@ -266,7 +291,7 @@ void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot
     const glm::dvec3 from = bodies.position.at(slot);
     if (integration.has_hands) {
         bodies.position.put(slot, integration.position +
-                                      tick * (mean.velocity - integration.mean.velocity));
+                                      tick * (mean.velocity - integration.mean_to_there.velocity));
     } else {
         bodies.position.put(slot, from + tick * mean.velocity);
     }

@@ -7,9 +7,17 @@
 #include "scene/solver/contact_solver.hpp"
 #include "scene/state.hpp"
 
+#include <limits>
 #include <span>
 
 namespace hapnet::scene {
+
+/// What a body that goes far meets first on the way that it began.
+struct FirstTouch {
+    double time = std::numeric_limits<double>::infinity(); // s, within the tick
+    glm::dvec3 normal{0.0};                                // from it to the other
+    BodyId other = 0;
+};
 
 /// One body's integration over a tick.
 struct BodyIntegration {
@@ -20,16 +28,23 @@ struct BodyIntegration {
     BodyMotion mean;                             // over the tick, likewise
     glm::dvec3 angular_momentum{0.0};            // at the end, likewise
     BodyMotion start_after_bounces;              // at the start, as if it had bounced before
+    BodyMotion bounce_offset;                    // m, rad: where it would have to start then
+    double last_bounce = 0.0;                    // s, from the start of the tick
     glm::dvec3 bounce_angular_impulse{0.0};      // angular impulse of bounces
     glm::dvec3 bounce_angular_impulse_mean{0.0}; // ... its mean over the tick
     std::uint32_t friction_contacts = 0;         // contacts with friction that push
     double drag = 0.0;                           // 1/s, on the plane that supports it
     glm::dvec3 support_normal{0.0};              // its normal
+    FirstTouch first_touch;                      // of those met on its way
+    double energy_driven = 0.0; // J: work of the own motion of hands and of kinematic bodies
 
     // Where a body with hands on it would be at the end.
     bool has_hands = false;
+    bool hands_are_braked = false;
+    double hand_energy_stored = 0.0; // J: in their springs at the start of the tick
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    BodyMotion mean_to_there; // the mean motion that goes there
 };
 
 [[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);
@@ -37,10 +52,14 @@ struct BodyIntegration {
 /// Starts with nothing acting on the body.
 void reset(BodyIntegration& integration);
 
+/// Starts with no bounce yet.
+void begin_bounces(BodyIntegration& integration);
+
 /// The springs on one body.
 struct HandForces {
     std::span<const HandSpring> springs;
     std::span<SpringImpulse> work;
+    PressedModes& modes;
     const WorldConfig& config;
 };
 
@@ -64,12 +83,27 @@ struct SlidingBody {
 void apply_stop(const ContactBlock& block, const SlidingBody& body,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
-/// A body's contacts were looked for in the box around its straight path through the tick. When it
-/// is thrown far out of that, it goes only as far as it cannot pass through anything that was not
-/// looked for, and responds to nothing more. Returns whether any body was.
-bool keep_within_swept_path(std::span<const Slot> slots,
+/// A body that goes farther than this in a tick, in half edges of the smallest body, could pass
+/// through something.
+inline constexpr double far_way = 0.5;
+
+/// What keep_within_swept_path() saw.
+struct Ways {
+    bool any_kept = false; // some body was held back
+    bool any_far = false;  // some body goes far, turning included: ContinuousCollision has work
+};
+
+/// A body is on its way between what it began with and what it ends with. When the correction of
+/// overlaps throws it far out of that, it goes only as far as it cannot pass through anything, and
+/// responds to nothing more.
+Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots,
                             std::span<const BodyIntegration> integrations, ContactSolver& solver,
                             const Scales& scales);
+
+/// The spin with which integrate_position() will turn the body steadily through the tick, but for
+/// one with hands on it.
+[[nodiscard]] glm::dvec3 spin_through_tick(const BodyIntegration& integration, const Bodies& bodies,
+                                           Slot slot, const BodyMotion& mean, double tick);
 
 /// Moves the body by the mean velocity that was solved for.
 void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,

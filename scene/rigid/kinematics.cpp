@@ -4,36 +4,14 @@
 
 #include "proto/base/math.hpp"
 #include "scene/maths/rotation.hpp"
+#include "scene/maths/vector.hpp"
+#include "scene/rigid/integrate.hpp"
 
 #include <cmath>
 
 namespace hapnet::scene {
 
 namespace {
-
-/// The angle of which this is the tangent, for at most an eighth of a turn: halved twice, then its
-/// series.
-double small_arc_tangent(double tangent)
-{
-    double x = tangent;
-    for (int halving = 0; halving < 2; ++halving) x /= 1.0 + std::sqrt(1.0 + x * x);
-    constexpr int terms = 12;
-    double sum = 0.0;
-    for (int n = terms; n-- > 0;) sum = 1.0 / (2.0 * n + 1.0) - x * x * sum;
-    return 4.0 * x * sum;
-}
-
-/// The shortest turn from one orientation to another: radians about an axis of the world.
-glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to)
-{
-    glm::dquat by = to * glm::conjugate(from);
-    if (by.w < 0.0) by = -by;
-    const glm::dvec3 part{by.x, by.y, by.z};
-    const double sine = std::sqrt(part.x * part.x + part.y * part.y + part.z * part.z);
-    if (sine == 0.0) return part;
-    // A quarter of the turn has the tangent sine / (1 + w): a turn has four of them.
-    return (4.0 * small_arc_tangent(sine / (1.0 + by.w)) / sine) * part;
-}
 
 bool is_at_rest(const BodyMotion& motion)
 {
@@ -49,11 +27,19 @@ double phase_at(double time, double period)
 
 } // namespace
 
+BodyMotion KinematicTick::motion_at(double time, double tick) const
+{
+    const double share = time / tick - 0.5;
+    return {mean.velocity + share * (end.velocity - start.velocity),
+            mean.spin + share * (end.spin - start.spin), glm::dvec3{0.0}};
+}
+
 void Kinematics::begin_tick(const WorldConfig& config, WorldState& state)
 {
     Bodies& bodies = state.bodies;
     const double tick = config.tick;
     ticks_.resize(state.scripts.size());
+    any_far_ = false;
     for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
         KinematicTick& now = ticks_[slot - bodies.movable];
         KinematicScript& script = state.scripts[slot - bodies.movable];
@@ -86,6 +72,9 @@ void Kinematics::begin_tick(const WorldConfig& config, WorldState& state)
             break;
         }
         now.moves = !is_at_rest(now.start) || !is_at_rest(now.mean) || !is_at_rest(now.end);
+        const double across = length(bodies.properties[slot].half);
+        any_far_ = any_far_ || length(now.mean.velocity) + across * length(now.mean.spin) >
+                                   far_way * scales_.least * scales_.rate;
         bodies.velocity.put(slot, now.mean.velocity);
         bodies.angular_momentum.put(slot, now.mean.spin);
     }

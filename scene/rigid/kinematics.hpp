@@ -16,13 +16,17 @@ struct KinematicTick {
     base::Position position{}; // at the end
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     bool moves = false;
+
+    /// In the tick: its mean, and about that what it gains from start to end.
+    [[nodiscard]] BodyMotion motion_at(double time, double tick) const;
 };
 
 /// The kinematic bodies' motions, in the order of their slots. While a tick lasts their lanes have
 /// the mean velocities, so that everything is found on the way that they really go.
 class Kinematics {
 public:
-    explicit Kinematics(const Bodies& bodies) : ticks_{std::size_t{bodies.moving - bodies.movable}}
+    Kinematics(const Bodies& bodies, const Scales& scales)
+        : scales_{scales}, ticks_{std::size_t{bodies.moving - bodies.movable}}
     {}
 
     void begin_tick(const WorldConfig& config, WorldState& state);
@@ -34,8 +38,12 @@ public:
     {
         return ticks_[slot - bodies.movable];
     }
+    /// Whether one goes so far in this tick that it could pass something.
+    [[nodiscard]] bool any_far() const { return any_far_; }
 
 private:
+    Scales scales_;
+    bool any_far_ = false;
     Scratch<KinematicTick> ticks_;
 };
 

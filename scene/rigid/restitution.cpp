@@ -21,31 +21,53 @@ struct Impact {
     double speed = 0.0; // m/s, approaching
 };
 
+/// How a contact's two bodies move towards each other while none of its points hits.
+struct Approach {
+    ContactVector from;   // at the start of the tick, were the last bounces before it
+    ContactVector to;     // at its end
+    ContactVector offset; // m, rad: what those bounces were too late for
+    double begin = 0.0;   // s: the last of them
+
+    /// Of a point: its gap at the start of the tick, on that path.
+    [[nodiscard]] double separation(const ContactBlock& block, std::size_t point) const
+    {
+        return block.separation[point] + block.normal_speed(offset, point);
+    }
+};
+
 /// When a point comes down on the surface: from `from` to `to` its normal speed changes evenly.
-std::optional<Impact> impact(double separation, double from, double to, double tick)
+std::optional<Impact> impact(double separation, double from, double to, double time_left)
 {
     if (from >= 0.0) return std::nullopt;
     if (separation <= 0.0) return Impact{0.0, -from};
-    const double centripetal_velocity = (to - from) / tick;
-    const double square = from * from - 2.0 * centripetal_velocity * separation;
+    const double acceleration = (to - from) / time_left;
+    const double square = from * from - 2.0 * acceleration * separation;
     if (square < 0.0) return std::nullopt;
     const double time = 2.0 * separation / (-from + std::sqrt(square));
-    if (time > tick) return std::nullopt;
-    return Impact{time, -(from + centripetal_velocity * time)};
+    if (time > time_left) return std::nullopt;
+    return Impact{time, -(from + acceleration * time)};
 }
 
 /// The first hit of the contact's points.
-Impact first_impact(const ContactBlock& block, const ContactVector& from, const ContactVector& to,
-                    double tick)
+Impact first_impact(const ContactBlock& block, const Approach& approach, double tick)
 {
+    const double begin = approach.begin;
     Impact first{tick, 0.0};
+    if (begin >= tick) return first;
     for (std::size_t i = 0; i < block.count; ++i) {
-        const auto its = impact(block.separation[i], block.normal_speed(from, i),
-                                block.normal_speed(to, i), tick);
-        if (its && its->time <= first.time) {
-            first.speed = its->time < first.time ? its->speed : std::max(first.speed, its->speed);
-            first.time = its->time;
+        double gap = approach.separation(block, i);
+        double from = block.normal_speed(approach.from, i);
+        const double to = block.normal_speed(approach.to, i);
+        if (begin > 0.0) {
+            const double then = from + begin / tick * (to - from);
+            gap += 0.5 * begin * (from + then);
+            from = then;
         }
+        const auto its = impact(gap, from, to, tick - begin);
+        if (!its || begin + its->time > first.time) continue;
+        const double time = begin + its->time;
+        first.speed = time < first.time ? its->speed : std::max(first.speed, its->speed);
+        first.time = time;
     }
     return first;
 }
@@ -58,13 +80,17 @@ struct BounceTarget {
 
 /// Adds an impulse at a moment of the tick: to the velocities at once, to the mean velocities by
 /// the share of the tick that is left.
-void add(const BounceTarget& bounce_angular_impulse, const Wrench& push, double share_left)
+void add(const BounceTarget& target, const Wrench& push, double time, double tick)
 {
     BodyMotion change;
-    apply(push, bounce_angular_impulse.arm, bounce_angular_impulse.response, change);
-    BodyIntegration& integration = bounce_angular_impulse.integration;
+    apply(push, target.arm, target.response, change);
+    BodyIntegration& integration = target.integration;
+    const double share_left = 1.0 - time / tick;
     integration.start_after_bounces.velocity += change.velocity;
     integration.start_after_bounces.spin += change.spin;
+    integration.bounce_offset.velocity -= time * change.velocity;
+    integration.bounce_offset.spin -= time * change.spin;
+    integration.last_bounce = time;
     integration.predicted.velocity += change.velocity;
     integration.predicted.spin += change.spin;
     integration.mean.velocity += share_left * change.velocity;
@@ -91,52 +117,105 @@ double share_without_energy_gain(const ContactBlock& block, const ContactVector&
     return before < 0.0 ? -2.0 * before / change_twice : 0.0;
 }
 
-void apply_restitution_to(ContactBlock& block, ContactSolver& solver,
-                          std::span<BodyIntegration> integrations, const Scales& scales)
+Approach approach_of(const ContactBlock& block, std::span<const BodyIntegration> integrations)
 {
-    const ContactVector from = velocity_at(block, integrations[block.a].start_after_bounces,
-                                           integrations[block.b].start_after_bounces);
-    const ContactVector to =
-        velocity_at(block, integrations[block.a].predicted, integrations[block.b].predicted);
-    const Impact first = first_impact(block, from, to, scales.tick);
-    if (first.speed <= bounce_threshold * scales.fall) return;
+    const BodyIntegration& a = integrations[block.a];
+    const BodyIntegration& b = integrations[block.b];
+    return {velocity_at(block, a.start_after_bounces, b.start_after_bounces),
+            velocity_at(block, a.predicted, b.predicted),
+            velocity_at(block, a.bounce_offset, b.bounce_offset),
+            std::max(a.last_bounce, b.last_bounce)};
+}
+
+/// Whether forces act on the body that would be others after a bounce: hands, other contacts. They
+/// count as constant over the tick, so a bounce may gain energy against none of its velocities.
+bool is_driven(const BodyIntegration& body)
+{
+    return body.has_hands || body.contact_impulse != glm::dvec3{0.0} ||
+           body.contact_angular_impulse != glm::dvec3{0.0};
+}
+
+} // namespace
+
+bool Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
+                        const Scales& scales, Interventions& interventions)
+{
+    if (!is_needed_) return false;
+    const std::span<ContactBlock> blocks = solver.blocks();
+    hits_.clear();
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+        if (!(blocks[i].restitution > 0.0)) continue;
+        const Impact first =
+            first_impact(blocks[i], approach_of(blocks[i], integrations), scales.tick);
+        if (first.speed > bounce_threshold * scales.fall) hits_.add() = {first.time, i};
+    }
+    std::sort(hits_.all().begin(), hits_.all().end(), [](const Hit& one, const Hit& other) {
+        return one.time != other.time ? one.time < other.time : one.block < other.block;
+    });
+    for (const Hit& hit : hits_.all()) {
+        if (bounce(blocks[hit.block], solver, integrations, scales) < 1.0)
+            ++interventions.bounces_limited;
+    }
+    return hits_.size() > 0;
+}
+
+/// The contact's bounce, if what bounced before it has left one.
+double Restitution::bounce(ContactBlock& block, ContactSolver& solver,
+                           std::span<BodyIntegration> integrations, const Scales& scales)
+{
+    const Approach approach = approach_of(block, integrations);
+    const Impact first = first_impact(block, approach, scales.tick);
+    if (first.speed <= bounce_threshold * scales.fall) return 1.0;
     const double share = first.time / scales.tick;
+    const ContactVector& from = approach.from;
     ContactVector then;
-    for (std::size_t i = 0; i < then.size(); ++i) then[i] = from[i] + share * (to[i] - from[i]);
+    for (std::size_t i = 0; i < then.size(); ++i)
+        then[i] = from[i] + share * (approach.to[i] - from[i]);
     const ContactImpulse kept = block.impulse;
     const auto least = block.speed_min;
     block.impulse = {};
     constexpr double together = 1e-9; // points that hit at the same time, in shares of the size
     for (std::size_t i = 0; i < block.count; ++i) {
         const double speed = block.normal_speed(then, i);
-        const double gap =
-            block.separation[i] + 0.5 * first.time * (block.normal_speed(from, i) + speed);
+        const double gap = approach.separation(block, i) +
+                           0.5 * first.time * (block.normal_speed(from, i) + speed);
         const bool hits = speed < 0.0 && gap <= together * scales.size;
         block.speed_min[i] =
             hits ? -block.restitution * speed : -inactive_speed * scales.size / scales.tick;
     }
     ContactVector change = solver.solve_alone(block, then, 0.0);
-    const double kept_share = share_without_energy_gain(block, then, change);
+    double kept_share = share_without_energy_gain(block, then, change);
+    if (is_driven(integrations[block.a]) || is_driven(integrations[block.b])) {
+        kept_share = std::min(kept_share, share_without_energy_gain(block, approach.to, change));
+    }
     for (double& part : change) part *= kept_share;
     block.impulse = kept;
     block.speed_min = least;
     block.bounce_impulse = change[0];
-    Wrench push = wrench(block, change);
-    if (block.b != 0)
-        add({integrations[block.b], solver.response(block.b), block.arm_b}, push, 1.0 - share);
-    if (block.a == 0) return;
-    push = {-push.impulse, -push.angular};
-    add({integrations[block.a], solver.response(block.a), block.arm_a}, push, 1.0 - share);
-}
-
-} // namespace
-
-void apply_restitution(ContactSolver& solver, std::span<BodyIntegration> integrations,
-                       const Scales& scales)
-{
-    for (ContactBlock& block : solver.blocks()) {
-        if (block.restitution > 0.0) apply_restitution_to(block, solver, integrations, scales);
+    const Wrench on_b = wrench(block, change);
+    const Wrench on_a{-on_b.impulse, -on_b.angular};
+    // What the motion of a kinematic body does while it throws the other.
+    const auto driven = [&](const BodyIntegration& other, const glm::dvec3& arm,
+                            const Wrench& push) {
+        return work_of(
+            push, arm,
+            {other.start.velocity + share * (other.predicted.velocity - other.start.velocity),
+             other.start.spin + share * (other.predicted.spin - other.start.spin),
+             glm::dvec3{0.0}});
+    };
+    if (solver.responds(block.b)) {
+        BodyIntegration& b = integrations[block.b];
+        add({b, solver.response(block.b), block.arm_b}, on_b, first.time, scales.tick);
+        if (solver.is_kinematic(block.a))
+            b.energy_driven += driven(integrations[block.a], block.arm_a, on_b);
     }
+    if (solver.responds(block.a)) {
+        BodyIntegration& a = integrations[block.a];
+        add({a, solver.response(block.a), block.arm_a}, on_a, first.time, scales.tick);
+        if (solver.is_kinematic(block.b))
+            a.energy_driven += driven(integrations[block.b], block.arm_b, on_a);
+    }
+    return kept_share;
 }
 
 } // namespace hapnet::scene

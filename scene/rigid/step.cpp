@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/rigid/step.hpp"
 
-#include "scene/collide/box_plane.hpp"
 #include "scene/collide/sweep.hpp"
-#include "scene/rigid/restitution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,11 +22,15 @@ constexpr double velocity_converged = 1e-6;
 // ... or until these limits (a stack takes 23 sweeps from nothing); the next tick goes on.
 constexpr std::uint32_t sweeps_max = 31, visits_max = 600;
 
+// What sleeps and is touched wakes, and what that touches, so many islands one after the other; the
+// next in the next tick.
+constexpr std::uint32_t wake_rounds_max = 4;
+
 // Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
 // for, and the most that is moved apart in one tick.
 constexpr double overlap_tolerance = 1e-9;
 constexpr double overlap_converged = 1e-6;
-constexpr double correction_max = 0.02;
+constexpr double correction_max = 0.1;
 constexpr std::uint32_t overlap_visits_max = 200;
 // This share of an overlap is removed per tick: not all, so that contacts that contradict each
 // other come to rest.
@@ -71,16 +73,20 @@ template <BroadPhase broad_phase>
 RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
                                         const WorldConfig& config, const WorldState& state)
     : scales_{scales_of(config, state.bodies)},
-      bounces_{any_bounces(config, state.bodies)},
       pairs_{config, state.bodies},
       sleep_{config, state.bodies},
       hand_contacts_{config},
+      modes_{config.hands.count},
       boxes_{state.bodies, scales_},
       free_bodies_{config, state.bodies},
       active_{state.bodies.movable},
-      kinematics_{state.bodies},
+      kinematics_{state.bodies, scales_},
+      plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.moving + std::size_t{1}},
-      solver_{state.bodies.moving, blocks_for(config, state.bodies)}
+      solver_{state.bodies.moving, blocks_for(config, state.bodies)},
+      restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
+      account_{state.bodies.moving},
+      continuous_{config, state.bodies, scales_}
 {}
 
 template <BroadPhase broad_phase>
@@ -96,14 +102,19 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     collide_bodies(state);
     warm_start();
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
-    if (bounces_) apply_restitution(solver_, integrations_.all(), scales_);
-    solve_velocities();
+    const bool bounced =
+        restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
+    const bool changed = solve_velocities(state.work);
+    if (has_kinematics) add_driven_energy();
     store_contact_impulses(state);
     stop_sliding_contacts(state);
-    correct_positions();
+    correct_positions(state);
+    if (bounced || changed) settle_energy(config, state);
     integrate_positions(state);
     integrate_free_bodies(state);
+    if (any_far_) solve_continuous(config, state);
     if (has_kinematics) kinematics_.end_tick(state);
+    active_.clear();
     report_hand_forces(config, state);
     update_sleep(state);
 }
@@ -114,6 +125,7 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
     // The bodies that it left and those that it now touches wake.
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(body);
+    boxes_.forget(body);
     hand_contacts_.forget(body);
 }
 
@@ -121,6 +133,31 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::wake(WorldState& state, BodyId body)
 {
     if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
+}
+
+template <BroadPhase broad_phase>
+Work RigidStepper<broad_phase>::work_bound(const WorldConfig& /*config*/) const
+{
+    // Overlaps are looked at once more where a body is held back.
+    // Sleepers are asked for again where kinematic bodies may wake them.
+    return {.pairs = (sleeps ? 2 + wake_rounds_max : 1) * pairs_.pairs_max(),
+            .contacts = solver_.blocks_max(),
+            .visits = solver_.visits_bound(velocity_limits()) +
+                      2 * solver_.visits_bound(position_limits())};
+}
+
+template <BroadPhase broad_phase>
+SolverLimits RigidStepper<broad_phase>::velocity_limits() const
+{
+    return {velocity_tolerance * scales_.speed, velocity_converged * scales_.speed, sweeps_max,
+            visits_max};
+}
+
+template <BroadPhase broad_phase>
+SolverLimits RigidStepper<broad_phase>::position_limits() const
+{
+    const double length = scales_.size * scales_.rate;
+    return {overlap_tolerance * length, overlap_converged * length, sweeps_max, overlap_visits_max};
 }
 
 template <BroadPhase broad_phase>
@@ -136,6 +173,7 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
 {
     Bodies& bodies = state.bodies;
     hand_contacts_.begin_step(config, state);
+    modes_.resize(config.hands.count);
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
         if (input.present) {
@@ -145,9 +183,9 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
             for (const BodyId id : pairs_.near_hand(
                      hand, {from, from + scales_.tick * input.velocity.value, radius})) {
                 const Slot slot = bodies.slot_of[id];
+                const SweptBox& now = boxes_.at(bodies, id);
                 hand_contacts_.collide(config, state, hand,
-                                       {id, slot < bodies.movable, boxes_.at(bodies, id).box,
-                                        bodies.velocity.at(slot), bodies.angular_velocity(slot)});
+                                       {id, slot < bodies.movable, now, bodies.velocity.at(slot)});
             }
         }
         if (input.present) hand_contacts_.feel_planes(config, state, hand);
@@ -167,17 +205,22 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
     if constexpr (sleeps) {
         Bodies& bodies = state.bodies;
         for (const BodyId body : state.pushed) sleep_.wake(body, bodies, pairs_);
-        wake_carried(state);
         const auto are_touching = [&](PairIndex index) {
+            ++state.work.pairs;
             return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
         };
-        while (sleep_.wake_touched(bodies, pairs_, are_touching)) {}
+        wake_carried(state, are_touching);
+        // One that is touched by what wakes now is found at once; so on, a few times.
+        for (std::uint32_t round = 0; round < wake_rounds_max; ++round) {
+            if (!sleep_.wake_touched(bodies, pairs_, are_touching)) break;
+        }
     }
 }
 
 /// Wakes what touches a body that moves by itself, and keeps it awake.
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::wake_carried(WorldState& state)
+template <typename AreTouching>
+void RigidStepper<broad_phase>::wake_carried(WorldState& state, const AreTouching& are_touching)
 {
     if constexpr (sleeps) {
         Bodies& bodies = state.bodies;
@@ -188,8 +231,7 @@ void RigidStepper<broad_phase>::wake_carried(WorldState& state)
             const auto wake = [&](PairIndex index, BodyId other) {
                 const bool is_awake = bodies.slot_of[other] < bodies.awake;
                 const bool touches_it =
-                    is_awake ? touches(pairs[index].memory)
-                             : collide_pair(state, pairs_.pair(index)).manifold.count > 0;
+                    is_awake ? touches(pairs[index].memory) : are_touching(index);
                 if (touches_it) sleep_.wake(other, bodies, pairs_);
             };
             pairs.for_first(id, [&](PairIndex i) { wake(i, pairs[i].b); });
@@ -211,20 +253,18 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
 {
     const Bodies& bodies = state.bodies;
-    awake_ = bodies.awake;
-    const std::size_t last = bodies.awake + std::size_t{bodies.moving - bodies.movable};
-    solver_.begin(last);
-    integrations_.resize(last + 1);
-    integrations_[0] = {};
+    const Slot kinematic = bodies.moving - bodies.movable;
+    solver_.begin(bodies.awake, kinematic);
+    // [0] does not move: nobody writes it.
+    integrations_.resize(bodies.awake + kinematic + std::size_t{1});
     for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
-        const std::size_t index = bodies.awake + std::size_t{1} + (slot - bodies.movable);
         const KinematicTick& now = kinematics_.of(bodies, slot);
-        BodyIntegration& integration = integrations_[index];
+        BodyIntegration& integration =
+            integrations_[bodies.awake + std::size_t{1} + (slot - bodies.movable)];
         integration = {};
         integration.start = integration.start_after_bounces = now.start;
         integration.predicted = now.end;
         integration.mean = now.mean;
-        solver_.response(static_cast<SolverIndex>(index)) = {};
     }
 }
 
@@ -238,13 +278,11 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
     reset(integrations_[slot + 1]);
 }
 
-/// A block for the solver that starts from last tick's impulses; null without a point or room.
+/// A block for the solver; null without a point or room.
 template <BroadPhase broad_phase>
-ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
-                                                     const ContactPlaces& centres,
-                                                     ContactMemory& memory)
+ContactBlock* RigidStepper<broad_phase>::add_contact(std::uint32_t points, ContactMemory& memory)
 {
-    if (manifold.count == 0) {
+    if (points == 0) {
         memory.count = 0;
         return nullptr;
     }
@@ -254,39 +292,51 @@ ContactBlock* RigidStepper<broad_phase>::add_contact(const Manifold& manifold,
         return nullptr;
     }
     ContactBlock& block = solver_.add();
-    prepare(block, manifold, centres, memory);
     block.memory = &memory;
     block.bounce_impulse = 0.0;
-    for (std::uint32_t i = 0; i < block.count; ++i) {
-        block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
-    }
     return &block;
 }
 
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, const WorldState& state)
+void RigidStepper<broad_phase>::set_least_speeds(ContactBlock& block)
+{
+    for (std::uint32_t i = 0; i < block.count; ++i) {
+        block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
+    }
+}
+
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldState& state)
 {
     const Bodies& bodies = state.bodies;
-    for (const PairIndex index : pairs_.plane_pairs()) {
-        Pair& pair = pairs_.plane_pair(index);
+    const std::span<const PairIndex> pairs = pairs_.plane_pairs();
+    state.work.pairs += pairs.size();
+    plane_contacts_.resize(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        Pair& pair = pairs_.plane_pair(pairs[i]);
         const PlaneDescription& plane = config.planes[pair.b];
         const Slot slot = bodies.slot_of[pair.a];
         const SweptBox& now = boxes_.at(bodies, pair.a);
         const OrientedBox& box = now.box;
-        const Manifold manifold =
-            collide(PlaneSurface{plane.normal, plane.offset_m}, box, now.reach);
-        const bool is_supported =
-            touches(pair.memory) || lies_on(manifold, touch_distance * scales_.size);
-        ContactBlock* const block = add_contact(manifold, {box.centre, box.centre}, pair.memory);
-        if (block == nullptr) continue;
-        activate(bodies, slot);
+        PlaneContact& contact = plane_contacts_[i];
+        const double height = glm::dot(plane.normal, box.centre) - plane.offset_m;
+        const std::uint32_t points = contact.find(
+            {pair.a, pair.b, plane.normal, height, now.reach, box.axes, now.orientation, box.half});
         const BodyProperties& properties = bodies.properties[slot];
+        const bool is_dragged =
+            properties.drag > 0.0 &&
+            (touches(pair.memory) || contact.lies_on(touch_distance * scales_.size));
+        ContactBlock* const block = add_contact(points, pair.memory);
+        if (block == nullptr) continue;
+        contact.prepare(*block, pair.memory);
+        set_least_speeds(*block);
+        activate(bodies, slot);
         block->a = 0;
         block->b = slot + 1;
         const Material material = combined(properties.material, plane.material);
         block->friction = material.friction;
         block->restitution = material.restitution;
-        if (properties.drag > 0.0 && is_supported) {
+        if (is_dragged) {
             integrations_[block->b].drag = properties.drag / properties.mass;
             integrations_[block->b].support_normal = plane.normal;
         }
@@ -307,9 +357,10 @@ SweptContact RigidStepper<broad_phase>::collide_pair(const WorldState& state, Pa
 }
 
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
+void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
 {
     const Bodies& bodies = state.bodies;
+    state.work.pairs += pairs_.pairs().size();
     const auto index_of_active = [&](Slot slot) -> SolverIndex {
         if (slot < bodies.awake) activate(bodies, slot);
         return index_of(bodies, slot);
@@ -319,14 +370,27 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
         const Slot a = bodies.slot_of[pair.a];
         const Slot b = bodies.slot_of[pair.b];
         const SweptContact swept = collide_pair(state, pair);
-        ContactBlock* const block = add_contact(swept.manifold, swept.centres, pair.memory);
+        if (swept.may_pass) {
+            // Whatever becomes of them, ContinuousCollision looks at their ways.
+            for (const Slot slot : {a, b})
+                if (slot < bodies.awake) activate(bodies, slot);
+        }
+        ContactBlock* const block = add_contact(swept.manifold.count, pair.memory);
         if (block == nullptr) continue;
+        prepare(*block, swept.manifold, swept.centres, pair.memory);
+        set_least_speeds(*block);
         const Material material =
             combined(bodies.properties[a].material, bodies.properties[b].material);
         block->a = index_of_active(a);
         block->b = index_of_active(b);
         block->friction = material.friction;
         block->restitution = material.restitution;
+        const auto note = [&](SolverIndex body, const glm::dvec3& normal, BodyId other) {
+            FirstTouch& first = integrations_[body].first_touch;
+            if (swept.first_touch < first.time) first = {swept.first_touch, normal, other};
+        };
+        note(block->a, block->normal, pair.b);
+        note(block->b, -block->normal, pair.a);
     }
 }
 
@@ -335,22 +399,23 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldState& state)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::warm_start()
 {
+    const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push,
+                         double sign) {
+        if (!solver_.responds(index)) return;
+        BodyIntegration& body = integrations_[index];
+        body.contact_impulse += sign * push.impulse;
+        body.contact_angular_impulse += sign * (glm::cross(arm, push.impulse) + push.angular);
+    };
     for (const ContactBlock& block : solver_.blocks()) {
-        const Wrench push = wrench(block, contact_vector(block, block.impulse));
-        BodyIntegration& b = integrations_[block.b];
-        b.contact_impulse += push.impulse;
-        b.contact_angular_impulse += glm::cross(block.arm_b, push.impulse) + push.angular;
-        BodyIntegration& a = integrations_[block.a];
-        a.contact_impulse -= push.impulse;
-        a.contact_angular_impulse -= glm::cross(block.arm_a, push.impulse) + push.angular;
+        add(block.b, block.arm_b, block.start_push, 1.0);
+        add(block.a, block.arm_a, block.start_push, -1.0);
     }
 }
 
 /// Finds the velocities of the active bodies at the end of the tick, without what their contacts
 /// have to change.
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config,
-                                                     const WorldState& state)
+void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, WorldState& state)
 {
     for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
     // A torque is held for the tick, as last tick's contact forces are.
@@ -363,47 +428,48 @@ void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config,
         BodyIntegration& integration = integrations_[slot + 1];
         if (!integration.has_hands)
             integrate_velocity(integration, state, slot, solver_.response(slot + 1), config);
-        if (bounces_) integration.start_after_bounces = integration.start;
+        if (restitution_.is_needed()) begin_bounces(integration);
     }
 }
 
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config,
-                                                       const WorldState& state)
+void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config, WorldState& state)
 {
-    for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
+    const auto springs_of_all = hand_contacts_.springs();
+    for (std::size_t i = 0; i < springs_of_all.size(); ++i) {
+        const HandContacts::Spring& spring = springs_of_all[i];
+        if (i > 0 && spring.body == springs_of_all[i - 1].body) continue; // done with that
         const Slot slot = state.bodies.slot_of[spring.body];
         activate(state.bodies, slot);
         BodyIntegration& integration = integrations_[slot + 1];
         if (integration.has_hands) continue;
         const auto [springs, work] = hand_contacts_.springs_on(spring.body);
         integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
-                                      {springs, work, config});
+                                      {springs, work, modes_[spring.hand], config});
         hand_contacts_.store_impulses(spring.body);
+        if (integration.hands_are_braked) ++state.interventions.hands_braked;
     }
 }
 
 /// Finds the velocities at the end of the tick at which nothing goes into anything, and from them
-/// the mean velocities.
+/// the mean velocities. Returns whether last tick's contact forces had to change for that.
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::solve_velocities()
+bool RigidStepper<broad_phase>::solve_velocities(Work& work)
 {
-    solver_.end_motion(0) = {};
-    solver_.mean_motion(0) = {};
     for (const Slot slot : active_.slots()) {
         solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
     }
-    for (std::size_t i = awake_ + 1; i < integrations_.size(); ++i) {
-        solver_.end_motion(static_cast<SolverIndex>(i)) = integrations_[i].predicted;
-        solver_.mean_motion(static_cast<SolverIndex>(i)) = integrations_[i].mean;
+    for (SolverIndex i = solver_.first_kinematic(); i < integrations_.size(); ++i) {
+        solver_.end_motion(i) = integrations_[i].predicted;
+        solver_.mean_motion(i) = integrations_[i].mean;
     }
     for (ContactBlock& block : solver_.blocks()) {
         set_centripetal_velocity(block, integrations_[block.a].start.spin,
                                  integrations_[block.b].start.spin, scales_.tick);
     }
-    const SolverOutcome outcome =
-        solver_.solve_velocities({velocity_tolerance * scales_.speed,
-                                  velocity_converged * scales_.speed, sweeps_max, visits_max});
+    const SolverOutcome outcome = solver_.solve_velocities(velocity_limits());
+    work.contacts = solver_.blocks().size();
+    work.visits += outcome.visits;
     counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
@@ -415,6 +481,29 @@ void RigidStepper<broad_phase>::solve_velocities()
             integration.mean.spin + 0.5 * (end.spin - integration.predicted.spin),
             integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse};
     }
+    return !outcome.in_balance;
+}
+
+/// Adds what kinematic bodies do to those that they push and carry. The force of a contact counts
+/// as constant over the tick, or as a blow at its end: whichever is more.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::add_driven_energy()
+{
+    const auto add = [&](SolverIndex body, SolverIndex by, const glm::dvec3& arm,
+                         const Wrench& push) {
+        integrations_[body].energy_driven +=
+            std::max(work_of(push, arm, integrations_[by].mean),
+                     work_of(push, arm, integrations_[by].predicted));
+    };
+    for (const ContactBlock& block : solver_.blocks()) {
+        const bool a_drives = solver_.is_kinematic(block.a);
+        if (!a_drives && !solver_.is_kinematic(block.b)) continue;
+        const Wrench on_b = wrench(block, contact_vector(block, block.impulse));
+        if (a_drives)
+            add(block.b, block.a, block.arm_a, on_b);
+        else
+            add(block.a, block.b, block.arm_b, {-on_b.impulse, -on_b.angular});
+    }
 }
 
 /// Keeps the impulses for the next tick's warm start, and counts the contacts that rub.
@@ -422,15 +511,17 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
 {
     const auto mass_of = [&](SolverIndex index) {
-        return is_awake(index) ? state.bodies.properties[index - 1].mass : 0.0;
+        return solver_.responds(index) ? state.bodies.properties[index - 1].mass : 0.0;
     };
     for (const ContactBlock& block : solver_.blocks()) {
-        const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
-        store_impulses(block, weight, *block.memory);
+        if (!keeps_impulses(block, *block.memory)) {
+            const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
+            store_impulses(block, weight, *block.memory);
+        }
         block.memory->normal_impulse_of_tick = block.normal_sum() + block.bounce_impulse;
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
-        ++integrations_[block.a].friction_contacts;
-        ++integrations_[block.b].friction_contacts;
+        if (block.a != 0) ++integrations_[block.a].friction_contacts;
+        if (block.b != 0) ++integrations_[block.b].friction_contacts;
     }
 }
 
@@ -439,13 +530,15 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 {
     for (const ContactBlock& block : solver_.blocks()) {
-        if (block.friction == 0.0 || is_awake(block.a) == is_awake(block.b)) continue;
-        const SolverIndex index = is_awake(block.a) ? block.a : block.b;
+        if (block.friction == 0.0) continue;
+        const bool is_second = solver_.responds(block.b);
+        if (solver_.responds(block.a) == is_second) continue;
+        const SolverIndex index = is_second ? block.b : block.a;
         if (integrations_[index].friction_contacts != 1) continue;
-        const SolverIndex other = block.a + block.b - index;
+        const SolverIndex other = is_second ? block.a : block.b;
         const BodyMotion& ground = integrations_[other].start;
         if (other != 0 && ground.spin != glm::dvec3{0.0}) continue;
-        apply_stop(block, {integrations_[index], ground.velocity, index == block.b},
+        apply_stop(block, {integrations_[index], ground.velocity, is_second},
                    state.bodies.properties[index - 1], scales_, solver_.mean_motion(index));
     }
 }
@@ -453,30 +546,41 @@ void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 /// Changes the mean velocities so that nothing overlaps at the end of the tick. The velocities at
 /// the end stay as they are: nothing gains speed by being moved apart (nonlinear Gauss-Seidel).
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::correct_positions()
+void RigidStepper<broad_phase>::correct_positions(WorldState& state)
 {
     for (ContactBlock& block : solver_.blocks()) {
         for (std::uint32_t i = 0; i < block.count; ++i) {
             block.speed_min[i] = position_bias(block.separation[i], scales_);
         }
+        if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
-    const double length = scales_.size * scales_.rate;
-    const SolverLimits limits{overlap_tolerance * length, overlap_converged * length, sweeps_max,
-                              overlap_visits_max};
-    solver_.correct_positions(limits);
+    state.work.visits += solver_.correct_positions(position_limits()).visits;
     // A body that is thrown off its path is held back; the others go as far as that lets them.
     const auto keep = [&] {
-        return keep_within_swept_path(active_.slots(), integrations_.all(), solver_, scales_);
+        const Ways ways =
+            keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
+        any_far_ = ways.any_far;
+        return ways.any_kept;
     };
     if (!keep()) return;
-    solver_.correct_positions_again(limits);
+    state.work.visits += solver_.correct_positions_again(position_limits()).visits;
     keep();
+}
+
+/// Takes away what the impulses of the tick would gain out of nothing.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
+{
+    account_.settle(
+        {config, state, scales_, active_.slots(), integrations_.all(), solver_, hand_contacts_});
 }
 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_positions(WorldState& state)
 {
+    if (kinematics_.any_far()) any_far_ = true;
+    if (any_far_) continuous_.begin(state.bodies, active_.slots(), integrations_.all(), solver_);
     for (const Slot slot : active_.slots()) {
         integrate_position(integrations_[slot + 1], state.bodies, slot, solver_, scales_);
     }
@@ -489,7 +593,16 @@ void RigidStepper<broad_phase>::integrate_free_bodies(WorldState& state)
     Bodies& bodies = state.bodies;
     active_.for_inactive(bodies.awake,
                          [&](SlotRange range) { free_bodies_.integrate(bodies, range); });
-    active_.clear();
+}
+
+/// Lets no body pass through another, and wakes what was hit on the way.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
+{
+    continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
+    if constexpr (sleeps) {
+        for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
+    }
 }
 
 template <BroadPhase broad_phase>

@@ -4,12 +4,16 @@
 
 #include "scene/collide/pair_finder.hpp"
 #include "scene/collide/sweep.hpp"
+#include "scene/rigid/continuous.hpp"
+#include "scene/rigid/energy_account.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
 #include "scene/rigid/kinematics.hpp"
+#include "scene/rigid/restitution.hpp"
 #include "scene/rigid/sleep.hpp"
 #include "scene/solver/contact_solver.hpp"
+#include "scene/solver/plane_contact.hpp"
 #include "scene/state.hpp"
 
 #include <type_traits>
@@ -37,6 +41,8 @@ public:
     void step(const WorldConfig& config, WorldState& state);
     void on_body_placed(WorldState& state, BodyId body);
     void wake(WorldState& state, BodyId body);
+    /// The most that a tick can take.
+    [[nodiscard]] Work work_bound(const WorldConfig& config) const;
 
     /// What was done, for tests and measurements.
     struct Counts {
@@ -59,42 +65,49 @@ private:
     void collide_hands(const WorldConfig& config, WorldState& state);
     void wake_disturbed(WorldState& state);
     void begin_contacts(const WorldState& state);
-    void collide_planes(const WorldConfig& config, const WorldState& state);
-    void collide_bodies(const WorldState& state);
+    void collide_planes(const WorldConfig& config, WorldState& state);
+    void collide_bodies(WorldState& state);
     void warm_start();
-    void integrate_velocities(const WorldConfig& config, const WorldState& state);
-    void solve_velocities();
+    bool solve_velocities(Work& work);
+    void integrate_velocities(const WorldConfig& config, WorldState& state);
+    void add_driven_energy();
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
-    void correct_positions();
+    void correct_positions(WorldState& state);
+    void settle_energy(const WorldConfig& config, WorldState& state);
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
+    void solve_continuous(const WorldConfig& config, WorldState& state);
     void report_hand_forces(const WorldConfig& config, WorldState& state);
     void update_sleep(WorldState& state);
 
+    [[nodiscard]] SolverLimits velocity_limits() const;
+    [[nodiscard]] SolverLimits position_limits() const;
     void activate(const Bodies& bodies, Slot slot);
-    void wake_carried(WorldState& state);
+    template <typename AreTouching>
+    void wake_carried(WorldState& state, const AreTouching& are_touching);
     [[nodiscard]] SolverIndex index_of(const Bodies& bodies, Slot slot) const;
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
-    ContactBlock* add_contact(const Manifold& manifold, const ContactPlaces& centres,
-                              ContactMemory& memory);
-    void integrate_hand_springs(const WorldConfig& config, const WorldState& state);
-
-    /// Whether it is a body that impulses move.
-    [[nodiscard]] bool is_awake(SolverIndex index) const { return index - 1 < awake_; }
+    ContactBlock* add_contact(std::uint32_t points, ContactMemory& memory);
+    void set_least_speeds(ContactBlock& block);
+    void integrate_hand_springs(const WorldConfig& config, WorldState& state);
 
     Scales scales_;
-    bool bounces_ = false;
-    Slot awake_ = 0; // when the contacts of the tick began
     PairFinder<search> pairs_;
     std::conditional_t<sleeps, Sleep, NoSleep> sleep_;
     HandContacts hand_contacts_;
+    Scratch<PressedModes> modes_; // of the body that a hand presses, by the first hand on it
     SweptBoxes boxes_;
     FreeBodies free_bodies_;
     ActiveBodies active_;
     Kinematics kinematics_;
+    Scratch<PlaneContact> plane_contacts_;  // of the pairs with planes, in their order
     Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;
+    Restitution restitution_;
+    EnergyAccount account_;
+    ContinuousCollision continuous_;
+    bool any_far_ = false; // some body could pass another in this tick
     Counts counts_;
 };
 

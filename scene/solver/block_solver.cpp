@@ -115,6 +115,15 @@ public:
     [[nodiscard]] bool has_settled() const { return has_settled_; }
     [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
     [[nodiscard]] const ContactVector& impulse() const { return modal_; }
+    /// The velocities without the contact's own impulses.
+    [[nodiscard]] const ContactVector& free() const { return free_; }
+
+    void scale(double share)
+    {
+        for (double& impulse : answer_.normal) impulse *= share;
+        set_friction(share * answer_.tangent_1, share * answer_.tangent_2, share * answer_.torsion);
+        modal_ = contact_vector(block_, answer_);
+    }
 
     /// Sticking contact. False when something would pull or friction would pass its limit.
     bool stick(double tolerance);
@@ -124,6 +133,7 @@ public:
     bool slip(double tolerance, int rounds_max);
 
 private:
+    [[nodiscard]] bool opens(double tolerance);
     [[nodiscard]] PointSet pushing(double tolerance) const;
     [[nodiscard]] PointSet without_pulling(const PointSet& set) const;
     template <bool sticks>
@@ -292,7 +302,8 @@ bool Trial::stick(double tolerance)
     PointSet set = pushing(tolerance);
     for (std::uint32_t round = 0; round < manifold_points_max; ++round) {
         hold_points<true>(set);
-        if (set.count == 0) return true;
+        // A contact that would have to pull to stick may still have to push to slip.
+        if (set.count == 0) return opens(tolerance);
         const PointSet rest = without_pulling(set);
         if (rest.count == set.count) break;
         set = rest;
@@ -300,6 +311,12 @@ bool Trial::stick(double tolerance)
     const Friction f = scaled_friction();
     const double limit = block_.friction * normal_sum();
     if (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] > limit * limit) return false;
+    return opens(tolerance);
+}
+
+/// Whether the points are at their least speeds or faster, with the answer as it is.
+bool Trial::opens(double tolerance)
+{
     move_normals();
     for (std::uint32_t i = 0; i < block_.count; ++i) {
         if (block_.normal_speed(now_, i) - block_.speed_min[i] < -tolerance) return false;
@@ -374,8 +391,30 @@ double rounding_of(const ContactBlock& block, const ContactVector& velocity)
                         (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
 }
 
-ContactVector finish(ContactBlock& block, const Trial& trial, const Trial& start)
+/// The share of an answer that is taken. Against the least speeds an exact answer does no work at
+/// the end (points that push are at theirs, friction opposes the slip), so it leaves less energy
+/// than no impulse would. What rounding or a round too few made of it may not leave more: then the
+/// share that leaves least.
+double dissipative_share(const ContactBlock& block, const Trial& trial)
 {
+    const ContactVector& impulse = trial.impulse();
+    const ContactVector change = times(block.matrix, impulse);
+    double work = 0.0; // of the impulse, against velocities without it
+    double answer = 0.0;
+    for (std::size_t i = 0; i < impulse.size(); ++i) {
+        work += impulse[i] * trial.free()[i];
+        answer += impulse[i] * change[i];
+    }
+    for (std::size_t i = 0; i < block.count; ++i)
+        work -= trial.answer().normal[i] * block.speed_min[i];
+    constexpr double rounding = 1e-9;
+    if (work + 0.5 * answer <= rounding * answer) return 1.0;
+    return work < 0.0 && std::isfinite(answer) ? -work / answer : 0.0;
+}
+
+ContactVector finish(ContactBlock& block, Trial& trial, const Trial& start)
+{
+    if (const double share = dissipative_share(block, trial); !(share >= 1.0)) trial.scale(share);
     block.impulse = trial.answer();
     return minus(trial.impulse(), start.impulse());
 }

@@ -12,29 +12,8 @@ namespace hapnet::scene {
 
 namespace {
 
-/// For a face under even pressure, the mean distance from the middle of a square over the distance
-/// of its corners is (sqrt(2) + log(1 + sqrt(2))) / (3 sqrt(2)).
-constexpr double even_pressure = 0.5410;
-
-void set_tangents(ContactBlock& block)
-{
-    const glm::dvec3& n = block.normal;
-    // Across the axis that the normal is farthest from: the cross product is never short.
-    const glm::dvec3 size = glm::abs(n);
-    glm::dvec3 t{0.0};
-    if (size.x <= size.y && size.x <= size.z) {
-        t = {0.0, -n.z, n.y};
-    } else if (size.z <= size.y) {
-        t = {-n.y, n.x, 0.0};
-    } else {
-        t = {n.z, 0.0, -n.x};
-    }
-    const double square = glm::dot(t, t);
-    block.tangent_1 = square == 1.0 ? t : t / std::sqrt(square);
-    block.tangent_2 = glm::cross(n, block.tangent_1);
-}
-
-void set_points(ContactBlock& block, const Manifold& manifold)
+/// Returns the anchor.
+glm::dvec3 set_points(ContactBlock& block, const Manifold& manifold)
 {
     std::array<double, manifold_points_max> weight = block.impulse.normal;
     double sum = block.normal_sum();
@@ -48,39 +27,19 @@ void set_points(ContactBlock& block, const Manifold& manifold)
     for (std::uint32_t i = 1; i < manifold.count; ++i) {
         centre += weight[i] * (manifold.points[i].position - first);
     }
-    block.anchor = first + (1.0 / sum) * centre;
+    const glm::dvec3 anchor = first + (1.0 / sum) * centre;
     double arm = 0.0;
     for (std::uint32_t i = 0; i < manifold.count; ++i) {
-        const glm::dvec3 from = manifold.points[i].position - block.anchor;
+        const glm::dvec3 from = manifold.points[i].position - anchor;
         const double u = glm::dot(from, block.tangent_1);
         const double v = glm::dot(from, block.tangent_2);
         block.along_1[i] = u;
         block.along_2[i] = v;
         block.separation[i] = manifold.points[i].separation;
-        block.feature[i] = manifold.points[i].feature;
         arm += std::sqrt(u * u + v * v);
     }
     block.torsion_arm = even_pressure * arm / manifold.count;
-}
-
-void set_start_impulse(ContactBlock& block, const Manifold& manifold, const ContactMemory& memory)
-{
-    block.impulse = {};
-    bool any = false;
-    for (std::uint32_t i = 0; i < manifold.count; ++i) {
-        // Mostly they are the same in the same order.
-        const bool is_same = i < memory.count && memory.feature[i] == manifold.points[i].feature;
-        for (std::uint32_t j = is_same ? i : 0; j < memory.count; ++j) {
-            if (memory.feature[j] != manifold.points[i].feature) continue;
-            block.impulse.normal[i] = memory.normal_impulse[j];
-            any = any || memory.normal_impulse[j] > 0.0;
-            break;
-        }
-    }
-    if (!any) return;
-    block.impulse.tangent_1 = glm::dot(memory.friction_impulse, block.tangent_1);
-    block.impulse.tangent_2 = glm::dot(memory.friction_impulse, block.tangent_2);
-    block.impulse.torsion = memory.torsion_impulse;
+    return anchor;
 }
 
 glm::dvec3 friction_impulse_of(const ContactBlock& block)
@@ -144,18 +103,64 @@ bool is_nearly_locked_along(const glm::dvec3& normal, const glm::dvec3& inverse_
 
 } // namespace
 
+Tangents tangents_of(const glm::dvec3& normal)
+{
+    const glm::dvec3& n = normal;
+    // Across the axis that the normal is farthest from: the cross product is never short.
+    const glm::dvec3 size = glm::abs(n);
+    glm::dvec3 t{0.0};
+    if (size.x <= size.y && size.x <= size.z) {
+        t = {0.0, -n.z, n.y};
+    } else if (size.z <= size.y) {
+        t = {-n.y, n.x, 0.0};
+    } else {
+        t = {n.z, 0.0, -n.x};
+    }
+    const double square = glm::dot(t, t);
+    if (square != 1.0) t = t / std::sqrt(square);
+    return {t, glm::cross(n, t)};
+}
+
+ContactImpulse last_impulse(std::span<const std::uint32_t> features, const Tangents& tangents,
+                            const ContactMemory& memory)
+{
+    ContactImpulse impulse;
+    bool any = false;
+    for (std::uint32_t i = 0; i < features.size(); ++i) {
+        // Mostly they are the same in the same order.
+        const bool is_same = i < memory.count && memory.feature[i] == features[i];
+        for (std::uint32_t j = is_same ? i : 0; j < memory.count; ++j) {
+            if (memory.feature[j] != features[i]) continue;
+            impulse.normal[i] = memory.normal_impulse[j];
+            any = any || memory.normal_impulse[j] > 0.0;
+            break;
+        }
+    }
+    if (!any) return impulse;
+    impulse.tangent_1 = glm::dot(memory.friction_impulse, tangents.first);
+    impulse.tangent_2 = glm::dot(memory.friction_impulse, tangents.second);
+    impulse.torsion = memory.torsion_impulse;
+    return impulse;
+}
+
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
              const ContactMemory& memory)
 {
     block.normal = manifold.normal;
     block.count = manifold.count;
     block.has_matrix = false;
-    set_tangents(block);
-    set_start_impulse(block, manifold, memory);
+    block.is_on_plane = false;
+    const Tangents tangents = tangents_of(manifold.normal);
+    block.tangent_1 = tangents.first;
+    block.tangent_2 = tangents.second;
+    for (std::uint32_t i = 0; i < manifold.count; ++i)
+        block.feature[i] = manifold.points[i].feature;
+    block.impulse = last_impulse({block.feature.data(), block.count}, tangents, memory);
     block.start_impulse = block.impulse.normal;
-    set_points(block, manifold);
-    block.arm_a = block.anchor - centres.a;
-    block.arm_b = block.anchor - centres.b;
+    const glm::dvec3 anchor = set_points(block, manifold);
+    block.arm_a = anchor - centres.a;
+    block.arm_b = anchor - centres.b;
+    block.start_push = wrench(block, contact_vector(block, block.impulse));
 }
 
 void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory)
@@ -182,27 +187,68 @@ void store_impulses(const ContactBlock& block, double weight, ContactMemory& mem
     memory.torsion_impulse *= room;
 }
 
+void scale_impulses(ContactBlock& block, double share)
+{
+    for (double& impulse : block.impulse.normal) impulse *= share;
+    block.impulse.tangent_1 *= share;
+    block.impulse.tangent_2 *= share;
+    block.impulse.torsion *= share;
+}
+
+void scale_impulses(ContactMemory& memory, double share)
+{
+    for (double& impulse : memory.normal_impulse) impulse *= share;
+    memory.friction_impulse *= share;
+    memory.torsion_impulse *= share;
+    memory.normal_impulse_of_tick *= share;
+}
+
+namespace {
+
+/// Of `b` against `a` where they touch.
+struct Slip {
+    glm::dvec3 velocity{0.0}, spin{0.0};
+};
+inline Slip slip_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
+{
+    Slip slip;
+    if (block.b != 0) slip = {b.velocity + glm::cross(b.spin, block.arm_b), b.spin};
+    if (block.a != 0) {
+        slip.velocity -= a.velocity + glm::cross(a.spin, block.arm_a);
+        slip.spin -= a.spin;
+    }
+    return slip;
+}
+
+} // namespace
+
 ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a, const BodyMotion& b)
 {
-    glm::dvec3 velocity{0.0};
-    glm::dvec3 spin{0.0};
-    if (block.b != 0) {
-        velocity = b.velocity + glm::cross(b.spin, block.arm_b);
-        spin = b.spin;
-    }
-    if (block.a != 0) {
-        velocity -= a.velocity + glm::cross(a.spin, block.arm_a);
-        spin -= a.spin;
-    }
+    const auto [velocity, spin] = slip_at(block, a, b);
     return {glm::dot(velocity, block.normal),    glm::dot(spin, block.tangent_1),
             glm::dot(spin, block.tangent_2),     glm::dot(velocity, block.tangent_1),
             glm::dot(velocity, block.tangent_2), glm::dot(spin, block.normal)};
+}
+
+ContactVector normal_velocity_at(const ContactBlock& block, const BodyMotion& a,
+                                 const BodyMotion& b)
+{
+    const auto [velocity, spin] = slip_at(block, a, b);
+    return {glm::dot(velocity, block.normal), glm::dot(spin, block.tangent_1),
+            glm::dot(spin, block.tangent_2)};
 }
 
 void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
                               const glm::dvec3& spin_b, double tick)
 {
     block.centripetal_velocity = {};
+    // What hardly turns: less than rounding, and less than a contact may miss.
+    constexpr double hardly = 1e-10; // radians
+    const auto hardly_turns = [&](const glm::dvec3& spin) {
+        return tick * tick * glm::dot(spin, spin) <= hardly * hardly;
+    };
+    block.turns = !hardly_turns(spin_a) || !hardly_turns(spin_b);
+    if (!block.turns) return; // and no least speed is more than standing still
     const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
         // For a body that rotates far in a tick this term alone is wrong: it fades out.
         constexpr double far = 0.1; // radians
@@ -249,6 +295,12 @@ Wrench wrench(const ContactBlock& block, const ContactVector& impulse)
     return {impulse[0] * block.normal + impulse[3] * block.tangent_1 + impulse[4] * block.tangent_2,
             impulse[1] * block.tangent_1 + impulse[2] * block.tangent_2 +
                 impulse[5] * block.normal};
+}
+
+double work_of(const Wrench& push, const glm::dvec3& arm, const BodyMotion& motion)
+{
+    return glm::dot(push.impulse, motion.velocity + glm::cross(motion.spin, arm)) +
+           glm::dot(push.angular, motion.spin);
 }
 
 void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 
 namespace hapnet::scene {
 
@@ -43,6 +44,12 @@ struct ContactImpulse {
     double torsion = 0.0;
 };
 
+/// An impulse in the world's frame, about the anchor.
+struct Wrench {
+    glm::dvec3 impulse{0.0};
+    glm::dvec3 angular{0.0};
+};
+
 /// Factors of a block that may be needed again: valid as long as its matrix is.
 struct BlockFactors {
     Ldl<6> whole{}; // of the matrix: three or four points, and friction
@@ -64,7 +71,6 @@ struct ContactBlock {
     double friction = 0.0;
     double torsion_arm = 0.0; // metres: the torsion's limit over the friction's
     glm::dvec3 normal{0.0}, tangent_1{0.0}, tangent_2{0.0};
-    glm::dvec3 anchor{0.0};
     glm::dvec3 arm_a{0.0}, arm_b{0.0};                            // from the centres to the anchor
     std::array<double, manifold_points_max> along_1{}, along_2{}; // the points from the anchor
     std::array<double, manifold_points_max> separation{};
@@ -73,11 +79,14 @@ struct ContactBlock {
     ContactImpulse impulse;
     std::array<double, manifold_points_max>
         start_impulse{}; // the normal impulses that it started from
+    Wrench start_push{}; // all of the impulses that it started from
     double restitution = 0.0;
-    double bounce_impulse = 0.0; // N s, along the normal, of this tick
+    double bounce_impulse = 0.0;     // N s, along the normal, of this tick
     ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
     ContactVector
         centripetal_velocity{}; // m/s, what turning adds to its velocity by the end of the tick
+    bool turns = false;         // whether it adds anything
+    bool is_on_plane = false;   // its normal never changes
     double change = 0.0;        // m/s, what the last sweep changed in its speeds
 
     bool has_matrix = false;
@@ -94,16 +103,50 @@ struct ContactBlock {
     }
 };
 
+/// For a face under even pressure, the mean distance from the middle of a square over the distance
+/// of its corners: (sqrt(2) + log(1 + sqrt(2))) / (3 sqrt(2)). So much of the points' mean distance
+/// is a contact's torsion arm.
+inline constexpr double even_pressure = 0.5410;
+
+/// Two directions along a contact, across its normal.
+struct Tangents {
+    glm::dvec3 first, second;
+};
+[[nodiscard]] Tangents tangents_of(const glm::dvec3& normal);
+
+/// Last tick's impulses of the points with these features, along such tangents.
+[[nodiscard]] ContactImpulse last_impulse(std::span<const std::uint32_t> features,
+                                          const Tangents& tangents, const ContactMemory& memory);
+
 /// Sets the geometry, and starts from last tick's impulses.
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
              const ContactMemory& memory);
+/// Whether a block was in balance and the next tick has all that it starts from: the impulses are
+/// as they were, and so is the normal. Counts the tick.
+[[nodiscard]] inline bool keeps_impulses(const ContactBlock& block, ContactMemory& memory)
+{
+    if (!block.is_on_plane || block.has_matrix || memory.count != block.count) return false;
+    for (std::size_t i = 0; i < manifold_points_max; ++i) {
+        if (memory.feature[i] != block.feature[i]) return false;
+    }
+    ++memory.ticks;
+    return true;
+}
 /// Keeps the impulses for the next tick, to start from: not those of a hit, which will not come
 /// again. So they at most double from tick to tick, but for `weight` (N s), about what carrying the
 /// two bodies takes.
 void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory);
 
+/// Takes but a share of its impulses.
+void scale_impulses(ContactBlock& block, double share);
+
+void scale_impulses(ContactMemory& memory, double share);
+
 [[nodiscard]] ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a,
                                         const BodyMotion& b);
+/// The same without friction's part.
+[[nodiscard]] ContactVector normal_velocity_at(const ContactBlock& block, const BodyMotion& a,
+                                               const BodyMotion& b);
 /// While a body turns, the points of it that touch go around its centre: what that adds to their
 /// velocity within a tick. Without it, a box that tips over an edge would gain energy. Second
 /// order; left out for what turns farther than a tenth of a radian. Lowers the least speeds to
@@ -114,12 +157,10 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
 [[nodiscard]] ContactVector contact_vector(const ContactBlock& block,
                                            const ContactImpulse& impulse);
 
-/// An impulse in the world's frame, about the anchor.
-struct Wrench {
-    glm::dvec3 impulse{0.0};
-    glm::dvec3 angular{0.0};
-};
 [[nodiscard]] Wrench wrench(const ContactBlock& block, const ContactVector& impulse);
+/// What an impulse on a body does while the other side moves so: J. `arm` is from that one's
+/// centre.
+[[nodiscard]] double work_of(const Wrench& push, const glm::dvec3& arm, const BodyMotion& motion);
 /// On one body: `arm` from its centre to the anchor.
 void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
            BodyMotion& motion);

@@ -57,6 +57,7 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       end_motions_{bodies + 1},
       mean_motions_{bodies + 1},
       blocks_{blocks},
+      blocks_max_{blocks},
       contacts_{bodies + 1},
       islands_{bodies + 1},
       starts_{bodies + 2},
@@ -68,11 +69,22 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       anderson_{numbers_per_block * std::min(blocks, mixed_max)}
 {}
 
-void ContactSolver::begin(std::size_t bodies)
+/// The first look, and then for each island either its share or the few sweeps of any.
+std::uint64_t ContactSolver::visits_bound(const SolverLimits& limits) const
 {
-    responses_.resize(bodies + 1);
-    end_motions_.resize(bodies + 1);
-    mean_motions_.resize(bodies + 1);
+    const std::uint64_t any = sweeps_min * blocks_max_;
+    const std::uint64_t all = std::uint64_t{limits.sweeps_max} * blocks_max_;
+    return blocks_max_ + std::min(all, std::max<std::uint64_t>(any, limits.visits_max));
+}
+
+void ContactSolver::begin(std::size_t bodies, std::size_t kinematic)
+{
+    const std::size_t all = bodies + kinematic + 1;
+    responding_ = static_cast<SolverIndex>(bodies);
+    responses_.resize(all);
+    end_motions_.resize(all);
+    mean_motions_.resize(all);
+    for (std::size_t i = bodies + 1; i < all; ++i) responses_[i] = {};
     blocks_.clear();
 }
 
@@ -84,8 +96,11 @@ SolverOutcome ContactSolver::solve_velocities(const SolverLimits& limits)
 SolverOutcome ContactSolver::correct_positions(const SolverLimits& limits)
 {
     const auto overlaps = [&](const ContactBlock& block) {
-        ContactVector velocity = velocity_at(block, mean_motions_[block.a], mean_motions_[block.b]);
-        for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.centripetal_velocity[i];
+        ContactVector velocity =
+            normal_velocity_at(block, mean_motions_[block.a], mean_motions_[block.b]);
+        if (block.turns) {
+            for (std::size_t i = 0; i < 3; ++i) velocity[i] += block.centripetal_velocity[i];
+        }
         for (std::size_t i = 0; i < block.count; ++i) {
             if (block.normal_speed(velocity, i) < block.speed_min[i] - limits.tolerance)
                 return true;
@@ -119,14 +134,18 @@ SolverOutcome ContactSolver::correct_positions_again(const SolverLimits& limits)
 
 SolverOutcome ContactSolver::run(const Task& task)
 {
-    SolverOutcome outcome{1, 0.0};
-    count_contacts();
+    SolverOutcome outcome{.sweeps = 1};
+    const bool is_only_one = blocks_.size() == 1;
+    if (!is_only_one) count_contacts();
     for (ContactBlock& block : blocks_.all()) {
+        const bool has_no_other = is_only_one || is_alone(block);
         block.change =
-            solve_block(block, task, is_alone(block) ? Effort::full : Effort::one_iteration);
+            solve_block(block, task, has_no_other ? Effort::full : Effort::one_iteration);
         outcome.change = std::max(outcome.change, block.change);
     }
-    if (outcome.change <= task.limits.converged || blocks_.size() < 2) return outcome;
+    outcome.visits = blocks_.size();
+    outcome.in_balance = outcome.change <= task.limits.converged;
+    if (outcome.in_balance || blocks_.size() < 2) return outcome;
     find_islands();
     std::size_t moving = 0;
     for_moving_islands(task, [&](Island island) { moving += island.size(); });
@@ -141,6 +160,7 @@ SolverOutcome ContactSolver::run(const Task& task)
         const bool is_done = one.change <= task.limits.converged;
         if (task.mode == Mode::contacts && !is_done) limit_energy(task, island);
         outcome.sweeps = std::max(outcome.sweeps, one.sweeps);
+        outcome.visits += (one.sweeps - 1) * island.size();
         outcome.change = std::max(outcome.change, one.change);
     });
     return outcome;
@@ -161,7 +181,7 @@ void ContactSolver::for_moving_islands(const Task& task, Do&& act)
 
 SolverOutcome ContactSolver::run_island(const Task& task, Island island)
 {
-    SolverOutcome outcome{1, 0.0};
+    SolverOutcome outcome{.sweeps = 1};
     if (island.size() > mixed_max) {
         while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
             outcome.change = sweep(task, island);
@@ -242,13 +262,7 @@ void ContactSolver::limit_energy(const Task& task, Island island)
     }
     const double share = without < 0.0 ? -without / answer : 0.0;
     scale_all(share);
-    for (const std::uint32_t i : island) {
-        ContactImpulse& impulse = blocks_[i].impulse;
-        for (double& normal : impulse.normal) normal *= share;
-        impulse.tangent_1 *= share;
-        impulse.tangent_2 *= share;
-        impulse.torsion *= share;
-    }
+    for (const std::uint32_t i : island) scale_impulses(blocks_[i], share);
 }
 
 double ContactSolver::sweep(const Task& task, Island island)
@@ -311,7 +325,9 @@ void ContactSolver::restore(const Task& task, Island island)
 double ContactSolver::solve_block(ContactBlock& block, const Task& task, Effort depth)
 {
     ContactVector velocity = velocity_at(block, task.motions[block.a], task.motions[block.b]);
-    for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.centripetal_velocity[i];
+    if (block.turns) {
+        for (std::size_t i = 0; i < 5; ++i) velocity[i] += block.centripetal_velocity[i];
+    }
     const double tolerance = task.limits.tolerance;
     const bool pushes_only = task.mode == Mode::positions;
     if (pushes_only ? normals_are_solved(block, velocity, tolerance)
@@ -362,7 +378,8 @@ void ContactSolver::count_contacts()
 /// Whether no other block has to do with its bodies.
 bool ContactSolver::is_alone(const ContactBlock& block) const
 {
-    return (block.a == 0 || contacts_[block.a] == 1) && (block.b == 0 || contacts_[block.b] == 1);
+    return (!responds(block.a) || contacts_[block.a] == 1) &&
+           (!responds(block.b) || contacts_[block.b] == 1);
 }
 
 /// Sorts the blocks by islands: first those of the body with the lowest index, each in the order
@@ -372,12 +389,12 @@ void ContactSolver::find_islands()
     const std::size_t bodies = responses_.size();
     for (SolverIndex i = 0; i < bodies; ++i) islands_.reset(i);
     for (const ContactBlock& block : blocks_.all()) {
-        if (block.a != 0 && block.b != 0) islands_.join(block.a, block.b);
+        if (responds(block.a) && responds(block.b)) islands_.join(block.a, block.b);
     }
     starts_.resize(bodies + 1);
     for (std::uint32_t& start : starts_.all()) start = 0;
     const auto root_of_block = [&](const ContactBlock& block) {
-        return islands_.root_of(block.a != 0 ? block.a : block.b);
+        return islands_.root_of(responds(block.a) ? block.a : block.b);
     };
     for (const ContactBlock& block : blocks_.all()) ++starts_[root_of_block(block) + 1];
     for (std::size_t i = 1; i <= bodies; ++i) starts_[i] += starts_[i - 1];

@@ -26,6 +26,8 @@ struct SolverLimits {
 struct SolverOutcome {
     std::uint32_t sweeps = 0; // of the island that needed most
     double change = 0.0;      // m/s, of the last sweep: the largest of a contact's speed
+    bool in_balance = true;   // from the start: no impulse had to change
+    std::uint64_t visits = 0; // of contacts
 };
 
 /// Solves all contacts of a tick for the velocities at its end, block after block, each as a whole
@@ -37,8 +39,14 @@ class ContactSolver {
 public:
     ContactSolver(std::size_t bodies, std::size_t blocks);
 
-    /// Begins a tick: no contacts, and bodies 1 .. `bodies`.
-    void begin(std::size_t bodies);
+    /// Begins a tick: no contacts, bodies 1 .. `bodies`, and after them `kinematic` ones, which
+    /// move by themselves and answer to nothing.
+    void begin(std::size_t bodies, std::size_t kinematic = 0);
+
+    /// Whether impulses move it. What does not answer joins no bodies to an island.
+    [[nodiscard]] bool responds(SolverIndex body) const { return body - 1 < responding_; }
+    [[nodiscard]] bool is_kinematic(SolverIndex body) const { return body > responding_; }
+    [[nodiscard]] SolverIndex first_kinematic() const { return responding_ + 1; }
 
     [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
     /// At the end of the tick.
@@ -46,6 +54,10 @@ public:
     /// The mean over the tick: what moves the bodies.
     [[nodiscard]] BodyMotion& mean_motion(SolverIndex body) { return mean_motions_[body]; }
 
+    /// The most visits that a solve of all contacts can take.
+    [[nodiscard]] std::uint64_t visits_bound(const SolverLimits& limits) const;
+
+    [[nodiscard]] std::size_t blocks_max() const { return blocks_max_; }
     [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
     ContactBlock& add() { return blocks_.add(); }
     [[nodiscard]] std::span<ContactBlock> blocks() { return blocks_.all(); }
@@ -92,10 +104,12 @@ private:
     [[nodiscard]] bool is_alone(const ContactBlock& block) const;
     void find_islands();
 
+    SolverIndex responding_ = 0; // bodies; those after them move by themselves
     Scratch<BodyResponse> responses_;
     Scratch<BodyMotion> end_motions_;
     Scratch<BodyMotion> mean_motions_;
     Scratch<ContactBlock> blocks_;
+    std::size_t blocks_max_;
 
     Scratch<std::uint32_t> contacts_; // of each body
 

@@ -13,6 +13,7 @@
 
 namespace {
 
+namespace scene = hapnet::scene;
 using hapnet::test::LawFigures;
 
 struct Tally {
@@ -20,6 +21,7 @@ struct Tally {
     std::uint64_t ticks = 0;
     std::uint64_t broken = 0;
     LawFigures worst;
+    scene::Interventions interventions;
 };
 
 void keep(LawFigures& worst, const LawFigures& one)
@@ -36,6 +38,14 @@ void report(const Tally& tally)
                "angular {:.3g} of what is tolerated; force {:.10g} of the greatest\n",
                tally.played, tally.ticks, tally.broken, tally.worst.energy, tally.worst.momentum,
                tally.worst.angular_momentum, tally.worst.force);
+    const scene::Interventions& done = tally.interventions;
+    fmt::print("  guards: {} islands limited, {} ways cut, {} budgets spent: {:.2g} of the ticks; "
+               "mechanisms: {} impulses trimmed, {} hands braked, {} bounces limited, {} sweeps "
+               "continued\n",
+               done.islands_limited, done.paths_cut, done.budgets_spent,
+               static_cast<double>(done.guards()) / static_cast<double>(tally.ticks),
+               done.impulses_trimmed, done.hands_braked, done.bounces_limited,
+               done.sweeps_continued);
     std::fflush(stdout);
 }
 
@@ -57,6 +67,9 @@ int main(int argc, char** argv)
         ++tally.played;
         tally.ticks += play.ticks.size();
         keep(tally.worst, outcome.worst);
+        tally.interventions += outcome.interventions;
+        if (std::getenv("HAPNET_SOAK_GUARDS") != nullptr && outcome.interventions.guards() > 0)
+            fmt::print("  seed {}: {} guards\n", seed, outcome.interventions.guards());
         if (outcome.complaint) {
             ++tally.broken;
             fmt::print("  seed {}: {}\n", seed, *outcome.complaint);

@@ -53,7 +53,10 @@ std::optional<double> Row::ratio() const
 std::optional<bool> Row::met() const
 {
     if (!target) return std::nullopt;
-    const auto judged = metric.ends_with("_ratio") ? ratio() : std::optional{value};
+    const bool is_ratio = metric.ends_with("_ratio");
+    // Nothing is less than nothing: a value of 0 stands above any ratio to it.
+    if (is_ratio && baseline_value && value == 0.0) return direction == Direction::at_least;
+    const auto judged = is_ratio ? ratio() : std::optional{value};
     if (!judged) return false;
     return direction == Direction::at_least ? *judged >= *target : *judged <= *target;
 }

@@ -13,15 +13,18 @@ namespace hapnet::bench {
 
 namespace {
 
-/// Half the edge of the box that stands for a plane, so that it lies under every body.
+/// Half the edge of the box that stands for a plane, so that it lies under every body, also under
+/// one that flies for a second.
 double slab_half(const scene::Description& scene)
 {
-    double reach = 0.0;
+    double reach = 0.0, way = 2.0;
     for (const auto& body : scene.bodies) {
         const glm::dvec3 distance = glm::abs(body.position.value);
+        const glm::dvec3 speed = glm::abs(body.velocity.value);
         reach = std::max({reach, distance.x, distance.y, distance.z});
+        way = std::max({way, speed.x, speed.y, speed.z});
     }
-    return reach + 2.0;
+    return reach + way;
 }
 
 btScalar scalar_of(double x) { return static_cast<btScalar>(x); }
@@ -127,6 +130,8 @@ private:
         gDeactivationTime = scalar_of(0.3);
         world_.getSolverInfo().m_restitutionVelocityThreshold = scalar_of(1e-3);
         world_.setForceUpdateAllAabbs(false);
+        // A body that moves less than this in a tick is not swept: 40 mm by default.
+        world_.getDispatchInfo().m_allowedCcdPenetration = 0;
     }
 
     btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, const btTransform& place)
@@ -178,10 +183,19 @@ private:
         body.setCcdSweptSphereRadius(least / 2);
     }
 
-    /// A box for a plane: of the two that Bullet offers the one with the better contacts.
+    /// A box for a plane, unless the scene asks for the other: of the two that Bullet offers the
+    /// one with the better contacts.
     void add(const scene::PlaneDescription& plane)
     {
         const glm::dvec3 n = plane.normal;
+        if (options_.has_own_planes) {
+            btRigidBody& own =
+                add(std::make_unique<btStaticPlaneShape>(bullet_of(n), scalar_of(plane.offset_m)),
+                    0.0, btTransform::getIdentity());
+            give_skin(own, plane.material);
+            world_.addRigidBody(&own);
+            return;
+        }
         const double half = slab_half(scene_);
         const btVector3 up{0, 1, 0}, normal = bullet_of(n);
         const btQuaternion turn = shortestArcQuat(up, normal);

@@ -12,7 +12,7 @@ namespace hapnet::bench {
 
 namespace {
 
-constexpr std::array peer_families{"bullet", "ode"};
+constexpr std::array peer_families{"bullet", "ode", "mujoco"};
 
 /// The smallest value of a family; nullopt when it has none.
 std::optional<double> best_of(std::string_view family, std::span<const Reading> readings)
@@ -27,6 +27,7 @@ std::optional<double> best_of(std::string_view family, std::span<const Reading> 
 
 std::string number(double value)
 {
+    if (std::isnan(value)) return "–"; // it cannot run the scene
     const bool is_plain = std::abs(value) >= 1000.0 && std::abs(value) < 1e7;
     return is_plain ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
@@ -129,9 +130,13 @@ std::vector<Entry> entries_of(const Scenario& scenario, std::span<const Subject>
 {
     std::vector<Entry> entries;
     for (const Subject& subject : subjects) {
-        entries.push_back({subject.name, &subject, {}});
+        entries.push_back({subject.name, &subject, scenario.options});
+        if (scenario.is_flight && subject.has_rk4) {
+            entries.push_back({subject.name + " rk4", &subject, scenario.options});
+            entries.back().options.integrator = Integrator::rk4;
+        }
         if (!scenario.has_native || !subject.has_native_hips) continue;
-        EngineOptions options;
+        EngineOptions options = scenario.options;
         options.hip_force = HipForce::native;
         entries.push_back({subject.name + " native", &subject, options});
     }

@@ -55,9 +55,9 @@ private:
     void paper()
     {
         const auto all = entries(subjects_, {});
-        append(rows_, compare({"paper's scene, locked", "", "p50_ns", 150.0, 13.0},
+        append(rows_, compare({"paper's scene, locked", "", "p50_ns", 75.0, 13.0},
                               costs_of(paper_course(scene::Turning::locked), all, seconds())));
-        append(rows_, compare({"paper's scene, 6-DoF", "", "p50_ns", 400.0, 5.0},
+        append(rows_, compare({"paper's scene, 6-DoF", "", "p50_ns", 330.0, 5.0},
                               costs_of(paper_course(scene::Turning::free), all, seconds())));
         EngineOptions options;
         options.hip_force = HipForce::native;

@@ -35,13 +35,20 @@ enum class HipForce : std::uint8_t {
     native, // the engine's own compliant contact
 };
 
+/// How MuJoCo integrates; the other engines have one way. Implicit suits fast spins, and Runge and
+/// Kutta's fourth order flight: each takes several times as long, and has worse contacts or no
+/// better ones.
+enum class Integrator : std::uint8_t { usual, implicit, rk4 };
+
 struct EngineOptions {
     double tick_s = 1e-3;
     bool sleeping = false;        // whether bodies at rest may fall asleep
     bool begins_asleep = false;   // peers: all but body 0 sleep from the start
     bool is_stock = false;        // peers: without the tuning for bodies of centimetres
     bool has_fast_bodies = false; // peers: with continuous collision detection where there is one
+    bool has_own_planes = false;  // peers: a plane as the engine's own, also where a box is better
     HipForce hip_force = HipForce::held;
+    Integrator integrator = Integrator::usual;
     std::optional<scene::StepperKind> stepper; // ours: instead of the cheapest
 };
 
@@ -52,6 +59,7 @@ struct Subject {
     bool has_native_hips = false;
     /// nullptr when it cannot run the scene.
     std::unique_ptr<Engine> (*make)(const scene::Description&, const EngineOptions&) = nullptr;
+    bool has_rk4 = false; // an integrator of fourth order
 };
 
 inline constexpr const char* own_family = "hapnet";

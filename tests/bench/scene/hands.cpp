@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::bench {
 
@@ -98,6 +99,14 @@ Scenario steady_push(scene::Turning turning)
     return scenario;
 }
 
+Scenario steady_push_on_own_plane()
+{
+    Scenario scenario = steady_push(scene::Turning::free);
+    scenario.name += ", own planes";
+    scenario.options.has_own_planes = true;
+    return scenario;
+}
+
 Scenario symmetric_squeeze(scene::Turning turning)
 {
     scene::Description scene = lone_cube(turning);
@@ -121,17 +130,18 @@ Scenario symmetric_squeeze(scene::Turning turning)
     return scenario;
 }
 
-Scenario squeezed_oscillation(scene::Turning turning)
+Scenario squeezed_oscillation(scene::Turning turning, double stiffness)
 {
-    constexpr double stiffness = 1000.0, mass = 0.1, start_m = 2e-4, long_s = 10.0;
+    constexpr double usual = 1000.0, mass = 0.1, start_m = 2e-4, long_s = 10.0;
     scene::Description scene = lone_cube(turning);
     scene.bodies[0].position = {{start_m, 0.0, 0.0}};
     scene.hands = springs(stiffness, 0.0, 2);
-    Scenario scenario{with("d2 squeezed oscillation", turning),
+    const std::string name = stiffness == usual ? "" : fmt::format(", k = {:.0e} N/m", stiffness);
+    Scenario scenario{with("d2 squeezed oscillation" + name, turning),
                       "analytic",
                       {scene, long_s, squeeze(1e-3, 1e-3)},
                       {}};
-    scenario.measure = [](Engine& engine, const Course& course, double tick_s) {
+    scenario.measure = [stiffness](Engine& engine, const Course& course, double tick_s) {
         const double frequency = std::sqrt(2.0 * stiffness / mass);
         const double periods_end = 10.0 * 2.0 * glm::pi<double>() / frequency;
         double squares = 0.0;

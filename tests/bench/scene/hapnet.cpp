@@ -10,9 +10,12 @@ namespace hapnet::bench {
 
 namespace {
 
+std::uint64_t guarded = 0; // of all worlds that have ended
+
 class Hapnet final : public Engine {
 public:
     explicit Hapnet(scene::World world) : world_{std::move(world)} {}
+    ~Hapnet() override { guarded += world_.state().interventions.guards(); }
 
     void set_hand(std::uint32_t index, const scene::HandInput& input) override
     {
@@ -33,6 +36,8 @@ private:
 };
 
 } // namespace
+
+std::uint64_t hapnet_guards() { return guarded; }
 
 std::unique_ptr<Engine> make_hapnet(const scene::Description& scene, const EngineOptions& options)
 {

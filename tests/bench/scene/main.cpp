@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/common/options.hpp"
 #include "tests/bench/scene/crowd.hpp"
+#include "tests/bench/scene/heaps.hpp"
 #include "tests/bench/scene/instructions.hpp"
+#include "tests/bench/scene/peers.hpp"
 #include "tests/bench/scene/precision.hpp"
 #include "tests/bench/scene/stress.hpp"
+#include "tests/bench/scene/tumbling.hpp"
 
 #include <cstdlib>
 
@@ -16,9 +19,9 @@ constexpr std::string_view program = "bench_scene";
 constexpr std::string_view usage =
     "usage: bench_scene [--quick] [--json FILE] [--markdown FILE] [--csv FILE] [--plot FILE.svg]\n"
     "       bench_scene --spin SUBJECT locked|free STEPS\n"
-    "Compares Hapnet's scene with Bullet and ODE: errors against what is known, cost per step, "
+    "Compares Hapnet's scene with Bullet, ODE and MuJoCo: errors against what is known, cost per\n"
+    "step, and how far each can be driven. --json: the rows; --markdown: the rows as tables; --csv "
     "and\n"
-    "how far each can be driven. --json: the rows; --markdown: the rows as tables; --csv and\n"
     "--plot: the work-precision diagram. --quick ends within a minute, and counts no "
     "instructions.\n"
     "--spin only runs the paper's scene: it is what Valgrind counts the instructions of.\n";
@@ -47,6 +50,11 @@ base::Result<int> measure(const Options& options)
         append(rows, judge(scenario, all, options.quick ? 0.03 : 0.2));
     }
     append(rows, measure_limits(all, options.quick));
+    append(rows, measure_tumbling(all));
+    append(rows, measure_heaps(all, options.quick));
+    append(rows, compare({"every scene above", "", "guards", 0.0},
+                         std::vector<Reading>{
+                             {"hapnet", own_family, static_cast<double>(hapnet_guards())}}));
     if (!options.quick) append(rows, instructions(all));
     fmt::print("{}", rows_table(rows));
     files.write("--json", rows_json(machine, rows));

@@ -3,6 +3,7 @@
 #include "tests/bench/scene/peers.hpp"
 
 #include <dlfcn.h>
+#include <spdlog/fmt/fmt.h>
 #include <stdexcept>
 
 namespace hapnet::bench {
@@ -49,6 +50,9 @@ std::vector<Subject> subjects()
     all.push_back({"ode-quick", "ode", true, make_ode_quick});
     all.push_back({"ode-step", "ode", true, make_ode_step});
 #endif
+#ifdef HAPNET_BENCH_MUJOCO
+    all.push_back({"mujoco", "mujoco", false, make_mujoco, true});
+#endif
     return all;
 }
 
@@ -61,17 +65,26 @@ std::string missing_peers()
 #ifndef HAPNET_BENCH_ODE
     missing += " ODE (libode-dev)";
 #endif
+#ifndef HAPNET_BENCH_MUJOCO
+    missing += " MuJoCo (libmujoco-dev)";
+#endif
     return missing.empty() ? "" : "built without" + missing + ": its rows are left out";
 }
 
 std::string complaints_of_peers()
 {
+    std::vector<std::string> said;
 #ifdef HAPNET_BENCH_ODE
     if (const long count = ode_complaints(); count > 0) {
-        return "ODE reported " + std::to_string(count) + " internal errors of its direct solver";
+        said.push_back(fmt::format("ODE: {} internal errors of its direct solver", count));
     }
 #endif
-    return "";
+#ifdef HAPNET_BENCH_MUJOCO
+    if (const long count = mujoco_complaints(); count > 0) {
+        said.push_back(fmt::format("MuJoCo: {} warnings", count));
+    }
+#endif
+    return said.empty() ? "" : fmt::format("errors of peers: {}", fmt::join(said, "; "));
 }
 
 } // namespace hapnet::bench

@@ -10,6 +10,9 @@ namespace hapnet::bench {
 [[nodiscard]] std::unique_ptr<Engine> make_hapnet(const scene::Description& scene,
                                                   const EngineOptions& options);
 
+/// How often Hapnet's guards have thrown motion away, in all engines that are gone.
+[[nodiscard]] std::uint64_t hapnet_guards();
+
 /// ODE with dWorldQuickStep (iterative) and dWorldStep (direct); defined when it was found.
 [[nodiscard]] std::unique_ptr<Engine> make_ode_quick(const scene::Description& scene,
                                                      const EngineOptions& options);
@@ -17,6 +20,12 @@ namespace hapnet::bench {
                                                     const EngineOptions& options);
 /// How often ODE has reported an internal error of its direct solver.
 [[nodiscard]] long ode_complaints();
+
+/// MuJoCo; defined when it was found.
+[[nodiscard]] std::unique_ptr<Engine> make_mujoco(const scene::Description& scene,
+                                                  const EngineOptions& options);
+/// How often MuJoCo has warned of something, such as contacts that it had to leave out.
+[[nodiscard]] long mujoco_complaints();
 
 /// Bullet in single and in double precision. Both give their functions the same names, so each
 /// lies in a module of its own that is loaded apart from everything else.

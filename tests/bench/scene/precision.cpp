@@ -37,6 +37,8 @@ const char* colour_of(std::string_view subject)
     if (subject == "hapnet") return "#1b7837";
     if (subject == "bullet") return "#b2182b";
     if (subject == "bullet-double") return "#ef8a62";
+    if (subject == "mujoco") return "#762a83";
+    if (subject == "mujoco rk4") return "#c2a5cf";
     return subject == "ode-quick" ? "#67a9cf" : "#2166ac";
 }
 
@@ -77,18 +79,18 @@ std::vector<WorkPoint> measure_precision(std::span<const Subject> subjects, bool
     for (const Scenario& scenario : chosen()) {
         std::vector<WorkPoint> of_scenario;
         for (const double tick_ms : ticks_ms) {
-            std::vector<Entry> entries;
-            for (const Subject& subject : subjects) {
-                entries.push_back({subject.name, &subject, {}});
-                entries.back().options.tick_s = tick_ms * 1e-3;
-            }
+            Scenario held = scenario;
+            held.has_native = false;
+            held.options.tick_s = tick_ms * 1e-3;
+            const std::vector<Entry> entries = entries_of(held, subjects);
             const auto costs = costs_of(scenario.course, entries, seconds_each);
             for (std::size_t i = 0; i < entries.size(); ++i) {
-                const auto engine = subjects[i].make(scenario.course.scene, entries[i].options);
+                const auto engine =
+                    entries[i].subject->make(scenario.course.scene, entries[i].options);
                 if (!engine) continue;
                 const Measure measure =
                     scenario.measure(*engine, scenario.course, tick_ms * 1e-3).front();
-                of_scenario.push_back({scenario.name, measure.metric, subjects[i].name, tick_ms,
+                of_scenario.push_back({scenario.name, measure.metric, entries[i].name, tick_ms,
                                        measure.value, costs[i].value / tick_ms});
             }
         }
@@ -125,8 +127,11 @@ std::string precision_markdown(std::span<const WorkPoint> points)
     text += "\n" + rule + "\n";
     for (const auto& [scenario, by_subject] : errors) {
         text += fmt::format("| {} |", scenario);
-        for (const auto& [subject, by_tick] : by_subject) {
-            text += fmt::format(" {:.2g} ({}) |", by_tick.at(1.0), order_of(by_tick));
+        for (const std::string& subject : subjects) {
+            const auto found = by_subject.find(subject);
+            text += found == by_subject.end() ? " – |"
+                                              : fmt::format(" {:.2g} ({}) |", found->second.at(1.0),
+                                                            order_of(found->second));
         }
         text += "\n";
     }

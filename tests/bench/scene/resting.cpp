@@ -86,6 +86,15 @@ Scenario stack(double duration_s)
     return scenario;
 }
 
+Scenario stack_in_long_ticks()
+{
+    Scenario scenario = stack(10.0);
+    scenario.name = "f stack of ten, 10 s, tick 16 ms";
+    scenario.options.tick_s = 16e-3;
+    scenario.cost_ns_max = 0.0;
+    return scenario;
+}
+
 std::vector<Scenario> all_scenarios(bool is_quick)
 {
     using scene::Turning;
@@ -102,7 +111,11 @@ std::vector<Scenario> all_scenarios(bool is_quick)
         for (const double e : {0.0, 0.5, 1.0}) all.push_back(wall(e, turning));
     }
     all.push_back(bounce(1000.0, 0.008, Turning::free));
+    all.push_back(squeezed_oscillation(Turning::locked, 1e8));
+    all.push_back(squeezed_oscillation(Turning::free, 1e8));
+    all.push_back(steady_push_on_own_plane());
     all.push_back(stack(is_quick ? 3.0 : 60.0));
+    all.push_back(stack_in_long_ticks());
     all.push_back(tumble());
     all.push_back(off_centre_push());
     return all;

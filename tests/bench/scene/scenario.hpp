@@ -22,12 +22,16 @@ struct Scenario {
     bool has_native = false;     // also run with the peers' own compliant contact
     double cost_ratio_min = 0.0; // a peer's cost over Hapnet's, at least; 0: no target
     double cost_ns_max = 0.0;    // of Hapnet's step; 0: no target
+    EngineOptions options{};     // of every subject
+    bool is_flight = false;      // also run with an integrator of fourth order
 };
 
 /// The cube of every scene here: 40 mm, 0.1 kg, friction 0.3.
 [[nodiscard]] scene::BodyDescription cube();
 /// The platform on which a cube at the origin rests, with friction 0.3.
 [[nodiscard]] scene::PlaneDescription platform();
+/// The i-th of so many orientations that lie evenly among all.
+[[nodiscard]] glm::dquat even_turn(int i, int count);
 /// A cube and no more: no gravity, no hands.
 [[nodiscard]] scene::Description lone_cube(scene::Turning turning);
 
@@ -42,10 +46,15 @@ struct Scenario {
                               double gap_m = 1.23e-4);
 [[nodiscard]] Scenario steady_push(scene::Turning turning);
 [[nodiscard]] Scenario symmetric_squeeze(scene::Turning turning);
-[[nodiscard]] Scenario squeezed_oscillation(scene::Turning turning);
+[[nodiscard]] Scenario squeezed_oscillation(scene::Turning turning,
+                                            double stiffness_n_per_m = 1000.0);
 [[nodiscard]] Scenario asymmetric_squeeze(scene::Turning turning);
 [[nodiscard]] Scenario wall(double restitution, scene::Turning turning);
 [[nodiscard]] Scenario stack(double duration_s);
+/// The stack in ticks so long that each engine is at or beyond the end of what it can do.
+[[nodiscard]] Scenario stack_in_long_ticks();
+/// The steady push on each engine's own plane, in place of what makes the better contacts.
+[[nodiscard]] Scenario steady_push_on_own_plane();
 
 /// The paper's scene, pushed to and fro between two hands: as it is, or with a cube that can turn
 /// and has dry friction.

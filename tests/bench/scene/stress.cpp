@@ -26,16 +26,15 @@ std::vector<Row> ask(const Question& question, std::span<const Subject> subjects
     return compare(question, readings);
 }
 
-/// The worst of eight bounces that begin at different moments of a tick.
-double worst_bounce(const Subject& subject, double stiffness, scene::Turning turning)
+/// The worst of some bounces that begin at different moments of a tick.
+double worst_bounce(const Entry& entry, double stiffness, scene::Turning turning, int phases)
 {
-    constexpr int phases = 8;
     constexpr double way_of_a_tick = 0.1 * tick_s; // metres
     double worst = 0.0;
     for (int i = 0; i < phases; ++i) {
         const double gap = 1.23e-4 + way_of_a_tick * i / phases;
         const Scenario scenario = bounce(stiffness, 0.0, turning, gap);
-        const auto engine = subject.make(scenario.course.scene, {});
+        const auto engine = entry.subject->make(scenario.course.scene, entry.options);
         if (!engine) return std::numeric_limits<double>::quiet_NaN();
         worst = std::max(worst, scenario.measure(*engine, scenario.course, tick_s)[0].value);
     }
@@ -51,10 +50,26 @@ std::vector<Row> stiffness(std::span<const Subject> subjects, scene::Turning tur
         const Question question{fmt::format("bounces at k dt^2/m = {:g}{}", s, suffix), "analytic",
                                 "worst_relative_energy_error", 1e-9};
         append(rows, ask(question, subjects, [&](const Subject& subject) {
-                   return worst_bounce(subject, stiffness, turning);
+                   return worst_bounce({subject.name, &subject, {}}, stiffness, turning, 8);
                }));
     }
     return rows;
+}
+
+/// The bounce of c1 at more moments of a tick, with the peers' own springs too.
+std::vector<Row> bounces(std::span<const Subject> subjects, scene::Turning turning)
+{
+    constexpr int phases = 16;
+    constexpr double stiffness = 1000.0;
+    const Scenario one = bounce(stiffness, 0.0, turning);
+    std::vector<Reading> readings;
+    for (const Entry& entry : entries_of(one, subjects)) {
+        readings.push_back(
+            {entry.name, entry.subject->family, worst_bounce(entry, stiffness, turning, phases)});
+    }
+    const Question question{fmt::format("{}, worst of {} phases", one.name, phases), "analytic",
+                            "worst_relative_energy_error", 1e-9};
+    return compare(question, readings);
 }
 
 /// How far the upper of two cubes has moved after 5 s, m, when it is so many times heavier.
@@ -136,6 +151,41 @@ std::vector<Row> tunnelling(std::span<const Subject> subjects)
                });
 }
 
+constexpr int shots = 64; // at a wall, each in another orientation and at another phase of a tick
+
+/// Whether the i-th of the cubes of 10 mm that fly at a fixed wall comes through it. Every second
+/// one spins.
+bool passes_wall(const Subject& subject, int i, double speed, double thickness)
+{
+    constexpr double half = 0.005, extent = 0.5, clear = 0.01;
+    constexpr int ticks_before = 2, ticks = 14;
+    scene::Description scene = lone_cube(scene::Turning::free);
+    scene::BodyDescription& one = scene.bodies[0];
+    one.half = glm::dvec3{half};
+    one.mass_kg = 0.0015625;
+    one.orientation = even_turn(i, shots);
+    const double way = speed * tick_s * (ticks_before + static_cast<double>(i) / shots);
+    one.position = {{-clear - way, 0.0, 0.0}};
+    one.velocity = {{speed, 0.0, 0.0}};
+    if (i % 2 == 0) one.angular_velocity = 500.0 * (even_turn(i + 1, shots) * glm::dvec3{1, 0, 0});
+    scene.bodies.push_back(cube());
+    scene.bodies[1].movable = false;
+    scene.bodies[1].half = {thickness / 2.0, extent, extent};
+    scene.bodies[1].position = {{thickness / 2.0, 0.0, 0.0}};
+    for (auto& body : scene.bodies) body.material.restitution = 0.5;
+    EngineOptions options;
+    options.has_fast_bodies = true;
+    const auto engine = subject.make(scene, options);
+    if (!engine) return true;
+    bool has_passed = false;
+    run(*engine, {scene, ticks * tick_s, {}}, tick_s, [&](double) {
+        const glm::dvec3 p = engine->state(0).position.value;
+        const bool is_beside = std::abs(p.y) > extent || std::abs(p.z) > extent;
+        has_passed = has_passed || (p.x > thickness / 2.0 && !is_beside);
+    });
+    return has_passed;
+}
+
 /// The share of senseless inputs that were refused and left the world as it was.
 double refused_share()
 {
@@ -164,6 +214,26 @@ double refused_share()
 
 } // namespace
 
+std::vector<Row> turned_cubes(std::span<const Subject> subjects)
+{
+    constexpr std::array walls_m{0.002, 0.01, 0.02, 0.04};
+    std::vector<Row> rows;
+    for (const double speed : {10.0, 30.0, 100.0, 300.0, 1000.0}) {
+        const Question question{fmt::format("turned cubes at {:g} m/s, walls of 2 to 40 mm", speed),
+                                "", fmt::format("passed_of_{}", shots * walls_m.size()), 0.0};
+        append(rows, ask(question, subjects, [&](const Subject& subject) {
+                   int passed = 0;
+                   for (const double wall_m : walls_m) {
+                       for (int i = 0; i < shots; ++i) {
+                           if (passes_wall(subject, i, speed, wall_m)) ++passed;
+                       }
+                   }
+                   return static_cast<double>(passed);
+               }));
+    }
+    return rows;
+}
+
 double last_held(std::span<const double> trials, const std::function<bool(double)>& holds)
 {
     double last = 0.0;
@@ -178,9 +248,12 @@ std::vector<Row> measure_limits(std::span<const Subject> subjects, bool is_quick
 {
     std::vector<Row> rows = stiffness(subjects, scene::Turning::locked);
     append(rows, stiffness(subjects, scene::Turning::free));
+    append(rows, bounces(subjects, scene::Turning::locked));
+    append(rows, bounces(subjects, scene::Turning::free));
     append(rows, mass_ratios(subjects));
     append(rows, long_ticks(subjects, is_quick ? 1.0 : 10.0));
     append(rows, tunnelling(subjects));
+    append(rows, turned_cubes(subjects));
     append(rows,
            compare({"NaN, infinity, 1e30", "", "refused_share", 1.0, 0.0, Direction::at_least},
                    std::vector<Reading>{{"hapnet", own_family, refused_share()}}));

@@ -12,8 +12,8 @@ namespace {
 constexpr std::string_view program = "work_precision";
 constexpr std::string_view usage =
     "usage: work_precision [--quick] [--csv FILE] [--plot FILE.svg]\n"
-    "Error against cost for ticks of 4 to 0.25 ms, of Hapnet's scene, Bullet and ODE. Without\n"
-    "--csv the table goes to stdout.\n";
+    "Error against cost for ticks of 4 to 0.25 ms, of Hapnet's scene, Bullet, ODE and MuJoCo.\n"
+    "Without --csv the table goes to stdout.\n";
 
 base::Result<int> measure(const Options& options)
 {

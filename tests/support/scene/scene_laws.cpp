@@ -344,10 +344,12 @@ PlayOutcome judge(const RandomPlay& play, std::uint64_t seed)
         if (const auto complaint = laws.after(world)) {
             outcome.complaint = fmt::format("tick {}: {}", world.ticks(), *complaint);
             outcome.worst = laws.worst();
+            outcome.interventions = world.state().interventions;
             return outcome;
         }
     }
     outcome.worst = laws.worst();
+    outcome.interventions = world.state().interventions;
     outcome.hash = world.hash();
     const std::uint64_t end = world.ticks();
     world.restore(*snapshot);

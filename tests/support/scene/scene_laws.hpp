@@ -93,6 +93,7 @@ private:
 struct PlayOutcome {
     std::optional<std::string> complaint; // with the tick
     LawFigures worst;
+    scene::Interventions interventions;
     std::uint64_t hash = 0;
 };
 

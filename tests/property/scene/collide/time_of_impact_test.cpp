@@ -84,5 +84,64 @@ TEST(FirstTouch, IsNotMissed)
     }
 }
 
+/// Two boxes that fly and spin steadily toward each other, for a second.
+struct Spinners {
+    SteadyBox a;
+    SteadyBox b;
+
+    [[nodiscard]] double gap_at(double time) const
+    {
+        return gap_between(a.at(time), b.at(time)).distance;
+    }
+};
+
+Spinners draw_spinners(std::uint64_t seed)
+{
+    const Flight flight = draw(seed);
+    BoxesDrawn drawn{base::Seed{seed}.stream("spin")};
+    const auto steady = [&](const OrientedBox& box, const glm::dvec3& velocity) {
+        SteadyBox steadily{.centre = box.centre,
+                           .orientation = glm::quat_cast(box.axes),
+                           .velocity = velocity,
+                           .spin = drawn.uniform(0.0, 30.0) * drawn.direction(),
+                           .half = box.half};
+        steadily.radius = std::sqrt(glm::dot(box.half, box.half));
+        return steadily;
+    };
+    Spinners both{steady(flight.a, glm::dvec3{0.0}), steady(flight.b, 0.1 * flight.velocity)};
+    if (drawn.one_in(3)) both.a.spin = glm::dvec3{0.0};
+    return both;
+}
+
+TEST(AdvanceToGap, FindsTheFirstTimeThatAThousandSmallStepsFind)
+{
+    constexpr int moments = 1000;
+    std::uint64_t reached = 0;
+    std::uint64_t cleared = 0;
+    for (std::uint64_t seed = 0; seed < pairs; ++seed) {
+        const Spinners both = draw_spinners(seed);
+        const double smallest = smallest_half(both.a.at(0.0), both.b.at(0.0));
+        const GapSearch asked{
+            .gap = -0.01 * smallest, .near = 1e-3 * smallest, .from = 0.0, .to = 1.0};
+        if (both.gap_at(0.0) <= asked.gap + asked.near) continue;
+        std::uint32_t steps = 10'000;
+        const Advanced advanced = advance_to_gap(both.a, both.b, asked, steps);
+        ASSERT_NE(advanced.end, Advanced::End::unfinished) << seed;
+        for (int k = 0; k <= moments; ++k) { // until then it is open
+            const double time = advanced.time * k / moments;
+            ASSERT_GT(both.gap_at(time), asked.gap) << seed << " at " << time;
+        }
+        if (advanced.end == Advanced::End::clear) {
+            EXPECT_EQ(advanced.time, asked.to) << seed;
+            ++cleared;
+        } else {
+            EXPECT_LE(both.gap_at(advanced.time), asked.gap + asked.near) << seed;
+            ++reached;
+        }
+    }
+    EXPECT_GT(reached, pairs / 8);
+    EXPECT_GT(cleared, pairs / 8);
+}
+
 } // namespace
 } // namespace hapnet::scene::time_of_impact_test

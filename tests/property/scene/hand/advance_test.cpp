@@ -4,7 +4,10 @@
 #include "proto/base/space.hpp"
 #include "tests/unit/scene/hand/rig.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
+#include <tuple>
+#include <vector>
 
 namespace hapnet::scene {
 namespace {
@@ -115,6 +118,131 @@ TEST(AdvanceProperty, HandsAtRestWithDampersNeverAddEnergy)
             before = now;
         }
         ASSERT_LT(before, start) << scene;
+    }
+}
+
+/// Up to eight hands, some of which hold, and now and then drag; however stiff and fast.
+struct HostileRig {
+    explicit HostileRig(Draw& draw) : rig{random_rig(draw)}
+    {
+        const double fast = draw.between(0.0, 1.0) < 0.3 ? 20.0 : 1.0;
+        rig.body.velocity *= fast;
+        rig.body.angular_momentum *= fast;
+        rig.acceleration = draw.vector(50.0);
+        while (rig.hands.size() < 8 && draw.between(0.0, 1.0) < 0.5) {
+            Hand hand = rig.hands.front();
+            hand.position = draw.vector(0.03);
+            hand.velocity = draw.vector(0.3);
+            rig.hands.push_back(hand);
+        }
+        dynamics = rig.dynamics();
+        if (draw.between(0.0, 1.0) < 0.3) {
+            dynamics.drag = std::pow(10.0, draw.between(-1.0, 5.0));
+            dynamics.drag_normal = {0.0, 1.0, 0.0};
+        }
+        for (const Hand& hand : rig.hands) {
+            springs.push_back(rig.touch(rig.body, hand));
+            springs.back().holds = draw.between(0.0, 1.0) < 0.2;
+            springs.back().stretch = draw.vector(0.005);
+        }
+    }
+
+    [[nodiscard]] double kinetic_energy(const MovingBody& body) const
+    {
+        return 0.5 * rig.mass * glm::dot(body.velocity, body.velocity) +
+               0.5 * glm::dot(body.angular_momentum,
+                              dynamics.inverse_inertia * body.angular_momentum);
+    }
+
+    Rig rig;
+    BodyDynamics dynamics;
+    std::vector<HandSpring> springs;
+};
+
+/// What the inertia of the start leaves open of a box that turns: see SceneLaws.
+double vague_energy(const HostileRig& hostile, const MovingBody& before, const MovingBody& after)
+{
+    if (hostile.dynamics.rotates_uniformly) return 0.0;
+    const glm::dvec3 inertia = box_inertia(hostile.rig.mass, hostile.rig.half);
+    const double least = std::min({inertia.x, inertia.y, inertia.z});
+    const double most = std::max({inertia.x, inertia.y, inertia.z});
+    const auto size = [](const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); };
+    const glm::dmat3& light = hostile.dynamics.inverse_inertia;
+    const double spin =
+        std::max(size(light * before.angular_momentum), size(light * after.angular_momentum));
+    const double angle = 1e-3 * spin;
+    double vague = (most / least - 1.0) * angle * spin *
+                   size(after.angular_momentum - before.angular_momentum);
+    if (angle > 0.25) {
+        vague += 0.5 * (1.0 / least - 1.0 / most) *
+                 (glm::dot(before.angular_momentum, before.angular_momentum) +
+                  glm::dot(after.angular_momentum, after.angular_momentum));
+    }
+    return vague;
+}
+
+TEST(AdvanceProperty, HandsGiveWhatTheirSpringsStoredAndTheirMotionDidAndNoMore)
+{
+    Draw draw{4};
+    int braked = 0;
+    for (int scene = 0; scene < 3000; ++scene) {
+        HostileRig hostile{draw};
+        MovingBody& body = hostile.rig.body;
+        const MovingBody before = body;
+        const HandEnergy given = PressedModes modes;
+        advance(body, hostile.dynamics, hostile.springs, hostile.rig.work, 1e-3, modes);
+        if (given.is_braked) ++braked;
+        const double start = hostile.kinetic_energy(before);
+        const double end = hostile.kinetic_energy(body);
+        const glm::dvec3 force = hostile.rig.mass * hostile.rig.acceleration;
+        const double work = std::max(glm::dot(force, 0.5e-3 * (before.velocity + body.velocity)),
+                                     glm::dot(force, body.position - before.position));
+        const double there = start + end + std::abs(work);
+        ASSERT_LE(end - start, work + given.stored + given.driven +
+                                   vague_energy(hostile, before, body) + 1e-6 * there)
+            << scene;
+    }
+    EXPECT_GT(braked, 0);
+    EXPECT_LT(braked, 300);
+}
+
+TEST(AdvanceProperty, NoHandGivesMoreThanItsGreatestForceInATick)
+{
+    Draw draw{5};
+    for (int scene = 0; scene < 3000; ++scene) {
+        HostileRig hostile{draw};
+        std::ignore = PressedModes modes;
+        advance(hostile.rig.body, hostile.dynamics, hostile.springs, hostile.rig.work, 1e-3, modes);
+        for (std::size_t i = 0; i < hostile.springs.size(); ++i) {
+            const glm::dvec3& impulse = hostile.rig.work[i].impulse;
+            ASSERT_LE(std::sqrt(glm::dot(impulse, impulse)),
+                      1e-3 * hostile.springs[i].force_max * (1.0 + 1e-8))
+                << scene << ' ' << i;
+        }
+    }
+}
+
+TEST(AdvanceProperty, AmongStiffHandsAtRestABodyKeepsItsEnergyOrLosesIt)
+{
+    Draw draw{6};
+    for (int scene = 0; scene < 60; ++scene) {
+        Rig rig;
+        if (scene % 2 == 1) rig.half = {0.02, 0.03, 0.015};
+        rig.body.velocity = draw.vector(1.0);
+        rig.body.angular_momentum = box_inertia(rig.mass, rig.half) * draw.vector(10.0);
+        const double stiffness = std::pow(10.0, draw.between(5.0, 8.0));
+        const std::size_t hands = 1 + static_cast<std::size_t>(scene) % 8;
+        for (std::size_t i = 0; i < hands; ++i) {
+            glm::dvec3 at = 0.7 * rig.half * draw.vector(1.0);
+            const int axis = static_cast<int>(i % 3);
+            at[axis] = (i / 3 % 2 == 1 ? -1.0 : 1.0) * (rig.half[axis] + 0.0052);
+            rig.hands.push_back({.position = at, .stiffness = stiffness});
+        }
+        const double start = rig.energy();
+        for (int i = 0; i < 300; ++i) {
+            rig.tick(1e-3);
+            ASSERT_LE(rig.energy(), 1.03 * start) << scene << ' ' << i;
+        }
     }
 }
 

@@ -48,6 +48,19 @@ TEST(Explain, EveryFeatureThatIsOnHasACheaperTickThatLacksIt)
     EXPECT_TRUE(says(to_table(explanation), "movable 100 (100g to 100kg, 1:1000)"));
 }
 
+TEST(Explain, SaysWhatATickTakesAtMost)
+{
+    scene::Description description = scene::paper_scene();
+    description.bodies[0].turning = scene::Turning::free;
+    const auto explanation = explain(description, 1ms, true);
+    // The cube with the platform, and with the static cube.
+    EXPECT_EQ(explanation.bound.contacts, 2U);
+    EXPECT_EQ(explanation.bound.pairs, 2U);
+    const auto text = to_table(explanation);
+    EXPECT_TRUE(says(text, "A tick takes at most:\n  2 pairs examined\n")) << text;
+    EXPECT_EQ(to_json(explanation)["tick_bound"]["contacts"], 2);
+}
+
 TEST(Explain, ASceneWithoutHandsHasNothingToSayOfThem)
 {
     scene::Description description;

@@ -92,5 +92,60 @@ TEST(FirstTouch, IsOnTheAxisOfTheEdgesWhenEdgesMeet)
     EXPECT_NEAR(impact->normal.y, 1.0, 1e-15);
 }
 
+SteadyBox steady_cube(const glm::dvec3& centre, const glm::dvec3& velocity, const glm::dvec3& spin)
+{
+    return {.centre = centre,
+            .velocity = velocity,
+            .spin = spin,
+            .half = glm::dvec3{0.5},
+            .radius = std::sqrt(0.75)};
+}
+
+TEST(AdvanceToGap, TakesOneStepAndALookWithoutRotation)
+{
+    std::uint32_t steps = 2;
+    const Advanced there =
+        advance_to_gap(steady_cube({}, {}, {}), steady_cube({3.0, 0.25, 0.0}, {-4.0, 0.0, 0.0}, {}),
+                       {.gap = 0.0, .near = 1e-12, .to = 1.0}, steps);
+    EXPECT_EQ(there.end, Advanced::End::reached);
+    EXPECT_NEAR(there.time, 0.5, 1e-12);
+    EXPECT_EQ(steps, 0U);
+}
+
+TEST(AdvanceToGap, TakesNoLookAtWhatFliesPast)
+{
+    std::uint32_t steps = 0;
+    const Advanced past =
+        advance_to_gap(steady_cube({}, {}, {}), steady_cube({9.0, 2.0, 0.0}, {-20.0, 0.0, 0.0}, {}),
+                       {.to = 1.0}, steps);
+    EXPECT_EQ(past.end, Advanced::End::clear);
+    EXPECT_EQ(past.time, 1.0);
+}
+
+TEST(AdvanceToGap, FindsTheCornerThatComesRoundToAPlane)
+{
+    // The diagonal of a face stands upright after an eighth of a turn.
+    const double height = 0.5 * (0.5 + std::sqrt(0.5));
+    std::uint32_t steps = 100;
+    const Advanced round =
+        advance_to_gap(PlaneSurface{}, steady_cube({0.0, height, 0.0}, {}, {0.0, 0.0, 1.0}),
+                       {.gap = 0.0, .near = 1e-9, .to = 1.0}, steps);
+    EXPECT_EQ(round.end, Advanced::End::reached);
+    // (cos t + sin t) / 2 = height
+    EXPECT_NEAR(0.5 * (std::cos(round.time) + std::sin(round.time)), height, 1e-9);
+    EXPECT_GT(steps, 80U);
+}
+
+TEST(AdvanceToGap, SaysHowFarItCameWhenItsStepsAreUsedUp)
+{
+    const SteadyBox wall = steady_cube({}, {}, {});
+    const SteadyBox spinner = steady_cube({1.4, 0.0, 0.0}, {-0.1, 0.0, 0.0}, {0.0, 0.0, 5.0});
+    std::uint32_t steps = 2;
+    const Advanced some =
+        advance_to_gap(wall, spinner, {.gap = 0.0, .near = 1e-12, .to = 1.0}, steps);
+    ASSERT_EQ(some.end, Advanced::End::unfinished);
+    EXPECT_GT(gap_between(wall.at(some.time), spinner.at(some.time)).distance, 0.0);
+}
+
 } // namespace
 } // namespace hapnet::scene::time_of_impact_test

@@ -33,6 +33,7 @@ struct Rig {
     std::vector<Hand> hands{};
     glm::dvec3 acceleration{0.0};
     std::array<SpringImpulse, 8> work{};
+    PressedModes modes{};
 
     [[nodiscard]] glm::dmat3 inverse_inertia(const MovingBody& of) const
     {
@@ -94,7 +95,7 @@ struct Rig {
     {
         std::vector<HandSpring> springs;
         for (const Hand& hand : hands) springs.push_back(touch(body, hand));
-        advance(body, dynamics(), springs, work, seconds);
+        advance(body, dynamics(), springs, work, seconds, modes);
         for (Hand& hand : hands) hand.position += seconds * hand.velocity;
     }
 

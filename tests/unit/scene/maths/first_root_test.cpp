@@ -67,5 +67,20 @@ TEST_F(FirstRoot, TakesTheNonzeroLevelOfAnythingThatStandsStill)
     EXPECT_FALSE(root());
 }
 
+TEST_F(FirstRoot, IsGivenUpWhenItsStepsAreSpentAndSaysHowFarItLooked)
+{
+    watch_.level = 0.9999999e-4; // as close as that takes more than two steps
+    watch_.displacement_weight[0] = 1.0;
+    int steps = 2;
+    const RootSearch search = search_root(watch_, trajectories_, 0.0, tick, steps);
+    EXPECT_EQ(search.end, RootSearch::End::given_up);
+    EXPECT_EQ(steps, 0);
+    EXPECT_GT(search.time, 0.0);
+    EXPECT_LT(search.time, *root());
+    const RootSearch next = search_root(watch_, trajectories_, 0.0, tick, steps);
+    EXPECT_EQ(next.end, RootSearch::End::given_up);
+    EXPECT_EQ(next.time, 0.0);
+}
+
 } // namespace
 } // namespace hapnet::scene

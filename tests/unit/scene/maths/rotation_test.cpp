@@ -119,6 +119,19 @@ TEST(Rotation, BeyondAllSenseNothingTurnsAndNothingBreaks)
     EXPECT_EQ(still, (glm::dquat{1.0, 0.0, 0.0, 0.0}));
 }
 
+TEST(Rotation, TheTurnBetweenTwoOrientationsLeadsFromOneToTheOther)
+{
+    const glm::dquat from = base::normalized({0.3, -0.5, 0.7, 0.2});
+    for (const double angle : {0.0, 1e-9, 0.1, 1.0, 3.0, 3.14159}) {
+        const glm::dvec3 turn = angle * glm::dvec3{0.36, -0.48, 0.8};
+        const glm::dvec3 found = turn_between(from, rotated(from, turn));
+        EXPECT_NEAR(glm::distance(found, turn), 0.0, 1e-10) << angle;
+    }
+    // The shorter of the two ways round.
+    const glm::dvec3 back = turn_between(from, rotated(from, {0.0, 4.0, 0.0}));
+    EXPECT_NEAR(back.y, 4.0 - 2.0 * 3.14159265358979, 1e-10);
+}
+
 TEST(Rotation, AxesAreThoseOfTheQuaternion)
 {
     const glm::dquat orientation = base::normalized({0.3, -0.5, 0.7, 0.2});

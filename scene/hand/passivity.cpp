@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/hand/passivity.hpp"
+
+#include "scene/hand/contact_phases.hpp"
+#include "scene/hand/surface.hpp"
+#include "scene/maths/rotation.hpp"
+#include "scene/maths/vector.hpp"
+
+#include <algorithm>
+
+namespace hapnet::scene {
+
+namespace {
+
+// Of all energies that are there: what their differences may be off by.
+constexpr double energy_rounding = 1e-9;
+// Of what is stored and exchanged: what a rule may gain that holds directions while they turn.
+constexpr double second_order = 0.03;
+// Of the greatest force: the rounding of a sum of phases.
+constexpr double force_rounding = 1e-9;
+// Radians in a tick beyond which the inertia at the start says little of the end.
+constexpr double far_turn = 0.25;
+
+/// Of a spring at the start of its tick.
+double stored_energy(const HandSpring& spring)
+{
+    if (!spring.holds) return spring_energy(spring, -spring.gap);
+    return spring_energy(spring, length(spring.stretch));
+}
+
+/// What the springs store at the start, and what the hands' motion did by these impulses.
+HandEnergy energy_of(std::span<const HandSpring> springs, std::span<const SpringImpulse> work)
+{
+    HandEnergy energy;
+    for (std::size_t i = 0; i < springs.size(); ++i) {
+        energy.stored += stored_energy(springs[i]);
+        energy.driven += glm::dot(work[i].impulse, springs[i].velocity);
+    }
+    return energy;
+}
+
+/// The energy that a body gains by its hands when their impulses are scaled by a share, less the
+/// work of the hands' own motion: none + linear share + square share^2.
+struct EnergyOfShare {
+    double none = 0.0;
+    double linear = 0.0;
+    double square = 0.0;
+
+    [[nodiscard]] double at_whole() const { return none + linear + square; }
+    /// The largest share, at most 1, that gains no more; where there is none, that which gains
+    /// least.
+    [[nodiscard]] double share_within(double most) const
+    {
+        if (at_whole() <= most || !(square > 0.0)) return 1.0;
+        const double room = most - none;
+        const double root = std::sqrt(std::max(linear * linear + 4.0 * square * room, 0.0));
+        const double share =
+            linear > 0.0 ? 2.0 * room / (linear + root) : (root - linear) / (2.0 * square);
+        return std::clamp(share, 0.0, 1.0);
+    }
+};
+
+struct MomentsRatio {
+    double spread = 0.0; // the largest moment of inertia over the smallest, less 1
+    double range = 0.0;  // of 1/2 L I^-1 L for |L| = 1
+};
+MomentsRatio moments_of(const BodyDynamics& dynamics)
+{
+    const glm::dmat3& light = dynamics.inverse_inertia;
+    const double trace = light[0].x + light[1].y + light[2].z;
+    if (dynamics.rotates_uniformly || trace == 0.0) return {};
+    const glm::dvec3 squares = dynamics.half * dynamics.half;
+    const glm::dvec3 about{squares.y + squares.z, squares.z + squares.x, squares.x + squares.y};
+    const double most = std::max(std::max(about.x, about.y), about.z);
+    const double least = std::min(std::min(about.x, about.y), about.z);
+    const double sum = 1.0 / about.x + 1.0 / about.y + 1.0 / about.z;
+    return {most / least - 1.0, 0.5 * trace / sum * (1.0 / least - 1.0 / most)};
+}
+
+class PassivityCheck {
+public:
+    PassivityCheck(const HandTick& body, std::span<const HandSpring> springs, double driven)
+        : body_{body},
+          springs_{springs},
+          free_{body.start},
+          mass_{mass_of(body.dynamics)},
+          driven_{driven}
+    {
+        advance_freely(free_, body.dynamics, body.tick);
+        velocity_ = body.end.velocity - free_.velocity;
+        angular_momentum_ = body.end.angular_momentum - free_.angular_momentum;
+        before_ = kinetic_energy(body.start);
+        after_ = kinetic_energy(body.end);
+    }
+
+    /// The share of the impulses that is passive.
+    [[nodiscard]] double share(double stored, SpringsAtEnd at_end) const
+    {
+        const double rounding = energy_rounding * (before_ + after_ + stored + std::abs(driven_));
+        const glm::dmat3& light = body_.dynamics.inverse_inertia;
+        const EnergyOfShare at_start = energy_with(light, light);
+        double share = 1.0;
+        // What is vague by turning shrinks with the share.
+        constexpr int rounds_max = 8;
+        for (int round = 0; round < rounds_max; ++round) {
+            const double before = share;
+            share = at_start.share_within(stored + rounding + turning_slack(before));
+            if (share >= before) break;
+        }
+        if (at_end == SpringsAtEnd::ignored) return share;
+        // What is stored at the end belongs to how the body lies then, as does its inertia.
+        const EnergyOfShare energy =
+            energy_with(inverse_inertia_of(body_.end), inverse_inertia_of(free_));
+        const double then = stored_at(body_.end);
+        const double vague = second_order * std::max(std::max(stored, then), 0.25 * energy.square);
+        return std::min(share, energy.share_within(stored - then + rounding + vague));
+    }
+
+    /// Scales what the hands did to the body. It ends where the springs store less: where they
+    /// pushed it to, or where the smaller push would have.
+    void scale(double share)
+    {
+        MovingBody& end = body_.end;
+        MovingBody less = free_;
+        less.position += share * (end.position - free_.position);
+        less.velocity += share * velocity_;
+        less.angular_momentum += share * angular_momentum_;
+        if (free_.orientation != end.orientation) {
+            const double along = glm::dot(free_.orientation, end.orientation);
+            const double other = along < 0.0 ? -share : share;
+            less.orientation =
+                glm::normalize((1.0 - share) * free_.orientation + other * end.orientation);
+        }
+        if (stored_at(less) > stored_at(end)) {
+            less.position = end.position;
+            less.orientation = end.orientation;
+        }
+        end = less;
+    }
+
+private:
+    /// With the inverse inertia at the end, and the one that it has there without hands.
+    [[nodiscard]] EnergyOfShare energy_with(const glm::dmat3& light,
+                                            const glm::dmat3& light_free) const
+    {
+        const BodyDynamics& dynamics = body_.dynamics;
+        const glm::dvec3& momentum = free_.angular_momentum;
+        const glm::dvec3 gained = (0.5 * body_.tick) * dynamics.acceleration;
+        const glm::dvec3 twist = (0.5 * body_.tick) * dynamics.torque;
+        EnergyOfShare energy;
+        energy.none = 0.5 * glm::dot(momentum, (light - light_free) * momentum);
+        if (dynamics.drag > 0.0) energy.none += std::min(lost_by_drag(), 0.0);
+        energy.linear = glm::dot(mass_ * velocity_, free_.velocity - gained) +
+                        glm::dot(angular_momentum_, light * (momentum - twist)) - driven_;
+        energy.square = 0.5 * (glm::dot(mass_ * velocity_, velocity_) +
+                               glm::dot(angular_momentum_, light * angular_momentum_));
+        return energy;
+    }
+
+    [[nodiscard]] glm::dmat3 inverse_inertia_of(const MovingBody& body) const
+    {
+        const glm::dmat3& light = body_.dynamics.inverse_inertia;
+        if (body_.dynamics.rotates_uniformly) return light;
+        const glm::dmat3 turn =
+            axes_of(body.orientation) * glm::transpose(axes_of(body_.start.orientation));
+        return turn * light * glm::transpose(turn);
+    }
+
+    [[nodiscard]] double kinetic_energy(const MovingBody& body) const
+    {
+        return 0.5 * (glm::dot(mass_ * body.velocity, body.velocity) +
+                      glm::dot(body.angular_momentum,
+                               body_.dynamics.inverse_inertia * body.angular_momentum));
+    }
+
+    [[nodiscard]] double lost_by_drag() const
+    {
+        const double tick = body_.tick;
+        const BodyDynamics& dynamics = body_.dynamics;
+        const glm::dvec3 force = mass_ * dynamics.acceleration;
+        const glm::dvec3 steady = (0.5 * tick) * (body_.start.velocity + free_.velocity);
+        const double work =
+            std::max(glm::dot(force, steady),
+                     glm::dot(force, free_.position - body_.start.position)) +
+            (0.5 * tick) * glm::dot(dynamics.torque,
+                                    dynamics.inverse_inertia *
+                                        (body_.start.angular_momentum + free_.angular_momentum));
+        return kinetic_energy(free_) - before_ - work;
+    }
+
+    /// By how much the energy of turning may be wrong that the inertia of the start says.
+    [[nodiscard]] double turning_slack(double share) const
+    {
+        const MomentsRatio moments = moments_of(body_.dynamics);
+        if (moments.spread == 0.0) return 0.0;
+        const glm::dmat3& light = body_.dynamics.inverse_inertia;
+        const glm::dvec3& before = body_.start.angular_momentum;
+        const glm::dvec3 given = share * angular_momentum_;
+        const glm::dvec3 after = free_.angular_momentum + given;
+        const double spin = std::max(length(light * before), length(light * after));
+        const double angle = spin * body_.tick;
+        const double slack = moments.spread * std::min(angle, 1.0) * spin * length(given);
+        if (angle <= far_turn) return slack;
+        return slack + moments.range * (glm::dot(before, before) + glm::dot(after, after));
+    }
+
+    [[nodiscard]] double stored_at(const MovingBody& body) const
+    {
+        const glm::dmat3 axes_before = axes_of(body_.start.orientation);
+        const glm::dmat3 axes = axes_of(body.orientation);
+        const glm::dvec3 moved = body.position - body_.start.position;
+        double sum = 0.0;
+        for (const HandSpring& spring : springs_) {
+            const glm::dvec3 hand = body_.tick * spring.velocity - moved;
+            if (spring.holds) {
+                const glm::dvec3 arm = axes * (spring.arm * axes_before);
+                sum += spring_energy(spring, length(hand + spring.stretch + spring.arm - arm));
+            } else {
+                const BoxSurface surface{spring, body_.dynamics.half, axes_before};
+                const glm::dvec3 from = spring.arm + (spring.radius + spring.gap) * spring.normal;
+                sum += spring_energy(spring, surface.at(axes, from + hand).depth);
+            }
+        }
+        return sum;
+    }
+
+    HandTick body_;
+    std::span<const HandSpring> springs_;
+    MovingBody free_; // at the end, without hands
+    glm::dvec3 mass_;
+    double driven_;
+    glm::dvec3 velocity_{0.0};         // by the hands
+    glm::dvec3 angular_momentum_{0.0}; // by the hands
+    double before_ = 0.0;
+    double after_ = 0.0;
+};
+
+/// The share with which no spring gives more than it can.
+double share_within_forces(std::span<const HandSpring> springs, std::span<const SpringImpulse> work,
+                           double tick)
+{
+    double share = 1.0;
+    for (std::size_t i = 0; i < springs.size(); ++i) {
+        const double most = springs[i].force_max * tick;
+        const double given = length(work[i].impulse);
+        if (given > (1.0 + force_rounding) * most) share = std::min(share, most / given);
+    }
+    return share;
+}
+
+} // namespace
+
+HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> springs,
+                        std::span<SpringImpulse> work, SpringsAtEnd at_end)
+{
+    HandEnergy energy = energy_of(springs, work);
+    PassivityCheck check{body, springs, energy.driven};
+    const double share =
+        std::min(check.share(energy.stored, at_end), share_within_forces(springs, work, body.tick));
+    if (share >= 1.0) return energy;
+    check.scale(share);
+    for (std::size_t i = 0; i < springs.size(); ++i) work[i].impulse *= share;
+    energy.driven *= share;
+    energy.is_braked = true;
+    return energy;
+}
+
+} // namespace hapnet::scene

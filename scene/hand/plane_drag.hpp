@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/hand/advance.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace hapnet::scene {
+
+/// A body's centre for a time in which viscous drag along a plane and constant forces act on it,
+/// exact however strong the drag is. Without drag: the parabola.
+class PlaneDrag {
+public:
+    PlaneDrag(const BodyDynamics& dynamics, double time);
+
+    /// At the end of the time.
+    [[nodiscard]] glm::dvec3 velocity_after(const glm::dvec3& velocity,
+                                            const glm::dvec3& acceleration) const
+    {
+        return scaled(velocity, &Factors::kept) + time_ * scaled(acceleration, &Factors::mean);
+    }
+    /// Over the time.
+    [[nodiscard]] glm::dvec3 mean_velocity(const glm::dvec3& velocity,
+                                           const glm::dvec3& acceleration) const
+    {
+        return scaled(velocity, &Factors::mean) + time_ * scaled(acceleration, &Factors::moved);
+    }
+    /// The square root of how a force moves the centre: mean_velocity(0, M^-1 f) is time times this
+    /// taken twice of f.
+    [[nodiscard]] glm::dvec3 root_of_response(const glm::dvec3& force) const
+    {
+        return scaled(root_of_inverse_mass_ * force, &Factors::root_of_moved);
+    }
+
+private:
+    /// With x = drag times time: exp(-x), (1 - exp(-x))/x and (x - 1 + exp(-x))/x^2.
+    struct Factors {
+        double kept = 1.0;
+        double mean = 1.0;
+        double moved = 0.5;
+        double root_of_moved = 0.0;
+    };
+    [[nodiscard]] static Factors factors_of(double x);
+    [[nodiscard]] glm::dvec3 scaled(const glm::dvec3& v, double Factors::*factor) const
+    {
+        const double beside = along_.*factor;
+        return beside * v + ((across_.*factor - beside) * glm::dot(across_axis_, v)) * across_axis_;
+    }
+
+    double time_;
+    glm::dvec3 root_of_inverse_mass_;
+    glm::dvec3 across_axis_{0.0}; // unit: where the body can move most across the plane
+    Factors along_;               // of all directions but that
+    Factors across_;
+};
+
+} // namespace hapnet::scene

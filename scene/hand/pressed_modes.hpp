@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/maths/lanes.hpp"
+
+namespace hapnet::scene {
+
+/// What one or two alike springs do that press a body throughout a tick, for any depth and speed.
+/// The depths d are d'' = a - G f with the forces f = stiffness d + damping d' and the matrix G of
+/// how they respond, 1/kg. G's two modes are oscillators of their own; of each the tick needs three
+/// integrals, which are Taylor's series to rounding. They follow from the key alone: find() keeps
+/// them for the next tick, and with or without that the bits are the same.
+class PressedModes {
+public:
+    /// Everything that they depend on.
+    struct Key {
+        Two own{};           // how a depth responds to its own force; 0: no second spring
+        double mutual = 0.0; // ... and to the other's
+        double stiffness = 0.0;
+        double damping = 0.0;
+        double tick = 0.0;
+
+        friend bool operator==(const Key& a, const Key& b)
+        {
+            return a.own[0] == b.own[0] && a.own[1] == b.own[1] && a.mutual == b.mutual &&
+                   a.stiffness == b.stiffness && a.damping == b.damping && a.tick == b.tick;
+        }
+    };
+
+    /// False when the tick is long for the springs.
+    [[nodiscard]] bool find(const Key& key)
+    {
+        if (!(key == key_)) renew(key);
+        return is_short_;
+    }
+
+    /// Depth, speed and acceleration at the start.
+    struct Start {
+        Two depth, speed, acceleration;
+    };
+    /// Over the tick: the forces' impulses, N s, their integrals, N s^2, and the most by which the
+    /// forces can leave what they are at the start, N.
+    struct Outcome {
+        Two impulse, moment, change;
+    };
+    /// Of the springs; a second one that is not there has zeros.
+    [[nodiscard]] Outcome outcome(const Start& start) const
+    {
+        const Two depth = to_modes(start.depth);
+        const Two speed = to_modes(start.speed);
+        // A depth that stays presses evenly; what it does not hold in balance accelerates.
+        const Two force = both(key_.stiffness) * depth;
+        const Two left = to_modes(start.acceleration) - response_ * force;
+        const Two change = change_by_speed_ * sizes(speed) + change_by_left_ * sizes(left);
+        return {to_springs(both(key_.tick) * force + once_ * speed + twice_ * left),
+                to_springs(both(half_square_) * force + twice_ * speed + thrice_ * left),
+                sizes(both(cosine_)) * change + sizes(sine_) * swapped(change)};
+    }
+
+private:
+    /// An oscillator that begins at zero: of its force when it begins with speed 1 the integral,
+    /// the integral of that, ... and the most by which the force changes, and by which its integral
+    /// does.
+    struct Mode {
+        double once = 0.0, twice = 0.0, thrice = 0.0;
+        double change_by_speed = 0.0, change_by_left = 0.0;
+    };
+
+    // The same vector seen from the modes and from the springs.
+    [[nodiscard]] Two to_modes(Two springs) const
+    {
+        return both(cosine_) * springs - sine_ * swapped(springs);
+    }
+    [[nodiscard]] Two to_springs(Two modes) const
+    {
+        return both(cosine_) * modes + sine_ * swapped(modes);
+    }
+    void renew(const Key& key);
+    [[nodiscard]] bool set(Mode& mode, double response) const;
+
+    Key key_{.tick = -1.0}; // of no tick
+    bool is_short_ = false;
+    double cosine_ = 1.0;
+    Two sine_{}; // and the other way round
+    double half_square_ = 0.0;
+    Two response_{}; // 1/kg
+    Two once_{}, twice_{}, thrice_{};
+    Two change_by_speed_{}, change_by_left_{};
+};
+
+} // namespace hapnet::scene

@@ -1,0 +1,601 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/rigid/continuous.hpp"
+
+#include "scene/collide/box_box.hpp"
+#include "scene/collide/box_plane.hpp"
+#include "scene/collide/sweep.hpp"
+#include "scene/maths/rotation.hpp"
+#include "scene/maths/vector.hpp"
+#include "scene/rigid/free_flight.hpp"
+#include "scene/rigid/touch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace hapnet::scene {
+
+namespace {
+
+// Touches of one body in a tick. After some it does not bounce any more, and overlaps by more with
+// each: where many are wedged into each other, touches would have no end.
+constexpr std::uint32_t touches_max = 64, touches_many = 12;
+constexpr double many_times = 4.0;
+// Looks at two bodies in a tick: some, and so many more for each movable body.
+constexpr std::uint32_t steps_base = 2048, steps_per_body = 128;
+// Meetings for each movable body, on average.
+constexpr std::size_t meetings_per_body_max = 64;
+constexpr std::size_t meetings_max = 65'536;
+// A search through all meetings costs about as much as one look for every so many.
+constexpr std::size_t meetings_per_step = 64;
+
+// Overlaps, in shares of the smallest half edge of the two. With each touch in a tick they may
+// overlap by a little more, so that those that slide on each other or come to rest are not held up
+// and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
+constexpr double overlap_step = 0.01;
+constexpr double overlap_max = 0.5;
+constexpr double least_step = 0.05; // of the above
+// One that came so far behind the face that it touched is not there by right.
+constexpr double behind = 0.1;
+// How near to that counts.
+constexpr double near_share = 0.1;
+
+// As for bounces within a tick: what is slower than this, times what gravity adds in a tick, stays.
+constexpr double least_bounce = 2.0;
+
+/// By how much two that overlap so far may overlap more at the next touch.
+double next_overlap(double gap, double smallest)
+{
+    return overlap_step * smallest * std::max(least_step, 1.0 + gap / (overlap_max * smallest));
+}
+
+/// The same motion, but at `time` it is there and turned so.
+void set_place(SteadyBox& flight, const glm::dvec3& centre, const glm::dquat& orientation,
+               double time)
+{
+    flight.centre = centre - time * flight.velocity;
+    flight.orientation =
+        flight.spin == glm::dvec3{0.0} ? orientation : rotated(orientation, -time * flight.spin);
+}
+
+glm::dquat orientation_at(const SteadyBox& flight, double time)
+{
+    return flight.spin == glm::dvec3{0.0} ? flight.orientation
+                                          : rotated(flight.orientation, time * flight.spin);
+}
+
+/// Gravity and pushes: what acts on an awake body steadily through the tick, as an acceleration.
+glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state, Slot slot)
+{
+    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
+    const BodyProperties& properties = state.bodies.properties[slot];
+    return gravity_on(properties, config.gravity) +
+           properties.inverse_mass * state.pushes[properties.id];
+}
+
+std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
+{
+    const std::size_t each = std::min(bodies.size() + config.planes.size(), meetings_per_body_max);
+    return std::min(bodies.movable * each, meetings_max);
+}
+
+} // namespace
+
+ContinuousCollision::ContinuousCollision(const WorldConfig& config, const Bodies& bodies,
+                                         const Scales& scales)
+    : scales_{scales},
+      departures_{bodies.movable},
+      flyers_{bodies.size()},
+      meetings_{room_for_meetings(config, bodies)},
+      flyer_of_(bodies.size(), none),
+      woken_{bodies.movable},
+      steps_max_{steps_base + steps_per_body * bodies.movable}
+{}
+
+void ContinuousCollision::begin(const Bodies& bodies, std::span<const Slot> active,
+                                std::span<const BodyIntegration> integrations,
+                                ContactSolver& solver)
+{
+    departures_.resize(bodies.awake);
+    for (Slot slot = 0; slot < bodies.awake; ++slot) {
+        Departure& departure = departures_[slot];
+        departure.position = bodies.position.at(slot);
+        departure.orientation = bodies.orientation.at(slot);
+        departure.turn = Departure::Turn::free;
+        departure.first_touch.time = scales_.tick;
+    }
+    for (const Slot slot : active) {
+        const BodyIntegration& integration = integrations[slot + 1];
+        const BodyMotion& mean = solver.mean_motion(slot + 1);
+        Departure& departure = departures_[slot];
+        departure.start = integration.start;
+        departure.first_touch = integration.first_touch;
+        departure.turn =
+            integration.has_hands ? Departure::Turn::by_hands : Departure::Turn::steady;
+        departure.spin = spin_through_tick(integration, bodies, slot, mean, scales_.tick);
+    }
+}
+
+template <BroadPhase search>
+void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot> active,
+                                const PairFinder<search>& pairs)
+{
+    WorldState& state = around.state;
+    flyers_.clear();
+    meetings_.clear();
+    woken_.clear();
+    steps_left_ = steps_max_;
+    for (const Slot slot : active) {
+        if (!goes_far(chord(state.bodies, slot), 0.0)) continue;
+        flyers_[add_flyer(around, state.bodies.properties[slot].id)].is_fast = true;
+    }
+    const auto fast = static_cast<FlyerIndex>(flyers_.size());
+    for (Slot slot = state.bodies.movable; slot < state.bodies.moving; ++slot) {
+        if (!goes_far(chord(state.bodies, slot), 0.0)) continue;
+        flyers_[add_flyer(around, state.bodies.properties[slot].id)].is_fast = true;
+    }
+    const auto all = static_cast<FlyerIndex>(flyers_.size());
+    for (FlyerIndex i = 0; i < all; ++i) find_others(around, pairs, i, 0.0);
+    for (FlyerIndex i = 0; i < fast; ++i) {
+        if (!has_to_bend(state.bodies, i)) continue;
+        bend(around, i);
+        find_others(around, pairs, i, 0.0);
+        advance_all(around, i, 0.0, none);
+    }
+    while (go_to_next_touch(around, pairs)) {}
+    Bodies& bodies = state.bodies;
+    for (const Flyer& flyer : flyers_.all()) {
+        flyer_of_[flyer.body] = none;
+        if (!flyer.has_changed) continue;
+        const Slot slot = bodies.slot_of[flyer.body];
+        bodies.position.put(slot, flyer.flight.centre + scales_.tick * flyer.flight.velocity);
+        bodies.orientation.put(slot, orientation_at(flyer.flight, scales_.tick));
+    }
+}
+
+/// One touch, or one body that goes on otherwise: what comes first. False when nothing comes.
+template <BroadPhase search>
+bool ContinuousCollision::go_to_next_touch(const Surroundings& around,
+                                           const PairFinder<search>& pairs)
+{
+    const auto go_on = [&](FlyerIndex index, double time, FlyerIndex done) {
+        Flyer& flyer = flyers_[index];
+        if (flyer.is_movable && !flyer.has_stopped && !flyer.is_fast)
+            flyer.is_fast = goes_far(flyer.flight, time);
+        if (flyer.is_fast && !flyer.has_stopped) find_others(around, pairs, index, time);
+        advance_all(around, index, time, done);
+    };
+    const MeetingIndex next = earliest();
+    const double time = next == none ? scales_.tick : meetings_[next].time;
+    const FlyerIndex bent = next_bend(time);
+    if (bent != none) {
+        const double then = flyers_[bent].bend;
+        release(around, flyers_[bent], then);
+        go_on(bent, then, none);
+        return true;
+    }
+    if (next == none) return false;
+    const auto cost = static_cast<std::uint32_t>(meetings_.size() / meetings_per_step);
+    steps_left_ -= std::min(steps_left_, cost);
+    if (steps_left_ == 0) {
+        stop_all(around, time);
+        return false;
+    }
+    touch(around, meetings_[next]);
+    const Meeting met = meetings_[next];
+    go_on(met.a, time, none);
+    if (!met.is_plane) go_on(met.b, time, met.a);
+    return true;
+}
+
+/// From where it was to where it is now.
+SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
+{
+    const BodyProperties& properties = bodies.properties[slot];
+    SteadyBox flight{.centre = bodies.position.at(slot),
+                     .orientation = bodies.orientation.at(slot),
+                     .half = properties.half,
+                     .radius = length(properties.half)};
+    if (properties.is_kinematic) { // it has not moved yet
+        flight.velocity = bodies.velocity.at(slot);
+        flight.spin = bodies.angular_momentum.at(slot);
+    }
+    if (slot >= departures_.size()) return flight; // fixed or asleep
+    const Departure& departure = departures_[slot];
+    flight.velocity = scales_.rate * (flight.centre - departure.position);
+    if (properties.turning != Turning::locked) {
+        switch (departure.turn) {
+        case Departure::Turn::steady: flight.spin = departure.spin; break;
+        case Departure::Turn::by_hands:
+            flight.spin = scales_.rate * turn_between(departure.orientation, flight.orientation);
+            break;
+        case Departure::Turn::free:
+            flight.spin =
+                rotates_uniformly(properties)
+                    ? bodies.angular_velocity(slot)
+                    : mean_spin(departure.orientation,
+                                {bodies.angular_momentum.at(slot), properties.inverse_inertia},
+                                scales_.tick);
+            break;
+        }
+    }
+    flight.centre = departure.position;
+    flight.orientation = departure.orientation;
+    return flight;
+}
+
+/// Whether it goes so far in the rest of the tick that it could pass something.
+bool ContinuousCollision::goes_far(const SteadyBox& flight, double time) const
+{
+    return (scales_.tick - time) * (length(flight.velocity) + flight.radius * length(flight.spin)) >
+           far_way * scales_.least;
+}
+
+ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surroundings& around,
+                                                               BodyId body)
+{
+    if (flyer_of_[body] != none) return flyer_of_[body];
+    const auto index = static_cast<FlyerIndex>(flyers_.size());
+    flyer_of_[body] = index;
+    const Bodies& bodies = around.state.bodies;
+    const Slot slot = bodies.slot_of[body];
+    Flyer& flyer = flyers_.add();
+    flyer = {};
+    flyer.body = body;
+    flyer.is_movable = slot < bodies.movable;
+    flyer.is_kinematic = bodies.properties[slot].is_kinematic;
+    flyer.bend = HUGE_VAL;
+    flyer.flight = chord(bodies, slot);
+    return index;
+}
+
+/// Whether the straight way to where it was put is no way.
+bool ContinuousCollision::has_to_bend(const Bodies& bodies, FlyerIndex index)
+{
+    const Slot slot = bodies.slot_of[flyers_[index].body];
+    const Departure& departure = departures_[slot];
+    if (departure.first_touch.time >= scales_.tick) return false;
+    bool meets = got_past(bodies, departure, slot);
+    for_meetings_of(index, [&](Meeting& meeting) { meets = meets || !meeting.is_over; });
+    return meets;
+}
+
+/// The first body that comes to its bend before a moment.
+ContinuousCollision::FlyerIndex ContinuousCollision::next_bend(double time) const
+{
+    FlyerIndex found = none;
+    for (FlyerIndex i = 0; i < flyers_.size(); ++i) {
+        const Flyer& flyer = flyers_[i];
+        if (flyer.is_released || flyer.has_stopped || flyer.bend > time) continue;
+        if (found == none || flyer.bend < flyers_[found].bend) found = i;
+    }
+    return found;
+}
+
+/// Whether it came behind the face of the other that it was to touch first.
+bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& departure,
+                                   Slot slot) const
+{
+    const FirstTouch& first = departure.first_touch;
+    const OrientedBox own = box_of(bodies, slot);
+    const Slot of_other = bodies.slot_of[first.other];
+    const OrientedBox other = bodies.properties[of_other].is_kinematic
+                                  ? chord(bodies, of_other).at(scales_.tick)
+                                  : box_of(bodies, of_other);
+    const double gap = glm::dot(first.normal, other.centre - own.centre) -
+                       half_projection(own, first.normal) - half_projection(other, first.normal);
+    return gap < -behind * smallest_half(own, other);
+}
+
+/// Until its first touch a body goes on as it began, and then with what it has at the end: for one
+/// that hits something with a corner, that is nearer to the truth than the straight way to where
+/// it would be.
+void ContinuousCollision::bend(const Surroundings& around, FlyerIndex index)
+{
+    Flyer& flyer = flyers_[index];
+    const Departure& departure = departures_[around.state.bodies.slot_of[flyer.body]];
+    flyer.flight.velocity = departure.start.velocity;
+    flyer.flight.spin = departure.start.spin;
+    flyer.bend = departure.first_touch.time;
+    flyer.has_changed = true;
+}
+
+/// From now on it moves with its velocity at the end of the tick, less what constant forces will
+/// have added until then.
+void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, double time)
+{
+    const WorldState& state = around.state;
+    const Bodies& bodies = state.bodies;
+    const Slot slot = bodies.slot_of[flyer.body];
+    const BodyProperties& properties = bodies.properties[slot];
+    const glm::dvec3 centre = flyer.flight.centre + time * flyer.flight.velocity;
+    const glm::dquat orientation = orientation_at(flyer.flight, time);
+    const double left = scales_.tick - time;
+    flyer.flight.velocity =
+        bodies.velocity.at(slot) - (0.5 * left) * steady_acceleration(around.config, state, slot);
+    // The spin that it has now, which is what a touch sees; with unequal moments of inertia it does
+    // not stay: see touch().
+    const OrientedBox box{centre, axes_of(orientation), properties.half};
+    flyer.flight.spin =
+        response_of(properties, box).inverse_inertia * bodies.angular_momentum.at(slot);
+    set_place(flyer.flight, centre, orientation, time);
+    flyer.is_released = true;
+    flyer.has_changed = true;
+}
+
+/// For the rest of the tick it stays where it is. Its velocity is kept: the next tick goes on.
+void ContinuousCollision::stop(Flyer& flyer, double time)
+{
+    flyer.flight.centre += time * flyer.flight.velocity;
+    flyer.flight.orientation = orientation_at(flyer.flight, time);
+    flyer.flight.velocity = flyer.flight.spin = glm::dvec3{0.0};
+    flyer.has_stopped = true;
+    flyer.has_changed = true;
+}
+
+/// All that go far and may meet anything stay where they have come.
+void ContinuousCollision::stop_all(const Surroundings& around, double time)
+{
+    ++around.state.interventions.budgets_spent;
+    for (Flyer& flyer : flyers_.all())
+        if (flyer.is_movable && flyer.is_fast && !flyer.has_stopped && flyer.first != none)
+            stop(flyer, time);
+}
+
+/// Lists what is in the way of a flyer from a moment on.
+template <BroadPhase search>
+void ContinuousCollision::find_others(const Surroundings& around, const PairFinder<search>& pairs,
+                                      FlyerIndex index, double time)
+{
+    const SteadyBox flight = flyers_[index].flight;
+    const double until = std::min(scales_.tick, flyers_[index].bend);
+    const double end = flyers_[index].is_released ? scales_.tick : until;
+    // What others move without being fast is within this, too.
+    const double margin = flight.radius + far_way * scales_.least;
+    const Aabb way =
+        grown(hull(flight.centre + time * flight.velocity, flight.centre + end * flight.velocity),
+              glm::dvec3{margin});
+    if (contains(flyers_[index].searched, way)) return;
+    const bool is_first = flyers_[index].first == none;
+    flyers_[index].searched = way;
+    const auto meet = [&](std::uint32_t other, bool is_plane) {
+        if (!flyers_[index].is_movable && (is_plane || !flyers_[other].is_movable)) return;
+        if (!is_first && are_to_meet(index, other, is_plane)) return;
+        add_meeting(around, {.a = index, .b = other, .is_plane = is_plane, .time = time});
+    };
+    const BodyId own = flyers_[index].body;
+    pairs.for_overlapping(way, [&](BodyId id) {
+        if (id == own) return;
+        const FlyerIndex other = add_flyer(around, id);
+        if (are_to_meet(other, index, false)) return;
+        meet(other, false);
+    });
+    for (FlyerIndex other = 0; other < flyers_.size(); ++other) {
+        // Those that were thrown out of the boxes in which the others find them.
+        if (other == index || !flyers_[other].is_fast) continue;
+        if (!overlap(way, flyers_[other].searched)) continue;
+        if (are_to_meet(index, other, false) || are_to_meet(other, index, false)) continue;
+        meet(other, false);
+    }
+    if (is_first) {
+        for (std::uint32_t plane = 0; plane < around.config.planes.size(); ++plane)
+            meet(plane, true);
+    }
+}
+
+bool ContinuousCollision::are_to_meet(FlyerIndex a, std::uint32_t b, bool is_plane) const
+{
+    for (MeetingIndex i = flyers_[a].first; i != none;) {
+        const Meeting& meeting = meetings_[i];
+        const bool is_a = meeting.a == a;
+        if (meeting.is_plane == is_plane && (is_a ? meeting.b : meeting.a) == b) return true;
+        i = is_a ? meeting.next_of_a : meeting.next_of_b;
+    }
+    return false;
+}
+
+void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting& wanted)
+{
+    if (meetings_.is_full()) {
+        Flyer& stopped = flyers_[flyers_[wanted.a].is_movable ? wanted.a : wanted.b];
+        if (!stopped.has_stopped) stop(stopped, wanted.time);
+        ++around.state.interventions.budgets_spent;
+        return;
+    }
+    const OrientedBox box = flyers_[wanted.a].flight.at(0.0);
+    double smallest = std::min(box.half.x, std::min(box.half.y, box.half.z));
+    Gap gap;
+    if (wanted.is_plane) {
+        const PlaneDescription& plane = around.config.planes[wanted.b];
+        gap = gap_between(PlaneSurface{plane.normal, plane.offset_m}, box);
+    } else {
+        const OrientedBox other = flyers_[wanted.b].flight.at(0.0);
+        smallest = smallest_half(box, other);
+        gap = gap_between(box, other);
+    }
+    // Those that began far in each other cannot pass each other any more.
+    if (gap.distance <= -overlap_max * smallest) return;
+    const auto index = static_cast<MeetingIndex>(meetings_.size());
+    Meeting& meeting = meetings_.add();
+    meeting = wanted;
+    meeting.smallest = smallest;
+    meeting.gap = std::min(gap.distance, 0.0);
+    meeting.gap -= next_overlap(meeting.gap, smallest);
+    meeting.next_of_a = flyers_[meeting.a].first;
+    flyers_[meeting.a].first = index;
+    if (!meeting.is_plane) {
+        meeting.next_of_b = flyers_[meeting.b].first;
+        flyers_[meeting.b].first = index;
+    }
+    advance(around, meeting, wanted.time);
+}
+
+template <typename Visit>
+void ContinuousCollision::for_meetings_of(FlyerIndex index, Visit visit)
+{
+    for (MeetingIndex i = flyers_[index].first; i != none;) {
+        Meeting& meeting = meetings_[i];
+        i = meeting.a == index ? meeting.next_of_a : meeting.next_of_b;
+        visit(meeting);
+    }
+}
+
+/// The next touch; of those at the same time the first.
+ContinuousCollision::MeetingIndex ContinuousCollision::earliest() const
+{
+    MeetingIndex found = none;
+    for (MeetingIndex i = 0; i < meetings_.size(); ++i) {
+        const Meeting& meeting = meetings_[i];
+        if (meeting.is_over) continue;
+        if (found == none || meeting.time < meetings_[found].time) found = i;
+    }
+    return found;
+}
+
+/// Searches for their next touch while both go on as they do.
+void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, double from)
+{
+    const Flyer& a = flyers_[meeting.a];
+    const auto stays = [](const Flyer& flyer) { return flyer.has_stopped || !flyer.is_movable; };
+    meeting.is_over = stays(a) && (meeting.is_plane || stays(flyers_[meeting.b]));
+    if (meeting.is_over) return;
+    GapSearch asked{.gap = meeting.gap,
+                    .near = near_share * next_overlap(meeting.gap, meeting.smallest),
+                    .from = from,
+                    .to = a.is_released ? scales_.tick : std::min(scales_.tick, a.bend)};
+    Advanced advanced;
+    if (meeting.is_plane) {
+        const PlaneDescription& plane = around.config.planes[meeting.b];
+        advanced = advance_to_gap(PlaneSurface{plane.normal, plane.offset_m}, a.flight, asked,
+                                  steps_left_);
+    } else {
+        const Flyer& b = flyers_[meeting.b];
+        if (!b.is_released) asked.to = std::min(asked.to, b.bend);
+        advanced = advance_to_gap(a.flight, b.flight, asked, steps_left_);
+    }
+    meeting.time = advanced.time;
+    meeting.is_over = advanced.end == Advanced::End::clear;
+}
+
+/// The same for all of a flyer's meetings, but for those with another that is `done`.
+void ContinuousCollision::advance_all(const Surroundings& around, FlyerIndex index, double from,
+                                      FlyerIndex done)
+{
+    for_meetings_of(index, [&](Meeting& meeting) {
+        const FlyerIndex other = meeting.a == index ? meeting.b : meeting.a;
+        if (meeting.is_plane || other != done) advance(around, meeting, from);
+    });
+}
+
+/// Two touch: if they come nearer, they push each other. After so many touches they stay.
+void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
+{
+    const double time = meeting.time;
+    const std::array<FlyerIndex, 2> both{meeting.a, meeting.is_plane ? meeting.a : meeting.b};
+    const std::size_t count = meeting.is_plane ? 1 : 2;
+    bool any_released = false;
+    for (std::size_t i = 0; i < count; ++i) {
+        Flyer& flyer = flyers_[both[i]];
+        if (!flyer.is_movable || flyer.has_stopped || flyer.is_released) continue;
+        release(around, flyer, time);
+        any_released = true;
+    }
+    const bool pushed = exchange_impulse(around, meeting);
+    if (pushed) ++around.state.interventions.sweeps_continued;
+    const bool many = flyers_[both[0]].touches >= touches_many ||
+                      flyers_[meeting.is_plane ? both[0] : both[1]].touches >= touches_many;
+    meeting.gap -= (many ? many_times : 1.0) * next_overlap(meeting.gap, meeting.smallest);
+    const bool one_has_stopped =
+        count == 2 && (flyers_[both[0]].has_stopped || flyers_[both[1]].has_stopped);
+    for (std::size_t i = 0; i < count; ++i) {
+        Flyer& flyer = flyers_[both[i]];
+        if (!flyer.is_movable || flyer.has_stopped) continue;
+        // Without a push they only seemed to come nearer, while the spin was not what it was.
+        if (pushed || !any_released) {
+            release(around, flyer, time);
+            ++flyer.touches;
+        }
+        const bool is_in_its_way = !pushed && !any_released && one_has_stopped;
+        if (flyer.touches <= touches_max && !is_in_its_way) continue;
+        ++around.state.interventions.paths_cut;
+        stop(flyer, time);
+    }
+}
+
+/// A flyer as it is at a moment.
+Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& flyer,
+                                     double time) const
+{
+    const Bodies& bodies = around.state.bodies;
+    const Slot slot = bodies.slot_of[flyer.body];
+    const OrientedBox box = flyer.flight.at(time);
+    Toucher its{.moves = flyer.is_movable || flyer.is_kinematic,
+                .centre = box.centre,
+                .response = {},
+                .motion = {}};
+    if (flyer.is_kinematic)
+        its.motion = around.kinematics.of(bodies, slot).motion_at(time, scales_.tick);
+    if (!flyer.is_movable) return its;
+    its.response = response_of(bodies.properties[slot], box);
+    its.motion.velocity =
+        bodies.velocity.at(slot) -
+        (scales_.tick - time) * steady_acceleration(around.config, around.state, slot);
+    its.motion.spin = its.response.inverse_inertia * bodies.angular_momentum.at(slot);
+    return its;
+}
+
+/// The impulse of a touch; whether there was one.
+bool ContinuousCollision::exchange_impulse(const Surroundings& around, const Meeting& meeting)
+{
+    Bodies& bodies = around.state.bodies;
+    const double time = meeting.time;
+    const Flyer& first = flyers_[meeting.a];
+    const Flyer& second = flyers_[meeting.is_plane ? meeting.a : meeting.b];
+    Toucher a;
+    const Toucher b = toucher(around, second, time);
+    Manifold manifold;
+    Material material = bodies.properties[bodies.slot_of[second.body]].material;
+    const double margin = near_share * overlap_step * meeting.smallest;
+    if (meeting.is_plane) {
+        const PlaneDescription& plane = around.config.planes[meeting.b];
+        a.centre = b.centre;
+        manifold =
+            collide(PlaneSurface{plane.normal, plane.offset_m}, second.flight.at(time), margin);
+        material = combined(material, plane.material);
+    } else {
+        a = toucher(around, first, time);
+        BoxBoxMemory memory;
+        manifold = collide(first.flight.at(time), second.flight.at(time), margin, memory);
+        material = combined(material, bodies.properties[bodies.slot_of[first.body]].material);
+    }
+    if (manifold.count == 0) return false;
+    ContactBlock block;
+    block.a = a.moves ? 1 : 0;
+    block.b = b.moves ? 2 : 0;
+    prepare(block, manifold, {a.centre, b.centre}, {});
+    block.friction = material.friction;
+    const bool many = first.touches >= touches_many || second.touches >= touches_many;
+    block.restitution = many ? 0.0 : material.restitution;
+    const ContactVector impulse = touch_impulse(block, a, b, least_bounce * scales_.fall);
+    if (std::all_of(impulse.begin(), impulse.end(), [](double part) { return part == 0.0; }))
+        return false;
+    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm) {
+        const Slot slot = bodies.slot_of[body];
+        apply_impulse(bodies, slot, by, arm);
+        if (slot < bodies.awake) return;
+        if (std::find(woken_.begin(), woken_.end(), body) == woken_.end()) woken_.add(body);
+    };
+    const Wrench on_b = wrench(block, impulse);
+    if (second.is_movable) push(second.body, on_b, block.arm_b);
+    if (!meeting.is_plane && first.is_movable)
+        push(first.body, {-on_b.impulse, -on_b.angular}, block.arm_a);
+    return true;
+}
+
+template void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot> active,
+                                         const PairFinder<BroadPhase::all_pairs>& pairs);
+template void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot> active,
+                                         const PairFinder<BroadPhase::grid>& pairs);
+
+} // namespace hapnet::scene

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/rigid/touch.hpp"
+
+#include "scene/solver/block_solver.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace hapnet::scene {
+
+namespace {
+
+/// An impulse, and what it does.
+struct Answer {
+    ContactVector impulse{};
+    double share = 1.0; // of it that gains no energy
+    bool parts = false; // no point approaches any more
+};
+
+Answer answer_of(ContactBlock& block, const Toucher& a, const Toucher& b)
+{
+    const ContactVector before = velocity_at(block, a.motion, b.motion);
+    block.impulse = {};
+    Answer answer{.impulse = solve(block, before, 0.0)};
+    BodyMotion after_a = a.motion;
+    BodyMotion after_b = b.motion;
+    Wrench push = wrench(block, answer.impulse);
+    if (b.moves) apply(push, block.arm_b, b.response, after_b);
+    push = {-push.impulse, -push.angular};
+    if (a.moves) apply(push, block.arm_a, a.response, after_a);
+    const ContactVector after = velocity_at(block, after_a, after_b);
+    double work = 0.0;  // at the velocities before
+    double twice = 0.0; // and by what it changes in them, twice
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        work += answer.impulse[i] * before[i];
+        twice += answer.impulse[i] * (after[i] - before[i]);
+    }
+    if (!(work + 0.5 * twice <= 0.0))
+        answer.share = work < 0.0 && twice > 0.0 ? std::min(1.0, -2.0 * work / twice) : 0.0;
+    double slowest = 0.0;
+    double fastest = 0.0; // that approached
+    for (std::size_t i = 0; i < block.count; ++i) {
+        slowest = std::min(slowest, block.normal_speed(after, i));
+        fastest = std::max(fastest, -block.normal_speed(before, i));
+    }
+    constexpr double rounding = 1e-9;
+    answer.parts = slowest >= -rounding * fastest;
+    return answer;
+}
+
+} // namespace
+
+ContactVector touch_impulse(ContactBlock& block, const Toucher& a, const Toucher& b,
+                            double bounces_from)
+{
+    const ContactVector before = velocity_at(block, a.motion, b.motion);
+    bool any = false;
+    for (std::size_t i = 0; i < block.count; ++i) {
+        const double speed = block.normal_speed(before, i);
+        any = any || speed < 0.0;
+        block.speed_min[i] = -speed > bounces_from ? -block.restitution * speed : 0.0;
+    }
+    if (!any) return {};
+    build_matrix(block, a.response, b.response);
+    Answer answer = answer_of(block, a, b);
+    // A bounce with friction may ask for more energy than there is (Kane and Levinson, 1985), and
+    // a slip may have no answer. The touch is smooth then, which always has one.
+    if (block.friction != 0.0 && !(answer.parts && answer.share == 1.0)) {
+        block.friction = 0.0;
+        answer = answer_of(block, a, b);
+    }
+    for (double& part : answer.impulse) part *= answer.share;
+    return answer.impulse;
+}
+
+void apply_impulse(Bodies& bodies, Slot slot, const Wrench& push, const glm::dvec3& arm)
+{
+    const BodyProperties& properties = bodies.properties[slot];
+    bodies.velocity.put(slot, bodies.velocity.at(slot) + properties.inverse_mass * push.impulse);
+    bodies.angular_momentum.put(
+        slot, bodies.angular_momentum.at(slot) +
+                  about_unlocked_axes(properties, glm::cross(arm, push.impulse) + push.angular));
+}
+
+} // namespace hapnet::scene

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace hapnet::scene {
+
+/// What a tick does, in units that each cost at most so much. freeze() derives how many of each a
+/// tick of the scene may take; a tick counts how many it took. The rest of a tick is a few loops
+/// over the awake bodies and the hands.
+struct Work {
+    std::uint64_t pairs = 0;    // of two bodies, or of a body and a plane: looked at closely
+    std::uint64_t contacts = 0; // prepared for the solver
+    std::uint64_t visits = 0;   // of the solver to one contact: velocities and overlaps
+    std::uint64_t springs = 0;  // steps of the rows of hands' springs on bodies that turn
+    std::uint64_t events = 0;   // of the one box within the tick
+    std::uint64_t touches = 0;  // of bodies that go on within the tick after their first touch
+
+    /// Whether nothing is more than that.
+    [[nodiscard]] bool is_within(const Work& bound) const
+    {
+        return pairs <= bound.pairs && contacts <= bound.contacts && visits <= bound.visits &&
+               springs <= bound.springs && events <= bound.events && touches <= bound.touches;
+    }
+    friend bool operator==(const Work&, const Work&) = default;
+};
+
+} // namespace hapnet::scene

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/bench/scene/compare.hpp"
+
+namespace hapnet::bench {
+
+/// Boxes that fall into a bin of 0.22 m by 0.22 m, each turned another way.
+[[nodiscard]] Course bin(int count, double friction);
+
+/// A wall of 48 bricks that a cube of 1 kg hits.
+[[nodiscard]] Course brick_wall(double speed_m_per_s);
+
+/// Twenty slabs on end in a line; the first one falls against the second.
+[[nodiscard]] Course dominoes();
+
+/// Cubes in ten rows; each row has one less than the row below it.
+[[nodiscard]] Course pyramid();
+
+/// A cube that eight stiff hands hold, one on every face and two more, each swinging a little.
+[[nodiscard]] Course stiff_hands();
+
+/// What many bodies do to each other at worst: how deep they lie within each other, and what the
+/// most expensive steps cost.
+[[nodiscard]] std::vector<Row> measure_heaps(std::span<const Subject> subjects, bool is_quick);
+
+} // namespace hapnet::bench

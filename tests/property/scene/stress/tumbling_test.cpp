@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+//
+// A box with three unequal edges that is dropped spinning tumbles to rest and gains no energy: what
+// it gains by the finite tick falls with the tick.
+#include "scene/world.hpp"
+#include "tests/support/scene/dice.hpp"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace hapnet::test {
+namespace {
+
+constexpr double weight_n = 0.1 * 9.81;
+
+scene::Description dropped_box(double friction, std::uint64_t seed)
+{
+    scene::Description drawn;
+    Dice dice{base::Seed{seed}.stream("spin")};
+    scene::BodyDescription box{.name = "box", .half = {0.03, 0.02, 0.01}};
+    box.position = {{0.0, 0.2, 0.0}};
+    box.angular_velocity = 30.0 * dice.vector();
+    box.material.friction = friction;
+    drawn.bodies.push_back(box);
+    drawn.planes.push_back({.name = "floor", .material = {.friction = friction}});
+    drawn.hands.count = 0;
+    return drawn;
+}
+
+double energy_of(const scene::World& world, const scene::BodyDescription& form)
+{
+    const scene::BodyState state = world.body(0);
+    const glm::dvec3 momentum = world.state().bodies.angular_momentum.at(0);
+    const glm::dvec3 own = glm::conjugate(state.orientation) * momentum;
+    const glm::dvec3& v = state.velocity.value;
+    return 0.5 * form.mass_kg * glm::dot(v, v) + weight_n * state.position.value.y +
+           0.5 * glm::dot(own, own / scene::box_inertia(form.mass_kg, form.half));
+}
+
+/// The sum of what the box gains in the ticks in which it gains, over a second, J; of 0.2 J.
+double gained(const scene::Description& drawn, base::Duration tick)
+{
+    auto world = scene::World::freeze(drawn, {.tick = tick, .sleeping = false});
+    double sum = 0.0;
+    double before = energy_of(*world, drawn.bodies[0]);
+    for (auto time = base::Duration::zero(); time < std::chrono::seconds{1}; time += tick) {
+        world->tick();
+        const double after = energy_of(*world, drawn.bodies[0]);
+        sum += std::max(0.0, after - before);
+        before = after;
+    }
+    return sum;
+}
+
+class Tumbling : public testing::TestWithParam<double> {};
+
+TEST_P(Tumbling, GainsEnergyOfTheOrderOfTheTickAtMost)
+{
+    using std::chrono::microseconds;
+    double coarse = 0.0;
+    double fine = 0.0;
+    constexpr std::uint64_t boxes = 12;
+    for (std::uint64_t seed = 0; seed < boxes; ++seed) {
+        const scene::Description drawn = dropped_box(GetParam(), seed);
+        const double gain = gained(drawn, microseconds{1000});
+        EXPECT_LT(gain, 2e-5) << "seed " << seed;
+        coarse += gain;
+        fine += gained(drawn, microseconds{100});
+    }
+    EXPECT_LT(coarse / boxes, 5e-6);
+    EXPECT_LT(fine, 0.1 * coarse);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfFriction, Tumbling, testing::Values(0.0, 0.4, 2.0),
+                         [](const auto& each) {
+                             return "Percent" + std::to_string(std::lround(100.0 * each.param));
+                         });
+
+} // namespace
+} // namespace hapnet::test
