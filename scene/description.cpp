@@ -300,6 +300,7 @@ Description paper_scene()
 {
     BodyDescription cube{.name = "cube"};
     cube.turning = Turning::locked;
+    cube.locked = {.y = true, .z = true};
     cube.drag_ns_per_m = 10.0;
     BodyDescription obstacle{.name = "static cube", .movable = false};
     obstacle.position = {{0.1147, 0.0, 0.030}};

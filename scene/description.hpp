@@ -188,7 +188,8 @@ inline constexpr base::Duration period_max{std::chrono::hours{24}};
 
 /// The paper's scene with the constants it leaves open chosen so that softness grows
 /// monotonically with delay: drag >= sqrt(2 k m). The static cube stands where it stops the
-/// moving one at x = 74.7 mm, offset in z so that it leaves the right hand its way.
+/// moving one at x = 74.7 mm, offset in z so that it leaves the right hand its way. The moving one
+/// slides along x alone: predicted into the static one, it cannot come out beside it.
 [[nodiscard]] Description paper_scene();
 
 } // namespace hapnet::scene

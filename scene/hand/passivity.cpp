@@ -19,6 +19,9 @@ constexpr double energy_rounding = 1e-9;
 constexpr double second_order = 0.03;
 // Of the greatest force: the rounding of a sum of phases.
 constexpr double force_rounding = 1e-9;
+// A grip does at most so many times the work of its impulse at the fastest corner: within the tick
+// the body may be faster than at its ends.
+constexpr double within_tick = 2.0;
 // Radians in a tick beyond which the inertia at the start says little of the end.
 constexpr double far_turn = 0.25;
 
@@ -80,13 +83,20 @@ MomentsRatio moments_of(const BodyDynamics& dynamics)
 
 class PassivityCheck {
 public:
-    PassivityCheck(const HandTick& body, std::span<const HandSpring> springs, double driven)
+    PassivityCheck(const HandTick& body, std::span<const HandSpring> springs,
+                   std::span<const SpringImpulse> work, double driven)
         : body_{body},
           springs_{springs},
           free_{body.start},
           mass_{mass_of(body.dynamics)},
           driven_{driven}
     {
+        for (std::size_t i = 0; i < springs.size(); ++i) {
+            if (!springs[i].holds) continue;
+            grips_.impulse += length(work[i].impulse);
+            grips_.stored += stored_energy(springs[i]);
+            grips_.driven += glm::dot(work[i].impulse, springs[i].velocity);
+        }
         advance_freely(free_, body.dynamics, body.tick);
         velocity_ = body.end.velocity - free_.velocity;
         angular_momentum_ = body.end.angular_momentum - free_.angular_momentum;
@@ -105,7 +115,13 @@ public:
         constexpr int rounds_max = 8;
         for (int round = 0; round < rounds_max; ++round) {
             const double before = share;
-            share = at_start.share_within(stored + rounding + turning_slack(before));
+            const double slack = rounding + turning_slack(before);
+            share = at_start.share_within(stored + slack);
+            if (grips_.impulse > 0.0) {
+                EnergyOfShare gripped = at_start;
+                gripped.linear -= within_tick * grips_.impulse * fastest(before) - grips_.driven;
+                share = std::min(share, gripped.share_within(stored - grips_.stored + slack));
+            }
             if (share >= before) break;
         }
         if (at_end == SpringsAtEnd::ignored) return share;
@@ -189,6 +205,19 @@ private:
         return kinetic_energy(free_) - before_ - work;
     }
 
+    /// The speed of the fastest corner, at the start or at the end with a share of the impulses.
+    [[nodiscard]] double fastest(double share) const
+    {
+        const glm::dmat3& light = body_.dynamics.inverse_inertia;
+        const double radius = length(body_.dynamics.half);
+        const double before =
+            length(body_.start.velocity) + radius * length(light * body_.start.angular_momentum);
+        const double after =
+            length(free_.velocity + share * velocity_) +
+            radius * length(light * (free_.angular_momentum + share * angular_momentum_));
+        return std::max(before, after);
+    }
+
     /// By how much the energy of turning may be wrong that the inertia of the start says.
     [[nodiscard]] double turning_slack(double share) const
     {
@@ -234,6 +263,11 @@ private:
     glm::dvec3 angular_momentum_{0.0}; // by the hands
     double before_ = 0.0;
     double after_ = 0.0;
+    struct {
+        double impulse = 0.0; // N s
+        double stored = 0.0;
+        double driven = 0.0;
+    } grips_; // of the springs that hold
 };
 
 /// The share with which no spring gives more than it can.
@@ -255,7 +289,7 @@ HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> spring
                         std::span<SpringImpulse> work, SpringsAtEnd at_end)
 {
     HandEnergy energy = energy_of(springs, work);
-    PassivityCheck check{body, springs, energy.driven};
+    PassivityCheck check{body, springs, work, energy.driven};
     const double share =
         std::min(check.share(energy.stored, at_end), share_within_forces(springs, work, body.tick));
     if (share >= 1.0) return energy;

@@ -4,6 +4,8 @@
 
 #include "scene/one_box/coupled.hpp"
 
+#include <type_traits>
+
 namespace hapnet::scene {
 
 namespace {
@@ -127,7 +129,8 @@ void find_spring_events(const BoxMotion& box, const Springs& springs, Kind kind,
     for (const auto& spring : springs) {
         const Event what{.kind = kind, .spring = index++};
         if (keeps_acting(box, spring, first.time)) continue;
-        SpringEventFinder{box, spring, what, first}.find();
+        using AnySpring = std::remove_cvref_t<decltype(spring)>;
+        SpringEventFinder<AnySpring>{box, spring, what, first}.find();
     }
 }
 

@@ -61,10 +61,11 @@ bool find_supports(BoxMotion& box, const Push& push)
     bool is_on_plane = false;
     for (std::size_t i = 0; i < 3; ++i) {
         AxisMotion& axis = box.axes[i];
-        if (axis.below || axis.above)
+        if (axis.below || axis.above) {
             find_support(axis, box.trajectories[i].speed, push(i), box.trajectories[i].ramp);
+            if (axis.is_dragged()) is_on_plane = true;
+        }
         axis.is_losing_support = false;
-        if (axis.support && axis.support->is_plane) is_on_plane = true;
     }
     return is_on_plane;
 }

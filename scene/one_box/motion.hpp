@@ -38,8 +38,9 @@ private:
 /// The motion of one axis of the box.
 struct AxisMotion {
     double applied_acceleration; // acceleration of the forces that hold for the tick
-    bool is_stopped;             // locked, or for the rest of the tick
-    bool is_losing_support;      // its support has just lost it
+    bool is_locked;
+    bool is_stopped;        // locked, or for the rest of the tick
+    bool is_losing_support; // its support has just lost it
 
     const Obstacle* below; // at whose high face it is
     const Obstacle* above;
@@ -53,6 +54,13 @@ struct AxisMotion {
 
     /// Whether it is kept where it is by something else than dry friction.
     [[nodiscard]] bool is_held() const { return is_stopped || support; }
+    /// Whether a plane slows the box by its drag. One that is locked onto a plane cannot be lifted
+    /// off it, whatever pulls.
+    [[nodiscard]] bool is_dragged() const
+    {
+        if (!is_locked) return support && support->is_plane;
+        return (below && below->is_plane) || (above && above->is_plane);
+    }
 };
 
 /// Dry friction on what supports the box.

@@ -83,7 +83,7 @@ inline void OneBoxStepper<coulomb>::set_start(const WorldConfig& config, const W
     const PerAxis gravity = per_axis(config.gravity);
     for (std::size_t i = 0; i < 3; ++i) {
         if (locked_[i]) box.velocity[i] = 0.0;
-        box.axes[i].is_stopped = locked_[i];
+        box.axes[i].is_locked = box.axes[i].is_stopped = locked_[i];
         box.axes[i].is_losing_support = false;
         box.axes[i].applied_acceleration = gravity[i];
     }

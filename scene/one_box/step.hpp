@@ -13,7 +13,8 @@ namespace hapnet::scene {
 /// scalar motion with a closed form, and what begins or ends within a tick is found in it. With
 /// `coulomb`, dry friction on what supports the box.
 ///
-/// Exact up to rounding: flight; drag on a plane (along it, while a plane supports the box); hands
+/// Exact up to rounding: flight; drag on a plane (along it, while a plane supports the box or it is
+/// locked onto one); hands
 /// on faces and hands that hold, any number, with their beginning, end and limit of force at their
 /// moments; impacts and bounces at theirs; dry friction along a straight path, with its exact stop
 /// and slip; hands at edges and corners while their normals hold, which is for a tick. Second order
@@ -27,7 +28,7 @@ template <bool coulomb>
 class OneBoxStepper {
 public:
     static constexpr int events_max = 8;
-    static constexpr int root_steps_max = 1000;
+    static constexpr int root_steps_max = 500;
 
     OneBoxStepper(const Description& description, const WorldConfig& config,
                   const WorldState& state);

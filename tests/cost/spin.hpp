@@ -16,6 +16,7 @@ namespace hapnet::cost {
 {
     scene::Description description = scene::paper_scene();
     if (kind != "sliding") {
+        description.bodies[0].locked = {};
         description.bodies[0].material.friction = 0.3;
         description.planes[0].material.friction = 0.3;
     }

@@ -187,6 +187,7 @@ Course paper_course(scene::Turning turning)
     scene::BodyDescription& cube = course.scene.bodies[0];
     cube.turning = turning;
     if (turning == scene::Turning::free) {
+        cube.locked = {};
         cube.drag_ns_per_m = 0.0;
         for (auto& body : course.scene.bodies) body.material.friction = 0.3;
         course.scene.planes[0].material.friction = 0.3;

@@ -16,6 +16,14 @@ constexpr HandInput away{.present = false};
 
 World paper_world() { return World::freeze(paper_scene()).value(); }
 
+/// The paper's scene with a cube that may also move sideways and upwards.
+World unlocked_world()
+{
+    Description scene = paper_scene();
+    scene.bodies[0].locked = {};
+    return World::freeze(scene).value();
+}
+
 /// A millisecond of a steady force each.
 void push(World& world, const glm::dvec3& force, int ticks)
 {
@@ -72,9 +80,31 @@ TEST(PaperCube, StopsDeadAtTheStaticCubeAndLeavesItFreely)
     EXPECT_LT(world.body(0).position.x(), stop_x);
 }
 
-TEST(PaperCube, SlidesAlongTheStaticCubeAndPastItsCorner)
+TEST(PaperCube, MovesAlongXAloneWhateverPushesIt)
 {
     World world = paper_world();
+    push(world, {-1.0, 3.3, -3.3}, 500);
+    EXPECT_EQ(world.body(0).position.y(), 0.0);
+    EXPECT_EQ(world.body(0).position.z(), 0.0);
+    EXPECT_NEAR(world.body(0).velocity.x(), -0.1, rounding); // the drag acts all the same
+    push(world, {3.3, 0.0, -3.3}, 1000);
+    EXPECT_NEAR(world.body(0).position.x(), stop_x, rounding); // not past the static cube
+}
+
+TEST(PaperCube, PredictedIntoTheStaticCubeIsPutBackInFrontOfItAndNotBesideIt)
+{
+    for (const double depth : {0.001, 0.011, 0.020, 0.039}) { // beyond 10 mm z would be nearer
+        World world = paper_world();
+        place(world, {stop_x + depth, 0.0, 0.0}, {0.3, 0.0, 0.0});
+        world.tick();
+        EXPECT_NEAR(world.body(0).position.x(), stop_x, rounding) << depth;
+        EXPECT_EQ(world.body(0).position.z(), 0.0) << depth;
+    }
+}
+
+TEST(UnlockedCube, SlidesAlongTheStaticCubeAndPastItsCorner)
+{
+    World world = unlocked_world();
     push(world, {3.3, 0.0, -1.0}, 1000);
     // z under drag: v (t - T (1 - exp(-t / T))), v = F / b, T = m / b.
     EXPECT_NEAR(world.body(0).position.z(), -0.1 * (1.0 - 0.01 * (1.0 - std::exp(-100.0))),
@@ -82,9 +112,9 @@ TEST(PaperCube, SlidesAlongTheStaticCubeAndPastItsCorner)
     EXPECT_GT(world.body(0).position.x(), stop_x);
 }
 
-TEST(PaperCube, StopsAtTheFaceOfTheStaticCubeThatItComesTo)
+TEST(UnlockedCube, StopsAtTheFaceOfTheStaticCubeThatItComesTo)
 {
-    World world = paper_world();
+    World world = unlocked_world();
     place(world, {0.1147, 0.0, -0.1}); // behind it
     push(world, {0.0, 0.0, 1.0}, 3000);
     EXPECT_NEAR(world.body(0).position.z(), 0.030 - 0.040, rounding);
@@ -99,9 +129,24 @@ TEST(PaperCube, PlacedAHairInsideTheStaticCubeDoesNotPassThroughIt)
     EXPECT_NEAR(world.body(0).position.x(), stop_x, rounding);
 }
 
-TEST(PaperCube, FallsBackOntoThePlatformAndStaysThere)
+TEST(PaperCube, LockedOntoThePlatformIsSlowedByTheDragWhateverPullsItUp)
 {
-    World world = paper_world();
+    Description scene = paper_scene();
+    scene.bodies[0].locked.y = true;
+    for (const StepperKind kind : {StepperKind::sliding, StepperKind::lone, StepperKind::few}) {
+        for (const double up : {0.0, 0.98, 0.982, 3.3}) { // it weighs 0.981 N
+            World world = World::freeze(scene, {.stepper = kind}).value();
+            place(world, {}, {0.2, 0.0, 0.0});
+            push(world, {0.0, up, 0.0}, 500); // 50 time constants of 0.1 kg / (10 N s/m)
+            EXPECT_NEAR(world.body(0).position.x(), 0.2 * 0.01, rounding)
+                << name_of(kind) << ' ' << up;
+        }
+    }
+}
+
+TEST(UnlockedCube, FallsBackOntoThePlatformAndStaysThere)
+{
+    World world = unlocked_world();
     place(world, {0.0, 0.1, 0.0}, {0.2, 0.0, 0.0});
     push(world, {}, 100);
     EXPECT_NEAR(world.body(0).position.y(), 0.1 - 0.5 * 9.81 * 0.01, rounding);
@@ -113,9 +158,9 @@ TEST(PaperCube, FallsBackOntoThePlatformAndStaysThere)
     EXPECT_EQ(world.body(0).position.y(), 0.0);
 }
 
-TEST(PaperCube, IsLiftedByMoreThanItsWeightOnly)
+TEST(UnlockedCube, IsLiftedByMoreThanItsWeightOnly)
 {
-    World world = paper_world();
+    World world = unlocked_world();
     push(world, {0.0, 0.98, 0.0}, 100); // 0.981 N
     EXPECT_EQ(world.body(0).position.y(), 0.0);
     push(world, {0.0, 1.2, 0.0}, 100);
@@ -208,6 +253,23 @@ TEST(PaperHand, AtAnEdgePushesFromTheEdgeToTheSphere)
     EXPECT_FALSE(feel(world, hand_at({-0.0241, 0.0231, 0.010})).touching); // more than 5 mm
 }
 
+TEST(PaperHand, FeelsTheWholeSpringOfACubeThatCannotGiveWaySidewaysOrDownwards)
+{
+    for (const glm::dvec3 side : {glm::dvec3{0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, {0.0, 1.0, 0.0}}) {
+        World world = paper_world();
+        HandInput hand = hand_at(0.023 * side); // 2 mm deep: 1 N
+        for (int i = 0; i < 100; ++i) {
+            const HandTouch& touched = feel(world, hand);
+            ASSERT_NEAR(glm::dot(touched.on_hand.value, side), 1.0, rounding);
+            ASSERT_EQ(touched.on_hand, -touched.on_body);
+        }
+        hand.velocity = {-0.1 * side};
+        EXPECT_NEAR(glm::dot(feel(world, hand).on_hand_at_start.value, side), 1.2, rounding);
+        EXPECT_NEAR(glm::dot(world.touch(0).on_hand.value, side), 1.225, rounding); // the mean
+        EXPECT_EQ(world.body(0).position, base::Position{});
+    }
+}
+
 TEST(PaperHand, LeavesTheStaticCubeByTheFaceThroughWhichItWentIn)
 {
     World world = paper_world();
@@ -263,6 +325,20 @@ TEST(PaperGrip, PullsAtMostWithThePeakForceInItsOwnDirection)
     EXPECT_NEAR(base::norm(touched.on_body), 3.3, rounding);
     EXPECT_NEAR(touched.on_body.x(), -0.6 * 3.3, rounding);
     EXPECT_NEAR(touched.on_body.y(), 0.8 * 3.3, rounding);
+}
+
+TEST(PaperGrip, CarriesTheCubeAlongXAndIsHeldBackAcross)
+{
+    World world = paper_world();
+    feel(world, hand_at(-0.025, true));
+    for (int i = 0; i < 1000; ++i) feel(world, hand_at({-0.030, 0.003, -0.002}, true));
+    const HandTouch& touched = world.touch(0);
+    EXPECT_NEAR(world.body(0).position.x(), -0.005, 1e-6);
+    EXPECT_EQ(world.body(0).position.y(), 0.0);
+    EXPECT_EQ(world.body(0).position.z(), 0.0);
+    EXPECT_NEAR(touched.on_hand.x(), 0.0, 1e-3);
+    EXPECT_NEAR(touched.on_hand.y(), -1.5, rounding); // 3 mm
+    EXPECT_NEAR(touched.on_hand.z(), 1.0, rounding);  // 2 mm
 }
 
 TEST(PaperGrip, TakesHoldWithin10MmOfTheSurfaceOnlyAndKeepsIt)

@@ -108,7 +108,7 @@ TEST(World, ALockedBodyCannotBePlacedTurned)
 TEST(World, ALockedCoordinateStaysWhereItIsWhereverTheBodyIsPut)
 {
     Description scene = paper_scene();
-    scene.bodies[0].locked.z = true;
+    scene.bodies[0].locked = {.z = true};
     World world = World::freeze(scene).value();
     BodyState state;
     state.position = {{0.01, 0.02, 0.03}};

@@ -61,6 +61,7 @@ TEST(Mirror, ASymmetricSqueezeStaysInTheMiddleExactly)
         scene::Description description = scene::paper_scene();
         description.bodies.resize(1);
         description.bodies[0].position = {};
+        description.bodies[0].locked = {};
         description.bodies[0].turning =
             kind == StepperKind::sliding ? scene::Turning::locked : scene::Turning::free;
         World world = World::freeze(description, {.stepper = kind}).value();

@@ -127,6 +127,7 @@ protected:
     [[nodiscard]] static World world()
     {
         Description scene = paper_scene();
+        scene.bodies[0].locked = {};
         if (GetParam() >= StepperKind::few) scene.bodies.push_back(cube({-0.1, 0.0, 0.0}));
         if (GetParam() == StepperKind::flight) {
             scene.bodies.erase(scene.bodies.begin() + 1);

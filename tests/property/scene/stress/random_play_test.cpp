@@ -64,7 +64,20 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{7023619, "PulledOutByAStiffGrip"}, Scar{7002827, "ThrownAmongOthersByAStiffGrip"},
         Scar{7048930, "GrippedByStiffHands"}, Scar{43789, "GrippedAgainstDrag"},
         Scar{7017750, "PushedByAStiffHandAgainstDrag"}, Scar{7000755, "GrippedAgainstStrongDrag"},
-        Scar{292, "BrakedWithALockedTurn"}, Scar{3766, "BrakedWhileItTurnsFarInATick"}),
+        Scar{292, "BrakedWithALockedTurn"}, Scar{3766, "BrakedWhileItTurnsFarInATick"},
+        Scar{1818, "HitAgainInTheFirstTick"}, Scar{8316, "HitAgainInTheSameTick"},
+        Scar{9050, "HitAgainAndAgain"}, Scar{7021082, "SolvedWithAPivotOfRounding"},
+        Scar{7025984, "SolvedWithAPivotOfRoundingAgain"}, Scar{41774, "WedgedOnOneAxis"},
+        Scar{57029, "ThrownByAnEndlessImpulse"}, Scar{7014407, "GivenMomentumByNobody"},
+        Scar{7088142, "GivenMomentumByNobodyAgain"}, Scar{7072176, "GoneFartherThanItsSpeed"},
+        Scar{55074, "PushedByTwoEventsOfAHand"}, Scar{7032638, "PushedAThousandfold"},
+        Scar{7008905, "PushedAslantWhileStuck"}, Scar{7039109, "PushedAslantWhileStuckAgain"},
+        Scar{934, "HeldAtHighSpeed"}, Scar{1509, "PressedOffCentreAtHighSpeed"},
+        Scar{7427, "BouncingLightly"}, Scar{8575, "BouncingOffTwoInOneTick"},
+        Scar{30580, "StoppedByDrag"}, Scar{7008381, "BouncingInACrowd"},
+        Scar{7023885, "SlidingInACrowd"}, Scar{7056537, "BouncingWhileItSlides"},
+        Scar{30011485, "GrippedWhileItSpins"}, Scar{7015132, "GrippedLightlyWhileItSpins"},
+        Scar{7029090, "GrippedHardWhileItSpins"}, Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
     [](const auto& each) { return each.param.name; });
 
 } // namespace

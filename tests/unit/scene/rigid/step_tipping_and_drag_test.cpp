@@ -36,6 +36,7 @@ TEST(RigidStepper, DragActsFromTheFirstTickOnWhatIsPutOnAPlane)
     Description scene = paper_scene();
     scene.bodies.resize(1);
     scene.bodies[0].turning = Turning::free;
+    scene.bodies[0].locked = {};
     scene.bodies[0].velocity = {{0.2, 0.0, 0.0}};
     scene.hands.count = 0;
     World world = World::freeze(scene).value();

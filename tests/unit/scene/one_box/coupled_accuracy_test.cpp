@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace hapnet::scene::slanted_test {
+namespace hapnet::scene::coupled_accuracy_test {
 namespace {
 
 constexpr double mass = 0.1;
@@ -160,4 +160,4 @@ TEST(SlantedSprings, NeverPushWithMoreThanTheGreatestForce)
 }
 
 } // namespace
-} // namespace hapnet::scene::slanted_test
+} // namespace hapnet::scene::coupled_accuracy_test
