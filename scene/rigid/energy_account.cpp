@@ -48,9 +48,11 @@ Motion motion_of(const EnergyAccount::Tick& tick, Slot slot)
     motion.change = end.velocity - motion.start - motion.forced;
     motion.spin = integration.start.spin;
     motion.momentum = bodies.angular_momentum.at(slot);
-    motion.twist =
-        tick.config.tick * about_unlocked_axes(properties, tick.state.torques[properties.id]);
-    motion.spin_forced = bodies.apply_inverse_inertia(slot, motion.twist);
+    if (!tick.state.twisted.is_empty()) {
+        motion.twist =
+            tick.config.tick * about_unlocked_axes(properties, tick.state.torques[properties.id]);
+        motion.spin_forced = bodies.apply_inverse_inertia(slot, motion.twist);
+    }
     motion.angular =
         about_unlocked_axes(properties, integration.angular_momentum + end.angular_impulse +
                                             integration.bounce_angular_impulse) -

@@ -287,7 +287,7 @@ TEST(Kinematic, OnlyItIsDrivenAndOnlyWithinTheRanges)
     EXPECT_EQ(world.place(1, {}), Refusal::no_such_body);
     EXPECT_EQ(world.drive(1, {{nan, 0.0, 0.0}}, {}), Refusal::not_finite);
     EXPECT_EQ(world.drive(1, {{1e5, 0.0, 0.0}}, {}), Refusal::out_of_range);
-    EXPECT_EQ(world.drive(1, {}, {0.0, 1e5, 0.0}), Refusal::out_of_range);
+    EXPECT_EQ(world.drive(1, {}, {0.0, 1e9, 0.0}), Refusal::out_of_range); // rad/s
     EXPECT_EQ(world.move(1, {.position = {{100.0, 0.0, 0.0}}}), Refusal::out_of_range); // 1e5 m/s
     EXPECT_EQ(world.move(1, {.orientation = {2.0, 0.0, 0.0, 0.0}}), Refusal::out_of_range);
     const auto before = world.hash();
