@@ -197,7 +197,6 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
 void HandContacts::feel_planes(const WorldConfig& config, WorldState& state,
                                std::uint32_t hand) const
 {
-    if (!any_felt_plane_) return;
     const HandInput& input = state.hands[hand];
     const HandDescription& feel = config.feels.of(hand, config.hands);
     for (const PlaneDescription& plane : config.planes) {

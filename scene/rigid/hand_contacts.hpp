@@ -43,6 +43,7 @@ public:
     /// Finds what the hand does to one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
+    [[nodiscard]] bool feels_planes() const { return any_felt_plane_; }
     /// Adds what the hand feels of planes.
     void feel_planes(const WorldConfig& config, WorldState& state, std::uint32_t hand) const;
     /// Forgets the bodies that the hand has left.

@@ -98,6 +98,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     collide_hands(config, state);
     wake_disturbed(state);
     begin_contacts(state);
+    if (has_kinematics) begin_kinematics(state.bodies);
     collide_planes(config, state);
     collide_bodies(state);
     warm_start();
@@ -110,6 +111,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     stop_sliding_contacts(state);
     correct_positions(state);
     if (bounced || changed) settle_energy(config, state);
+    if (has_kinematics && kinematics_.any_far()) any_far_ = true;
     integrate_positions(state);
     integrate_free_bodies(state);
     if (any_far_) solve_continuous(config, state);
@@ -188,7 +190,8 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
                                        {id, slot < bodies.movable, now, bodies.velocity.at(slot)});
             }
         }
-        if (input.present) hand_contacts_.feel_planes(config, state, hand);
+        if (input.present && hand_contacts_.feels_planes())
+            hand_contacts_.feel_planes(config, state, hand);
         hand_contacts_.forget_departed(hand);
     }
     if constexpr (sleeps) {
@@ -253,18 +256,25 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
 {
     const Bodies& bodies = state.bodies;
-    const Slot kinematic = bodies.moving - bodies.movable;
+    const std::size_t kinematic = bodies.moving - bodies.movable;
     solver_.begin(bodies.awake, kinematic);
     // [0] does not move: nobody writes it.
-    integrations_.resize(bodies.awake + kinematic + std::size_t{1});
+    integrations_.resize(bodies.awake + kinematic + 1);
+}
+
+/// Sets the motions of the tick of what nothing changes.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::begin_kinematics(const Bodies& bodies)
+{
     for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
+        const SolverIndex index = bodies.awake + 1 + (slot - bodies.movable);
         const KinematicTick& now = kinematics_.of(bodies, slot);
-        BodyIntegration& integration =
-            integrations_[bodies.awake + std::size_t{1} + (slot - bodies.movable)];
+        BodyIntegration& integration = integrations_[index];
         integration = {};
         integration.start = integration.start_after_bounces = now.start;
-        integration.predicted = now.end;
-        integration.mean = now.mean;
+        integration.predicted = solver_.end_motion(index) = now.end;
+        integration.mean = solver_.mean_motion(index) = now.mean;
+        solver_.response(index) = {};
     }
 }
 
@@ -459,10 +469,6 @@ bool RigidStepper<broad_phase>::solve_velocities(Work& work)
     for (const Slot slot : active_.slots()) {
         solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
     }
-    for (SolverIndex i = solver_.first_kinematic(); i < integrations_.size(); ++i) {
-        solver_.end_motion(i) = integrations_[i].predicted;
-        solver_.mean_motion(i) = integrations_[i].mean;
-    }
     for (ContactBlock& block : solver_.blocks()) {
         set_centripetal_velocity(block, integrations_[block.a].start.spin,
                                  integrations_[block.b].start.spin, scales_.tick);
@@ -529,17 +535,20 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 {
+    const auto stop = [&](const ContactBlock& block, SolverIndex index, const glm::dvec3& ground) {
+        if (integrations_[index].friction_contacts != 1) return;
+        apply_stop(block, {integrations_[index], ground, index == block.b},
+                   state.bodies.properties[index - 1], scales_, solver_.mean_motion(index));
+    };
     for (const ContactBlock& block : solver_.blocks()) {
         if (block.friction == 0.0) continue;
-        const bool is_second = solver_.responds(block.b);
-        if (solver_.responds(block.a) == is_second) continue;
-        const SolverIndex index = is_second ? block.b : block.a;
-        if (integrations_[index].friction_contacts != 1) continue;
-        const SolverIndex other = is_second ? block.a : block.b;
-        const BodyMotion& ground = integrations_[other].start;
-        if (other != 0 && ground.spin != glm::dvec3{0.0}) continue;
-        apply_stop(block, {integrations_[index], ground.velocity, is_second},
-                   state.bodies.properties[index - 1], scales_, solver_.mean_motion(index));
+        if (block.a == 0 || block.b == 0) {
+            stop(block, block.a + block.b, glm::dvec3{0.0});
+        } else if (solver_.responds(block.a) != solver_.responds(block.b)) {
+            const SolverIndex index = solver_.responds(block.a) ? block.a : block.b;
+            const BodyMotion& ground = integrations_[block.a + block.b - index].start;
+            if (ground.spin == glm::dvec3{0.0}) stop(block, index, ground.velocity);
+        }
     }
 }
 
@@ -579,7 +588,6 @@ void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldSt
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_positions(WorldState& state)
 {
-    if (kinematics_.any_far()) any_far_ = true;
     if (any_far_) continuous_.begin(state.bodies, active_.slots(), integrations_.all(), solver_);
     for (const Slot slot : active_.slots()) {
         integrate_position(integrations_[slot + 1], state.bodies, slot, solver_, scales_);

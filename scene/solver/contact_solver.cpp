@@ -84,7 +84,6 @@ void ContactSolver::begin(std::size_t bodies, std::size_t kinematic)
     responses_.resize(all);
     end_motions_.resize(all);
     mean_motions_.resize(all);
-    for (std::size_t i = bodies + 1; i < all; ++i) responses_[i] = {};
     blocks_.clear();
 }
 

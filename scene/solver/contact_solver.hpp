@@ -40,13 +40,12 @@ public:
     ContactSolver(std::size_t bodies, std::size_t blocks);
 
     /// Begins a tick: no contacts, bodies 1 .. `bodies`, and after them `kinematic` ones, which
-    /// move by themselves and answer to nothing.
+    /// move by themselves: their responses have to be zero.
     void begin(std::size_t bodies, std::size_t kinematic = 0);
 
     /// Whether impulses move it. What does not answer joins no bodies to an island.
     [[nodiscard]] bool responds(SolverIndex body) const { return body - 1 < responding_; }
     [[nodiscard]] bool is_kinematic(SolverIndex body) const { return body > responding_; }
-    [[nodiscard]] SolverIndex first_kinematic() const { return responding_ + 1; }
 
     [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
     /// At the end of the tick.
