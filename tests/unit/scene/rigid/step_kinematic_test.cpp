@@ -258,6 +258,51 @@ World heap_on_a_moving_floor(double speed)
     return world_of(scene);
 }
 
+/// A thin plate 0.5 m before three cubes that rest one behind the other on smooth ground.
+Description plate_before_cubes()
+{
+    Description scene;
+    scene.hands.count = 0;
+    scene.planes.push_back({.name = "ground", .offset_m = -half});
+    for (int i = 0; i < 3; ++i) scene.bodies.push_back(cube_at({0.1 * i, 0.0, 0.0}));
+    BodyDescription plate{.name = "plate", .movable = false, .kinematic = true};
+    plate.half = {0.001, 0.1, 0.1};
+    plate.position = {{-0.5, 0.0, 0.0}};
+    scene.bodies.push_back(plate);
+    return scene;
+}
+
+TEST(Kinematic, AFastPlatePassesNoSleeper)
+{
+    for (const double speed : {5.0, 30.0, 100.0, 900.0}) {
+        World world = World::freeze(plate_before_cubes(), {.tick = 1ms, .sleeping = true}).value();
+        run(world, 2000);
+        for (BodyId id = 0; id < 3; ++id) ASSERT_FALSE(world.is_awake(id));
+        ASSERT_FALSE(world.drive(3, {{speed, 0.0, 0.0}}, {}));
+        const int ticks = 10 + static_cast<int>(1.0 / (speed * tick_s));
+        for (int i = 0; i < ticks; ++i) {
+            world.tick();
+            for (BodyId id = 0; id < 3; ++id)
+                ASSERT_GE(world.position(id).x(), world.position(3).x()) << speed << ' ' << i;
+        }
+        for (BodyId id = 0; id < 3; ++id) EXPECT_GE(world.velocity(id).x(), 0.99 * speed) << speed;
+    }
+}
+
+TEST(Kinematic, APlateThatIsPutFarOnTakesAlongWhatIsInItsWay)
+{
+    for (const double end : {0.0, 50.0}) {
+        World world = World::freeze(plate_before_cubes(), {.tick = 1ms, .sleeping = true}).value();
+        run(world, 2000);
+        ASSERT_FALSE(world.move(3, {.position = {{0.3, 0.0, 0.0}}, .velocity = {{end, 0.0, 0.0}}}));
+        for (int i = 0; i < 10; ++i) {
+            world.tick();
+            for (BodyId id = 0; id < 3; ++id)
+                ASSERT_GE(world.position(id).x(), world.position(3).x()) << end << ' ' << i;
+        }
+    }
+}
+
 TEST(Kinematic, WhatHappensOnAMovingFloorHappensOnOneThatRests)
 {
     constexpr double speed = 0.75;
@@ -287,7 +332,7 @@ TEST(Kinematic, OnlyItIsDrivenAndOnlyWithinTheRanges)
     EXPECT_EQ(world.place(1, {}), Refusal::no_such_body);
     EXPECT_EQ(world.drive(1, {{nan, 0.0, 0.0}}, {}), Refusal::not_finite);
     EXPECT_EQ(world.drive(1, {{1e5, 0.0, 0.0}}, {}), Refusal::out_of_range);
-    EXPECT_EQ(world.drive(1, {}, {0.0, 1e9, 0.0}), Refusal::out_of_range); // rad/s
+    EXPECT_EQ(world.drive(1, {}, {0.0, 1e9, 0.0}), Refusal::out_of_range);              // rad/s
     EXPECT_EQ(world.move(1, {.position = {{100.0, 0.0, 0.0}}}), Refusal::out_of_range); // 1e5 m/s
     EXPECT_EQ(world.move(1, {.orientation = {2.0, 0.0, 0.0, 0.0}}), Refusal::out_of_range);
     const auto before = world.hash();
