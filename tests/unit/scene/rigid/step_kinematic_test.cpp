@@ -258,6 +258,43 @@ World heap_on_a_moving_floor(double speed)
     return world_of(scene);
 }
 
+/// What a plate and torques do is work and nothing out of nothing: it is not taken away.
+TEST(Kinematic, NoEnergyThatItGivesIsHeldBack)
+{
+    for (const double restitution : {0.0, 0.8}) {
+        for (const double weight : {0.0, gravity}) {
+            Description scene = plate_with_cube();
+            scene.gravity = {0.0, -weight, 0.0};
+            scene.bodies[0].material.restitution = restitution;
+            scene.bodies.push_back(cube_at({0.2, half, 0.0}, 1.0));
+            scene.bodies.push_back(cube_at({0.2, 3.0 * half, 0.0}, 0.1));
+            scene.bodies[1].sway = {{0.05, 0.02, 0.01}, 300ms};
+            World world = world_of(scene);
+            for (int i = 0; i < 2000; ++i) {
+                if (i % 100 < 50) {
+                    ASSERT_FALSE(world.push_torque(0, {0.0, 0.02, 0.0}));
+                }
+                world.tick();
+            }
+            const Interventions& counted = world.state().interventions;
+            EXPECT_EQ(counted.islands_limited, 0U) << restitution << ' ' << weight;
+            EXPECT_EQ(counted.impulses_trimmed, 0U) << restitution << ' ' << weight;
+        }
+    }
+}
+
+TEST(Kinematic, NoEnergyOfATurntableIsHeldBack)
+{
+    Description scene = plate_with_cube();
+    scene.bodies[0].position = {{0.3, half, 0.0}};
+    scene.bodies.push_back(cube_at({0.3, 3.0 * half, 0.0}, 1.0));
+    scene.bodies[1].angular_velocity = {0.0, 9.0, 0.0};
+    World world = world_of(scene);
+    run(world, 3000); // they are thrown off
+    EXPECT_EQ(world.state().interventions.islands_limited, 0U);
+    EXPECT_EQ(world.state().interventions.impulses_trimmed, 0U);
+}
+
 /// A thin plate 0.5 m before three cubes that rest one behind the other on smooth ground.
 Description plate_before_cubes()
 {
