@@ -13,15 +13,15 @@ struct Work {
     std::uint64_t pairs = 0;    // of two bodies, or of a body and a plane: looked at closely
     std::uint64_t contacts = 0; // prepared for the solver
     std::uint64_t visits = 0;   // of the solver to one contact: velocities and overlaps
-    std::uint64_t springs = 0;  // steps of the rows of hands' springs on bodies that turn
+    std::uint64_t springs = 0;  // rows of hands' springs on bodies that turn, solved step by step
     std::uint64_t events = 0;   // of the one box within the tick
-    std::uint64_t touches = 0;  // of bodies that go on within the tick after their first touch
+    std::uint64_t looks = 0;    // at two bodies one of which goes far within the tick
 
     /// Whether nothing is more than that.
     [[nodiscard]] bool is_within(const Work& bound) const
     {
         return pairs <= bound.pairs && contacts <= bound.contacts && visits <= bound.visits &&
-               springs <= bound.springs && events <= bound.events && touches <= bound.touches;
+               springs <= bound.springs && events <= bound.events && looks <= bound.looks;
     }
     friend bool operator==(const Work&, const Work&) = default;
 };

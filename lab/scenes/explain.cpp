@@ -93,7 +93,7 @@ std::string hips_text(const scene::HandDescription& hips)
 Json json_of(const scene::Work& work)
 {
     return {{"pairs", work.pairs},     {"contacts", work.contacts}, {"visits", work.visits},
-            {"springs", work.springs}, {"events", work.events},     {"touches", work.touches}};
+            {"springs", work.springs}, {"events", work.events},     {"looks", work.looks}};
 }
 
 /// What is not there at all is left out.
@@ -103,9 +103,9 @@ std::string bound_text(const scene::Work& bound)
         {{bound.pairs, "pairs examined"},
          {bound.contacts, "contacts prepared"},
          {bound.visits, "visits of the solver to a contact"},
-         {bound.springs, "steps of hands' springs"},
+         {bound.springs, "rows of hands' springs solved"},
          {bound.events, "events"},
-         {bound.touches, "further touches"}}};
+         {bound.looks, "looks at bodies that go far"}}};
     std::vector<std::string> parts;
     for (const auto& [count, name] : kinds) {
         if (count > 0) parts.push_back(fmt::format("{} {}", count, name));

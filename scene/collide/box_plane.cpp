@@ -63,10 +63,10 @@ Manifold collide(const PlaneSurface& plane, const OrientedBox& box, double margi
     for (const PlaneCorner& corner : deepest_corners(plane.normal, box.axes, box.half)) {
         const double separation = height + corner.rise;
         if (separation > margin) continue;
-        manifold.points[manifold.count++] = {
-            .position = box.centre + corner.place - (0.5 * separation) * plane.normal,
-            .separation = separation,
-            .feature = corner.feature};
+        manifold.points[manifold.count++] = {.position = box.centre + corner.place -
+                                                         (0.5 * separation) * plane.normal,
+                                             .separation = separation,
+                                             .feature = corner.feature};
     }
     return manifold;
 }

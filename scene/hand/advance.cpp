@@ -66,6 +66,7 @@ struct Task {
     std::span<const HandSpring> springs;
     std::span<SpringImpulse> work;
     PressedModes& modes;
+    std::size_t& rows; // solved by the midpoint rule
 };
 template <std::size_t count>
 void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
@@ -79,7 +80,7 @@ void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
     std::array<SpringImpulse, count> rest;
     BodyDynamics rotated = task.dynamics;
     rotated.inverse_inertia = phases.inverse_inertia();
-    MidpointRule{task.body, rotated, now, rest}.advance(phases.time_left());
+    task.rows += MidpointRule{task.body, rotated, now, rest}.advance(phases.time_left());
     for (std::size_t i = 0; i < count; ++i) task.work[chosen.which[i]].impulse += rest[i].impulse;
 }
 
@@ -127,7 +128,7 @@ void advance_by_events(const Task& task, double tick)
     for (SpringImpulse& each : task.work) each = {};
     const Chosen chosen = choose(task.body, task.dynamics, task.springs, tick);
     if (!chosen.is_closed) {
-        MidpointRule{task.body, task.dynamics, task.springs, task.work}.advance(tick);
+        task.rows += MidpointRule{task.body, task.dynamics, task.springs, task.work}.advance(tick);
     } else if (chosen.count == 0) {
         advance_freely(task.body, task.dynamics, tick);
     } else if (chosen.count == 1) {
@@ -147,10 +148,10 @@ glm::dvec3 along_plane(const BodyDynamics& dynamics, const glm::dvec3& v)
 
 void advance_with_drag(const Task& task, double tick)
 {
-    const auto& [body, dynamics, springs, work, modes] = task;
+    const auto& [body, dynamics, springs, work, modes, rows] = task;
     if (!are_soft(dynamics, springs, tick)) {
         for (SpringImpulse& each : work) each = {};
-        MidpointRule{body, dynamics, springs, work}.advance(tick);
+        rows += MidpointRule{body, dynamics, springs, work}.advance(tick);
         return;
     }
     // Drag as a constant force: of the mean velocity, which takes two passes.
@@ -162,7 +163,7 @@ void advance_with_drag(const Task& task, double tick)
         body = start;
         held.acceleration = dynamics.acceleration - dynamics.drag * along_plane(dynamics, mean);
         if (!advance_in_constant_contact(body, held, springs, work, tick, modes))
-            advance_by_events({body, held, springs, work, modes}, tick);
+            advance_by_events({body, held, springs, work, modes, rows}, tick);
         mean = 0.5 * (start.velocity + body.velocity);
     }
 }
@@ -170,7 +171,7 @@ void advance_with_drag(const Task& task, double tick)
 /// What most ticks do not need.
 HandEnergy advance_otherwise(const Task& task, const MovingBody& start, bool is_done, double tick)
 {
-    const auto& [body, dynamics, springs, work, modes] = task;
+    const auto& [body, dynamics, springs, work, modes, rows] = task;
     const HandTick outcome{start, body, dynamics, tick};
     if (is_done) return keep_passive(outcome, springs, work, SpringsAtEnd::ignored);
     if (springs.empty()) {
@@ -182,7 +183,9 @@ HandEnergy advance_otherwise(const Task& task, const MovingBody& start, bool is_
     } else {
         advance_by_events(task, tick);
     }
-    return keep_passive(outcome, springs, work, SpringsAtEnd::counted);
+    HandEnergy energy = keep_passive(outcome, springs, work, SpringsAtEnd::counted);
+    energy.rows = rows;
+    return energy;
 }
 
 } // namespace
@@ -196,8 +199,9 @@ HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
     const bool is_done = dynamics.drag == 0.0 &&
                          advance_in_constant_contact(body, dynamics, springs, work, tick, modes);
     if (is_done && has_hardly_turned(start, body)) return energy_of_pressed(springs, work); // exact
-    return advance_otherwise({body, dynamics, springs, work.first(springs.size()), modes}, start,
-                             is_done, tick);
+    std::size_t rows = 0;
+    return advance_otherwise({body, dynamics, springs, work.first(springs.size()), modes, rows},
+                             start, is_done, tick);
 }
 
 } // namespace hapnet::scene

@@ -57,6 +57,7 @@ struct SpringImpulse {
 
 /// What passed between a body and its hands in a tick.
 struct HandEnergy {
+    std::size_t rows = 0;   // that the midpoint rule solved for it
     double stored = 0.0;    // J, in the springs on the body at the start
     double driven = 0.0;    // J: the work of the hands' own motion on the springs
     bool is_braked = false; // the springs' impulses were scaled down

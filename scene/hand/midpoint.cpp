@@ -134,7 +134,7 @@ int MidpointRule::substeps(double time)
     return most < substeps_max ? std::min(1 + static_cast<int>(most), substeps_max) : substeps_max;
 }
 
-void MidpointRule::advance(double time)
+std::size_t MidpointRule::advance(double time)
 {
     const int count = substeps(time);
     const double substep = time / count;
@@ -144,6 +144,7 @@ void MidpointRule::advance(double time)
         solve(substep);
         apply(drag, substep);
     }
+    return rows_solved_;
 }
 
 void MidpointRule::set_rows(double substep)
@@ -298,6 +299,7 @@ void MidpointRule::solve(double substep)
         // A step is no longer than what is missed.
         if (is_negligible(missed)) return;
         const Six change = newton_step(missed, substep);
+        rows_solved_ += rows_;
         const double falls = dot(missed, change);
         velocities.add(1.0, change);
         missed = update_forces(velocities, substep);

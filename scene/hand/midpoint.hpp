@@ -41,7 +41,8 @@ public:
     MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
                  std::span<const HandSpring> springs, std::span<SpringImpulse> work);
 
-    void advance(double time);
+    /// Returns how many rows it has solved: of each substep, once for each step of Newton's method.
+    std::size_t advance(double time);
 
 private:
     static constexpr std::size_t springs_max = MidpointBudget::springs_max;
@@ -100,6 +101,7 @@ private:
     glm::dmat3 inertia_now_;     // inverse
     std::size_t springs_ = 0;
     std::size_t rows_ = 0;
+    std::size_t rows_solved_ = 0;
     std::array<Spring, springs_max> spring_;
     std::array<Row, rows_max> row_;
 };

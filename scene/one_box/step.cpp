@@ -181,6 +181,7 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& s
         start_interval<coulomb>(box);
     }
     for (int events = 1;; ++events) {
+        ++state.work.events;
         const double reach =
             std::max(std::max(box.axes[0].reach, box.axes[1].reach), box.axes[2].reach);
         if (!(reach <= box.clearance)) query_obstacles(box, reach);

@@ -34,9 +34,10 @@ public:
                   const WorldState& state);
 
     void step(const WorldConfig& config, WorldState& state);
-    [[nodiscard]] Work work_bound(const WorldConfig& /*config*/) const
+    [[nodiscard]] Work work_bound(const WorldConfig& config) const
     {
-        return {.events = events_max};
+        // A tick is tried once more for every hand that grips.
+        return {.events = std::uint64_t{events_max} * (1 + config.hands.count)};
     }
     void on_body_placed(WorldState& state, BodyId body);
 

@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint32_t touches_max = 64, touches_many = 12;
 constexpr double many_times = 4.0;
 // Looks at two bodies in a tick: some, and so many more for each movable body.
-constexpr std::uint32_t steps_base = 2048, steps_per_body = 128;
+constexpr std::uint32_t steps_base = 512, steps_per_body = 32;
 // Meetings for each movable body, on average.
 constexpr std::size_t meetings_per_body_max = 64;
 constexpr std::size_t meetings_max = 65'536;
@@ -530,10 +530,8 @@ Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& fl
     const Bodies& bodies = around.state.bodies;
     const Slot slot = bodies.slot_of[flyer.body];
     const OrientedBox box = flyer.flight.at(time);
-    Toucher its{.moves = flyer.is_movable || flyer.is_kinematic,
-                .centre = box.centre,
-                .response = {},
-                .motion = {}};
+    const bool moves = flyer.is_movable || flyer.is_kinematic;
+    Toucher its{.moves = moves, .centre = box.centre, .response = {}, .motion = {}};
     if (flyer.is_kinematic)
         its.motion = around.kinematics.of(bodies, slot).motion_at(time, scales_.tick);
     if (!flyer.is_movable) return its;

@@ -44,6 +44,9 @@ public:
     template <BroadPhase search>
     void solve(const Surroundings& around, std::span<const Slot> active,
                const PairFinder<search>& pairs);
+    /// Looks at two bodies in a tick, at most; and in the last solve().
+    [[nodiscard]] std::uint64_t looks_max() const { return steps_max_; }
+    [[nodiscard]] std::uint64_t looks() const { return steps_max_ - steps_left_; }
     [[nodiscard]] std::span<const BodyId> woken() const { return woken_.all(); }
 
 private:

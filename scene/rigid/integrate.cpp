@@ -196,6 +196,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     integration.hand_energy_stored = energy.stored;
     integration.energy_driven = energy.driven;
     integration.hands_are_braked = energy.is_braked;
+    integration.hand_rows = energy.rows;
     integration.has_hands = true;
     integration.position = body.position;
     integration.orientation = body.orientation;

@@ -41,6 +41,7 @@ struct BodyIntegration {
     // Where a body with hands on it would be at the end.
     bool has_hands = false;
     bool hands_are_braked = false;
+    std::size_t hand_rows = 0;       // see HandEnergy
     double hand_energy_stored = 0.0; // J: in their springs at the start of the tick
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};

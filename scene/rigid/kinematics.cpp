@@ -5,8 +5,8 @@
 #include "proto/base/math.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
-#include "scene/rigid/integrate.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hapnet::scene {
@@ -77,6 +77,40 @@ void Kinematics::begin_tick(const WorldConfig& config, WorldState& state)
                                    far_way * scales_.least * scales_.rate;
         bodies.velocity.put(slot, now.mean.velocity);
         bodies.angular_momentum.put(slot, now.mean.spin);
+    }
+}
+
+void Kinematics::begin_contacts(const Bodies& bodies, ContactSolver& solver,
+                                std::span<BodyIntegration> integrations) const
+{
+    for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
+        const SolverIndex index = bodies.awake + 1 + (slot - bodies.movable);
+        const KinematicTick& now = of(bodies, slot);
+        BodyIntegration& integration = integrations[index];
+        integration = {};
+        integration.start = integration.start_after_bounces = now.start;
+        integration.predicted = solver.end_motion(index) = now.end;
+        integration.mean = solver.mean_motion(index) = now.mean;
+        solver.response(index) = {};
+    }
+}
+
+void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integrations)
+{
+    const auto add = [&](SolverIndex body, SolverIndex by, const glm::dvec3& arm,
+                         const Wrench& push) {
+        integrations[body].energy_driven +=
+            std::max(work_of(push, arm, integrations[by].mean),
+                     work_of(push, arm, integrations[by].predicted));
+    };
+    for (const ContactBlock& block : solver.blocks()) {
+        const bool a_drives = solver.is_kinematic(block.a);
+        if (!a_drives && !solver.is_kinematic(block.b)) continue;
+        const Wrench on_b = wrench(block, contact_vector(block, block.impulse));
+        if (a_drives)
+            add(block.b, block.a, block.arm_a, on_b);
+        else
+            add(block.a, block.b, block.arm_b, {-on_b.impulse, -on_b.angular});
     }
 }
 

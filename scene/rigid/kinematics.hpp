@@ -3,8 +3,11 @@
 #pragma once
 
 #include "scene/bounded.hpp"
-#include "scene/solver/contact_block.hpp"
+#include "scene/rigid/integrate.hpp"
+#include "scene/solver/contact_solver.hpp"
 #include "scene/state.hpp"
+
+#include <span>
 
 namespace hapnet::scene {
 
@@ -30,6 +33,9 @@ public:
     {}
 
     void begin_tick(const WorldConfig& config, WorldState& state);
+    /// Sets their motions, which nothing changes; they come after the awake bodies.
+    void begin_contacts(const Bodies& bodies, ContactSolver& solver,
+                        std::span<BodyIntegration> integrations) const;
     /// Puts them where they come to.
     void end_tick(WorldState& state);
 
@@ -46,5 +52,9 @@ private:
     bool any_far_ = false;
     Scratch<KinematicTick> ticks_;
 };
+
+/// Adds what kinematic bodies do to those that they push and carry. The force of a contact counts
+/// as constant over the tick, or as a blow at its end: whichever is more.
+void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integrations);
 
 } // namespace hapnet::scene

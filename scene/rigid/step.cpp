@@ -3,6 +3,7 @@
 #include "scene/rigid/step.hpp"
 
 #include "scene/collide/sweep.hpp"
+#include "scene/hand/midpoint.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +99,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     collide_hands(config, state);
     wake_disturbed(state);
     begin_contacts(state);
-    if (has_kinematics) begin_kinematics(state.bodies);
+    if (has_kinematics) kinematics_.begin_contacts(state.bodies, solver_, integrations_.all());
     collide_planes(config, state);
     collide_bodies(state);
     warm_start();
@@ -106,7 +107,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     const bool bounced =
         restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
     const bool changed = solve_velocities(state.work);
-    if (has_kinematics) add_driven_energy();
+    if (has_kinematics) add_driven_energy(solver_, integrations_.all());
     store_contact_impulses(state);
     stop_sliding_contacts(state);
     correct_positions(state);
@@ -138,14 +139,17 @@ void RigidStepper<broad_phase>::wake(WorldState& state, BodyId body)
 }
 
 template <BroadPhase broad_phase>
-Work RigidStepper<broad_phase>::work_bound(const WorldConfig& /*config*/) const
+Work RigidStepper<broad_phase>::work_bound(const WorldConfig& config) const
 {
-    // Overlaps are looked at once more where a body is held back.
-    // Sleepers are asked for again where kinematic bodies may wake them.
+    const std::uint64_t pushed =
+        std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
+    // Overlaps are looked at once more where a body is held back, sleepers by what carries them.
     return {.pairs = (sleeps ? 2 + wake_rounds_max : 1) * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
             .visits = solver_.visits_bound(velocity_limits()) +
-                      2 * solver_.visits_bound(position_limits())};
+                      2 * solver_.visits_bound(position_limits()),
+            .springs = 2 * pushed * MidpointBudget::rows_solved_max, // against drag, twice
+            .looks = continuous_.looks_max()};
 }
 
 template <BroadPhase broad_phase>
@@ -258,24 +262,7 @@ void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
     const Bodies& bodies = state.bodies;
     const std::size_t kinematic = bodies.moving - bodies.movable;
     solver_.begin(bodies.awake, kinematic);
-    // [0] does not move: nobody writes it.
-    integrations_.resize(bodies.awake + kinematic + 1);
-}
-
-/// Sets the motions of the tick of what nothing changes.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::begin_kinematics(const Bodies& bodies)
-{
-    for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
-        const SolverIndex index = bodies.awake + 1 + (slot - bodies.movable);
-        const KinematicTick& now = kinematics_.of(bodies, slot);
-        BodyIntegration& integration = integrations_[index];
-        integration = {};
-        integration.start = integration.start_after_bounces = now.start;
-        integration.predicted = solver_.end_motion(index) = now.end;
-        integration.mean = solver_.mean_motion(index) = now.mean;
-        solver_.response(index) = {};
-    }
+    integrations_.resize(bodies.awake + kinematic + 1); // [0] does not move: nobody writes it
 }
 
 /// Starts the tick of an awake body that something acts on.
@@ -458,6 +445,7 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
                                       {springs, work, modes_[spring.hand], config});
         hand_contacts_.store_impulses(spring.body);
         if (integration.hands_are_braked) ++state.interventions.hands_braked;
+        state.work.springs += integration.hand_rows;
     }
 }
 
@@ -488,28 +476,6 @@ bool RigidStepper<broad_phase>::solve_velocities(Work& work)
             integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse};
     }
     return !outcome.in_balance;
-}
-
-/// Adds what kinematic bodies do to those that they push and carry. The force of a contact counts
-/// as constant over the tick, or as a blow at its end: whichever is more.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::add_driven_energy()
-{
-    const auto add = [&](SolverIndex body, SolverIndex by, const glm::dvec3& arm,
-                         const Wrench& push) {
-        integrations_[body].energy_driven +=
-            std::max(work_of(push, arm, integrations_[by].mean),
-                     work_of(push, arm, integrations_[by].predicted));
-    };
-    for (const ContactBlock& block : solver_.blocks()) {
-        const bool a_drives = solver_.is_kinematic(block.a);
-        if (!a_drives && !solver_.is_kinematic(block.b)) continue;
-        const Wrench on_b = wrench(block, contact_vector(block, block.impulse));
-        if (a_drives)
-            add(block.b, block.a, block.arm_a, on_b);
-        else
-            add(block.a, block.b, block.arm_b, {-on_b.impulse, -on_b.angular});
-    }
 }
 
 /// Keeps the impulses for the next tick's warm start, and counts the contacts that rub.
@@ -608,6 +574,7 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
     continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
+    state.work.looks = continuous_.looks();
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
     }

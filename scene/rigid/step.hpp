@@ -65,13 +65,11 @@ private:
     void collide_hands(const WorldConfig& config, WorldState& state);
     void wake_disturbed(WorldState& state);
     void begin_contacts(const WorldState& state);
-    void begin_kinematics(const Bodies& bodies);
     void collide_planes(const WorldConfig& config, WorldState& state);
     void collide_bodies(WorldState& state);
     void warm_start();
     bool solve_velocities(Work& work);
     void integrate_velocities(const WorldConfig& config, WorldState& state);
-    void add_driven_energy();
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
     void correct_positions(WorldState& state);

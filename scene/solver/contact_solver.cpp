@@ -57,6 +57,7 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       end_motions_{bodies + 1},
       mean_motions_{bodies + 1},
       blocks_{blocks},
+      bodies_max_{bodies},
       blocks_max_{blocks},
       contacts_{bodies + 1},
       islands_{bodies + 1},

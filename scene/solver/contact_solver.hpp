@@ -56,6 +56,7 @@ public:
     /// The most visits that a solve of all contacts can take.
     [[nodiscard]] std::uint64_t visits_bound(const SolverLimits& limits) const;
 
+    [[nodiscard]] std::size_t bodies_max() const { return bodies_max_; }
     [[nodiscard]] std::size_t blocks_max() const { return blocks_max_; }
     [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
     ContactBlock& add() { return blocks_.add(); }
@@ -108,6 +109,7 @@ private:
     Scratch<BodyMotion> end_motions_;
     Scratch<BodyMotion> mean_motions_;
     Scratch<ContactBlock> blocks_;
+    std::size_t bodies_max_;
     std::size_t blocks_max_;
 
     Scratch<std::uint32_t> contacts_; // of each body

@@ -35,17 +35,23 @@ TEST(WorkOfATick, StaysWithinTheBoundOfItsScene)
                 << " of " << bound.pairs << ", contacts " << work.contacts << " of "
                 << bound.contacts << ", visits " << work.visits << " of " << bound.visits
                 << ", springs " << work.springs << " of " << bound.springs << ", events "
-                << work.events << " of " << bound.events << ", touches " << work.touches << " of "
-                << bound.touches;
+                << work.events << " of " << bound.events << ", looks " << work.looks << " of "
+                << bound.looks;
             most.pairs = std::max(most.pairs, work.pairs);
             most.contacts = std::max(most.contacts, work.contacts);
             most.visits = std::max(most.visits, work.visits);
+            most.springs = std::max(most.springs, work.springs);
+            most.events = std::max(most.events, work.events);
+            most.looks = std::max(most.looks, work.looks);
         }
     }
     // It was counted at all.
     EXPECT_GT(most.pairs, 0U);
     EXPECT_GT(most.contacts, 0U);
     EXPECT_GT(most.visits, 0U);
+    EXPECT_GT(most.springs, 0U);
+    EXPECT_GT(most.events, 0U);
+    EXPECT_GT(most.looks, 0U);
 }
 
 } // namespace
