@@ -33,6 +33,12 @@ BodyProperties properties_of(const BodyDescription& body, BodyId id)
     BodyProperties properties{.id = id, .half = body.half};
     properties.material = body.material;
     properties.drag = body.drag_ns_per_m;
+    if (body.kinematic) {
+        // A unit inertia that nothing changes: angular velocity and momentum are the same numbers.
+        properties.is_kinematic = properties.is_isotropic = true;
+        properties.turning = Turning::free;
+        properties.inverse_inertia = glm::dvec3{1.0};
+    }
     if (!body.movable) return properties;
     properties.mass = body.mass_kg;
     properties.turning = body.turning;
@@ -81,22 +87,27 @@ Bodies::Bodies(const Description& description)
     slot_of.resize(count);
     properties.reserve(count);
     inverse_inertia_max.reserve(count);
-    for (const bool movables : {true, false}) {
+    enum class Range : std::uint8_t { pushed, driven, fixed };
+    const auto range_of = [](const BodyDescription& body) {
+        return body.movable ? Range::pushed : body.kinematic ? Range::driven : Range::fixed;
+    };
+    for (const Range range : {Range::pushed, Range::driven, Range::fixed}) {
         for (BodyId id = 0; id < count; ++id) {
-            if (bodies[id].movable != movables) continue;
+            if (range_of(bodies[id]) != range) continue;
             slot_of[id] = size();
             properties.push_back(properties_of(bodies[id], id));
             const glm::dvec3& easy = properties.back().inverse_inertia;
             inverse_inertia_max.push_back(std::max({easy.x, easy.y, easy.z}));
         }
-        if (movables) awake = movable = size();
+        if (range == Range::pushed) awake = movable = size();
+        if (range == Range::driven) moving = size();
     }
     for (BodyId id = 0; id < count; ++id) {
         const BodyDescription& body = bodies[id];
         const Slot slot = slot_of[id];
         orientation.put(slot, base::normalized(body.orientation));
         position.put(slot, body.position.value);
-        if (!body.movable) continue;
+        if (!body.movable && !body.kinematic) continue;
         put(slot, {body.position, orientation.at(slot), body.velocity, body.angular_velocity});
     }
 }
@@ -161,7 +172,7 @@ void Bodies::put(Slot slot, const BodyState& state)
     const glm::dvec3& light = properties[slot].inverse_mass;
     glm::dvec3 speed = state.velocity.value;
     for (const int axis : {0, 1, 2}) {
-        if (light[axis] == 0.0) speed[axis] = 0.0;
+        if (light[axis] == 0.0 && !properties[slot].is_kinematic) speed[axis] = 0.0;
     }
     position.put(slot, state.position.value);
     orientation.put(slot, state.orientation);

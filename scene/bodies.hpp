@@ -33,16 +33,27 @@ struct BodyProperties {
     glm::dvec3 inverse_inertia{0.0}; // 0 where it cannot rotate; with one free axis see `turning`
     double mass = 0.0;               // kg; 0: fixed
     Turning turning = Turning::locked;
+    bool is_kinematic = false; // fixed, but it moves: its momentum lane is its angular velocity
     bool is_isotropic = false; // the three moments of inertia are equal, as a cube's
     Material material{};
     double drag = 0.0; // N s/m
 };
 
+/// An angular impulse changes the momentum only about axes that the body may turn about.
+[[nodiscard]] inline glm::dvec3 about_unlocked_axes(const BodyProperties& properties,
+                                                    const glm::dvec3& angular)
+{
+    if (properties.turning == Turning::free) return angular;
+    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
+            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
+            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
+}
+
 /// The state of all bodies. The hot half lies in lanes, one number of every body after the other,
 /// so that a loop over many bodies reads only what it needs and compilers can vectorise it. Slots
-/// are kept in three ranges: awake [0, awake), asleep [awake, movable), fixed [movable, size).
-/// Angular momentum about the centre (world's frame) is the state and not angular velocity: that
-/// is what a free body keeps.
+/// are kept in ranges: awake [0, awake), asleep [awake, movable), kinematic [movable, moving),
+/// fixed [moving, size). Angular momentum about the centre (world's frame) is the state and not
+/// angular velocity: that is what a free body keeps.
 struct Bodies {
     struct Lanes3 {
         std::vector<double> x, y, z;
@@ -76,8 +87,9 @@ struct Bodies {
 
     Slot awake = 0;
     Slot movable = 0;
+    Slot moving = 0;
 
-    /// All movable bodies awake, in the order of their ids; then the fixed ones.
+    /// All movable bodies awake, in the order of their ids; then the kinematic and the fixed ones.
     explicit Bodies(const Description& description);
 
     [[nodiscard]] Slot size() const { return static_cast<Slot>(properties.size()); }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/description.hpp"
 
+#include "proto/base/math.hpp"
+
 #include <bit>
 #include <cmath>
 #include <spdlog/fmt/fmt.h>
@@ -60,6 +62,29 @@ void check_material(Check& check, const Material& material)
     check.within("restitution", material.restitution, 0.0, 1.0);
 }
 
+void check_sway(Check& check, const Sway& sway)
+{
+    check.within("sway in m", sway.by, -reach_max_m, reach_max_m);
+    if (sway.period == base::Duration{}) {
+        check.holds(sway.by == glm::dvec3{0.0}, "sway needs a sway_period");
+        return;
+    }
+    check.within("sway_period in s", base::to_seconds(sway.period), base::to_seconds(period_min),
+                 base::to_seconds(period_max));
+    const double fastest =
+        0.5 * base::two_pi / base::to_seconds(sway.period) * std::sqrt(square(sway.by));
+    check.holds(fastest <= speed_max_m_per_s,
+                fmt::format("sways faster than {} m/s", speed_max_m_per_s));
+}
+
+void check_feel(Check& check, const Feel& feel)
+{
+    check.within("stiffness in N/m", feel.stiffness_n_per_m.value_or(0.0), 0.0,
+                 stiffness_max_n_per_m);
+    check.within("damping in N s/m", feel.damping_ns_per_m.value_or(0.0), 0.0,
+                 damping_max_ns_per_m);
+}
+
 base::Result<void> check_body(const BodyDescription& body, std::size_t number)
 {
     Check check{fmt::format("body {} '{}'", number, body.name)};
@@ -68,8 +93,15 @@ base::Result<void> check_body(const BodyDescription& body, std::size_t number)
     check.holds(is_unit(square(body.orientation)), "orientation is not a unit quaternion");
     check_material(check, body.material);
     check.within("drag in N s/m", body.drag_ns_per_m, 0.0, damping_max_ns_per_m);
-    if (!body.movable) return check.result();
-    check.within("mass in kg", body.mass_kg, mass_min_kg, mass_max_kg);
+    check_feel(check, body.feel);
+    check.holds(!(body.kinematic && body.movable), "a kinematic body is not movable");
+    if (!body.movable && !body.kinematic) return check.result();
+    if (body.movable) check.within("mass in kg", body.mass_kg, mass_min_kg, mass_max_kg);
+    if (body.kinematic) {
+        check_sway(check, body.sway);
+        check.holds(body.sway.period == base::Duration{} || body.velocity.value == glm::dvec3{0.0},
+                    "a body that sways has no velocity of its own");
+    }
     check.within("velocity in m/s", body.velocity.value, -speed_max_m_per_s, speed_max_m_per_s);
     check.within("angular velocity in rad/s", body.angular_velocity, -turn_max_rad_per_s,
                  turn_max_rad_per_s);
@@ -85,6 +117,19 @@ base::Result<void> check_plane(const PlaneDescription& plane, std::size_t number
     return check.result();
 }
 
+base::Result<void> check_field(const FieldDescription& field, std::size_t number)
+{
+    Check check{fmt::format("field {} '{}'", number, field.name)};
+    check.within("position in m", field.position.value, -reach_max_m, reach_max_m);
+    if (field.half) check.within("half an edge in m", *field.half, size_min_m, reach_max_m);
+    check.within("force in N", field.force.value, -force_max_n, force_max_n);
+    check.within("damping in N s/m", field.damping_ns_per_m, 0.0, damping_max_ns_per_m);
+    check.within("stiffness in N/m", field.stiffness_n_per_m, 0.0, stiffness_max_n_per_m);
+    if (field.line) check.holds(is_unit(square(*field.line)), "line is not of length 1");
+    check.holds(field.force_limit_n >= 0.0, "force_max is below 0");
+    return check.result();
+}
+
 base::Result<void> check_whole(const Description& description)
 {
     Check check{"scene"};
@@ -92,8 +137,20 @@ base::Result<void> check_whole(const Description& description)
                 fmt::format("more than {} bodies", bodies_max));
     check.holds(description.planes.size() <= planes_max,
                 fmt::format("more than {} planes", planes_max));
+    check.holds(description.fields.size() <= fields_max,
+                fmt::format("more than {} fields", fields_max));
     check.within("gravity in m/s^2", description.gravity, -gravity_max_m_per_s2,
                  gravity_max_m_per_s2);
+    return check.result();
+}
+
+base::Result<void> check_own_hands(const Description& description)
+{
+    Check check{"hands"};
+    check.holds(description.own_hands.size() <= description.hands.count,
+                fmt::format("[[hand]] {} times for a count of {}", description.own_hands.size(),
+                            description.hands.count));
+    for (const Feel& feel : description.own_hands) check_feel(check, feel);
     return check.result();
 }
 
@@ -140,9 +197,9 @@ private:
 
 void add(Hash& hash, const BodyDescription& body)
 {
-    const auto flags = (body.movable ? 1U : 0U) | (body.locked.x ? 2U : 0U) |
-                       (body.locked.y ? 4U : 0U) | (body.locked.z ? 8U : 0U) |
-                       static_cast<unsigned>(body.turning) << 4U;
+    const auto flags = (body.movable ? 1U : 0U) | (body.kinematic ? 128U : 0U) |
+                       (body.locked.x ? 2U : 0U) | (body.locked.y ? 4U : 0U) |
+                       (body.locked.z ? 8U : 0U) | static_cast<unsigned>(body.turning) << 4U;
     hash.add(std::uint64_t{flags});
     hash.add(body.half);
     hash.add(body.position.value);
@@ -152,20 +209,36 @@ void add(Hash& hash, const BodyDescription& body)
     }
     hash.add(body.material);
     hash.add(body.drag_ns_per_m);
-    if (!body.movable) return;
+    if (!body.movable && !body.kinematic) return;
     hash.add(body.velocity.value);
     hash.add(body.angular_velocity);
-    hash.add(body.mass_kg);
+    if (body.movable) return hash.add(body.mass_kg);
+    hash.add(body.sway.by);
+    hash.add(base::to_seconds(body.sway.period));
 }
 
 } // namespace
+
+HandDescription hand_on(const HandDescription& hands, const Feel& own_hand, const Feel& body)
+{
+    HandDescription hand = hands;
+    for (const Feel* feel : {&own_hand, &body}) {
+        hand.stiffness_n_per_m = feel->stiffness_n_per_m.value_or(hand.stiffness_n_per_m);
+        hand.damping_ns_per_m = feel->damping_ns_per_m.value_or(hand.damping_ns_per_m);
+    }
+    return hand;
+}
 
 base::Result<void> check(const Description& description)
 {
     if (auto whole = check_whole(description); !whole) return whole;
     if (auto hands = check_hands(description.hands); !hands) return hands;
+    if (auto own = check_own_hands(description); !own) return own;
     for (std::size_t i = 0; i < description.planes.size(); ++i) {
         if (auto plane = check_plane(description.planes[i], i + 1); !plane) return plane;
+    }
+    for (std::size_t i = 0; i < description.fields.size(); ++i) {
+        if (auto field = check_field(description.fields[i], i + 1); !field) return field;
     }
     for (std::size_t i = 0; i < description.bodies.size(); ++i) {
         if (auto body = check_body(description.bodies[i], i + 1); !body) return body;
@@ -193,6 +266,33 @@ std::uint64_t hash(const Description& description)
     hash.add(description.gravity);
     // Scenes without it keep the hash that they had before there was any.
     if (hands.friction != 0.0) hash.add(hands.friction);
+    constexpr std::uint64_t felt_mark = 0x66656c74;
+    for (std::size_t i = 0; i < description.planes.size(); ++i) {
+        if (description.planes[i].felt) hash.add(felt_mark + i);
+    }
+    const auto add_feel = [&hash](const Feel& feel) {
+        constexpr double unset = -1.0;
+        hash.add(feel.stiffness_n_per_m.value_or(unset));
+        hash.add(feel.damping_ns_per_m.value_or(unset));
+    };
+    for (std::size_t i = 0; i < description.bodies.size(); ++i) {
+        if (!description.bodies[i].feel.is_own()) continue;
+        hash.add(std::uint64_t{i});
+        add_feel(description.bodies[i].feel);
+    }
+    for (const Feel& feel : description.own_hands) add_feel(feel);
+    for (const FieldDescription& field : description.fields) {
+        for (const glm::dvec3& v :
+             {field.position.value, field.force.value, field.half.value_or(glm::dvec3{0.0}),
+              field.line.value_or(glm::dvec3{0.0})}) {
+            hash.add(v);
+        }
+        for (const double value :
+             {field.damping_ns_per_m, field.stiffness_n_per_m, field.force_limit_n}) {
+            hash.add(value);
+        }
+        hash.add(std::uint64_t{(field.on_hands ? 1U : 0U) | (field.on_bodies ? 2U : 0U)});
+    }
     return hash.value();
 }
 

@@ -5,11 +5,14 @@
 #include "proto/base/names.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
+#include "proto/base/time.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,10 +49,33 @@ struct LockedAxes {
     friend bool operator==(const LockedAxes&, const LockedAxes&) = default;
 };
 
+/// How a kinematic body goes to and fro: from where it is to `by` from there, and back, starting
+/// and turning round at rest. It is by * (1 - cos(2 pi t / period)) / 2 from its position.
+struct Sway {
+    glm::dvec3 by{0.0};      // m
+    base::Duration period{}; // 0: it does not sway
+
+    friend bool operator==(const Sway&, const Sway&) = default;
+};
+
+/// A stiffness and a damping of a hand's spring that replace those of all hands, where they are
+/// set.
+struct Feel {
+    std::optional<double> stiffness_n_per_m{};
+    std::optional<double> damping_ns_per_m{};
+
+    [[nodiscard]] bool is_own() const { return stiffness_n_per_m || damping_ns_per_m; }
+    friend bool operator==(const Feel&, const Feel&) = default;
+};
+
 /// A solid box of even density.
 struct BodyDescription {
     std::string name;
     bool movable = true;
+    /// Not movable, but it moves: with its velocity and angular velocity for ever, or as it sways,
+    /// until World::drive() or World::move() says otherwise. It pushes and is not pushed.
+    bool kinematic = false;
+    Sway sway{};
     glm::dvec3 half{0.02}; // half the edges, metres
     base::Position position{};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // unit, from the body's frame to the world's
@@ -60,18 +86,37 @@ struct BodyDescription {
     LockedAxes locked{};
     Material material{};
     double drag_ns_per_m = 0.0; // viscous friction on the plane that supports it, tangential
+    Feel feel{};                // of every hand on it; it counts before a hand's own
 
     friend bool operator==(const BodyDescription&, const BodyDescription&) = default;
 };
 
-/// A half-space that supports bodies and that no hand feels: the work platform, walls.
+/// A half-space that supports bodies: the work platform, walls. Hands feel it only when it says so.
 struct PlaneDescription {
     std::string name;
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, out of the solid side
     double offset_m = 0.0;            // of its points p: dot(normal, p) = offset
     Material material{};
+    bool felt = false; // by hands, through their own spring and damper
 
     friend bool operator==(const PlaneDescription&, const PlaneDescription&) = default;
+};
+
+/// A field of force in a region of space: a constant force, less what a damper takes, less what a
+/// spring pulls to a point or a line. On a body it acts at the centre.
+struct FieldDescription {
+    std::string name;
+    base::Position position{};        // the middle of the region, and where the spring pulls to
+    std::optional<glm::dvec3> half{}; // half the edges of the region, m; unset: everywhere
+    base::Force force{};
+    double damping_ns_per_m = 0.0;
+    double stiffness_n_per_m = 0.0;
+    std::optional<glm::dvec3> line{}; // unit: the spring pulls to the line through `position`
+    double force_limit_n = std::numeric_limits<double>::infinity();
+    bool on_hands = true;
+    bool on_bodies = false;
+
+    friend bool operator==(const FieldDescription&, const FieldDescription&) = default;
 };
 
 /// The hands' spheres (haptic interface points), all alike: a spring and a damper between the
@@ -97,6 +142,8 @@ struct Description {
     std::vector<PlaneDescription> planes{};
     HandDescription hands{};
     glm::dvec3 gravity{0.0, -9.81, 0.0}; // m/s^2
+    std::vector<Feel> own_hands{};       // of the first hands, each its own
+    std::vector<FieldDescription> fields{};
 
     friend bool operator==(const Description&, const Description&) = default;
 };
@@ -104,6 +151,7 @@ struct Description {
 inline constexpr std::uint32_t hands_max = 8;
 inline constexpr std::uint32_t bodies_max = 100'000;
 inline constexpr std::uint32_t planes_max = 64;
+inline constexpr std::uint32_t fields_max = 64;
 
 // The ranges of a description and of inputs. Values beyond them are refused; within them nothing
 // overflows.
@@ -119,8 +167,17 @@ inline constexpr double mass_max_kg = 1e6;
 inline constexpr double stiffness_max_n_per_m = 1e9;
 inline constexpr double damping_max_ns_per_m = 1e6;
 inline constexpr double force_max_n = 1e6;
+inline constexpr double torque_max_n_m = 1e6;
+inline constexpr double impulse_max_n_s = 1e6;
 inline constexpr double friction_max = 10.0;
 inline constexpr double gravity_max_m_per_s2 = 1e3;
+inline constexpr base::Duration period_min{std::chrono::milliseconds{10}};
+inline constexpr base::Duration period_max{std::chrono::hours{24}};
+
+/// What a hand's spring on a body is made of: the body's own feel, then the hand's, then that of
+/// all hands, as CHAI3D has it.
+[[nodiscard]] HandDescription hand_on(const HandDescription& hands, const Feel& own_hand,
+                                      const Feel& body);
 
 /// Says what is wrong with a description: the name of the part and what was expected.
 [[nodiscard]] base::Result<void> check(const Description& description);

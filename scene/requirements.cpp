@@ -21,6 +21,9 @@ constexpr std::size_t scan_max = 64;
 struct Census {
     std::size_t movable = 0;
     std::size_t fixed = 0;
+    std::size_t kinematic = 0;   // of those
+    std::size_t own_feel = 0;    // bodies and hands with a stiffness or damping of their own
+    std::size_t felt_planes = 0; // that hands feel
     std::size_t turning = 0;     // movable
     std::size_t skew = 0;        // boxes and planes not parallel to the axes
     std::size_t bouncing = 0;    // bodies and planes with restitution
@@ -42,13 +45,19 @@ Census census_of(const Description& description)
     Census census;
     for (const BodyDescription& body : description.bodies) {
         ++(body.movable ? census.movable : census.fixed);
+        if (body.kinematic) ++census.kinematic;
+        if (body.feel.is_own()) ++census.own_feel;
         if (body.movable && body.turning != Turning::locked) ++census.turning;
         if (!is_parallel(body.orientation)) ++census.skew;
         if (body.material.restitution > 0.0) ++census.bouncing;
         if (body.material.friction > 0.0) ++(body.movable ? census.rough : census.rough_other);
         if (body.movable && body.drag_ns_per_m > 0.0) ++census.dragged;
     }
+    for (const Feel& hand : description.own_hands) {
+        if (hand.is_own()) ++census.own_feel;
+    }
     for (const PlaneDescription& plane : description.planes) {
+        if (plane.felt) ++census.felt_planes;
         if (!is_parallel(plane.normal)) ++census.skew;
         if (plane.material.restitution > 0.0) ++census.bouncing;
         if (plane.material.friction > 0.0) ++census.rough_other;
@@ -95,8 +104,8 @@ Requirement without_contact(Feature feature)
 std::string_view name_of(Feature feature)
 {
     constexpr std::array<std::string_view, features> names{
-        "contact",     "hips", "skew",   "rotation", "friction",
-        "restitution", "drag", "bodies", "sleep",    "grid"};
+        "contact", "hips",  "skew", "rotation",  "friction", "restitution", "drag",
+        "bodies",  "sleep", "grid", "kinematic", "feel",     "felt-planes", "fields"};
     return names.at(static_cast<std::size_t>(feature));
 }
 
@@ -113,12 +122,12 @@ FeatureSet abilities_of(StepperKind kind)
     FeatureSet set;
     const auto add = [&set](auto... those) { (set.add(those), ...); };
     switch (kind) {
-    case StepperKind::flight: add(rotation, skew); break;
+    case StepperKind::flight: add(rotation, skew, fields); break;
     case StepperKind::many: add(grid); [[fallthrough]];
     case StepperKind::few: add(bodies, sleep); [[fallthrough]];
-    case StepperKind::lone: add(rotation, skew); [[fallthrough]];
+    case StepperKind::lone: add(rotation, skew, kinematic, feel, felt_planes); [[fallthrough]];
     case StepperKind::sliding_coulomb: add(friction); [[fallthrough]];
-    case StepperKind::sliding: add(contact, hands, restitution, drag); break;
+    case StepperKind::sliding: add(contact, hands, restitution, drag, fields); break;
     }
     return set;
 }
@@ -148,10 +157,22 @@ Requirements requirements_of(const Description& description, bool sleeping)
                 sleeping ? fmt::format("movable bodies: {}", census.movable)
                          : std::string{"switched off"}),
         require(grid, total > scan_max && census.movable > 0,
-                fmt::format("bodies: {}; up to {} a scan is faster", total, scan_max))};
+                fmt::format("bodies: {}; up to {} a scan is faster", total, scan_max)),
+        require(kinematic, census.kinematic > 0,
+                fmt::format("bodies that move by themselves: {}", census.kinematic)),
+        require(feel, census.own_feel > 0 && description.hands.count > 0,
+                fmt::format("bodies and hands with a spring of their own: {}; hands: {}",
+                            census.own_feel, description.hands.count)),
+        require(felt_planes, census.felt_planes > 0 && description.hands.count > 0,
+                fmt::format("planes that hands feel: {}; hands: {}", census.felt_planes,
+                            description.hands.count)),
+        require(fields, !description.fields.empty(),
+                fmt::format("fields of force: {}", description.fields.size()))};
     if (!needs[0].is_required) {
         for (Requirement& each : needs) {
-            const bool is_own = each.feature == contact || each.feature == rotation;
+            const bool is_own = each.feature == contact || each.feature == rotation ||
+                                each.feature == kinematic || each.feature == felt_planes ||
+                                each.feature == fields;
             if (!is_own) each = without_contact(each.feature);
         }
     }

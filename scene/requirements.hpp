@@ -23,8 +23,12 @@ enum class Feature : std::uint8_t {
     bodies,      // movable bodies that can touch each other
     sleep,       // bodies at rest cost nothing
     grid,        // too many bodies to compare each with each
+    kinematic,   // bodies that move by themselves
+    feel,        // bodies or hands with a stiffness or damping of their own
+    felt_planes, // planes that hands feel
+    fields,      // fields of force
 };
-inline constexpr std::size_t features = 10;
+inline constexpr std::size_t features = 14;
 
 [[nodiscard]] std::string_view name_of(Feature feature);
 

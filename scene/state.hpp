@@ -32,6 +32,29 @@ struct HandTouch {
     base::Force on_hand_at_start{}; // the spring and damper at the start of the tick
 };
 
+/// The springs of each hand on each body, where they are not all alike; else nothing.
+class HandFeels {
+public:
+    HandFeels() = default;
+    explicit HandFeels(const Description& description);
+
+    [[nodiscard]] const HandDescription& of(std::uint32_t hand, BodyId body,
+                                            const HandDescription& alike) const
+    {
+        return kind_of_.empty() ? alike : kinds_[kind_of_[body] + hand];
+    }
+
+    /// On what has no feel of its own.
+    [[nodiscard]] const HandDescription& of(std::uint32_t hand, const HandDescription& alike) const
+    {
+        return kinds_.empty() ? alike : kinds_[hand];
+    }
+
+private:
+    std::vector<std::uint32_t> kind_of_{}; // by body: where the hands on bodies like it begin
+    std::vector<HandDescription> kinds_{};
+};
+
 /// What holds from a world's first tick to its last.
 struct WorldConfig {
     std::vector<PlaneDescription> planes{};
@@ -39,6 +62,20 @@ struct WorldConfig {
     glm::dvec3 gravity{0.0};
     double tick = 1e-3;   // seconds
     bool sleeping = true; // whether bodies at rest may fall asleep
+    HandFeels feels{};
+    std::vector<FieldDescription> fields{};
+};
+
+/// How a kinematic body goes on.
+struct KinematicScript {
+    enum class Kind : std::uint8_t {
+        steady, // as it moves
+        sways,  // about the target's position
+        target, // where it is at the end of the next tick, then steadily on
+    };
+    Kind kind = Kind::steady;
+    Sway sway{};
+    BodyState target{};
 };
 
 /// How often the ticks since freeze() stepped in where the plain algorithm would have broken a law.
@@ -77,9 +114,12 @@ struct WorldState {
     Bodies bodies;
     std::array<HandInput, hands_max> hands{};
     std::array<HandTouch, hands_max> touches{};
-    std::vector<glm::dvec3> pushes{};      // newtons by id, held for the next tick, then cleared
-    Bounded<BodyId> pushed{};              // the bodies with a push, each once
-    std::vector<std::uint8_t> is_pushed{}; // by id
+    std::vector<glm::dvec3> pushes{};       // newtons by id, held for the next tick, then cleared
+    std::vector<glm::dvec3> torques{};      // newton metres by id, about the centre, likewise
+    Bounded<BodyId> pushed{};               // the bodies with a push or a torque, each once
+    Bounded<BodyId> twisted{};              // those of them with a torque, each once
+    std::vector<std::uint8_t> is_pushed{};  // by id: 1 in `pushed`, 2 in `twisted`
+    std::vector<KinematicScript> scripts{}; // of the kinematic bodies, in the order of their slots
     std::uint64_t ticks = 0;
     Work work{}; // of the last tick
     Interventions interventions{};

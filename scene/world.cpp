@@ -3,15 +3,21 @@
 #include "scene/world.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "scene/fields.hpp"
 
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::scene {
 
 namespace {
+
+// Of WorldState::is_pushed.
+constexpr std::uint8_t is_pushed_mark = 1;
+constexpr std::uint8_t is_twisted_mark = 2;
 
 /// Why a vector cannot be taken.
 std::optional<Refusal> objection(const glm::dvec3& v, double most)
@@ -66,7 +72,9 @@ WorldConfig config_from(const Description& description, const FreezeOptions& opt
             .hands = description.hands,
             .gravity = description.gravity,
             .tick = base::to_seconds(options.tick),
-            .sleeping = options.sleeping};
+            .sleeping = options.sleeping,
+            .feels = HandFeels{description},
+            .fields = description.fields};
 }
 
 WorldState initial_state(const Description& description)
@@ -74,8 +82,18 @@ WorldState initial_state(const Description& description)
     WorldState state{.bodies = Bodies{description}};
     for (HandInput& hand : state.hands) hand.present = false;
     state.pushes.resize(description.bodies.size());
+    state.torques.resize(description.bodies.size());
     state.pushed = Bounded<BodyId>{description.bodies.size()};
+    state.twisted = Bounded<BodyId>{description.bodies.size()};
     state.is_pushed.resize(description.bodies.size());
+    for (Slot slot = state.bodies.movable; slot < state.bodies.moving; ++slot) {
+        const Sway& sway = description.bodies[state.bodies.properties[slot].id].sway;
+        const bool sways = sway.period != base::Duration{};
+        state.scripts.push_back(
+            {.kind = sways ? KinematicScript::Kind::sways : KinematicScript::Kind::steady,
+             .sway = sway,
+             .target = state.bodies.state(slot)});
+    }
     return state;
 }
 
@@ -140,9 +158,71 @@ std::optional<Refusal> World::push(BodyId body, base::Force force)
     const glm::dvec3 sum = state_.pushes[body] + force.value;
     if (const auto why = objection(sum, force_max_n)) return refuse(*why);
     if (state_.is_pushed[body] == 0) state_.pushed.add(body);
-    state_.is_pushed[body] = 1;
+    state_.is_pushed[body] |= is_pushed_mark;
     state_.pushes[body] = sum;
     return std::nullopt;
+}
+
+std::optional<Refusal> World::push(BodyId body, base::Force force, base::Position at)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(force.value, force_max_n)) return refuse(*why);
+    if (const auto why = objection(at.value, reach_max_m)) return refuse(*why);
+    const glm::dvec3 torque = glm::cross(at.value - position(body).value, force.value);
+    for (const glm::dvec3& twist : {torque, state_.torques[body] + torque}) {
+        if (const auto why = objection(twist, torque_max_n_m)) return refuse(*why);
+    }
+    if (const auto refused = push(body, force)) return refused;
+    return push_torque(body, torque);
+}
+
+std::optional<Refusal> World::push_torque(BodyId body, const glm::dvec3& torque)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(torque, torque_max_n_m)) return refuse(*why);
+    const glm::dvec3 sum = state_.torques[body] + torque;
+    if (const auto why = objection(sum, torque_max_n_m)) return refuse(*why);
+    std::uint8_t& marks = state_.is_pushed[body];
+    if (marks == 0) state_.pushed.add(body);
+    if ((marks & is_twisted_mark) == 0) state_.twisted.add(body);
+    marks |= is_pushed_mark | is_twisted_mark;
+    state_.torques[body] = sum;
+    return std::nullopt;
+}
+
+std::optional<Refusal> World::apply_impulse(BodyId body, const glm::dvec3& impulse,
+                                            base::Position at)
+{
+    if (!is_movable(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(impulse, impulse_max_n_s)) return refuse(*why);
+    if (const auto why = objection(at.value, reach_max_m)) return refuse(*why);
+    Bodies& bodies = state_.bodies;
+    const Slot slot = bodies.slot_of[body];
+    const BodyProperties& properties = bodies.properties[slot];
+    const glm::dvec3 velocity = bodies.velocity.at(slot) + properties.inverse_mass * impulse;
+    const glm::dvec3 turning =
+        about_unlocked_axes(properties, glm::cross(at.value - bodies.position.at(slot), impulse));
+    const glm::dvec3 momentum = bodies.angular_momentum.at(slot) + turning;
+    if (const auto why = objection(velocity, speed_max_m_per_s)) return refuse(*why);
+    if (const auto why =
+            objection(bodies.apply_inverse_inertia(slot, momentum), turn_max_rad_per_s)) {
+        return refuse(*why);
+    }
+    wake(body);
+    const Slot awake = bodies.slot_of[body];
+    bodies.velocity.put(awake, velocity);
+    bodies.angular_momentum.put(awake, momentum);
+    return std::nullopt;
+}
+
+/// So that it takes part in the next tick; nothing else about it changes.
+void World::wake(BodyId body)
+{
+    std::visit(
+        [&](auto& stepper) {
+            if constexpr (requires { stepper.wake(state_, body); }) stepper.wake(state_, body);
+        },
+        stepper_);
 }
 
 std::optional<Refusal> World::place(BodyId body, const BodyState& state)
@@ -191,6 +271,36 @@ std::optional<Refusal> World::place(BodyId body, base::Position position, base::
     return std::nullopt;
 }
 
+std::optional<Refusal> World::drive(BodyId body, base::Velocity velocity,
+                                    const glm::dvec3& angular_velocity)
+{
+    if (!is_kinematic(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(velocity.value, speed_max_m_per_s)) return refuse(*why);
+    if (const auto why = objection(angular_velocity, turn_max_rad_per_s)) return refuse(*why);
+    const Slot slot = slot_of(body);
+    state_.scripts[slot - state_.bodies.movable] = {};
+    state_.bodies.velocity.put(slot, velocity.value);
+    state_.bodies.angular_momentum.put(slot, angular_velocity);
+    return std::nullopt;
+}
+
+std::optional<Refusal> World::move(BodyId body, const BodyState& target)
+{
+    if (!is_kinematic(body)) return refuse(Refusal::no_such_body);
+    if (const auto why = objection(target.position.value, reach_max_m)) return refuse(*why);
+    if (const auto why = objection(target.orientation)) return refuse(*why);
+    if (const auto why = objection(target.velocity.value, speed_max_m_per_s)) return refuse(*why);
+    if (const auto why = objection(target.angular_velocity, turn_max_rad_per_s)) {
+        return refuse(*why);
+    }
+    const glm::dvec3 way = target.position.value - position(body).value;
+    if (const auto why = objection(way / config_.tick, speed_max_m_per_s)) return refuse(*why);
+    KinematicScript& script = state_.scripts[slot_of(body) - state_.bodies.movable];
+    script = {.kind = KinematicScript::Kind::target, .target = target};
+    script.target.orientation = base::normalized(target.orientation);
+    return std::nullopt;
+}
+
 Work World::work_bound() const
 {
     return std::visit([&](const auto& stepper) { return stepper.work_bound(config_); }, stepper_);
@@ -199,18 +309,58 @@ Work World::work_bound() const
 void World::tick()
 {
     state_.work = {};
+    if (config_.fields.empty()) {
+        step();
+        return;
+    }
+    push_by_fields();
+    step();
+    feel_fields(config_, state_);
+}
+
+inline void World::step()
+{
     std::visit([&](auto& stepper) { stepper.step(config_, state_); }, stepper_);
+    if (!state_.pushed.is_empty()) forget_pushes();
+    ++state_.ticks;
+}
+
+void World::push_by_fields()
+{
+    Bodies& bodies = state_.bodies;
+    if (kind_ == StepperKind::flight) state_.touches.fill({}); // it knows no hands
+    for (Slot slot = 0; slot < bodies.movable; ++slot) {
+        glm::dvec3 force{0.0};
+        for (const FieldDescription& field : config_.fields)
+            force += force_on_body(field, config_, bodies, slot);
+        if (force == glm::dvec3{0.0}) continue;
+        const BodyId body = bodies.properties[slot].id;
+        if (state_.is_pushed[body] == 0) state_.pushed.add(body);
+        state_.is_pushed[body] |= is_pushed_mark;
+        state_.pushes[body] += force;
+    }
+}
+
+void World::forget_pushes()
+{
     for (const BodyId body : state_.pushed) {
         state_.pushes[body] = glm::dvec3{0.0};
+        state_.torques[body] = glm::dvec3{0.0};
         state_.is_pushed[body] = 0;
     }
     state_.pushed.clear();
-    ++state_.ticks;
+    state_.twisted.clear();
 }
 
 bool World::is_movable(BodyId id) const
 {
     return id < state_.bodies.size() && state_.bodies.slot_of[id] < state_.bodies.movable;
+}
+
+bool World::is_kinematic(BodyId id) const
+{
+    return id < state_.bodies.size() &&
+           state_.bodies.properties[state_.bodies.slot_of[id]].is_kinematic;
 }
 
 BodyState World::body(BodyId id) const { return state_.bodies.state(slot_of(id)); }

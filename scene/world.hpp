@@ -37,7 +37,7 @@ using RefusalCounts = std::array<std::uint64_t, refusals>;
 
 /// What moves a world on, chosen when the scene is frozen. Each is a value with two verbs:
 /// step(config, state), and on_body_placed(state, body) after a body was put somewhere from
-/// outside. The order is that of StepperKind.
+/// outside. Those whose bodies sleep have wake(state, body), too. The order is that of StepperKind.
 using Stepper = std::variant<FreeFlightStepper, OneBoxStepper<false>, OneBoxStepper<true>,
                              RigidStepper<BroadPhase::none>, RigidStepper<BroadPhase::all_pairs>,
                              RigidStepper<BroadPhase::grid>>;
@@ -57,11 +57,27 @@ public:
     std::optional<Refusal> set_hand(std::uint32_t index, const HandInput& input);
     /// A force on a movable body's centre, held for the next tick; pushes of one tick add up.
     std::optional<Refusal> push(BodyId body, base::Force force);
+    /// The same at a point in the world's frame: it turns the body, too, as far as that can turn.
+    /// The torque is that about the centre where it is now.
+    std::optional<Refusal> push(BodyId body, base::Force force, base::Position at);
+    /// A torque in N m, in the world's frame, held for the next tick; those of one tick add up. A
+    /// body that cannot turn about its axis does not.
+    std::optional<Refusal> push_torque(BodyId body, const glm::dvec3& torque);
+    /// A blow, in N s, at a point in the world's frame: velocity and angular momentum change at
+    /// once. Refused as out of range if the body were then faster than place() may make it.
+    std::optional<Refusal> apply_impulse(BodyId body, const glm::dvec3& impulse, base::Position at);
     /// Puts a movable body somewhere and wakes it. Locked coordinates stay as they are; an
     /// orientation that the body cannot have is refused.
     std::optional<Refusal> place(BodyId body, const BodyState& state);
     /// The same; orientation and angular velocity stay.
     std::optional<Refusal> place(BodyId body, base::Position position, base::Velocity velocity);
+
+    /// A kinematic body moves on like that from where it is, until it is told otherwise.
+    std::optional<Refusal> drive(BodyId body, base::Velocity velocity,
+                                 const glm::dvec3& angular_velocity);
+    /// A kinematic body comes there by the end of the next tick, on a straight way and by the
+    /// shortest turn, and then goes on with that velocity and angular velocity.
+    std::optional<Refusal> move(BodyId body, const BodyState& target);
 
     void tick();
 
@@ -83,6 +99,7 @@ public:
     [[nodiscard]] const Work& work() const { return state_.work; }
     [[nodiscard]] Work work_bound() const;
     [[nodiscard]] StepperKind stepper_kind() const { return kind_; }
+    [[nodiscard]] const Stepper& stepper() const { return stepper_; }
     [[nodiscard]] std::uint64_t ticks() const { return state_.ticks; }
     [[nodiscard]] const RefusalCounts& refused() const { return refused_; }
 
@@ -102,12 +119,17 @@ public:
 private:
     World(const Description& description, const FreezeOptions& options, StepperKind kind);
     std::optional<Refusal> refuse(Refusal refusal);
+    void wake(BodyId body);
+    void step();
+    void push_by_fields();
+    void forget_pushes();
     [[nodiscard]] Slot slot_of(BodyId id) const
     {
         base::ensure(id < state_.bodies.size());
         return state_.bodies.slot_of[id];
     }
     [[nodiscard]] bool is_movable(BodyId id) const;
+    [[nodiscard]] bool is_kinematic(BodyId id) const;
 
     WorldConfig config_;
     StepperKind kind_;

@@ -22,6 +22,19 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
     if (found->turning != scene::Turning::locked) {
         return base::fail("sessions do not support rotating bodies yet: set turning = \"locked\"");
     }
+    const auto is_kinematic = [](const scene::BodyDescription& body) { return body.kinematic; };
+    if (std::any_of(bodies.begin(), bodies.end(), is_kinematic)) {
+        return base::fail(
+            "a session has no kinematic bodies yet: its two scenes would not have them "
+            "at the same place");
+    }
+    const auto has_own_feel = [](const scene::BodyDescription& body) { return body.feel.is_own(); };
+    if (!scene.own_hands.empty() || std::any_of(bodies.begin(), bodies.end(), has_own_feel)) {
+        return base::fail(
+            "a session has one stiffness and damping yet, those of [hips]: bodies and "
+            "hands have none of their own");
+    }
+    if (!scene.fields.empty()) return base::fail("a session has no fields of force yet");
     if (scene.hands.count == 0) return base::fail("a session needs a hand; this scene has none");
     const auto index = found - bodies.begin();
     if (index > std::numeric_limits<number_on_the_wire>::max()) {

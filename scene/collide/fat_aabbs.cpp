@@ -28,6 +28,11 @@ constexpr double stretch_ticks_min = 2.0;
 // The rotation within one tick from which a body counts as spinning.
 constexpr double turn_share = 0.25;
 
+bool is_fixed(const BodyProperties& properties)
+{
+    return properties.mass == 0.0 && !properties.is_kinematic;
+}
+
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 /// How many times larger a box becomes by a path of that many of its edges.
@@ -55,7 +60,7 @@ FatAabbs::Size FatAabbs::size_of(const BodyProperties& properties) const
 {
     const glm::dvec3& half = properties.half;
     return {.nearby = pair_margin * std::min({half.x, half.y, half.z}),
-            .stray = properties.mass == 0.0 ? 0.0 : wander_share * (half.x + half.y + half.z) / 3.0,
+            .stray = is_fixed(properties) ? 0.0 : wander_share * (half.x + half.y + half.z) / 3.0,
             .radius = std::sqrt(glm::dot(half, half)),
             .ease =
                 properties.turning == Turning::locked ? 0.0 : largest(properties.inverse_inertia)};
@@ -69,7 +74,7 @@ Aabb FatAabbs::path(const Bodies& bodies, Slot slot, double stray) const
     const double ahead = look_ahead_ticks * tick_;
     const glm::dvec3 way = bodies.velocity.at(slot) * ahead;
     const double length = largest(glm::abs(way));
-    if (!(length > stray) || properties.mass == 0.0) return {position, position};
+    if (!(length > stray) || is_fixed(properties)) return {position, position};
     const double edge = 2.0 * (properties.half.x + properties.half.y + properties.half.z) / 3.0;
     const glm::dvec3 edges = glm::abs(way) / edge;
     constexpr double share_min = stretch_ticks_min / look_ahead_ticks;
@@ -103,7 +108,7 @@ Aabb FatAabbs::renew(const Bodies& bodies, Slot slot)
     bounds.similarity_min = -1.0;
     bounds.angular_momentum2 = std::numeric_limits<double>::infinity();
     glm::dvec3 margin = glm::dvec3{size.nearby} + glm::abs(gravity_) * (tick_ * tick_);
-    if (properties.mass == 0.0 || size.ease == 0.0) {
+    if (is_fixed(properties) || size.ease == 0.0) {
         margin += extent(bounds.orientation, properties.half);
     } else if (spins) {
         margin += size.radius;

@@ -25,6 +25,8 @@ public:
 
     /// Adds the slots of the awake bodies that leave their boxes within this tick, or have.
     void find_moved_out(const Bodies& bodies, Bounded<Slot>& moved_out) const;
+    /// Whether one does.
+    [[nodiscard]] bool has_moved_out(const Bodies& bodies, Slot slot) const;
     /// A new box around a body and where it is going.
     [[nodiscard]] Aabb renew(const Bodies& bodies, Slot slot);
     /// Says that another body lies in an awake slot.
@@ -48,7 +50,6 @@ private:
         double ease = 0.0;   // an upper bound of its inverse moments of inertia, 1/(kg m^2)
     };
 
-    [[nodiscard]] bool has_moved_out(const Bodies& bodies, Slot slot) const;
     [[nodiscard]] Size size_of(const BodyProperties& properties) const;
     [[nodiscard]] Aabb path(const Bodies& bodies, Slot slot, double stray) const;
 

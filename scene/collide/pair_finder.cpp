@@ -88,6 +88,13 @@ void PairFinder<broad_phase>::update(const Bodies& bodies)
         update_pairs(bodies, id);
         for (Hand& hand : hands_) update_hand(hand, id);
     }
+    for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
+        if (!fat_boxes_.has_moved_out(bodies, slot)) continue;
+        const BodyId id = bodies.properties[slot].id;
+        boxes_.move(id, fat_boxes_.renew(bodies, slot));
+        update_pairs(bodies, id);
+        for (Hand& hand : hands_) update_hand(hand, id);
+    }
     renewed_ += moved_out_.size();
     apply_changes();
 }
@@ -98,6 +105,7 @@ void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, BodyId id)
 {
     const Aabb box = boxes_.box(id);
     const bool is_awake = bodies.slot_of[id] < bodies.awake;
+    const bool is_kinematic = bodies.slot_of[id] >= bodies.movable;
     ++stamp_;
     const auto keep_if_near = [&](PairIndex index, BodyId other) {
         if (overlap(box, boxes_.box(other)))
@@ -109,10 +117,11 @@ void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, BodyId id)
     pairs_.for_second(id, [&](PairIndex index) { keep_if_near(index, pairs_[index].a); });
     boxes_.for_overlapping(id, [&](BodyId other) {
         if (other == id || stamps_[other] == stamp_) return;
+        if (is_kinematic && bodies.slot_of[other] >= bodies.movable) return;
         const bool is_active = is_awake || bodies.slot_of[other] < bodies.awake;
         if (!pairs_.add(std::min(id, other), std::max(id, other), is_active)) has_left_out_ = true;
     });
-    update_plane_pairs(box, id, is_awake);
+    if (!is_kinematic) update_plane_pairs(box, id, is_awake);
 }
 
 template <BroadPhase broad_phase>

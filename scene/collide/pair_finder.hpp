@@ -89,6 +89,7 @@ public:
     void forget(BodyId body);
 
     [[nodiscard]] const PairSet& all_pairs() const { return pairs_; }
+    [[nodiscard]] const PairSet& all_plane_pairs() const { return plane_pairs_; }
 
     /// How many pairs of both kinds there may be.
     [[nodiscard]] std::size_t pairs_max() const

@@ -19,7 +19,8 @@ struct ContactMemory {
     std::array<double, manifold_points_max> normal_impulse{};
     glm::dvec3 friction_impulse{0.0}; // tangential, world's frame
     double torsion_impulse = 0.0;
-    std::uint32_t ticks = 0; // since its impulses were corrected
+    std::uint32_t ticks = 0;             // since its impulses were corrected
+    double normal_impulse_of_tick = 0.0; // N s, all of it, with bounces; if `count` > 0
 };
 
 /// Whether the contact had a normal impulse last tick: then what sleeps on it wakes with it.

@@ -3,6 +3,7 @@
 #include "scene/hand/constant_contact.hpp"
 
 #include "scene/hand/surface.hpp"
+#include "scene/hand/unlike_springs.hpp"
 #include "scene/maths/lanes.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
@@ -52,6 +53,7 @@ private:
     bool set_geometry_halfway();
     void set_couplings();
     bool integrate_contacts(PressedModes& modes);
+    [[nodiscard]] bool integrate_unlike(PressedModes::Outcome& outcome) const;
     bool finish(std::span<SpringImpulse> work);
     [[nodiscard]] Two depth_change() const;
 
@@ -110,15 +112,31 @@ bool ConstantContact::integrate_contacts(PressedModes& modes)
 {
     const HandSpring& a = springs_.front();
     const HandSpring& b = springs_.back();
-    if (!modes.find({own_, mutual_, a.stiffness, a.damping, tick_})) return false;
-    const PressedModes::Outcome outcome = modes.outcome({depth_, closing_, acceleration_});
-    const Two start = both(a.stiffness) * depth_ + both(a.damping) * closing_;
+    PressedModes::Outcome outcome;
+    if (a.stiffness == b.stiffness && a.damping == b.damping) {
+        if (!modes.find({own_, mutual_, a.stiffness, a.damping, tick_})) return false;
+        outcome = modes.outcome({depth_, closing_, acceleration_});
+    } else if (!integrate_unlike(outcome)) {
+        return false;
+    }
+    const Two start = Two{a.stiffness, b.stiffness} * depth_ + Two{a.damping, b.damping} * closing_;
     const Two least = start - outcome.change, most = start + outcome.change;
     if (!(least[0] > 0.0 && most[0] < a.force_max)) return false;
     if (has_two_ && !(least[1] > 0.0 && most[1] < b.force_max)) return false;
     impulse_ = outcome.impulse;
     moment_ = outcome.moment;
     return true;
+}
+
+bool ConstantContact::integrate_unlike(PressedModes::Outcome& outcome) const
+{
+    const HandSpring& a = springs_.front();
+    const HandSpring& b = springs_.back();
+    const UnlikeSprings unlike{own_, mutual_, Two{a.stiffness, b.stiffness},
+                               Two{a.damping, b.damping}, tick_};
+    const auto found = unlike.outcome({depth_, closing_, acceleration_});
+    if (found) outcome = *found;
+    return found.has_value();
 }
 
 /// By how much the depths have grown, by what was held.
@@ -179,9 +197,6 @@ bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
     for (const HandSpring& spring : springs) {
         if (!spring.is_amid_face || spring.gap > 0.0 || !(spring.stiffness > 0.0)) return false;
     }
-    const HandSpring& a = springs.front();
-    const HandSpring& b = springs.back();
-    if (a.stiffness != b.stiffness || a.damping != b.damping) return false;
     return ConstantContact{body, dynamics, springs, tick}.advance(work, modes);
 }
 

@@ -11,7 +11,7 @@ namespace hapnet::scene {
 /// Advances a body by a tick in which nothing begins and nothing ends, which is what most ticks
 /// are: one or two springs press amid faces of the box from the start to the end, and it turns
 /// evenly and little. What ContactPhases does in one phase, with depths and impulses in closed
-/// form. Two springs need the same stiffness and damping. False, and the body has not changed, when
+/// form. False, and the body has not changed, when
 /// it is not so; `work` is set and not added to.
 [[nodiscard]] bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
                                                std::span<const HandSpring> springs,

@@ -73,8 +73,9 @@ void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 /// Position, velocity and the accelerations that hold for the whole tick: gravity and pushes.
 template <bool coulomb>
 inline void OneBoxStepper<coulomb>::set_start(const WorldConfig& config, const WorldState& state,
-                                              BoxMotion& box) const
+                                              BoxMotion& box)
 {
+    was_pushed_ = !state.pushed.is_empty();
     const Slot slot = state.bodies.slot_of[body_];
     box.time_left = config.tick;
     box.position = per_axis(state.bodies.position.at(slot));
@@ -87,7 +88,8 @@ inline void OneBoxStepper<coulomb>::set_start(const WorldConfig& config, const W
         box.axes[i].applied_acceleration = gravity[i];
     }
     if (state.pushed.is_empty()) return;
-    const PerAxis push = per_axis(state.pushes[body_]);
+    last_push_ = state.pushes[body_];
+    const PerAxis push = per_axis(last_push_);
     for (std::size_t i = 0; i < 3; ++i)
         box.axes[i].applied_acceleration += oscillators_.inverse_mass() * push[i];
 }
@@ -187,8 +189,17 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& s
         if (!is_uneventful(box)) find_event(box, event);
         if constexpr (coulomb) find_friction_event(box, event);
         advance(box, event.time);
+        if (events == 1) {
+            was_eventful_ = event.kind != Event::Kind::none;
+            if (!was_eventful_) return;
+            contact_momentum_ = {};
+        }
+        add_support(box, event.time);
         if (event.kind == Event::Kind::none) return;
+        const PerAxis before = box.velocity;
         handle_event(box, event, config.tick);
+        if (event.kind == Event::Kind::impact)
+            contact_momentum_[event.axis] += box.velocity[event.axis] - before[event.axis];
         if (box.time_left <= 0.0) return;
         box.clearance = obstacles_.clearance(box.position);
         start_interval<coulomb>(box);
@@ -198,6 +209,36 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& s
         if (finish_tick(box)) ++state.interventions.paths_cut;
         return;
     }
+}
+
+/// Adds what carries the box for a time to what its obstacles give it.
+template <bool coulomb>
+void OneBoxStepper<coulomb>::add_support(const BoxMotion& box, double time)
+{
+    for (std::size_t i = 0; i < 3; ++i) {
+        const AxisMotion& axis = box.axes[i];
+        if (!axis.support) continue;
+        const double pressed = time * (axis.load + 0.5 * time * axis.load_ramp);
+        contact_momentum_[i] += axis.support == axis.below ? pressed : -pressed;
+    }
+}
+
+template <bool coulomb>
+glm::dvec3 OneBoxStepper<coulomb>::contact_impulse(const WorldConfig& config,
+                                                   const WorldState& state) const
+{
+    const double mass = 1.0 / oscillators_.inverse_mass();
+    if (was_eventful_) return mass * vector(contact_momentum_);
+    // Nothing began or ended: what stood still was in balance.
+    glm::dvec3 given = mass * config.gravity;
+    if (was_pushed_) given += last_push_;
+    for (std::uint32_t hand = 0; hand < config.hands.count; ++hand)
+        given += state.touches[hand].on_body.value;
+    const glm::dvec3 velocity = state.bodies.velocity.at(state.bodies.slot_of[body_]);
+    for (int i = 0; i < 3; ++i) {
+        if (velocity[i] != 0.0) given[i] = 0.0;
+    }
+    return -config.tick * given;
 }
 
 template <bool coulomb>

@@ -43,9 +43,14 @@ public:
 
     /// In how many ticks there were more events than are followed.
     [[nodiscard]] std::uint64_t crowded_ticks() const { return crowded_ticks_; }
+    /// What obstacles gave the box in the last tick, N s; only as good as there are obstacles: an
+    /// axis that stands still for another reason has one, too. Found when it is asked for.
+    [[nodiscard]] glm::dvec3 contact_impulse(const WorldConfig& config,
+                                             const WorldState& state) const;
 
 private:
-    void set_start(const WorldConfig& config, const WorldState& state, BoxMotion& box) const;
+    void set_start(const WorldConfig& config, const WorldState& state, BoxMotion& box);
+    void add_support(const BoxMotion& box, double time);
     /// Lists the obstacles within `reach`.
     void query_obstacles(BoxMotion& box, double reach);
     void run_events(const WorldConfig& config, WorldState& state, BoxMotion& box);
@@ -70,6 +75,11 @@ private:
     BoxHands hands_;
     TickRoom room_{};
     std::uint64_t crowded_ticks_ = 0;
+    // Of the last tick, for contact_impulse().
+    bool was_pushed_ = false;
+    bool was_eventful_ = false;
+    glm::dvec3 last_push_{0.0};  // N
+    PerAxis contact_momentum_{}; // m/s; where something began or ended
 };
 
 extern template class OneBoxStepper<false>;

@@ -118,10 +118,10 @@ void ContinuousCollision::begin(const Bodies& bodies, std::span<const Slot> acti
 }
 
 template <BroadPhase search>
-void ContinuousCollision::solve(const WorldConfig& config, WorldState& state,
-                                std::span<const Slot> active, const PairFinder<search>& pairs)
+void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot> active,
+                                const PairFinder<search>& pairs)
 {
-    const Surroundings around{config, state};
+    WorldState& state = around.state;
     flyers_.clear();
     meetings_.clear();
     woken_.clear();
@@ -131,7 +131,12 @@ void ContinuousCollision::solve(const WorldConfig& config, WorldState& state,
         flyers_[add_flyer(around, state.bodies.properties[slot].id)].is_fast = true;
     }
     const auto fast = static_cast<FlyerIndex>(flyers_.size());
-    for (FlyerIndex i = 0; i < fast; ++i) find_others(around, pairs, i, 0.0);
+    for (Slot slot = state.bodies.movable; slot < state.bodies.moving; ++slot) {
+        if (!goes_far(chord(state.bodies, slot), 0.0)) continue;
+        flyers_[add_flyer(around, state.bodies.properties[slot].id)].is_fast = true;
+    }
+    const auto all = static_cast<FlyerIndex>(flyers_.size());
+    for (FlyerIndex i = 0; i < all; ++i) find_others(around, pairs, i, 0.0);
     for (FlyerIndex i = 0; i < fast; ++i) {
         if (!has_to_bend(state.bodies, i)) continue;
         bend(around, i);
@@ -192,6 +197,10 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
                      .orientation = bodies.orientation.at(slot),
                      .half = properties.half,
                      .radius = length(properties.half)};
+    if (properties.is_kinematic) { // it has not moved yet
+        flight.velocity = bodies.velocity.at(slot);
+        flight.spin = bodies.angular_momentum.at(slot);
+    }
     if (slot >= departures_.size()) return flight; // fixed or asleep
     const Departure& departure = departures_[slot];
     flight.velocity = scales_.rate * (flight.centre - departure.position);
@@ -235,6 +244,7 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
     flyer = {};
     flyer.body = body;
     flyer.is_movable = slot < bodies.movable;
+    flyer.is_kinematic = bodies.properties[slot].is_kinematic;
     flyer.bend = HUGE_VAL;
     flyer.flight = chord(bodies, slot);
     return index;
@@ -269,7 +279,10 @@ bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& depart
 {
     const FirstTouch& first = departure.first_touch;
     const OrientedBox own = box_of(bodies, slot);
-    const OrientedBox other = box_of(bodies, bodies.slot_of[first.other]);
+    const Slot of_other = bodies.slot_of[first.other];
+    const OrientedBox other = bodies.properties[of_other].is_kinematic
+                                  ? chord(bodies, of_other).at(scales_.tick)
+                                  : box_of(bodies, of_other);
     const double gap = glm::dot(first.normal, other.centre - own.centre) -
                        half_projection(own, first.normal) - half_projection(other, first.normal);
     return gap < -behind * smallest_half(own, other);
@@ -326,7 +339,8 @@ void ContinuousCollision::stop_all(const Surroundings& around, double time)
 {
     ++around.state.interventions.budgets_spent;
     for (Flyer& flyer : flyers_.all())
-        if (flyer.is_fast && !flyer.has_stopped && flyer.first != none) stop(flyer, time);
+        if (flyer.is_movable && flyer.is_fast && !flyer.has_stopped && flyer.first != none)
+            stop(flyer, time);
 }
 
 /// Lists what is in the way of a flyer from a moment on.
@@ -346,6 +360,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     const bool is_first = flyers_[index].first == none;
     flyers_[index].searched = way;
     const auto meet = [&](std::uint32_t other, bool is_plane) {
+        if (!flyers_[index].is_movable && (is_plane || !flyers_[other].is_movable)) return;
         if (!is_first && are_to_meet(index, other, is_plane)) return;
         add_meeting(around, {.a = index, .b = other, .is_plane = is_plane, .time = time});
     };
@@ -383,7 +398,8 @@ bool ContinuousCollision::are_to_meet(FlyerIndex a, std::uint32_t b, bool is_pla
 void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting& wanted)
 {
     if (meetings_.is_full()) {
-        if (!flyers_[wanted.a].has_stopped) stop(flyers_[wanted.a], wanted.time);
+        Flyer& stopped = flyers_[flyers_[wanted.a].is_movable ? wanted.a : wanted.b];
+        if (!stopped.has_stopped) stop(stopped, wanted.time);
         ++around.state.interventions.budgets_spent;
         return;
     }
@@ -514,8 +530,11 @@ Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& fl
     const Bodies& bodies = around.state.bodies;
     const Slot slot = bodies.slot_of[flyer.body];
     const OrientedBox box = flyer.flight.at(time);
-    Toucher its{.moves = flyer.is_movable, .centre = box.centre, .response = {}, .motion = {}};
-    if (!its.moves) return its;
+    const bool moves = flyer.is_movable || flyer.is_kinematic;
+    Toucher its{.moves = moves, .centre = box.centre, .response = {}, .motion = {}};
+    if (flyer.is_kinematic)
+        its.motion = around.kinematics.of(bodies, slot).motion_at(time, scales_.tick);
+    if (!flyer.is_movable) return its;
     its.response = response_of(bodies.properties[slot], box);
     its.motion.velocity =
         bodies.velocity.at(slot) -
@@ -566,16 +585,15 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, const Mee
         if (std::find(woken_.begin(), woken_.end(), body) == woken_.end()) woken_.add(body);
     };
     const Wrench on_b = wrench(block, impulse);
-    if (b.moves) push(second.body, on_b, block.arm_b);
-    if (a.moves) push(first.body, {-on_b.impulse, -on_b.angular}, block.arm_a);
+    if (second.is_movable) push(second.body, on_b, block.arm_b);
+    if (!meeting.is_plane && first.is_movable)
+        push(first.body, {-on_b.impulse, -on_b.angular}, block.arm_a);
     return true;
 }
 
-template void ContinuousCollision::solve(const WorldConfig& config, WorldState& state,
-                                         std::span<const Slot> active,
+template void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot> active,
                                          const PairFinder<BroadPhase::all_pairs>& pairs);
-template void ContinuousCollision::solve(const WorldConfig& config, WorldState& state,
-                                         std::span<const Slot> active,
+template void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot> active,
                                          const PairFinder<BroadPhase::grid>& pairs);
 
 } // namespace hapnet::scene

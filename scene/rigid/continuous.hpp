@@ -6,6 +6,7 @@
 #include "scene/collide/pair_finder.hpp"
 #include "scene/collide/time_of_impact.hpp"
 #include "scene/rigid/integrate.hpp"
+#include "scene/rigid/kinematics.hpp"
 #include "scene/rigid/touch.hpp"
 #include "scene/state.hpp"
 
@@ -33,10 +34,15 @@ public:
     void begin(const Bodies& bodies, std::span<const Slot> active,
                std::span<const BodyIntegration> integrations, ContactSolver& solver);
 
+    struct Surroundings {
+        const WorldConfig& config;
+        WorldState& state;
+        const Kinematics& kinematics; // still where they began, with their mean velocities
+    };
     /// Corrects what went through something. Sleepers that are hit move on at once; woken() says
     /// which, to be woken.
     template <BroadPhase search>
-    void solve(const WorldConfig& config, WorldState& state, std::span<const Slot> active,
+    void solve(const Surroundings& around, std::span<const Slot> active,
                const PairFinder<search>& pairs);
     /// Looks at two bodies in a tick, at most; and in the last solve().
     [[nodiscard]] std::uint64_t looks_max() const { return steps_max_; }
@@ -62,6 +68,7 @@ private:
     struct Flyer {
         BodyId body = 0;
         bool is_movable = false;
+        bool is_kinematic = false;
         bool is_fast = false;     // others in its way are looked for
         bool is_released = false; // it goes on with its velocity at the end of the tick
         bool has_stopped = false; // for the rest of the tick
@@ -84,12 +91,6 @@ private:
         MeetingIndex next_of_a = none;
         MeetingIndex next_of_b = none;
     };
-    /// What solve() was given.
-    struct Surroundings {
-        const WorldConfig& config;
-        WorldState& state;
-    };
-
     template <BroadPhase search>
     bool go_to_next_touch(const Surroundings& around, const PairFinder<search>& pairs);
 

@@ -24,10 +24,12 @@ constexpr double far_turn = 0.3;
 
 /// A body's motion over the tick, in sums that any impulses on it enter linearly.
 struct Motion {
-    glm::dvec3 start{0.0};  // velocity, m/s
-    glm::dvec3 forced{0.0}; // m/s, what gravity and pushes add
-    glm::dvec3 change{0.0}; // m/s, of all impulses
-    glm::dvec3 spin{0.0};   // at the start, rad/s
+    glm::dvec3 start{0.0};       // velocity, m/s
+    glm::dvec3 forced{0.0};      // m/s, what gravity and pushes add
+    glm::dvec3 twist{0.0};       // N m s, what torques add to the angular momentum
+    glm::dvec3 spin_forced{0.0}; // that of it, with the inertia of the start
+    glm::dvec3 change{0.0};      // m/s, of all impulses
+    glm::dvec3 spin{0.0};        // at the start, rad/s
     glm::dvec3 momentum{0.0};
     glm::dvec3 angular{0.0};     // N m s, of all impulses
     glm::dvec3 spin_change{0.0}; // that of it, with the inertia of the start
@@ -46,10 +48,15 @@ Motion motion_of(const EnergyAccount::Tick& tick, Slot slot)
     motion.change = end.velocity - motion.start - motion.forced;
     motion.spin = integration.start.spin;
     motion.momentum = bodies.angular_momentum.at(slot);
+    if (!tick.state.twisted.is_empty()) {
+        motion.twist =
+            tick.config.tick * about_unlocked_axes(properties, tick.state.torques[properties.id]);
+        motion.spin_forced = bodies.apply_inverse_inertia(slot, motion.twist);
+    }
     motion.angular =
         about_unlocked_axes(properties, integration.angular_momentum + end.angular_impulse +
                                             integration.bounce_angular_impulse) -
-        motion.momentum;
+        motion.momentum - motion.twist;
     motion.spin_change = bodies.apply_inverse_inertia(slot, motion.angular);
     return motion;
 }
@@ -63,7 +70,8 @@ double turning_slack(const BodyProperties& properties, const Motion& motion, dou
     const double wobble =
         std::max({inertia.x, inertia.y, inertia.z}) / std::min({inertia.x, inertia.y, inertia.z}) -
         1.0;
-    const double spin = std::max(length(motion.spin), length(motion.spin + motion.spin_change));
+    const double spin = std::max(length(motion.spin),
+                                 length(motion.spin + motion.spin_forced + motion.spin_change));
     return 0.9 * wobble * std::min(spin * tick, far_turn) * spin * length(motion.angular);
 }
 
@@ -105,31 +113,34 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, Slot slot)
     const double mass = properties.mass;
     Balance balance;
     balance.linear = mass * glm::dot(motion.change, motion.start + 0.5 * motion.forced) +
-                     glm::dot(motion.angular, motion.spin);
+                     glm::dot(motion.angular, motion.spin + 0.5 * motion.spin_forced);
     balance.square = 0.5 * (mass * glm::dot(motion.change, motion.change) +
                             glm::dot(motion.angular, motion.spin_change));
     balance.gain = balance.linear + balance.square;
     const glm::dvec3 mean = motion.start + 0.5 * (motion.forced + motion.change);
-    const double work = mass * glm::dot(motion.forced, mean);
-    const double way = mass * glm::dot(motion.forced, tick.solver.mean_motion(slot + 1).velocity);
+    const glm::dvec3 mean_spin = motion.spin + 0.5 * (motion.spin_forced + motion.spin_change);
+    const double work = mass * glm::dot(motion.forced, mean) + glm::dot(motion.twist, mean_spin);
+    const BodyMotion& went = tick.solver.mean_motion(slot + 1);
+    const double way =
+        mass * glm::dot(motion.forced, went.velocity) + glm::dot(motion.twist, went.spin);
     balance.detour = std::max(0.0, way - work);
-    if (integration.has_hands) {
-        balance.stored = integration.hand_energy_stored;
-        balance.driven = integration.hand_energy_driven;
-    }
+    balance.stored = integration.hand_energy_stored;
+    balance.driven = integration.energy_driven;
     const double there = mass * glm::dot(motion.start, motion.start) +
                          glm::dot(motion.momentum, motion.spin) + std::abs(work);
     const double miss2 =
         speed_tolerance * speed_tolerance * glm::dot(motion.forced, motion.forced) +
         rest * rest * tick.scales.least * tick.scales.least * tick.scales.rate * tick.scales.rate;
-    balance.stored += energy_tolerance * there + mass * miss2;
+    const double twisted = glm::dot(motion.twist, motion.spin_forced);
+    balance.stored +=
+        energy_tolerance * there + mass * miss2 + speed_tolerance * speed_tolerance * twisted;
     balance.driven += turning_slack(properties, motion, tick.config.tick);
     return balance;
 }
 
 void EnergyAccount::settle(const Tick& tick)
 {
-    balances_.resize(tick.integrations.size());
+    balances_.resize(tick.state.bodies.awake + std::size_t{1});
     bool any = false;
     for (const Slot slot : tick.active) {
         balances_[slot + 1] = balance_of(tick, slot);
@@ -143,7 +154,8 @@ void EnergyAccount::settle_islands(const Tick& tick)
 {
     for (const Slot slot : tick.active) islands_.reset(slot + 1);
     for (const ContactBlock& block : tick.solver.blocks()) {
-        if (block.a != 0 && block.b != 0) islands_.join(block.a, block.b);
+        if (tick.solver.responds(block.a) && tick.solver.responds(block.b))
+            islands_.join(block.a, block.b);
     }
     for (const Slot slot : tick.active) {
         const SolverIndex root = islands_.root_of(slot + 1);
@@ -158,7 +170,8 @@ void EnergyAccount::settle_islands(const Tick& tick)
         scale(tick, slot, share);
     }
     for (ContactBlock& block : tick.solver.blocks()) {
-        const Balance& island = balances_[islands_.root_of(block.a != 0 ? block.a : block.b)];
+        const SolverIndex body = tick.solver.responds(block.a) ? block.a : block.b;
+        const Balance& island = balances_[islands_.root_of(body)];
         if (island.is_exceeded()) scale_impulses(*block.memory, island.share());
     }
 }
@@ -172,7 +185,7 @@ void EnergyAccount::scale(const Tick& tick, Slot slot, double share)
     end.velocity = motion.start + motion.forced + share * motion.change;
     end.angular_impulse = glm::dvec3{0.0};
     integration.bounce_angular_impulse = glm::dvec3{0.0};
-    integration.angular_momentum = motion.momentum + share * motion.angular;
+    integration.angular_momentum = motion.momentum + motion.twist + share * motion.angular;
     if (integration.has_hands)
         tick.hands.scale_impulses(tick.state.bodies.properties[slot].id, share);
 }

@@ -15,11 +15,11 @@
 namespace hapnet::scene {
 
 /// The last word on a tick's impulses: no island of bodies that touch may gain more kinetic energy
-/// than the work of gravity and pushes, what its hands' springs had stored and the work of the
-/// hands' own motion. Where it would, because bounces, stiff hands and an unfinished solve each
-/// were right for another moment of the tick, all impulses of the island are scaled by one share.
-/// Without impulses nothing is gained, and the gain is a convex parabola over the share: there
-/// always is one. Momentum stays, and no force grows.
+/// than the work of gravity, pushes and torques, what its hands' springs had stored, and the work
+/// of the own motion of hands and of kinematic bodies. Where it would, because bounces, stiff hands
+/// and an unfinished solve each were right for another moment of the tick, all impulses of the
+/// island are scaled by one share. Without impulses nothing is gained, and the gain is a convex
+/// parabola over the share: there always is one. Momentum stays, and no force grows.
 class EnergyAccount {
 public:
     explicit EnergyAccount(std::size_t bodies);
@@ -45,9 +45,10 @@ private:
         double linear = 0.0; // of that the part that grows with the share of the impulses ...
         double square = 0.0; // ... and that with its square
         double stored = 0.0; // what may be gained without impulses: what springs held, rounding
-        double driven = 0.0; // with all impulses: the work of the hands' motion, and what is not
-                             // followed of a turning body's inertia
-        double detour = 0.0; // of gravity and pushes where the way is not the mean velocity's
+        double driven = 0.0; // with all impulses: the work of the motion of hands and kinematic
+                             // bodies, and what is not followed of a turning body's inertia
+        double detour =
+            0.0; // of gravity, pushes and torques where the way is not the mean velocity's
 
         void add(const Balance& other);
         [[nodiscard]] bool is_exceeded() const { return gain > stored + driven + detour; }

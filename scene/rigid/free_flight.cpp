@@ -213,10 +213,13 @@ FreeFlightStepper::FreeFlightStepper(const Description& /*description*/, const W
 
 void FreeFlightStepper::step(const WorldConfig& config, WorldState& state)
 {
+    // Half of a torque's impulse before the rotation: so it rotates by the mean over the tick.
+    for (const BodyId body : state.twisted) apply_half_torque(state, body, config.tick);
     for (const Run& run : runs_) {
         integrate_parabola(state.bodies, run.range, run.acceleration, config.tick);
         rotate(state.bodies, run, config.tick);
     }
+    for (const BodyId body : state.twisted) apply_half_torque(state, body, config.tick);
     for (const BodyId body : state.pushed) apply_push(state, body, config.tick);
 }
 
@@ -239,6 +242,15 @@ void FreeFlightStepper::apply_push(WorldState& state, BodyId body, double tick)
     const glm::dvec3 change = tick * (bodies.properties[slot].inverse_mass * state.pushes[body]);
     bodies.position.put(slot, bodies.position.at(slot) + (0.5 * tick) * change);
     bodies.velocity.put(slot, bodies.velocity.at(slot) + change);
+}
+
+void FreeFlightStepper::apply_half_torque(WorldState& state, BodyId body, double tick)
+{
+    Bodies& bodies = state.bodies;
+    const Slot slot = bodies.slot_of[body];
+    const glm::dvec3 change =
+        about_unlocked_axes(bodies.properties[slot], 0.5 * tick * state.torques[body]);
+    bodies.angular_momentum.put(slot, bodies.angular_momentum.at(slot) + change);
 }
 
 void FreeFlightStepper::on_body_placed(WorldState& /*state*/, BodyId /*body*/) {}

@@ -70,6 +70,7 @@ private:
 
     static void rotate(Bodies& bodies, const Run& run, double tick);
     static void apply_push(WorldState& state, BodyId body, double tick);
+    static void apply_half_torque(WorldState& state, BodyId body, double tick);
 
     std::vector<Run> runs_;
 };

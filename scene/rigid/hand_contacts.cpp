@@ -15,6 +15,8 @@ namespace hapnet::scene {
 
 HandContacts::HandContacts(const WorldConfig& config)
     : hands_(config.hands.count),
+      any_felt_plane_{std::any_of(config.planes.begin(), config.planes.end(),
+                                  [](const PlaneDescription& plane) { return plane.felt; })},
       gravity_reach_{config.tick * config.tick *
                      std::sqrt(glm::dot(config.gravity, config.gravity))},
       springs_{config.hands.count * touched_per_hand_max},
@@ -59,7 +61,7 @@ void HandContacts::collide(const WorldConfig& config, WorldState& state, std::ui
 bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
                             const Target& target)
 {
-    const HandDescription& hands = config.hands;
+    const HandDescription& hands = config.feels.of(index, target.body, config.hands);
     const HandInput& input = state.hands[index];
     Hand& hand = hands_[index];
     const OrientedBox& box = target.now.box;
@@ -158,7 +160,7 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
 void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,
                             const Target& target)
 {
-    const HandDescription& hands = config.hands;
+    const HandDescription& hands = config.feels.of(index, target.body, config.hands);
     const HandInput& input = state.hands[index];
     NearBody* const near_body = find_near(hands_[index], target.body);
     if (near_body == nullptr) return;
@@ -190,6 +192,24 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
     spring.force_max = hands.force_max_n;
     spring.holds = false;
     springs_.add() = {index, target.body, glm::dvec3{0.0}};
+}
+
+void HandContacts::feel_planes(const WorldConfig& config, WorldState& state,
+                               std::uint32_t hand) const
+{
+    const HandInput& input = state.hands[hand];
+    const HandDescription& feel = config.feels.of(hand, config.hands);
+    for (const PlaneDescription& plane : config.planes) {
+        if (!plane.felt) continue;
+        const double depth =
+            feel.radius_m + plane.offset_m - glm::dot(plane.normal, input.position.value);
+        const double closing = -glm::dot(plane.normal, input.velocity.value);
+        if (depth <= 0.0 && depth + config.tick * closing <= 0.0) continue;
+        HandTouch& touch = state.touches[hand];
+        note_push(touch, depth, force_at(feel, depth, closing) * plane.normal);
+        const double impulse = impulse_at_constant_velocity(feel, depth, closing, config.tick);
+        touch.on_hand.value += (impulse / config.tick) * plane.normal;
+    }
 }
 
 HandSpring& HandContacts::add(std::uint32_t hand, BodyId body)

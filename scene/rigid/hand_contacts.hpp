@@ -43,6 +43,9 @@ public:
     /// Finds what the hand does to one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
+    [[nodiscard]] bool feels_planes() const { return any_felt_plane_; }
+    /// Adds what the hand feels of planes.
+    void feel_planes(const WorldConfig& config, WorldState& state, std::uint32_t hand) const;
     /// Forgets the bodies that the hand has left.
     void forget_departed(std::uint32_t index);
 
@@ -106,6 +109,7 @@ private:
     [[nodiscard]] NearBody* find_near(Hand& hand, BodyId body);
 
     std::vector<Hand> hands_;
+    bool any_felt_plane_;
     double gravity_reach_; // twice the distance that a body falls in a tick from rest, metres
     Scratch<Spring> springs_;
     Scratch<HandSpring> forces_;  // in the order of springs_

@@ -81,14 +81,6 @@ void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, S
 
 } // namespace
 
-glm::dvec3 about_unlocked_axes(const BodyProperties& properties, const glm::dvec3& angular)
-{
-    if (properties.turning == Turning::free) return angular;
-    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
-            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
-            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
-}
-
 BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box)
 {
     const glm::dvec3& about = properties.inverse_inertia;
@@ -119,7 +111,7 @@ void reset(BodyIntegration& integration)
     integration.drag = 0.0;
     integration.has_hands = false;
     integration.hand_energy_stored = 0.0;
-    integration.hand_energy_driven = 0.0;
+    integration.energy_driven = 0.0;
     integration.first_touch.time = std::numeric_limits<double>::infinity();
 }
 
@@ -202,7 +194,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     const HandEnergy energy =
         advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes);
     integration.hand_energy_stored = energy.stored;
-    integration.hand_energy_driven = energy.driven;
+    integration.energy_driven = energy.driven;
     integration.hands_are_braked = energy.is_braked;
     integration.hand_rows = energy.rows;
     integration.has_hands = true;
@@ -219,11 +211,12 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
     integration.mean_to_there = integration.mean;
 }
 
-void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
+void apply_stop(const ContactBlock& block, const SlidingBody& body,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean)
 {
-    const double sign = block.b != 0 ? 1.0 : -1.0;
-    const glm::dvec3& set_start = integration.start.velocity;
+    const BodyIntegration& integration = body.integration;
+    const double sign = body.is_second ? 1.0 : -1.0;
+    const glm::dvec3 set_start = integration.start.velocity - body.ground;
     const glm::dvec3 slip =
         unlocked_part(properties, set_start - glm::dot(set_start, block.normal) * block.normal);
     const double speed = std::sqrt(glm::dot(slip, slip));

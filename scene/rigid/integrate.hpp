@@ -36,23 +36,19 @@ struct BodyIntegration {
     double drag = 0.0;                           // 1/s, on the plane that supports it
     glm::dvec3 support_normal{0.0};              // its normal
     FirstTouch first_touch;                      // of those met on its way
+    double energy_driven = 0.0; // J: work of the own motion of hands and of kinematic bodies
 
     // Where a body with hands on it would be at the end.
     bool has_hands = false;
     bool hands_are_braked = false;
     std::size_t hand_rows = 0;       // see HandEnergy
     double hand_energy_stored = 0.0; // J: in their springs at the start of the tick
-    double hand_energy_driven = 0.0; // J: the work of the hands' own motion
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     BodyMotion mean_to_there; // the mean motion that goes there
 };
 
 [[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const OrientedBox& box);
-
-/// An angular impulse changes the momentum only about axes that the body may turn about.
-[[nodiscard]] glm::dvec3 about_unlocked_axes(const BodyProperties& properties,
-                                             const glm::dvec3& angular);
 
 /// Starts with nothing acting on the body.
 void reset(BodyIntegration& integration);
@@ -76,9 +72,16 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
 void integrate_velocity_with_hands(BodyIntegration& integration, const WorldState& state, Slot slot,
                                    const BodyResponse& response, const HandForces& hands);
 
+/// What slides on something that does not turn.
+struct SlidingBody {
+    const BodyIntegration& integration;
+    const glm::dvec3& ground; // the velocity of what it slides on
+    bool is_second = true;    // of the contact
+};
+
 /// A contact that stops slipping within the tick does so at its moment: until then friction has
 /// its full strength, and not a mean one until the end. For a body whose only friction it is.
-void apply_stop(const ContactBlock& block, const BodyIntegration& integration,
+void apply_stop(const ContactBlock& block, const SlidingBody& body,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
 /// A body that goes farther than this in a tick, in half edges of the smallest body, could pass

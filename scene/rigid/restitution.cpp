@@ -191,15 +191,30 @@ double Restitution::bounce(ContactBlock& block, ContactSolver& solver,
     for (double& part : change) part *= kept_share;
     block.impulse = kept;
     block.speed_min = least;
-    Wrench push = wrench(block, change);
-    if (block.b != 0) {
-        add({integrations[block.b], solver.response(block.b), block.arm_b}, push, first.time,
-            scales.tick);
+    block.bounce_impulse = change[0];
+    const Wrench on_b = wrench(block, change);
+    const Wrench on_a{-on_b.impulse, -on_b.angular};
+    // What the motion of a kinematic body does while it throws the other.
+    const auto driven = [&](const BodyIntegration& other, const glm::dvec3& arm,
+                            const Wrench& push) {
+        return work_of(
+            push, arm,
+            {other.start.velocity + share * (other.predicted.velocity - other.start.velocity),
+             other.start.spin + share * (other.predicted.spin - other.start.spin),
+             glm::dvec3{0.0}});
+    };
+    if (solver.responds(block.b)) {
+        BodyIntegration& b = integrations[block.b];
+        add({b, solver.response(block.b), block.arm_b}, on_b, first.time, scales.tick);
+        if (solver.is_kinematic(block.a))
+            b.energy_driven += driven(integrations[block.a], block.arm_a, on_b);
     }
-    if (block.a == 0) return kept_share;
-    push = {-push.impulse, -push.angular};
-    add({integrations[block.a], solver.response(block.a), block.arm_a}, push, first.time,
-        scales.tick);
+    if (solver.responds(block.a)) {
+        BodyIntegration& a = integrations[block.a];
+        add({a, solver.response(block.a), block.arm_a}, on_a, first.time, scales.tick);
+        if (solver.is_kinematic(block.b))
+            a.energy_driven += driven(integrations[block.b], block.arm_b, on_a);
+    }
     return kept_share;
 }
 

@@ -81,21 +81,25 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       boxes_{state.bodies, scales_},
       free_bodies_{config, state.bodies},
       active_{state.bodies.movable},
+      kinematics_{state.bodies, scales_},
       plane_contacts_{pairs_.plane_pairs_max()},
-      integrations_{state.bodies.movable + std::size_t{1}},
-      solver_{state.bodies.movable, blocks_for(config, state.bodies)},
+      integrations_{state.bodies.moving + std::size_t{1}},
+      solver_{state.bodies.moving, blocks_for(config, state.bodies)},
       restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
-      account_{state.bodies.movable},
+      account_{state.bodies.moving},
       continuous_{config, state.bodies, scales_}
 {}
 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& state)
 {
+    const bool has_kinematics = state.bodies.moving != state.bodies.movable;
+    if (has_kinematics) kinematics_.begin_tick(config, state);
     update_pairs(state);
     collide_hands(config, state);
     wake_disturbed(state);
     begin_contacts(state);
+    if (has_kinematics) kinematics_.begin_contacts(state.bodies, solver_, integrations_.all());
     collide_planes(config, state);
     collide_bodies(state);
     warm_start();
@@ -103,13 +107,16 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     const bool bounced =
         restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
     const bool changed = solve_velocities(state.work);
+    if (has_kinematics) add_driven_energy(solver_, integrations_.all());
     store_contact_impulses(state);
     stop_sliding_contacts(state);
     correct_positions(state);
     if (bounced || changed) settle_energy(config, state);
+    if (has_kinematics && kinematics_.any_far()) any_far_ = true;
     integrate_positions(state);
     integrate_free_bodies(state);
     if (any_far_) solve_continuous(config, state);
+    if (has_kinematics) kinematics_.end_tick(state);
     active_.clear();
     report_hand_forces(config, state);
     update_sleep(state);
@@ -126,12 +133,18 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
 }
 
 template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::wake(WorldState& state, BodyId body)
+{
+    if constexpr (sleeps) sleep_.wake(body, state.bodies, pairs_);
+}
+
+template <BroadPhase broad_phase>
 Work RigidStepper<broad_phase>::work_bound(const WorldConfig& config) const
 {
     const std::uint64_t pushed =
         std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
-    // Overlaps are looked at once more where a body is held back.
-    return {.pairs = (sleeps ? 1 + wake_rounds_max : 1) * pairs_.pairs_max(),
+    // Overlaps are looked at once more where a body is held back, sleepers by what carries them.
+    return {.pairs = (sleeps ? 2 + wake_rounds_max : 1) * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
             .visits = solver_.visits_bound(velocity_limits()) +
                       2 * solver_.visits_bound(position_limits()),
@@ -181,6 +194,8 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
                                        {id, slot < bodies.movable, now, bodies.velocity.at(slot)});
             }
         }
+        if (input.present && hand_contacts_.feels_planes())
+            hand_contacts_.feel_planes(config, state, hand);
         hand_contacts_.forget_departed(hand);
     }
     if constexpr (sleeps) {
@@ -201,6 +216,7 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
             ++state.work.pairs;
             return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
         };
+        wake_carried(state, are_touching);
         // One that is touched by what wakes now is found at once; so on, a few times.
         for (std::uint32_t round = 0; round < wake_rounds_max; ++round) {
             if (!sleep_.wake_touched(bodies, pairs_, are_touching)) break;
@@ -208,12 +224,45 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
     }
 }
 
+/// Wakes what touches a body that moves by itself, and keeps it awake.
+template <BroadPhase broad_phase>
+template <typename AreTouching>
+void RigidStepper<broad_phase>::wake_carried(WorldState& state, const AreTouching& are_touching)
+{
+    if constexpr (sleeps) {
+        Bodies& bodies = state.bodies;
+        const PairSet& pairs = pairs_.all_pairs();
+        for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) {
+            if (!kinematics_.of(bodies, slot).moves) continue;
+            const BodyId id = bodies.properties[slot].id;
+            const auto wake = [&](PairIndex index, BodyId other) {
+                const bool is_awake = bodies.slot_of[other] < bodies.awake;
+                const bool touches_it =
+                    is_awake ? touches(pairs[index].memory) : are_touching(index);
+                if (touches_it) sleep_.wake(other, bodies, pairs_);
+            };
+            pairs.for_first(id, [&](PairIndex i) { wake(i, pairs[i].b); });
+            pairs.for_second(id, [&](PairIndex i) { wake(i, pairs[i].a); });
+        }
+    }
+}
+
+/// Kinematic bodies come after the awake ones; what does not move is 0.
+template <BroadPhase broad_phase>
+SolverIndex RigidStepper<broad_phase>::index_of(const Bodies& bodies, Slot slot) const
+{
+    if (slot < bodies.awake) return slot + 1;
+    if (slot < bodies.movable || slot >= bodies.moving) return 0;
+    return kinematics_.of(bodies, slot).moves ? bodies.awake + 1 + (slot - bodies.movable) : 0;
+}
+
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
 {
-    solver_.begin(state.bodies.awake);
-    integrations_.resize(state.bodies.awake +
-                         std::size_t{1}); // [0] does not move: nobody writes it
+    const Bodies& bodies = state.bodies;
+    const std::size_t kinematic = bodies.moving - bodies.movable;
+    solver_.begin(bodies.awake, kinematic);
+    integrations_.resize(bodies.awake + kinematic + 1); // [0] does not move: nobody writes it
 }
 
 /// Starts the tick of an awake body that something acts on.
@@ -241,6 +290,7 @@ ContactBlock* RigidStepper<broad_phase>::add_contact(std::uint32_t points, Conta
     }
     ContactBlock& block = solver_.add();
     block.memory = &memory;
+    block.bounce_impulse = 0.0;
     return &block;
 }
 
@@ -297,8 +347,8 @@ SweptContact RigidStepper<broad_phase>::collide_pair(const WorldState& state, Pa
     const auto box_sweep = [&](BodyId id) {
         const SweptBox& now = boxes_.at(bodies, id);
         const Slot slot = bodies.slot_of[id];
-        return BoxSweep{now.box, bodies.velocity.at(slot), slot < bodies.awake ? now.reach : 0.0,
-                        now.radius};
+        const bool moves = slot < bodies.awake || (slot >= bodies.movable && slot < bodies.moving);
+        return BoxSweep{now.box, bodies.velocity.at(slot), moves ? now.reach : 0.0, now.radius};
     };
     return collide_swept(box_sweep(pair.a), box_sweep(pair.b), scales_.tick, pair.memory.axis);
 }
@@ -308,10 +358,9 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
 {
     const Bodies& bodies = state.bodies;
     state.work.pairs += pairs_.pairs().size();
-    const auto index_of = [&](Slot slot) -> SolverIndex {
-        if (slot >= bodies.awake) return 0;
-        activate(bodies, slot);
-        return slot + 1;
+    const auto index_of_active = [&](Slot slot) -> SolverIndex {
+        if (slot < bodies.awake) activate(bodies, slot);
+        return index_of(bodies, slot);
     };
     for (const PairIndex index : pairs_.pairs()) {
         Pair& pair = pairs_.pair(index);
@@ -329,8 +378,8 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
         set_least_speeds(*block);
         const Material material =
             combined(bodies.properties[a].material, bodies.properties[b].material);
-        block->a = index_of(a);
-        block->b = index_of(b);
+        block->a = index_of_active(a);
+        block->b = index_of_active(b);
         block->friction = material.friction;
         block->restitution = material.restitution;
         const auto note = [&](SolverIndex body, const glm::dvec3& normal, BodyId other) {
@@ -349,7 +398,7 @@ void RigidStepper<broad_phase>::warm_start()
 {
     const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push,
                          double sign) {
-        if (index == 0) return;
+        if (!solver_.responds(index)) return;
         BodyIntegration& body = integrations_[index];
         body.contact_impulse += sign * push.impulse;
         body.contact_angular_impulse += sign * (glm::cross(arm, push.impulse) + push.angular);
@@ -366,6 +415,11 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, WorldState& state)
 {
     for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
+    // A torque is held for the tick, as last tick's contact forces are.
+    for (const BodyId body : state.twisted) {
+        integrations_[state.bodies.slot_of[body] + 1].contact_angular_impulse +=
+            scales_.tick * state.torques[body];
+    }
     integrate_hand_springs(config, state);
     for (const Slot slot : active_.slots()) {
         BodyIntegration& integration = integrations_[slot + 1];
@@ -429,13 +483,14 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
 {
     const auto mass_of = [&](SolverIndex index) {
-        return index != 0 ? state.bodies.properties[index - 1].mass : 0.0;
+        return solver_.responds(index) ? state.bodies.properties[index - 1].mass : 0.0;
     };
     for (const ContactBlock& block : solver_.blocks()) {
         if (!keeps_impulses(block, *block.memory)) {
             const double weight = (mass_of(block.a) + mass_of(block.b)) * scales_.speed;
             store_impulses(block, weight, *block.memory);
         }
+        block.memory->normal_impulse_of_tick = block.normal_sum() + block.bounce_impulse;
         if (block.friction == 0.0 || !(block.normal_sum() > 0.0)) continue;
         if (block.a != 0) ++integrations_[block.a].friction_contacts;
         if (block.b != 0) ++integrations_[block.b].friction_contacts;
@@ -446,12 +501,20 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 {
+    const auto stop = [&](const ContactBlock& block, SolverIndex index, const glm::dvec3& ground) {
+        if (integrations_[index].friction_contacts != 1) return;
+        apply_stop(block, {integrations_[index], ground, index == block.b},
+                   state.bodies.properties[index - 1], scales_, solver_.mean_motion(index));
+    };
     for (const ContactBlock& block : solver_.blocks()) {
-        if (block.friction == 0.0 || (block.a != 0) == (block.b != 0)) continue;
-        const SolverIndex index = block.a + block.b;
-        if (integrations_[index].friction_contacts != 1) continue;
-        apply_stop(block, integrations_[index], state.bodies.properties[index - 1], scales_,
-                   solver_.mean_motion(index));
+        if (block.friction == 0.0) continue;
+        if (block.a == 0 || block.b == 0) {
+            stop(block, block.a + block.b, glm::dvec3{0.0});
+        } else if (solver_.responds(block.a) != solver_.responds(block.b)) {
+            const SolverIndex index = solver_.responds(block.a) ? block.a : block.b;
+            const BodyMotion& ground = integrations_[block.a + block.b - index].start;
+            if (ground.spin == glm::dvec3{0.0}) stop(block, index, ground.velocity);
+        }
     }
 }
 
@@ -510,7 +573,7 @@ void RigidStepper<broad_phase>::integrate_free_bodies(WorldState& state)
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
-    continuous_.solve(config, state, active_.slots(), pairs_);
+    continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
     state.work.looks = continuous_.looks();
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);

@@ -9,6 +9,7 @@
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
+#include "scene/rigid/kinematics.hpp"
 #include "scene/rigid/restitution.hpp"
 #include "scene/rigid/sleep.hpp"
 #include "scene/solver/contact_solver.hpp"
@@ -30,11 +31,16 @@ namespace hapnet::scene {
 template <BroadPhase broad_phase>
 class RigidStepper {
 public:
+    /// Fixed bodies and hands have to be found, too, where there is but one movable body.
+    static constexpr BroadPhase search =
+        broad_phase == BroadPhase::grid ? BroadPhase::grid : BroadPhase::all_pairs;
+
     RigidStepper(const Description& description, const WorldConfig& config,
                  const WorldState& state);
 
     void step(const WorldConfig& config, WorldState& state);
     void on_body_placed(WorldState& state, BodyId body);
+    void wake(WorldState& state, BodyId body);
     /// The most that a tick can take.
     [[nodiscard]] Work work_bound(const WorldConfig& config) const;
 
@@ -46,11 +52,9 @@ public:
         double change = 0.0;                 // m/s, of the last sweep
     };
     [[nodiscard]] const Counts& counts() const { return counts_; }
+    [[nodiscard]] const PairFinder<search>& pairs() const { return pairs_; }
 
 private:
-    /// Fixed bodies and hands have to be found, too, where there is but one movable body.
-    static constexpr BroadPhase search =
-        broad_phase == BroadPhase::grid ? BroadPhase::grid : BroadPhase::all_pairs;
     static constexpr bool sleeps = broad_phase != BroadPhase::none;
     struct NoSleep {
         NoSleep(const WorldConfig& /*config*/, const Bodies& /*bodies*/) {}
@@ -79,6 +83,9 @@ private:
     [[nodiscard]] SolverLimits velocity_limits() const;
     [[nodiscard]] SolverLimits position_limits() const;
     void activate(const Bodies& bodies, Slot slot);
+    template <typename AreTouching>
+    void wake_carried(WorldState& state, const AreTouching& are_touching);
+    [[nodiscard]] SolverIndex index_of(const Bodies& bodies, Slot slot) const;
     [[nodiscard]] SweptContact collide_pair(const WorldState& state, Pair& pair);
     ContactBlock* add_contact(std::uint32_t points, ContactMemory& memory);
     void set_least_speeds(ContactBlock& block);
@@ -92,6 +99,7 @@ private:
     SweptBoxes boxes_;
     FreeBodies free_bodies_;
     ActiveBodies active_;
+    Kinematics kinematics_;
     Scratch<PlaneContact> plane_contacts_;  // of the pairs with planes, in their order
     Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
     ContactSolver solver_;

@@ -11,15 +11,6 @@ namespace hapnet::scene {
 
 namespace {
 
-/// What a push changes about the axes that the body may turn about.
-glm::dvec3 turning_part(const BodyProperties& properties, const glm::dvec3& angular)
-{
-    if (properties.turning == Turning::free) return angular;
-    return {properties.inverse_inertia.x > 0.0 ? angular.x : 0.0,
-            properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
-            properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
-}
-
 /// An impulse, and what it does.
 struct Answer {
     ContactVector impulse{};
@@ -89,7 +80,7 @@ void apply_impulse(Bodies& bodies, Slot slot, const Wrench& push, const glm::dve
     bodies.velocity.put(slot, bodies.velocity.at(slot) + properties.inverse_mass * push.impulse);
     bodies.angular_momentum.put(
         slot, bodies.angular_momentum.at(slot) +
-                  turning_part(properties, glm::cross(arm, push.impulse) + push.angular));
+                  about_unlocked_axes(properties, glm::cross(arm, push.impulse) + push.angular));
 }
 
 } // namespace hapnet::scene

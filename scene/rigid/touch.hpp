@@ -7,7 +7,7 @@
 
 namespace hapnet::scene {
 
-/// A body as it is at a touch.
+/// A body as it is at a touch. A kinematic one moves, with no response.
 struct Toucher {
     bool moves = false;
     glm::dvec3 centre{0.0};

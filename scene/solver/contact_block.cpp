@@ -200,7 +200,9 @@ void scale_impulses(ContactMemory& memory, double share)
     for (double& impulse : memory.normal_impulse) impulse *= share;
     memory.friction_impulse *= share;
     memory.torsion_impulse *= share;
+    memory.normal_impulse_of_tick *= share;
 }
+
 namespace {
 
 /// Of `b` against `a` where they touch.
@@ -293,6 +295,12 @@ Wrench wrench(const ContactBlock& block, const ContactVector& impulse)
     return {impulse[0] * block.normal + impulse[3] * block.tangent_1 + impulse[4] * block.tangent_2,
             impulse[1] * block.tangent_1 + impulse[2] * block.tangent_2 +
                 impulse[5] * block.normal};
+}
+
+double work_of(const Wrench& push, const glm::dvec3& arm, const BodyMotion& motion)
+{
+    return glm::dot(push.impulse, motion.velocity + glm::cross(motion.spin, arm)) +
+           glm::dot(push.angular, motion.spin);
 }
 
 void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,

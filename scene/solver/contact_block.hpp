@@ -81,6 +81,7 @@ struct ContactBlock {
         start_impulse{}; // the normal impulses that it started from
     Wrench start_push{}; // all of the impulses that it started from
     double restitution = 0.0;
+    double bounce_impulse = 0.0;     // N s, along the normal, of this tick
     ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
     ContactVector
         centripetal_velocity{}; // m/s, what turning adds to its velocity by the end of the tick
@@ -157,6 +158,9 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
                                            const ContactImpulse& impulse);
 
 [[nodiscard]] Wrench wrench(const ContactBlock& block, const ContactVector& impulse);
+/// What an impulse on a body does while the other side moves so: J. `arm` is from that one's
+/// centre.
+[[nodiscard]] double work_of(const Wrench& push, const glm::dvec3& arm, const BodyMotion& motion);
 /// On one body: `arm` from its centre to the anchor.
 void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& response,
            BodyMotion& motion);

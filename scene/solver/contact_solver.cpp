@@ -78,11 +78,13 @@ std::uint64_t ContactSolver::visits_bound(const SolverLimits& limits) const
     return blocks_max_ + std::min(all, std::max<std::uint64_t>(any, limits.visits_max));
 }
 
-void ContactSolver::begin(std::size_t bodies)
+void ContactSolver::begin(std::size_t bodies, std::size_t kinematic)
 {
-    responses_.resize(bodies + 1);
-    end_motions_.resize(bodies + 1);
-    mean_motions_.resize(bodies + 1);
+    const std::size_t all = bodies + kinematic + 1;
+    responding_ = static_cast<SolverIndex>(bodies);
+    responses_.resize(all);
+    end_motions_.resize(all);
+    mean_motions_.resize(all);
     blocks_.clear();
 }
 
@@ -376,7 +378,8 @@ void ContactSolver::count_contacts()
 /// Whether no other block has to do with its bodies.
 bool ContactSolver::is_alone(const ContactBlock& block) const
 {
-    return (block.a == 0 || contacts_[block.a] == 1) && (block.b == 0 || contacts_[block.b] == 1);
+    return (!responds(block.a) || contacts_[block.a] == 1) &&
+           (!responds(block.b) || contacts_[block.b] == 1);
 }
 
 /// Sorts the blocks by islands: first those of the body with the lowest index, each in the order
@@ -386,12 +389,12 @@ void ContactSolver::find_islands()
     const std::size_t bodies = responses_.size();
     for (SolverIndex i = 0; i < bodies; ++i) islands_.reset(i);
     for (const ContactBlock& block : blocks_.all()) {
-        if (block.a != 0 && block.b != 0) islands_.join(block.a, block.b);
+        if (responds(block.a) && responds(block.b)) islands_.join(block.a, block.b);
     }
     starts_.resize(bodies + 1);
     for (std::uint32_t& start : starts_.all()) start = 0;
     const auto root_of_block = [&](const ContactBlock& block) {
-        return islands_.root_of(block.a != 0 ? block.a : block.b);
+        return islands_.root_of(responds(block.a) ? block.a : block.b);
     };
     for (const ContactBlock& block : blocks_.all()) ++starts_[root_of_block(block) + 1];
     for (std::size_t i = 1; i <= bodies; ++i) starts_[i] += starts_[i - 1];

@@ -39,8 +39,13 @@ class ContactSolver {
 public:
     ContactSolver(std::size_t bodies, std::size_t blocks);
 
-    /// Begins a tick: no contacts, and bodies 1 .. `bodies`.
-    void begin(std::size_t bodies);
+    /// Begins a tick: no contacts, bodies 1 .. `bodies`, and after them `kinematic` ones, which
+    /// move by themselves: their responses have to be zero.
+    void begin(std::size_t bodies, std::size_t kinematic = 0);
+
+    /// Whether impulses move it. What does not answer joins no bodies to an island.
+    [[nodiscard]] bool responds(SolverIndex body) const { return body - 1 < responding_; }
+    [[nodiscard]] bool is_kinematic(SolverIndex body) const { return body > responding_; }
 
     [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
     /// At the end of the tick.
@@ -99,6 +104,7 @@ private:
     [[nodiscard]] bool is_alone(const ContactBlock& block) const;
     void find_islands();
 
+    SolverIndex responding_ = 0; // bodies; those after them move by themselves
     Scratch<BodyResponse> responses_;
     Scratch<BodyMotion> end_motions_;
     Scratch<BodyMotion> mean_motions_;

@@ -51,6 +51,33 @@ constexpr auto fields_of(base::Tag<HandDescription>)
                     "Coulomb's coefficient between finger and body, in a session"));
 }
 
+constexpr auto fields_of(base::Tag<FieldDescription>)
+{
+    constexpr text::PerAxis place{{base::length_kind, -reach_max_m, reach_max_m}};
+    constexpr text::PerAxis force{{base::force_kind, -force_max_n, force_max_n}};
+    return base::fields(
+        "field", base::field("name", &FieldDescription::name, "for readers"),
+        base::field("position", &FieldDescription::position, place,
+                    "the middle of the region, and where the spring pulls to")
+            .always(),
+        base::field("size", &FieldDescription::half, text::Edges{},
+                    "the edges of the region; without it the field is everywhere"),
+        base::field("force", &FieldDescription::force, force, "constant"),
+        base::field("damping", &FieldDescription::damping_ns_per_m,
+                    base::Quantity{base::damping_kind, 0.0, damping_max_ns_per_m},
+                    "against the velocity"),
+        base::field("stiffness", &FieldDescription::stiffness_n_per_m,
+                    base::Quantity{base::stiffness_kind, 0.0, stiffness_max_n_per_m},
+                    "of a spring to the position, or to the line through it"),
+        base::field("line", &FieldDescription::line, text::Direction{},
+                    "along which the spring does not pull"),
+        base::field("force_max", &FieldDescription::force_limit_n, text::ForceLimit{},
+                    "limit of the field's force"),
+        base::field("hands", &FieldDescription::on_hands, base::Flag{}, "whether hands feel it"),
+        base::field("bodies", &FieldDescription::on_bodies, base::Flag{},
+                    "whether it acts on movable bodies"));
+}
+
 constexpr auto fields_of(base::Tag<PlaneDescription>)
 {
     return base::fields("plane", base::field("name", &PlaneDescription::name, "for readers"),
@@ -61,7 +88,32 @@ constexpr auto fields_of(base::Tag<PlaneDescription>)
                                     base::Quantity{base::length_kind, -reach_max_m, reach_max_m},
                                     "distance of the surface from the origin along the normal")
                             .always(),
-                        base::part(&PlaneDescription::material));
+                        base::part(&PlaneDescription::material),
+                        base::field("felt", &PlaneDescription::felt, base::Flag{},
+                                    "hands feel it as they feel bodies"));
+}
+
+constexpr auto fields_of(base::Tag<Feel>)
+{
+    return base::fields(
+        "hand",
+        base::field("stiffness", &Feel::stiffness_n_per_m,
+                    base::Quantity{base::stiffness_kind, 0.0, stiffness_max_n_per_m},
+                    "of the spring of a hand, instead of that of `[hips]`"),
+        base::field("damping", &Feel::damping_ns_per_m,
+                    base::Quantity{base::damping_kind, 0.0, damping_max_ns_per_m},
+                    "of the damper of a hand, instead of that of `[hips]`"));
+}
+
+constexpr auto fields_of(base::Tag<Sway>)
+{
+    return base::fields(
+        "sway",
+        base::field("sway", &Sway::by,
+                    text::PerAxis{{base::length_kind, -reach_max_m, reach_max_m}},
+                    "how far a kinematic body goes from its position, and back, over and over"),
+        base::field("sway_period", &Sway::period, base::Time{base::Duration{}, period_max},
+                    "how long it takes there and back, 10 ms at least"));
 }
 
 constexpr auto fields_of(base::Tag<BodyDescription>)
@@ -73,6 +125,9 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
         "body", base::field("name", &BodyDescription::name, "for readers"),
         base::field("fixed", &BodyDescription::movable, text::Fixed{},
                     "it never moves; its mass, velocities, drag and locks are then ignored"),
+        base::field("kinematic", &BodyDescription::kinematic, base::Flag{},
+                    "it moves with its velocities, or as it sways, whatever it pushes; it needs no "
+                    "mass and counts as fixed"),
         base::field("size", &BodyDescription::half, text::Edges{}, "the edges").required(),
         base::field("position", &BodyDescription::position, place, "of the centre").always(),
         base::field("orientation", &BodyDescription::orientation, text::Orientation{},
@@ -80,6 +135,7 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
         base::field("velocity", &BodyDescription::velocity, speed, "of the centre"),
         base::field("angular_velocity", &BodyDescription::angular_velocity, turn,
                     "about the axes of the world"),
+        base::part(&BodyDescription::sway),
         base::field("mass", &BodyDescription::mass_kg,
                     base::Quantity{base::mass_kind, mass_min_kg, mass_max_kg},
                     "required unless the body is fixed or has a `density`")
@@ -91,7 +147,8 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
         base::part(&BodyDescription::material),
         base::field("drag", &BodyDescription::drag_ns_per_m,
                     base::Quantity{base::damping_kind, 0.0, damping_max_ns_per_m},
-                    "viscous friction on the plane below it"));
+                    "viscous friction on the plane below it"),
+        base::part(&BodyDescription::feel));
 }
 
 namespace text {

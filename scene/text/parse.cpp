@@ -47,6 +47,7 @@ BodyDescription read_body_keys(TableReader& table)
 {
     BodyDescription body;
     base::read_fields(table, body);
+    if (body.kinematic) body.movable = false;
     read_density(table, body);
     return body;
 }
@@ -184,6 +185,12 @@ base::Result<Description> parse_scene(std::string_view text, const std::string& 
     Description& scene = growing.scene;
     base::read_fields(table, scene);
     if (const Node* hands = table.find("hips")) base::read_table(*hands, scene.hands, reading);
+    with_each(table.find("hand"), "hand", reading, [&](const Node& node) {
+        base::read_table(node, scene.own_hands.emplace_back(), reading);
+    });
+    with_each(table.find("field"), "field", reading, [&](const Node& node) {
+        base::read_table(node, scene.fields.emplace_back(), reading);
+    });
     read_planes(table, growing);
     read_bodies(table, growing);
     table.finish();

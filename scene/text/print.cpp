@@ -22,6 +22,10 @@ std::string lines(const T& value)
 std::string to_text(const Description& description)
 {
     std::string text = lines(description) + "\n[hips]\n" + lines(description.hands);
+    for (const Feel& hand : description.own_hands) text += "\n[[hand]]\n" + lines(hand);
+    for (const FieldDescription& field : description.fields) {
+        text += "\n[[field]]\n" + lines(field);
+    }
     for (const PlaneDescription& plane : description.planes) {
         text += "\n[[plane]]\n" + lines(plane);
     }

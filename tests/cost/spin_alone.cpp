@@ -19,6 +19,7 @@ int spin(const scene::Description& description, long ticks)
         .planes = description.planes, .hands = description.hands, .gravity = description.gravity};
     scene::WorldState state{.bodies = scene::Bodies{description}};
     state.pushes.resize(description.bodies.size());
+    state.torques.resize(description.bodies.size());
     state.is_pushed.resize(description.bodies.size());
     for (scene::HandInput& hand : state.hands) hand.present = false;
     for (const std::uint32_t index : {0U, 1U}) state.hands[index] = hapnet::cost::hand(index);

@@ -139,6 +139,8 @@ const std::vector<KeyTable>& tables()
                            emulator::Duplication, emulator::Reordering>("stage")},
         {"scene", rows_of<scene::Description>()},
         {"hips", rows_of<scene::HandDescription>()},
+        {"hand", rows_of<scene::Feel>()},
+        {"field", rows_of<scene::FieldDescription>()},
         {"plane", rows_of<scene::PlaneDescription>()},
         {"body", rows_of<scene::BodyDescription, scene::text::Density>()},
         {"array", rows_of<scene::text::Array>()},
@@ -157,7 +159,7 @@ const std::vector<KeyTable>& tables()
 const std::set<std::string>& without_table()
 {
     static const std::set<std::string> names{
-        "Material", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
+        "Material", "Sway", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
         "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "WrittenCorner",
         "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
         // JSON, CSV and the settings in a record's header
@@ -183,6 +185,8 @@ const std::set<std::string>& with_table()
                                              "Reordering",
                                              "Description",
                                              "HandDescription",
+                                             "Feel",
+                                             "FieldDescription",
                                              "PlaneDescription",
                                              "BodyDescription",
                                              "Density",

@@ -95,7 +95,8 @@ TEST(QuietTick, WouldBeNoticedIfItWereNot)
 #endif
 
 INSTANTIATE_TEST_SUITE_P(Scene, QuietTick,
-                         testing::Values("paper", "push-6dof", "stack-10", "cubes-100"));
+                         testing::Values("paper", "push-6dof", "stack-10", "cubes-100", "conveyor",
+                                         "soft-and-hard", "guide"));
 
 } // namespace
 } // namespace hapnet::scene

@@ -17,7 +17,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-enum class Wall : std::uint8_t { fixed, movable, plane };
+/// One that comes meets a body at rest; one that meets it has half of the speed.
+enum class Wall : std::uint8_t { fixed, movable, plane, comes, meets };
+
+/// The share of the speed that a wall moves with by itself.
+double own_share(Wall wall)
+{
+    if (wall == Wall::comes) return 1.0;
+    return wall == Wall::meets ? 0.5 : 0.0;
+}
 
 struct Throw {
     Wall wall = Wall::fixed;
@@ -57,7 +65,7 @@ Description scene_of(const Throw& thrown, std::uint64_t seed)
         base::normalized(glm::dquat{dice.sign(), dice.sign(), dice.sign(), dice.sign()});
     const double way = 0.5 * thrown.thickness + 1.01 * radius + dice.share() * thrown.speed * tick;
     body.position.value = {-way, radius * dice.sign(), radius * dice.sign()};
-    body.velocity.value = {thrown.speed, 0.0, 0.0};
+    body.velocity.value = {(1.0 - own_share(thrown.wall)) * thrown.speed, 0.0, 0.0};
     if (thrown.spins)
         body.angular_velocity = std::min(thrown.spin_max, thrown.speed / radius) * dice.vector();
     scene.bodies.push_back(body);
@@ -70,6 +78,8 @@ Description scene_of(const Throw& thrown, std::uint64_t seed)
     }
     BodyDescription wall;
     wall.movable = thrown.wall == Wall::movable;
+    wall.kinematic = own_share(thrown.wall) > 0.0;
+    wall.velocity.value = {-own_share(thrown.wall) * thrown.speed, 0.0, 0.0};
     wall.mass_kg = 1.0;
     const double wide = std::min(size_max_m, 4.0 * radius + 10.0 * thrown.speed * tick);
     wall.half = {0.5 * thrown.thickness, wide, wide};
@@ -86,7 +96,7 @@ bool passes(const Throw& thrown, std::uint64_t seed, Interventions& intervention
     bool passed = false;
     for (int tick = 0; tick < 12; ++tick) {
         world.tick();
-        const double wall = thrown.wall == Wall::movable ? world.position(1).x() : 0.0;
+        const double wall = thrown.wall == Wall::plane ? 0.0 : world.position(1).x();
         passed = passed || world.position(0).x() > wall;
     }
     interventions.sweeps_continued += world.state().interventions.sweeps_continued;
@@ -143,6 +153,42 @@ TEST_P(FastCube, PassesNoOtherBody)
     Interventions interventions;
     throw_all({.wall = Wall::movable, .speed = GetParam()}, 16, interventions);
     expect_no_guard(interventions);
+}
+
+TEST_P(FastCube, IsPassedByNoWallThatMovesByItself)
+{
+    Interventions interventions;
+    for (const auto wall : {Wall::comes, Wall::meets}) {
+        throw_all({.wall = wall, .speed = GetParam()}, 32, interventions);
+        throw_all({.wall = wall, .speed = GetParam(), .thickness = 20e-3, .tick = 250us}, 8,
+                  interventions);
+        throw_all({.wall = wall, .half = {0.03, 0.02, 0.002}, .speed = GetParam()}, 4,
+                  interventions);
+    }
+    expect_no_guard(interventions);
+}
+
+/// Seen from the wall a body has no more energy than it came with.
+TEST_P(FastCube, GainsNoEnergyOverAWallThatMovesByItself)
+{
+    for (const double restitution : {0.0, 0.5, 1.0}) {
+        for (std::uint64_t seed = 0; seed < 32; ++seed) {
+            Throw thrown{.wall = Wall::comes, .speed = GetParam(), .spins = true};
+            thrown.material = {0.4, restitution};
+            World world =
+                World::freeze(scene_of(thrown, seed), {.tick = 1ms, .sleeping = false}).value();
+            const auto energy = [&] {
+                const Bodies& bodies = world.state().bodies;
+                const glm::dvec3 seen = world.velocity(0).value - world.velocity(1).value;
+                return 0.5 * bodies.properties[0].mass * glm::dot(seen, seen) +
+                       0.5 * glm::dot(bodies.angular_momentum.at(0), bodies.angular_velocity(0));
+            };
+            const double before = energy();
+            for (int tick = 0; tick < 12; ++tick) world.tick();
+            EXPECT_LE(energy(), before * (1.0 + 1e-9)) << thrown << " seed " << seed;
+            EXPECT_LT(world.velocity(0).x(), 0.0) << thrown << " seed " << seed;
+        }
+    }
 }
 
 TEST_P(FastCube, PassesNoPlane)

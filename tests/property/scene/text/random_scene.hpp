@@ -22,9 +22,13 @@ public:
         drawn.name = name();
         for (auto left = below(4); left > 0; --left) drawn.bodies.push_back(body());
         for (auto left = below(3); left > 0; --left) {
-            drawn.planes.push_back({name(), unit(), within(reach_max_m), material()});
+            drawn.planes.push_back(
+                {name(), unit(), within(reach_max_m), material(), below(2) == 0});
         }
         drawn.hands = hands();
+        for (auto left = std::min<std::uint64_t>(below(3), drawn.hands.count); left > 0; --left)
+            drawn.own_hands.push_back(feel());
+        for (auto left = below(3); left > 0; --left) drawn.fields.push_back(field());
         if (below(2) == 0) drawn.gravity = vector(gravity_max_m_per_s2);
         return drawn;
     }
@@ -75,22 +79,53 @@ private:
 
     Material material() { return {std::abs(within(friction_max)), std::abs(within(1.0))}; }
 
+    FieldDescription field()
+    {
+        FieldDescription drawn{.name = name()};
+        drawn.position.value = vector(reach_max_m);
+        if (below(2) == 0) drawn.half = glm::dvec3{between(size_min_m, size_max_m)};
+        drawn.force.value = vector(force_max_n);
+        drawn.damping_ns_per_m = std::abs(within(damping_max_ns_per_m));
+        drawn.stiffness_n_per_m = std::abs(within(stiffness_max_n_per_m));
+        if (below(2) == 0) drawn.line = unit();
+        if (below(2) == 0) drawn.force_limit_n = std::abs(within(force_max_n));
+        drawn.on_hands = below(2) == 0;
+        drawn.on_bodies = below(2) == 0;
+        return drawn;
+    }
+
+    Feel feel()
+    {
+        Feel drawn;
+        if (below(2) == 0) drawn.stiffness_n_per_m = std::abs(within(stiffness_max_n_per_m));
+        if (below(2) == 0) drawn.damping_ns_per_m = std::abs(within(damping_max_ns_per_m));
+        return drawn;
+    }
+
     BodyDescription body()
     {
         BodyDescription drawn{.name = name()};
         drawn.movable = below(3) != 0;
+        drawn.kinematic = !drawn.movable && below(2) == 0;
         drawn.half = glm::dvec3{between(size_min_m, size_max_m)};
         if (below(2) == 0) drawn.half.z = between(size_min_m, size_max_m);
         drawn.position.value = vector(reach_max_m);
         drawn.orientation = orientation();
         drawn.velocity.value = vector(speed_max_m_per_s);
         drawn.angular_velocity = vector(turn_max_rad_per_s);
+        if (drawn.kinematic && below(2) == 0) {
+            drawn.velocity = {};
+            drawn.sway.period = base::Duration{static_cast<std::int64_t>(1 + below(1000)) *
+                                               std::chrono::milliseconds{77}};
+            drawn.sway.by = vector(1.0);
+        }
         drawn.mass_kg = between(mass_min_kg, mass_max_kg);
         drawn.turning = static_cast<Turning>(below(5));
         drawn.locked.x = below(2) == 0;
         drawn.locked.y = below(2) == 0;
         drawn.locked.z = below(2) == 0;
         drawn.material = material();
+        if (below(2) == 0) drawn.feel = feel();
         drawn.drag_ns_per_m = std::abs(within(damping_max_ns_per_m));
         return drawn;
     }

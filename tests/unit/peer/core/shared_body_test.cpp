@@ -41,6 +41,30 @@ TEST(SharedBody, IsRefusedWhenItCanTurn)
     }
 }
 
+TEST(SharedBody, IsRefusedAmongBodiesThatMoveByThemselves)
+{
+    scene::Description scene = scene::paper_scene();
+    scene.bodies[1].kinematic = true;
+    EXPECT_NE(refusal_of(scene).find("kinematic"), std::string::npos);
+}
+
+TEST(SharedBody, IsRefusedWhereBodiesOrHandsFeelUnlikeTheOthers)
+{
+    scene::Description scene = scene::paper_scene();
+    scene.bodies[1].feel.stiffness_n_per_m = 100.0;
+    EXPECT_NE(refusal_of(scene).find("stiffness"), std::string::npos);
+    scene = scene::paper_scene();
+    scene.own_hands.resize(1);
+    EXPECT_NE(refusal_of(scene).find("stiffness"), std::string::npos);
+}
+
+TEST(SharedBody, IsRefusedInAFieldOfForce)
+{
+    scene::Description scene = scene::paper_scene();
+    scene.fields.resize(1);
+    EXPECT_NE(refusal_of(scene).find("fields"), std::string::npos);
+}
+
 TEST(SharedBody, NeedsAHandAndANumberThatAMessageCanTell)
 {
     scene::Description scene = scene::paper_scene();

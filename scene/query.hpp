@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/collide/distance.hpp"
+#include "scene/world.hpp"
+
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace hapnet::scene {
+
+// What may be asked of a world between two ticks. Nothing here changes it or takes memory. All but
+// contacts_of() looks at every body: 100 000 bodies take milliseconds.
+
+/// A body, by its id, or a plane, by its place in the description.
+struct Thing {
+    enum class Kind : std::uint8_t { body, plane };
+    Kind kind = Kind::body;
+    std::uint32_t index = 0;
+
+    friend bool operator==(const Thing&, const Thing&) = default;
+};
+
+/// Two that touch now, or pushed each other in the last tick.
+struct Contact {
+    BodyId body = 0;
+    Thing other;
+    base::Position at{};         // the middle of the points that touch
+    glm::dvec3 normal{0.0};      // unit, from the other one to the body
+    double separation = 0.0;     // m, of the deepest point; < 0: overlap
+    double normal_impulse = 0.0; // N s, on the body, of the last tick; of a sleeper, of each tick
+};
+
+/// Lists the contacts of all bodies, each once, with the body of the lower id as `body`: by the
+/// bodies' ids, those with planes last. Returns how many there are; the first that have room are
+/// written. A box that cannot turn may push several obstacles on one side: they share evenly.
+std::size_t contacts(const World& world, std::span<Contact> room);
+/// Those of one body.
+std::size_t contacts_of(const World& world, BodyId body, std::span<Contact> room);
+
+/// From `origin` along `direction`, which is not zero and of any length.
+struct Ray {
+    base::Position origin{};
+    glm::dvec3 direction{1.0, 0.0, 0.0};
+    double length_max_m = std::numeric_limits<double>::infinity();
+};
+struct RayHit {
+    Thing what;
+    double distance_m = 0.0;
+    base::Position at{};
+    glm::dvec3 normal{0.0}; // of the surface; against the ray where it began inside
+};
+/// The first body or plane that a ray meets; of several at the same distance the first in the
+/// description, bodies before planes. Inside of one it begins at distance 0. nullopt also for a ray
+/// that is not finite.
+[[nodiscard]] std::optional<RayHit> cast_ray(const World& world, const Ray& ray);
+
+/// How far a point is outside of a body; < 0: inside.
+[[nodiscard]] Separation separation(const World& world, const base::Position& point, BodyId body);
+/// How far two bodies are apart; < 0: the shortest way that moves them apart.
+[[nodiscard]] Separation separation(const World& world, BodyId first, BodyId second);
+
+struct NearestBody {
+    BodyId body = 0;
+    Separation separation{}; // of the point and that body
+};
+/// The body with the least separation from a point; nullopt in a scene without bodies.
+[[nodiscard]] std::optional<NearestBody> nearest_body(const World& world,
+                                                      const base::Position& point);
+
+/// Lists the bodies that a sphere touches or overlaps, by their ids. Returns how many there are;
+/// the first that have room are written.
+std::size_t bodies_in_sphere(const World& world, const base::Position& centre, double radius_m,
+                             std::span<BodyId> room);
+
+} // namespace hapnet::scene

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/bounded.hpp"
+#include "scene/rigid/integrate.hpp"
+#include "scene/solver/contact_solver.hpp"
+#include "scene/state.hpp"
+
+#include <span>
+
+namespace hapnet::scene {
+
+/// The motion of one kinematic body over a tick, known before it begins.
+struct KinematicTick {
+    BodyMotion start;
+    BodyMotion end;
+    BodyMotion mean;
+    base::Position position{}; // at the end
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    bool moves = false;
+
+    /// In the tick: its mean, and about that what it gains from start to end.
+    [[nodiscard]] BodyMotion motion_at(double time, double tick) const;
+};
+
+/// The kinematic bodies' motions, in the order of their slots. While a tick lasts their lanes have
+/// the mean velocities, so that everything is found on the way that they really go.
+class Kinematics {
+public:
+    Kinematics(const Bodies& bodies, const Scales& scales)
+        : scales_{scales}, ticks_{std::size_t{bodies.moving - bodies.movable}}
+    {}
+
+    void begin_tick(const WorldConfig& config, WorldState& state);
+    /// Sets their motions, which nothing changes; they come after the awake bodies.
+    void begin_contacts(const Bodies& bodies, ContactSolver& solver,
+                        std::span<BodyIntegration> integrations) const;
+    /// Puts them where they come to.
+    void end_tick(WorldState& state);
+
+    /// Of a slot in [movable, moving).
+    [[nodiscard]] const KinematicTick& of(const Bodies& bodies, Slot slot) const
+    {
+        return ticks_[slot - bodies.movable];
+    }
+    /// Whether one goes so far in this tick that it could pass something.
+    [[nodiscard]] bool any_far() const { return any_far_; }
+
+private:
+    Scales scales_;
+    bool any_far_ = false;
+    Scratch<KinematicTick> ticks_;
+};
+
+/// Adds what kinematic bodies do to those that they push and carry. The force of a contact counts
+/// as constant over the tick, or as a blow at its end: whichever is more.
+void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integrations);
+
+} // namespace hapnet::scene
