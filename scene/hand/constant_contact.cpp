@@ -53,7 +53,6 @@ private:
     bool set_geometry_halfway();
     void set_couplings();
     bool integrate_contacts(PressedModes& modes);
-    [[nodiscard]] bool integrate_unlike(PressedModes::Outcome& outcome) const;
     bool finish(std::span<SpringImpulse> work);
     [[nodiscard]] Two depth_change() const;
 
@@ -113,30 +112,25 @@ bool ConstantContact::integrate_contacts(PressedModes& modes)
     const HandSpring& a = springs_.front();
     const HandSpring& b = springs_.back();
     PressedModes::Outcome outcome;
+    Two stiffness = both(a.stiffness), damping = both(a.damping);
     if (a.stiffness == b.stiffness && a.damping == b.damping) {
         if (!modes.find({own_, mutual_, a.stiffness, a.damping, tick_})) return false;
         outcome = modes.outcome({depth_, closing_, acceleration_});
-    } else if (!integrate_unlike(outcome)) {
-        return false;
+    } else {
+        stiffness = Two{a.stiffness, b.stiffness};
+        damping = Two{a.damping, b.damping};
+        const UnlikeSprings unlike{own_, mutual_, stiffness, damping, tick_};
+        const auto found = unlike.outcome({depth_, closing_, acceleration_});
+        if (!found) return false;
+        outcome = *found;
     }
-    const Two start = Two{a.stiffness, b.stiffness} * depth_ + Two{a.damping, b.damping} * closing_;
+    const Two start = stiffness * depth_ + damping * closing_;
     const Two least = start - outcome.change, most = start + outcome.change;
     if (!(least[0] > 0.0 && most[0] < a.force_max)) return false;
     if (has_two_ && !(least[1] > 0.0 && most[1] < b.force_max)) return false;
     impulse_ = outcome.impulse;
     moment_ = outcome.moment;
     return true;
-}
-
-bool ConstantContact::integrate_unlike(PressedModes::Outcome& outcome) const
-{
-    const HandSpring& a = springs_.front();
-    const HandSpring& b = springs_.back();
-    const UnlikeSprings unlike{own_, mutual_, Two{a.stiffness, b.stiffness},
-                               Two{a.damping, b.damping}, tick_};
-    const auto found = unlike.outcome({depth_, closing_, acceleration_});
-    if (found) outcome = *found;
-    return found.has_value();
 }
 
 /// By how much the depths have grown, by what was held.

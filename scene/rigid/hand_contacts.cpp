@@ -194,8 +194,15 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
     springs_.add() = {index, target.body, glm::dvec3{0.0}};
 }
 
-void HandContacts::feel_planes(const WorldConfig& config, WorldState& state,
-                               std::uint32_t hand) const
+void HandContacts::feel_planes(const WorldConfig& config, WorldState& state)
+{
+    for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
+        if (state.hands[hand].present) feel_planes_with(config, state, hand);
+    }
+}
+
+void HandContacts::feel_planes_with(const WorldConfig& config, WorldState& state,
+                                    std::uint32_t hand)
 {
     const HandInput& input = state.hands[hand];
     const HandDescription& feel = config.feels.of(hand, config.hands);

@@ -44,8 +44,8 @@ public:
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
     [[nodiscard]] bool feels_planes() const { return any_felt_plane_; }
-    /// Adds what the hand feels of planes.
-    void feel_planes(const WorldConfig& config, WorldState& state, std::uint32_t hand) const;
+    /// Adds what the hands feel of planes.
+    static void feel_planes(const WorldConfig& config, WorldState& state);
     /// Forgets the bodies that the hand has left.
     void forget_departed(std::uint32_t index);
 
@@ -104,6 +104,7 @@ private:
     HandSpring& add(std::uint32_t hand, BodyId body);
     bool add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
                   const Target& target);
+    static void feel_planes_with(const WorldConfig& config, WorldState& state, std::uint32_t hand);
     void add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,
                   const Target& target);
     [[nodiscard]] NearBody* find_near(Hand& hand, BodyId body);

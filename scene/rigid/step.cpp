@@ -194,10 +194,9 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
                                        {id, slot < bodies.movable, now, bodies.velocity.at(slot)});
             }
         }
-        if (input.present && hand_contacts_.feels_planes())
-            hand_contacts_.feel_planes(config, state, hand);
         hand_contacts_.forget_departed(hand);
     }
+    if (hand_contacts_.feels_planes()) hand_contacts_.feel_planes(config, state);
     if constexpr (sleeps) {
         for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
             sleep_.wake(spring.body, bodies, pairs_);
@@ -216,7 +215,7 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
             ++state.work.pairs;
             return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
         };
-        wake_carried(state, are_touching);
+        if (bodies.moving != bodies.movable) wake_carried(state, are_touching);
         // One that is touched by what wakes now is found at once; so on, a few times.
         for (std::uint32_t round = 0; round < wake_rounds_max; ++round) {
             if (!sleep_.wake_touched(bodies, pairs_, are_touching)) break;
