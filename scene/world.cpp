@@ -132,6 +132,7 @@ base::Result<World> World::freeze(const Description& description, const FreezeOp
 World::World(const Description& description, const FreezeOptions& options, StepperKind kind)
     : config_{config_from(description, options)},
       kind_{kind},
+      has_fields_{!config_.fields.empty()},
       state_{initial_state(description)},
       stepper_{make_stepper(kind, description, config_, state_)}
 {}
@@ -308,8 +309,7 @@ Work World::work_bound() const
 
 void World::tick()
 {
-    state_.work = {};
-    if (config_.fields.empty()) {
+    if (!has_fields_) {
         step();
         return;
     }

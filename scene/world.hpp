@@ -133,6 +133,7 @@ private:
 
     WorldConfig config_;
     StepperKind kind_;
+    bool has_fields_;
     WorldState state_;
     Stepper stepper_;
     RefusalCounts refused_{};

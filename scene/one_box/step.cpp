@@ -54,6 +54,7 @@ OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const 
 template <bool coulomb>
 void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 {
+    state.work.events = 0;
     BoxMotion box{config.hands, oscillators_, obstacles_, room_};
     set_start(config, state, box);
     query_obstacles(box, 0.0);

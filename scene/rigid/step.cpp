@@ -93,6 +93,7 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& state)
 {
+    state.work = {};
     const bool has_kinematics = state.bodies.moving != state.bodies.movable;
     if (has_kinematics) kinematics_.begin_tick(config, state);
     update_pairs(state);
