@@ -3,8 +3,8 @@
 //
 // soak_scene FIRST COUNT: plays the random scenes of the seeds FIRST .. FIRST + COUNT - 1 under
 // the laws. Prints every seed that breaks one, and at the end the worst of each, and how often the
-// ticks had to step in. With HAPNET_SOAK_GUARDS set, also every seed in which a guard acted. Exits 0
-// when none is broken.
+// ticks had to step in. With HAPNET_SOAK_GUARDS set, also every seed in which a guard acted. Exits
+// 0 when none is broken.
 #include "tests/support/scene/scene_laws.hpp"
 
 #include <algorithm>
