@@ -22,8 +22,8 @@ std::optional<PressedModes::Outcome> UnlikeSprings::outcome(const PressedModes::
         damper[i] = damping[i] / tick;
         response[i] = square * own[i];
         driven[i] = 0.5 * square * start.acceleration[i];
-        constexpr double slow = 0.5;
-        if (!(response[i] * (stiffness[i] + damper[i]) <= slow)) return std::nullopt;
+        constexpr double calm = 0.5;
+        if (!(response[i] * (stiffness[i] + damper[i]) <= calm)) return std::nullopt;
         force[i] = stiffness[i] * start.depth[i] + damper[i] * next[i];
         size += std::abs(force[i]);
     }
