@@ -27,11 +27,11 @@ std::optional<PressedModes::Outcome> UnlikeSprings::outcome(const PressedModes::
         force[i] = stiffness[i] * start.depth[i] + damper[i] * next[i];
         size += std::abs(force[i]);
     }
-    constexpr std::size_t terms_max = 24;
+    constexpr std::size_t series_max = 24;
     constexpr double rounding = 1e-14; // what comes after two such terms is less
     const double converged = rounding * size;
     double last = size;
-    for (std::size_t n = 0; n < terms_max; ++n) {
+    for (std::size_t n = 0; n < series_max; ++n) {
         const double order = static_cast<double>(n + 2);
         Each step{};
         for (std::size_t i = 0; i < 2; ++i) {
