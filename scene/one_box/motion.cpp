@@ -141,14 +141,14 @@ Way way_of(const Trajectory& trajectory, double time)
 }
 
 /// How far the axes have come, and the integral of that over time.
-struct Ways {
+struct AxisWays {
     PerAxis way{};
     PerAxis integral{};
 };
 
-Ways advance_coupled(BoxMotion& box, double time)
+AxisWays advance_coupled(BoxMotion& box, double time)
 {
-    Ways all;
+    AxisWays all;
     PerAxis velocity{};
     for (std::size_t j = 0; j < 3; ++j) {
         if (!box.room.coupled.modes[j].moves()) continue;
@@ -168,9 +168,9 @@ Ways advance_coupled(BoxMotion& box, double time)
     return all;
 }
 
-inline Ways advance_axes(BoxMotion& box, double time)
+inline AxisWays advance_axes(BoxMotion& box, double time)
 {
-    Ways all;
+    AxisWays all;
     for (std::size_t i = 0; i < 3; ++i) {
         if (!box.trajectories[i].moves()) continue;
         const Way axis = way_of(box.trajectories[i], time);
@@ -183,7 +183,7 @@ inline Ways advance_axes(BoxMotion& box, double time)
 }
 
 template <typename AnySpring>
-void advance_spring(const BoxMotion& box, AnySpring& spring, double time, const Ways& ways)
+void advance_spring(const BoxMotion& box, AnySpring& spring, double time, const AxisWays& ways)
 {
     const double k = box.hands.stiffness_n_per_m;
     const double c = box.hands.damping_ns_per_m;
@@ -198,7 +198,7 @@ void advance_spring(const BoxMotion& box, AnySpring& spring, double time, const 
     spring.depth += closed;
 }
 
-void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Ways& ways)
+void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const AxisWays& ways)
 {
     const double k = box.hands.stiffness_n_per_m;
     const double c = box.hands.damping_ns_per_m;
@@ -214,7 +214,7 @@ void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Way
 /// Also what only ticks that are not exact have.
 void advance_all(BoxMotion& box, double time)
 {
-    const Ways ways = box.is_coupled ? advance_coupled(box, time) : advance_axes(box, time);
+    const AxisWays ways = box.is_coupled ? advance_coupled(box, time) : advance_axes(box, time);
     for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
     for (SlantedSpring& spring : box.active_slanted()) advance_spring(box, spring, time, ways);
     for (GripSpring& grip : box.active_grips()) advance_grip(box, grip, time, ways);
@@ -315,7 +315,7 @@ void set_bounds(BoxMotion& box)
 void advance(BoxMotion& box, double time)
 {
     if (box.is_exact) {
-        const Ways ways = advance_axes(box, time);
+        const AxisWays ways = advance_axes(box, time);
         for (FaceSpring& spring : box.active_springs()) advance_spring(box, spring, time, ways);
     } else {
         advance_all(box, time);

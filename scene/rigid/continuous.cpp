@@ -37,7 +37,7 @@ constexpr double overlap_step = 0.01;
 constexpr double overlap_max = 0.5;
 constexpr double least_step = 0.05; // of the above
 // One that came so far behind the face that it touched is not there by right.
-constexpr double behind = 0.1;
+constexpr double behind_max = 0.1;
 // How near to that counts.
 constexpr double near_share = 0.1;
 
@@ -285,7 +285,7 @@ bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& depart
                                   : box_of(bodies, of_other);
     const double gap = glm::dot(first.normal, other.centre - own.centre) -
                        half_projection(own, first.normal) - half_projection(other, first.normal);
-    return gap < -behind * smallest_half(own, other);
+    return gap < -behind_max * smallest_half(own, other);
 }
 
 /// Until its first touch a body goes on as it began, and then with what it has at the end: for one

@@ -20,7 +20,7 @@ constexpr double speed_tolerance = 1.9;
 // Of the smallest half edge in a tick: what crosses so little is at rest.
 constexpr double rest = 0.95e-6;
 // Radians in a tick beyond which the change of a body's inertia is not followed.
-constexpr double far_turn = 0.3;
+constexpr double followed_turn = 0.3;
 
 /// A body's motion over the tick, in sums that any impulses on it enter linearly.
 struct Motion {
@@ -72,7 +72,7 @@ double turning_slack(const BodyProperties& properties, const Motion& motion, dou
         1.0;
     const double spin = std::max(length(motion.spin),
                                  length(motion.spin + motion.spin_forced + motion.spin_change));
-    return 0.9 * wobble * std::min(spin * tick, far_turn) * spin * length(motion.angular);
+    return 0.9 * wobble * std::min(spin * tick, followed_turn) * spin * length(motion.angular);
 }
 
 void count(Interventions& interventions, double share)
