@@ -13,7 +13,7 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr int phases_max = 24;          // of a tick
+constexpr int phases_max = 64;          // of a tick
 constexpr double part_min = 1.0 / 32.0; // of a tick, that is cut off only because something turns
 // The most that a normal may rotate in half an interval: then its mean is right to 1e-5.
 constexpr double normal_rotation_max = 0.01;
