@@ -16,7 +16,7 @@ namespace hapnet::scene {
 namespace {
 
 /// How far the correction of overlaps may throw such a body off its way, in half edges of the
-/// smallest body: some contacts together, each of which moves by 2 % of one.
+/// smallest body: one contact may move it by so much, see correction_max.
 constexpr double stray_max = 0.1;
 
 /// The part of a displacement or velocity along unlocked axes.
