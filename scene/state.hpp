@@ -4,7 +4,7 @@
 
 #include "scene/bodies.hpp"
 #include "scene/bounded.hpp"
-#include "scene/work.hpp"
+#include "scene/tick_cost.hpp"
 
 #include <array>
 #include <cstdint>
@@ -121,7 +121,7 @@ struct WorldState {
     std::vector<std::uint8_t> is_pushed{};  // by id: 1 in `pushed`, 2 in `twisted`
     std::vector<KinematicScript> scripts{}; // of the kinematic bodies, in the order of their slots
     std::uint64_t ticks = 0;
-    Work work{}; // of the last tick
+    TickCost tick_cost{}; // of the last tick
     Interventions interventions{};
 };
 

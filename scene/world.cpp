@@ -302,9 +302,10 @@ std::optional<Refusal> World::move(BodyId body, const BodyState& target)
     return std::nullopt;
 }
 
-Work World::work_bound() const
+TickCost World::tick_cost_bound() const
 {
-    return std::visit([&](const auto& stepper) { return stepper.work_bound(config_); }, stepper_);
+    return std::visit([&](const auto& stepper) { return stepper.tick_cost_bound(config_); },
+                      stepper_);
 }
 
 void World::tick()

@@ -96,8 +96,8 @@ public:
     [[nodiscard]] const WorldState& state() const { return state_; }
     [[nodiscard]] const WorldConfig& frozen() const { return config_; }
     /// What the last tick took, and the most that a tick of this scene can take.
-    [[nodiscard]] const Work& work() const { return state_.work; }
-    [[nodiscard]] Work work_bound() const;
+    [[nodiscard]] const TickCost& tick_cost() const { return state_.tick_cost; }
+    [[nodiscard]] TickCost tick_cost_bound() const;
     [[nodiscard]] StepperKind stepper_kind() const { return kind_; }
     [[nodiscard]] const Stepper& stepper() const { return stepper_; }
     [[nodiscard]] std::uint64_t ticks() const { return state_.ticks; }

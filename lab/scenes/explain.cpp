@@ -90,20 +90,21 @@ std::string hips_text(const scene::HandDescription& hips)
                                   : std::string{"not limited"});
 }
 
-Json json_of(const scene::Work& work)
+Json json_of(const scene::TickCost& cost)
 {
-    return {{"pairs", work.pairs},     {"contacts", work.contacts}, {"visits", work.visits},
-            {"springs", work.springs}, {"events", work.events},     {"looks", work.looks}};
+    return {{"pairs", cost.pairs},   {"contacts", cost.contacts},
+            {"visits", cost.visits}, {"spring_rows", cost.spring_rows},
+            {"events", cost.events}, {"looks", cost.looks}};
 }
 
 /// What is not there at all is left out.
-std::string bound_text(const scene::Work& bound)
+std::string bound_text(const scene::TickCost& bound)
 {
     const std::array<std::pair<std::uint64_t, std::string_view>, 6> kinds{
         {{bound.pairs, "pairs examined"},
          {bound.contacts, "contacts prepared"},
          {bound.visits, "visits of the solver to a contact"},
-         {bound.springs, "rows of hands' springs solved"},
+         {bound.spring_rows, "rows of hands' springs solved"},
          {bound.events, "events"},
          {bound.looks, "looks at bodies that go far"}}};
     std::vector<std::string> parts;
@@ -138,7 +139,7 @@ Explanation explain(const scene::Description& description, base::Duration tick, 
     explanation.profile = scene::cheapest_stepper(scene::required_features(explanation.needs));
     if (const auto world =
             scene::World::freeze(description, {.tick = tick, .sleeping = sleeping})) {
-        explanation.bound = world->work_bound();
+        explanation.bound = world->tick_cost_bound();
     }
     explanation.cheaper = cheaper_than(explanation.profile, explanation.needs);
     return explanation;

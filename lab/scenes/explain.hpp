@@ -5,7 +5,7 @@
 #include "proto/base/time.hpp"
 #include "scene/description.hpp"
 #include "scene/requirements.hpp"
-#include "scene/work.hpp"
+#include "scene/tick_cost.hpp"
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -40,7 +40,7 @@ struct Explanation {
     scene::Requirements needs;
     scene::StepperKind profile = scene::StepperKind::flight;
     std::vector<CheaperTick> cheaper; // the cheapest first
-    scene::Work bound;                // the most that a tick takes
+    scene::TickCost bound;            // the most that a tick takes
 };
 
 /// `description` is one that scene::check() accepts; bodies at rest fall asleep when `sleeping`.

@@ -54,7 +54,7 @@ OneBoxStepper<coulomb>::OneBoxStepper(const Description& /*description*/, const 
 template <bool coulomb>
 void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
 {
-    state.work.events = 0;
+    state.tick_cost.events = 0;
     BoxMotion box{config.hands, oscillators_, obstacles_, room_};
     set_start(config, state, box);
     query_obstacles(box, 0.0);
@@ -182,7 +182,7 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& s
         start_interval<coulomb>(box);
     }
     for (int events = 1;; ++events) {
-        ++state.work.events;
+        ++state.tick_cost.events;
         const double reach =
             std::max(std::max(box.axes[0].reach, box.axes[1].reach), box.axes[2].reach);
         if (!(reach <= box.clearance)) query_obstacles(box, reach);

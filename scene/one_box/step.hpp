@@ -34,7 +34,7 @@ public:
                   const WorldState& state);
 
     void step(const WorldConfig& config, WorldState& state);
-    [[nodiscard]] Work work_bound(const WorldConfig& config) const
+    [[nodiscard]] TickCost tick_cost_bound(const WorldConfig& config) const
     {
         // A tick is tried once more for every hand that grips.
         return {.events = std::uint64_t{events_max} * (1 + config.hands.count)};

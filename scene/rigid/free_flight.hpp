@@ -57,7 +57,7 @@ public:
 
     void step(const WorldConfig& config, WorldState& state);
     void on_body_placed(WorldState& state, BodyId body);
-    [[nodiscard]] Work work_bound(const WorldConfig& /*config*/) const { return {}; }
+    [[nodiscard]] TickCost tick_cost_bound(const WorldConfig& /*config*/) const { return {}; }
 
 private:
     /// Bodies side by side that are alike in what keeps them from turning and falling.

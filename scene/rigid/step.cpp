@@ -93,7 +93,7 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& state)
 {
-    state.work = {};
+    state.tick_cost = {};
     const bool has_kinematics = state.bodies.moving != state.bodies.movable;
     if (has_kinematics) kinematics_.begin_tick(config, state);
     update_pairs(state);
@@ -107,7 +107,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
     const bool bounced =
         restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
-    const bool changed = solve_velocities(state.work);
+    const bool changed = solve_velocities(state.tick_cost);
     if (has_kinematics) add_driven_energy(solver_, integrations_.all());
     store_contact_impulses(state);
     stop_sliding_contacts(state);
@@ -140,7 +140,7 @@ void RigidStepper<broad_phase>::wake(WorldState& state, BodyId body)
 }
 
 template <BroadPhase broad_phase>
-Work RigidStepper<broad_phase>::work_bound(const WorldConfig& config) const
+TickCost RigidStepper<broad_phase>::tick_cost_bound(const WorldConfig& config) const
 {
     const std::uint64_t pushed =
         std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
@@ -149,7 +149,7 @@ Work RigidStepper<broad_phase>::work_bound(const WorldConfig& config) const
             .contacts = solver_.blocks_max(),
             .visits = solver_.visits_bound(velocity_limits()) +
                       2 * solver_.visits_bound(position_limits()),
-            .springs = 2 * pushed * MidpointBudget::rows_solved_max, // against drag, twice
+            .spring_rows = 2 * pushed * MidpointBudget::rows_solved_max, // against drag, twice
             .looks = continuous_.looks_max()};
 }
 
@@ -213,7 +213,7 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
         Bodies& bodies = state.bodies;
         for (const BodyId body : state.pushed) sleep_.wake(body, bodies, pairs_);
         const auto are_touching = [&](PairIndex index) {
-            ++state.work.pairs;
+            ++state.tick_cost.pairs;
             return collide_pair(state, pairs_.pair(index)).manifold.count > 0;
         };
         if (bodies.moving != bodies.movable) wake_carried(state, are_touching);
@@ -307,7 +307,7 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldS
 {
     const Bodies& bodies = state.bodies;
     const std::span<const PairIndex> pairs = pairs_.plane_pairs();
-    state.work.pairs += pairs.size();
+    state.tick_cost.pairs += pairs.size();
     plane_contacts_.resize(pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         Pair& pair = pairs_.plane_pair(pairs[i]);
@@ -357,7 +357,7 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
 {
     const Bodies& bodies = state.bodies;
-    state.work.pairs += pairs_.pairs().size();
+    state.tick_cost.pairs += pairs_.pairs().size();
     const auto index_of_active = [&](Slot slot) -> SolverIndex {
         if (slot < bodies.awake) activate(bodies, slot);
         return index_of(bodies, slot);
@@ -445,14 +445,14 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
                                       {springs, work, modes_[spring.hand], config});
         hand_contacts_.store_impulses(spring.body);
         if (integration.hands_are_braked) ++state.interventions.hands_braked;
-        state.work.springs += integration.hand_rows;
+        state.tick_cost.spring_rows += integration.hand_rows;
     }
 }
 
 /// Finds the velocities at the end of the tick at which nothing goes into anything, and from them
 /// the mean velocities. Returns whether last tick's contact forces had to change for that.
 template <BroadPhase broad_phase>
-bool RigidStepper<broad_phase>::solve_velocities(Work& work)
+bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
 {
     for (const Slot slot : active_.slots()) {
         solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
@@ -462,8 +462,8 @@ bool RigidStepper<broad_phase>::solve_velocities(Work& work)
                                  integrations_[block.b].start.spin, scales_.tick);
     }
     const SolverOutcome outcome = solver_.solve_velocities(velocity_limits());
-    work.contacts = solver_.blocks().size();
-    work.visits += outcome.visits;
+    cost.contacts = solver_.blocks().size();
+    cost.visits += outcome.visits;
     counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
@@ -530,7 +530,7 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
         if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
-    state.work.visits += solver_.correct_positions(position_limits()).visits;
+    state.tick_cost.visits += solver_.correct_positions(position_limits()).visits;
     // A body that is thrown off its path is held back; the others go as far as that lets them.
     const auto keep = [&] {
         const Ways ways =
@@ -539,7 +539,7 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
         return ways.any_kept;
     };
     if (!keep()) return;
-    state.work.visits += solver_.correct_positions_again(position_limits()).visits;
+    state.tick_cost.visits += solver_.correct_positions_again(position_limits()).visits;
     keep();
 }
 
@@ -574,7 +574,7 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
     continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
-    state.work.looks = continuous_.looks();
+    state.tick_cost.looks = continuous_.looks();
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
     }

@@ -42,7 +42,7 @@ public:
     void on_body_placed(WorldState& state, BodyId body);
     void wake(WorldState& state, BodyId body);
     /// The most that a tick can take.
-    [[nodiscard]] Work work_bound(const WorldConfig& config) const;
+    [[nodiscard]] TickCost tick_cost_bound(const WorldConfig& config) const;
 
     /// What was done, for tests and measurements.
     struct Counts {
@@ -68,7 +68,7 @@ private:
     void collide_planes(const WorldConfig& config, WorldState& state);
     void collide_bodies(WorldState& state);
     void warm_start();
-    bool solve_velocities(Work& work);
+    bool solve_velocities(TickCost& cost);
     void integrate_velocities(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
