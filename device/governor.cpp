@@ -24,9 +24,10 @@ bool is_release(const base::Force& from, const base::Force& to)
 } // namespace
 
 Governor::Governor(const GovernorLimits& limits)
-    : limits_{limits}, heat_{limits.force_continuous_n, limits.heat_time}
+    : limits_{limits}, heat_{limits.force_continuous_n, limits.heat_time, limits.heat_start}
 {
     base::ensure(validate(limits).has_value());
+    if (limits.energy) energy_.emplace(*limits.energy, limits.tick);
 }
 
 GovernorState Governor::state() const
@@ -41,6 +42,7 @@ GovernorState Governor::state() const
 GovernedForce Governor::govern(const ForceRequest& request, const Sample& sample,
                                base::TimePoint now)
 {
+    if (energy_) observe(sample, last_time_ ? now - *last_time_ : base::Duration{0});
     const base::Duration gap = pass(now);
     const bool usable = may_push(sample, gap);
     if (!usable) to_zero();
@@ -64,6 +66,8 @@ void Governor::latch(const Latched& cause)
     case Trip::speed: ++counters_.speed_trips; break;
     case Trip::jump: ++counters_.jump_trips; break;
     case Trip::nonsense: ++counters_.nonsense_trips; break;
+    case Trip::frozen: ++counters_.frozen_trips; break;
+    case Trip::runaway: ++counters_.runaway_trips; break;
     }
 }
 
@@ -96,7 +100,7 @@ base::Duration Governor::pass(base::TimePoint now)
 
 bool Governor::may_push(const Sample& sample, base::Duration gap)
 {
-    const SampleCheck::Result result = check_.look(limits_, sample, gap, strength_ > 0.0);
+    const SampleCheck::Result result = check_.look(limits_, sample, gap, {strength_ > 0.0, last_});
     finding_ = result.finding;
     count(finding_);
     if (finding_ == Finding::tripped) latch(result.fault);
@@ -175,7 +179,26 @@ base::Force Governor::shape(base::Force wanted, const Sample& sample)
         if (share < 1.0) ++counters_.joint_limited;
         force = share * force;
     }
+    return energy_ ? within_energy(force, sample) : force;
+}
+
+base::Force Governor::within_energy(const base::Force& wanted, const Sample& sample)
+{
+    const base::Force force = energy_->allow(wanted, sample.velocity);
+    if (!(force == wanted)) ++counters_.energy_limited;
     return force;
+}
+
+/// Before anything else in a tick: the last force was held until now.
+void Governor::observe(const Sample& sample, base::Duration gap)
+{
+    const bool has_place = sample.calibrated && base::is_finite(sample.hip) &&
+                           (sample.fault == Fault::none || sample.fault == Fault::timeout);
+    if (has_place) {
+        energy_->pass(last_, sample.hip, gap);
+    } else {
+        energy_->lose_place();
+    }
 }
 
 base::Force Governor::slew(const base::Force& wanted)

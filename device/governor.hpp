@@ -4,6 +4,7 @@
 
 #include "device/device.hpp"
 #include "device/governed_force.hpp"
+#include "device/governor/energy.hpp"
 #include "device/governor/fault_latch.hpp"
 #include "device/governor/limits.hpp"
 #include "device/governor/motor_heat.hpp"
@@ -26,9 +27,10 @@ struct GovernorCounters {
     std::uint64_t flattened = 0;     // to the axes that have motors
     std::uint64_t outside = 0;       // of the workspace, where an outward part was taken away
     std::uint64_t slewed = 0;
-    std::uint64_t faded = 0;   // ticks at less than full strength
-    std::uint64_t stalled = 0; // gaps between ticks that were too long
-    std::uint64_t silent = 0;  // the device said nothing new for too long
+    std::uint64_t energy_limited = 0; // to what may go into the hand
+    std::uint64_t faded = 0;          // ticks at less than full strength
+    std::uint64_t stalled = 0;        // gaps between ticks that were too long
+    std::uint64_t silent = 0;         // the device said nothing new for too long
     std::uint64_t docked = 0;
     std::uint64_t uncalibrated = 0;
     std::uint64_t too_fast = 0; // without force: it waits until the stylus is slower
@@ -39,6 +41,8 @@ struct GovernorCounters {
     std::uint64_t speed_trips = 0;
     std::uint64_t jump_trips = 0;
     std::uint64_t nonsense_trips = 0;
+    std::uint64_t frozen_trips = 0;
+    std::uint64_t runaway_trips = 0;
     std::uint64_t resets = 0; // faults that an operator ended
 };
 
@@ -93,6 +97,11 @@ public:
     [[nodiscard]] const GovernorLimits& limits() const { return limits_; }
     /// Of the motors, by the forces until now: above 1 the limit goes down.
     [[nodiscard]] double heat() const { return heat_.heat(); }
+    /// The energy into the hand; nullptr where the limits have none for it.
+    [[nodiscard]] const EnergyFigures* energy() const
+    {
+        return energy_ ? &energy_->figures() : nullptr;
+    }
 
 private:
     /// The effects of a gap between two ticks.
@@ -110,11 +119,14 @@ private:
     void fade(bool permitted);
     [[nodiscard]] base::Force shape(base::Force wanted, const Sample& sample);
     [[nodiscard]] base::Force slew(const base::Force& wanted);
+    [[nodiscard]] base::Force within_energy(const base::Force& wanted, const Sample& sample);
+    void observe(const Sample& sample, base::Duration gap);
     void to_zero();
 
     GovernorLimits limits_;
     GovernorCounters counters_;
     MotorHeat heat_;
+    std::optional<EnergyGuard> energy_;
     SampleCheck check_;
     FaultLatch latch_;
     Finding finding_ = Finding::unheard; // of the last sample

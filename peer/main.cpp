@@ -5,7 +5,9 @@
 #include "peer/cli/chosen_device.hpp"
 #include "peer/cli/commands.hpp"
 #include "peer/cli/options.hpp"
+#include "peer/core/energy_budget.hpp"
 #include "peer/core/sync/text.hpp"
+#include "peer/device_state/kept_device.hpp"
 #include "peer/loop/servo.hpp"
 #include "peer/loop/supervise.hpp"
 #include "peer/monitor/control_session.hpp"
@@ -97,6 +99,17 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     return settings;
 }
 
+/// The limits of a session, before those of the device itself.
+device::GovernorLimits limits_of(const Options& options, const device::Capabilities& capabilities,
+                                 const std::optional<device_state::KeptDevice>& kept)
+{
+    device::GovernorLimits limits{.force_max_n = options.force_max_n,
+                                  .checks_motion = options.device.is_real(),
+                                  .energy = energy_budget(capabilities, options.algorithm)};
+    if (kept) limits.heat_start = kept->heat_at_start(limits.heat_time);
+    return limits;
+}
+
 std::optional<record::Writer> writer_for(const Options& options, std::string_view device,
                                          const device::Rig& rig, const Settings& settings)
 {
@@ -173,8 +186,16 @@ base::Result<int> run(const Options& options)
         return net::exit_environment;
     }
     const device::Mount mount = mount_of(options.device, (*opened)->capabilities());
-    device::Rig rig{*std::move(opened), device::GovernorLimits{.force_max_n = options.force_max_n},
-                    mount};
+    auto kept = kept_of(options.device, **opened);
+    if (kept && !options.untested_device && !kept->why_untested().empty()) {
+        say(fmt::format("{}: {}: run 'hapnet-peer self-test --device {}', or allow it with "
+                        "--untested-device",
+                        options.device.name, kept->why_untested(), options.device.name));
+        return net::exit_environment;
+    }
+    const device::GovernorLimits limits = limits_of(options, (*opened)->capabilities(), kept);
+    if (kept) kept->on_use();
+    device::Rig rig{*std::move(opened), limits, mount};
     const std::string device = device::description(rig.device());
     if (options.device.is_real()) introduce(options, rig);
     const double allowed_n = rig.governor().limits().force_max_n;
@@ -199,6 +220,7 @@ base::Result<int> run(const Options& options)
     loop::supervise({servo, monitor, stop, control_session ? &*control_session : nullptr},
                     ready_line(options, socket, endpoints->remote));
 
+    if (kept) kept->on_rest(rig.governor().heat());
     const loop::ServoStatus status = servo.status();
     const monitor::Run run{options, status, journal, device, !monitor.record_failure()};
     write_statistics(run, file);

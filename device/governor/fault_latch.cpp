@@ -17,14 +17,19 @@ bool FaultLatch::on_sample(const Sample& sample, base::Duration passed)
 {
     const std::optional<LastSample> before = last_;
     const bool rests = base::norm(sample.velocity) <= rest_speed_max_m_per_s;
-    last_ = LastSample{.pressed = (sample.buttons & 1U) != 0, .presses = sample.presses};
+    last_ = LastSample{.pressed = (sample.buttons & 1U) != 0};
     was_out_ = was_out_ || !sample.docked;
     if (!before) return false;
     if (rests) last_->rest = before->rest + passed;
     if (sample.docked) last_->docked = before->docked + passed;
     const bool docks = was_out_ && last_->docked >= dock_needed;
-    const bool presses = (last_->pressed && !before->pressed) || sample.presses != before->presses;
-    if (!docks && !(presses && before->rest >= rest_needed)) return false;
+    if (last_->pressed) {
+        const bool begins = !before->pressed;
+        last_->deliberate = begins ? before->rest >= rest_needed : before->deliberate;
+        if (!begins) last_->held = before->held + passed;
+    }
+    const bool presses = last_->deliberate && last_->held >= press_needed;
+    if (!docks && !presses) return false;
     open();
     return true;
 }

@@ -10,9 +10,10 @@
 namespace hapnet::device {
 
 /// Holds a fault until an operator acts: puts the stylus into its holder, where it then rests for
-/// 50 ms, or presses the primary button after it was at rest for a second. Never opens by itself,
-/// nor while the device is still at fault; but a stylus that was put there meanwhile counts, as for
-/// some faults that is the cure.
+/// 50 ms, or presses the primary button after it was at rest for a second, and holds it for 0.3 s.
+/// Never opens by itself, nor by a button that flickers or that was down already, nor while the
+/// device is still at fault; but a stylus that was put there meanwhile counts, as for some faults
+/// that is the cure.
 class FaultLatch {
 public:
     [[nodiscard]] bool is_closed() const { return latched_.fault != Fault::none; }
@@ -36,13 +37,16 @@ public:
     /// Slower than this the stylus is at rest: a filtered count of an encoder and a tremor are.
     static constexpr double rest_speed_max_m_per_s = 0.05;
     static constexpr base::Duration rest_needed{std::chrono::seconds{1}};
+    /// A button that says so for less was touched by mistake, or has a bad contact.
+    static constexpr base::Duration press_needed{std::chrono::milliseconds{300}};
     /// A switch of the holder that says so for less may only have flickered.
     static constexpr base::Duration dock_needed{std::chrono::milliseconds{50}};
 
 private:
     struct LastSample {
         bool pressed = false;
-        std::uint16_t presses = 0;
+        bool deliberate = false; // the press began after a second at rest
+        base::Duration held{};   // since that press began
         base::Duration docked{}; // without a break
         base::Duration rest{};
     };

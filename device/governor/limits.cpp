@@ -52,6 +52,10 @@ base::Result<void> validate(const GovernorLimits& limits)
     if (!has_workspace(limits)) {
         return base::fail("workspace_min must be below workspace_max on every axis");
     }
+    if (!(limits.heat_start >= 0.0)) return base::fail("heat_start must not be negative");
+    if (limits.energy && !(limits.energy->power_max_w > 0.0 && limits.energy->work_max_j > 0.0)) {
+        return base::fail("power_max and work_max must be above 0");
+    }
     return {};
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/capabilities.hpp"
+#include "device/governor/energy.hpp"
 #include "proto/base/fields.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/space.hpp"
@@ -29,6 +30,10 @@ struct GovernorLimits {
     base::Duration fault_after{std::chrono::milliseconds{100}};
     double slew_ramping_n_per_s = 100.0; // of a force that grows while it ramps in from zero
     base::Duration heat_time{std::chrono::seconds{15}}; // that motors take to warm up
+    double heat_start = 0.0;                            // of the motors when the program started
+    /// Whether the motion has to fit the force: an encoder that stands still or motors that push
+    /// the wrong way are faults. For real devices; a simulated or replayed hand knows better.
+    bool checks_motion = false;
 
     // Of the device, in its own frame.
     double force_continuous_n = std::numeric_limits<double>::infinity();
@@ -37,6 +42,9 @@ struct GovernorLimits {
     base::Position workspace_min{glm::dvec3{-std::numeric_limits<double>::infinity()}};
     base::Position workspace_max{glm::dvec3{std::numeric_limits<double>::infinity()}};
     std::optional<JointLimits> joints{};
+
+    /// Of what the other side may do to a hand. nullopt: it is neither observed nor limited.
+    std::optional<EnergyLimits> energy{};
 };
 
 /// Of the first part. Outside of these ranges a rule would never act, act always, or do harm: a
@@ -66,7 +74,13 @@ constexpr auto fields_of(base::Tag<GovernorLimits> /*struct*/)
         base::field("fault_after", &GovernorLimits::fault_after, base::Time{2ms, 1s},
                     "silence of the loop or of the device that is a fault"),
         base::field("heat_time", &GovernorLimits::heat_time, base::Time{1s, 10min},
-                    "time constant of the motors' heat"));
+                    "time constant of the motors' heat"),
+        base::field("heat_start", &GovernorLimits::heat_start, base::Number{0.0, 100.0},
+                    "heat of the motors at the start"),
+        base::field("checks_motion", &GovernorLimits::checks_motion,
+                    "motion that does not fit the force is a fault"),
+        base::field("energy", &GovernorLimits::energy,
+                    "energy into the hand; without it that is neither observed nor limited"));
 }
 
 /// An error when no governor can keep to these limits: a rule would never act, or always, or divide

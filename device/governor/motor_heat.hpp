@@ -15,11 +15,13 @@ namespace hapnet::device {
 /// with the heat: no trip, and in the end at most 5 % more than they bear.
 class MotorHeat {
 public:
-    /// `continuous_n`: the force that the motors bear for ever; infinity: any.
-    MotorHeat(double continuous_n, base::Duration time)
+    /// `continuous_n`: the force that the motors bear for ever; infinity: any. `heat`: at the
+    /// start.
+    MotorHeat(double continuous_n, base::Duration time, double heat = 0.0)
         : continuous_n_{continuous_n},
           heating_{continuous_n > 0.0 ? 1.0 / (continuous_n * continuous_n) : 0.0},
-          per_s_{1.0 / base::to_seconds(time)}
+          per_s_{1.0 / base::to_seconds(time)},
+          heat_{heat}
     {}
 
     /// This force was held for this time.
@@ -50,7 +52,7 @@ private:
     double continuous_n_;
     double heating_;
     double per_s_;
-    double heat_ = 0.0;
+    double heat_;
     base::Duration duration_{}; // what the next is for: in a steady loop it stays the same
     double share_ = 0.0;
 };

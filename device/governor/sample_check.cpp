@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/governor/sample_check.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace hapnet::device {
@@ -17,7 +18,7 @@ double squared(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; 
 } // namespace
 
 SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample& sample,
-                                      base::Duration passed, bool pushing)
+                                      base::Duration passed, const Push& push)
 {
     const bool says_silent = sample.fault == Fault::timeout; // it heard nothing from its device
     if (sample.fault != Fault::none && !says_silent) {
@@ -46,15 +47,47 @@ SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample
         return {Finding::tripped, {Fault::communication, Trip::nonsense}};
     }
     const Trip trip = too_fast(limits, sample, since_last);
+    const Trip unfit = limits.checks_motion ? misfit(sample, passed, push, is_new) : Trip::none;
     if (is_new) {
         place_ = sample.hip;
         placed_ = true;
     }
     if (trip != Trip::none) {
-        if (pushing) return {Finding::tripped, {Fault::over_velocity, trip}};
+        if (push.may_be_felt) return {Finding::tripped, {Fault::over_velocity, trip}};
         return {Finding::too_fast};
     }
+    if (unfit == Trip::frozen) return {Finding::tripped, {Fault::communication, unfit}};
+    if (unfit == Trip::runaway) return {Finding::tripped, {Fault::over_velocity, unfit}};
     return {sample.docked ? Finding::docked : Finding::usable};
+}
+
+/// Whether motion and force do not fit together.
+Trip SampleCheck::misfit(const Sample& sample, base::Duration passed, const Push& push, bool is_new)
+{
+    constexpr base::Duration piece{std::chrono::milliseconds{25}};
+    const double force_n = base::norm(push.force);
+    const bool stays = placed_ && sample.hip == place_ && force_n >= frozen_force_n;
+    if (!stays) {
+        frozen_ = base::Duration{0};
+    } else if (is_new) { // an old sample says nothing of the encoders
+        frozen_ += passed;
+    }
+    if (frozen_ >= frozen_after) return Trip::frozen;
+
+    if (force_n < runaway_force_n) {
+        slowest_.reset();
+        return Trip::none;
+    }
+    const glm::dvec3& f = push.force.value;
+    const glm::dvec3& v = sample.velocity.value;
+    const double against = -(f.x * v.x + f.y * v.y + f.z * v.z) / force_n;
+    if (!slowest_) slowest_ = Slowest{against, against, {}};
+    slowest_->now = std::min(slowest_->now, against);
+    const double slowest = std::min(slowest_->now, slowest_->before);
+    slowest_->into_piece += passed;
+    if (slowest_->into_piece >= piece) slowest_ = Slowest{against, slowest_->now, {}};
+    // One that only slows down on its way through rest has not sped up.
+    return against - std::max(0.0, slowest) >= runaway_m_per_s ? Trip::runaway : Trip::none;
 }
 
 Trip SampleCheck::too_fast(const GovernorLimits& limits, const Sample& sample,

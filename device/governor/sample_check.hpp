@@ -6,6 +6,9 @@
 #include "device/governor/limits.hpp"
 #include "device/governor/trip.hpp"
 
+#include <chrono>
+#include <optional>
+
 namespace hapnet::device {
 
 /// Whether a force may follow from what a device says.
@@ -27,20 +30,45 @@ public:
         Latched fault{}; // where it is tripped
     };
 
+    /// What the device gives until this sample.
+    struct Push {
+        bool may_be_felt = false;
+        base::Force force{};
+    };
+
     /// `passed` since the last sample, and zero after a stall of the loop: nobody asked the device.
-    /// `pushing`: a force may be felt now.
     [[nodiscard]] Result look(const GovernorLimits& limits, const Sample& sample,
-                              base::Duration passed, bool pushing);
+                              base::Duration passed, const Push& push);
+
+    /// A place that stays the same to the last bit for so long under so much force: a hand trembles
+    /// by more than a count of any encoder.
+    static constexpr base::Duration frozen_after{std::chrono::seconds{3}};
+    static constexpr double frozen_force_n = 0.5;
+    /// Faster by this against so much force, within 25 to 50 ms: 8 m/s2, which a push of a hand in
+    /// contact does not reach, and motors with the wrong sign do.
+    static constexpr double runaway_m_per_s = 0.4;
+    static constexpr double runaway_force_n = 1.0;
 
 private:
     [[nodiscard]] Trip too_fast(const GovernorLimits& limits, const Sample& sample,
                                 base::Duration since_last) const;
+
+    [[nodiscard]] Trip misfit(const Sample& sample, base::Duration passed, const Push& push,
+                              bool is_new);
 
     bool heard_ = false;
     bool placed_ = false; // place_ means something
     std::uint64_t sequence_ = 0;
     base::Duration silence_{}; // since the last new sample
     base::Position place_;     // of that
+    base::Duration frozen_{};  // place_ did not change under force
+    /// The slowest motion against the force in this and the last piece of 25 ms.
+    struct Slowest {
+        double now = 0.0;
+        double before = 0.0;
+        base::Duration into_piece{};
+    };
+    std::optional<Slowest> slowest_; // while there is force
 };
 
 } // namespace hapnet::device

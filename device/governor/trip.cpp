@@ -15,6 +15,12 @@ std::string_view what_happened(const Latched& latched)
     case Trip::nonsense:
         return "the device reports positions that are not numbers: check its cable, and start "
                "again";
+    case Trip::frozen:
+        return "its position stays the same however it is pushed: its encoders do not count; check "
+               "the cable, and run the self-test";
+    case Trip::runaway:
+        return "it sped up against its own force: its motors or encoders have the wrong sign; do "
+               "not use it before a self-test has passed";
     case Trip::none:
     case Trip::device:
     case Trip::silence:

@@ -18,12 +18,15 @@ enum class Trip : std::uint8_t {
     speed,    // faster than a hand that holds it
     jump,     // suddenly elsewhere
     nonsense, // a place or a velocity that is no number
+    frozen,   // its place stays the same to the last bit, whatever pushes it
+    runaway,  // it speeds up against the force: a sign is wrong
 };
 
 /// In statistics.
 constexpr auto names_of(base::Tag<Trip> /*enum*/)
 {
-    return base::names("none", "device", "silence", "loop", "speed", "jump", "nonsense");
+    return base::names("none", "device", "silence", "loop", "speed", "jump", "nonsense", "frozen",
+                       "runaway");
 }
 
 /// A fault that stays until an operator has acted.

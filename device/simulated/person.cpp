@@ -15,7 +15,7 @@ constexpr double approach_s = 0.8;
 
 // A governor wants a second of rest before a press: half a second more, to come to rest.
 constexpr base::Duration rest_before_press{std::chrono::milliseconds{1500}};
-constexpr base::Duration press_length{std::chrono::milliseconds{100}};
+constexpr base::Duration press_length{std::chrono::milliseconds{400}}; // 0.3 s count
 constexpr base::Duration press_every{std::chrono::seconds{2}};
 
 } // namespace

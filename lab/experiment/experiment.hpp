@@ -138,6 +138,7 @@ struct Experiment {
     std::vector<NamedAlgorithm> algorithms{};
     std::vector<device::Task> tasks{};
     Hands hands{};
+    bool energy_limit = false;
     emulator::Path path{}; // the conditions that all sessions have in common
 };
 

@@ -174,7 +174,9 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
                     "built-in ones, or those of `[algorithm.NAME]`")
             .always(),
         base::field("tasks", &Experiment::tasks, TaskNames{}, "what the hands play").required(),
-        base::field("hands", &Experiment::hands, HandsFormat{}, "whose hands play").always());
+        base::field("hands", &Experiment::hands, HandsFormat{}, "whose hands play").always(),
+        base::field("energy_limit", &Experiment::energy_limit,
+                    "limits the energy into each hand as hapnet-peer does"));
 }
 
 /// What a text describes that names only kind and tasks.

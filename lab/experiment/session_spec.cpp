@@ -47,6 +47,7 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
     setting.seed = base::Seed{one.seed};
     setting.length = experiment.duration;
     setting.tick = experiment.tick;
+    setting.energy_limit = experiment.energy_limit;
     setting.profile.path = path;
     setting.players[0].algorithm = one.algorithm.algorithm;
     setting.players[0].person = one.hands.left;
@@ -75,7 +76,9 @@ std::string key_of(const SessionSpec& spec, std::string_view program)
     const auto all = fmt::format(
         "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n", label, program, setting.tick.count(), spec.rows_per_s,
         emulator::to_text(setting.profile), left, right, scene::to_text(setting.scene));
-    return fmt::format("{} {:016x}", label, hash_of(all));
+    // Without a limit the key is the one that sessions had before there was one.
+    const std::string_view limit = setting.energy_limit ? "energy_limit = true\n" : "";
+    return fmt::format("{} {:016x}", label, hash_of(all + std::string{limit}));
 }
 
 } // namespace hapnet::lab::experiment

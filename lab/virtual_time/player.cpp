@@ -4,8 +4,10 @@
 
 #include "device/replay/replay.hpp"
 #include "device/simulated/omni.hpp"
+#include "peer/core/energy_budget.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hapnet::lab::virtual_time {
 
@@ -42,10 +44,21 @@ std::unique_ptr<device::Device> device_of(const Setting& setting, const PlayerId
         .task = setting.task, .options = setting.task_options, .person = player.person});
 }
 
+device::Rig rig_of(const Setting& setting, const PlayerId& id)
+{
+    auto device = device_of(setting, id);
+    device::GovernorLimits limits{.tick = setting.tick};
+    if (setting.energy_limit) {
+        limits.energy =
+            peer::energy_budget(device->capabilities(), setting.players.at(id.side).algorithm);
+    }
+    return {std::move(device), limits};
+}
+
 } // namespace
 
 VirtualPlayer::VirtualPlayer(const Setting& setting, const PlayerId& id)
-    : rig{device_of(setting, id), {.tick = setting.tick}},
+    : rig{rig_of(setting, id)},
       side{std::make_unique<peer::Side>(settings_of(setting, id))},
       clock_ahead{setting.players.at(id.side).clock_ahead}
 {}

@@ -42,6 +42,7 @@ struct Setting {
     base::Duration length{std::chrono::seconds{30}}; // hands off included
     base::Duration tick{std::chrono::milliseconds{1}};
     emulator::Profile profile{}; // conditions both ways; its timeline counts from the first hello
+    bool energy_limit = false;   // the energy into the hands is limited as the daemons do it
     std::array<PlayerSetting, 2> players{}; // 0: L, with the lower id; up is from L to R
 };
 

@@ -60,6 +60,17 @@ std::string describe_open_error(const DeviceChoice& choice, const device::Device
     return fmt::format("--device {}: {}", choice.name, error.message);
 }
 
+std::optional<device_state::KeptDevice> kept_of(const DeviceChoice& choice,
+                                                const device::Device& device)
+{
+    if (!choice.is_real() || device.capabilities().force_max_n <= 0.0) return std::nullopt;
+    const std::size_t colon = choice.name.find(':');
+    const std::string_view place = colon == std::string::npos
+                                       ? std::string_view{}
+                                       : std::string_view{choice.name}.substr(colon + 1);
+    return device_state::KeptDevice{device.identity(), place};
+}
+
 device::Mount mount_of(const DeviceChoice& choice, const device::Capabilities& capabilities)
 {
     device::Mount mount;

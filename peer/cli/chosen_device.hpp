@@ -6,8 +6,10 @@
 #include "device/mount.hpp"
 #include "device/simulated/task.hpp"
 #include "peer/cli/device_options.hpp"
+#include "peer/device_state/kept_device.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace hapnet::peer {
@@ -19,6 +21,11 @@ open_chosen(const DeviceChoice& choice, device::Task task);
 /// Why the device was not opened, and what to do.
 [[nodiscard]] std::string describe_open_error(const DeviceChoice& choice,
                                               const device::DeviceError& error);
+
+/// What is kept of the device over the end of the program; nullopt for one that is not real or has
+/// no motors.
+[[nodiscard]] std::optional<device_state::KeptDevice> kept_of(const DeviceChoice& choice,
+                                                              const device::Device& device);
 
 /// Where the device stands in the scene: as the options say. Without them a simulated or replayed
 /// hand is in the scene already. A real device is magnified, never shrunk, until it covers on each

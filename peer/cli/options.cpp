@@ -152,6 +152,10 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
                    refuse_key);
     program.flag("--insecure", "Allow a session without a key over a real network",
                  options.insecure);
+    program.flag("--untested-device",
+                 "Allow a session on a real device that has not passed a self-test in the last 30 "
+                 "days",
+                 options.untested_device);
     add_results(program, options);
     add_device_options(program, options.device);
 }

@@ -114,6 +114,16 @@ void accompany(TestLoop& loop, net::StopSignal& stop)
     ended.get();
 }
 
+/// Keeps what a later session asks for.
+void note_result(device_state::KeptDevice& kept, const SelfTest& test, double heat)
+{
+    kept.on_rest(heat);
+    if (!self_test::has_passed(test)) return;
+    if (self_test::has_shown_force(test)) return kept.on_passed();
+    net::say("hapnet-peer", "the force step was not done: a session with this device still needs "
+                            "--untested-device");
+}
+
 /// What a session with the paper's scene would say of its contacts.
 std::string stiffness_of_a_session(const DeviceChoice& choice,
                                    const device::Capabilities& capabilities)
@@ -144,7 +154,13 @@ base::Result<int> run(const SelfTestCommand& command)
                    .read_for = command.read_for,
                    .skip = command.skip}};
     // In the device's own frame: nothing of a scene is felt here.
-    device::Rig rig{*std::move(opened), device::GovernorLimits{}};
+    auto kept = kept_of(command.device, **opened);
+    device::GovernorLimits limits{.checks_motion = command.device.is_real()};
+    if (kept) {
+        limits.heat_start = kept->heat_at_start(limits.heat_time);
+        kept->on_use();
+    }
+    device::Rig rig{*std::move(opened), limits};
     net::say("hapnet-peer", device::description(rig.device()));
     if (!softer.empty()) net::say("hapnet-peer", "in a session: " + softer);
     // A simulated person takes the stylus out of its inkwell at the cue, and has no part to play.
@@ -154,6 +170,7 @@ base::Result<int> run(const SelfTestCommand& command)
     loop::Watchdog watchdog{rig.device(), &crash};
     TestLoop loop{test, rig, watchdog};
     accompany(loop, stop);
+    if (kept) note_result(*kept, test, rig.governor().heat());
     test.stop();
     fmt::print("{}", self_test::report_text(rig.device(), test));
     if (file) file->commit(self_test::report_json(rig.device(), test).dump(2) + "\n");

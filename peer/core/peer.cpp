@@ -14,9 +14,27 @@ namespace hapnet::peer {
 
 namespace {
 
-// No hand or body of ours is ever farther out or faster: what claims to be is not to be believed.
+// No hand of ours is ever farther out or faster: a sample that says so is not used.
 constexpr double reach_max_m = 10.0;
 constexpr double speed_max_m_per_s = 1000.0;
+
+// Of the other side: so many times the distance of the scene's farthest body from the origin, and
+// through all of that in so much time.
+constexpr double reach_of_scene = 8.0;
+constexpr double reach_least_m = 1.0;
+constexpr double crossing_s = 0.1;
+
+double remote_reach_m(const scene::Description& scene)
+{
+    double farthest_m = 0.0;
+    for (const scene::BodyDescription& body : scene.bodies) {
+        for (const int axis : {0, 1, 2}) {
+            farthest_m =
+                std::max(farthest_m, std::abs(body.position.value[axis]) + body.half[axis]);
+        }
+    }
+    return std::clamp(reach_of_scene * farthest_m, reach_least_m, reach_max_m);
+}
 
 bool is_usable(const Hand& hand)
 {
@@ -64,7 +82,8 @@ Peer::Peer(const Settings& settings)
       world_{world_of(settings)},
       friction_{friction_of(settings)},
       force_max_n_{std::min(settings.scene.hands.force_max_n, scene::force_max_n)},
-      share_{rendered_share(settings)}
+      share_{rendered_share(settings)},
+      remote_reach_m_{remote_reach_m(settings.scene)}
 {}
 
 base::Duration Peer::hands_on() const
@@ -152,10 +171,14 @@ std::uint32_t Peer::sequence_max(base::TimePoint arrived) const
 
 bool Peer::is_plausible(const wire::State& state) const
 {
-    if (!is_usable({state.hip, state.hip_velocity})) return false;
+    const double speed_m_per_s = remote_reach_m_ / crossing_s;
+    const auto is_possible = [&](const base::Position& place, const base::Velocity& velocity) {
+        return scene::is_within(place.value, remote_reach_m_) &&
+               scene::is_within(velocity.value, speed_m_per_s);
+    };
+    if (!is_possible(state.hip, state.hip_velocity)) return false;
     const auto& body = state.body;
-    return !body || (body->body == body_ && scene::is_within(body->position.value, reach_max_m) &&
-                     scene::is_within(body->velocity.value, speed_max_m_per_s));
+    return !body || (body->body == body_ && is_possible(body->position, body->velocity));
 }
 
 void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)

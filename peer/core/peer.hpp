@@ -170,6 +170,7 @@ private:
     std::optional<FingerFriction> friction_; // where the scene's hands have any
     double force_max_n_;                     // of the remote hand
     double share_;                           // of the forces on the hand, that may be rendered
+    double remote_reach_m_;                  // of what the other side may claim
     EffectSums effects_;
     Outbox<wire::Datagram, 8> outbox_;
     Outbox<Event, 32> events_;

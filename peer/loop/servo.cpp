@@ -137,6 +137,8 @@ void Servo::describe(ServoStatus& status) const
     status.governor = governor.counters();
     status.force_limit_n = governor.limits().force_max_n;
     status.motor_heat = governor.heat();
+    status.energy_limits = governor.limits().energy;
+    if (const device::EnergyFigures* energy = governor.energy()) status.energy = *energy;
     status.device = parts_.rig.counters();
     status.watchdog_halts = parts_.watchdog.halts();
     status.overflowed = parts_.socket.overflowed();

@@ -39,6 +39,8 @@ struct ServoStatus {
     device::GovernorCounters governor;
     double force_limit_n = 0.0;
     double motor_heat = 0.0;
+    std::optional<device::EnergyLimits> energy_limits;
+    device::EnergyFigures energy;
     device::RigCounters device;
     std::uint64_t watchdog_halts = 0;
     std::uint64_t overflowed = 0; // datagrams that the socket had no room for

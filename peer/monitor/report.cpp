@@ -109,7 +109,9 @@ json governor_json(const Run& run)
               {"loop", c.loop_faults},
               {"speed", c.speed_trips},
               {"jump", c.jump_trips},
-              {"nonsense", c.nonsense_trips}}},
+              {"nonsense", c.nonsense_trips},
+              {"frozen", c.frozen_trips},
+              {"runaway", c.runaway_trips}}},
             {"resets", c.resets},
             {"watchdog_halts", run.status.watchdog_halts},
             {"unusable_samples", run.status.messages.unusable_hand},
@@ -117,6 +119,20 @@ json governor_json(const Run& run)
              {{"reads", device.reads},
               {"repeated", device.repeated},
               {"repeated_most", device.repeated_most}}}};
+}
+
+json energy_json(const loop::ServoStatus& status)
+{
+    const auto& limits = status.energy_limits;
+    if (!limits) return nullptr;
+    const device::EnergyFigures& energy = status.energy;
+    return {{"limited_ticks", status.governor.energy_limited},
+            {"power_limit_w", limits->power_max_w},
+            {"work_5s_limit_j", limits->work_max_j},
+            {"net_j", energy.net_j},
+            {"net_max_j", energy.net_max_j},
+            {"work_5s_max_j", energy.work_5s_max_j},
+            {"power_max_w", energy.power_max_w}};
 }
 
 /// The reason why the run is not valid as a measurement; "" when it is.
@@ -136,7 +152,8 @@ std::string why_not_valid(const Run& run)
     // A fault that an operator has ended counts, too: the hand did not play meanwhile.
     const device::GovernorCounters& c = run.status.governor;
     const std::uint64_t faults = c.device_faults + c.silence_faults + c.loop_faults +
-                                 c.speed_trips + c.jump_trips + c.nonsense_trips;
+                                 c.speed_trips + c.jump_trips + c.nonsense_trips + c.frozen_trips +
+                                 c.runaway_trips;
     if (faults == 0) return "";
     return fmt::format("the device was at fault {}",
                        faults == 1 ? "once" : fmt::format("{} times", faults));
@@ -238,6 +255,7 @@ json statistics_json(const Run& run)
     out["tick"] = tick_json(run.status.loop);
     out["messages"] = messages_json(run);
     out["governor"] = governor_json(run);
+    out["energy"] = energy_json(run.status);
     out["record_rows_lost"] = run.journal.lost();
     out["record_whole"] = run.options.record ? json(run.is_record_whole) : json{};
     out["real_time"] = {{"fifo", run.status.real_time.fifo},
@@ -286,6 +304,11 @@ std::string summary(const Run& run)
         text += fmt::format("; NOT VALID as a measurement: {}", why);
     }
     text += '\n';
+    if (const auto ticks = run.status.governor.energy_limited; ticks > 0) {
+        text += fmt::format("hapnet-peer {}: the energy into the hand was limited in {} ticks: the "
+                            "other side pushed harder than any task needs\n",
+                            run.options.id, ticks);
+    }
     if (!run.is_record_whole) {
         text += fmt::format("hapnet-peer {}: NOT COMPLETE: the record could not be written to its "
                             "end\n",

@@ -76,4 +76,12 @@ nlohmann::json report_json(const device::Device& device, const SelfTest& test)
 
 bool has_passed(const SelfTest& test) { return test.is_finished() && !has_failed(test); }
 
+bool has_shown_force(const SelfTest& test)
+{
+    const auto& outcomes = test.outcomes();
+    return std::any_of(outcomes.begin(), outcomes.end(), [](const Outcome& outcome) {
+        return outcome.step == "force" && outcome.verdict == Verdict::passed;
+    });
+}
+
 } // namespace hapnet::peer::self_test

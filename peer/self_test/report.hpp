@@ -17,5 +17,7 @@ namespace hapnet::peer::self_test {
 [[nodiscard]] nlohmann::json report_json(const device::Device& device, const SelfTest& test);
 /// The test came to its end, and no step failed.
 [[nodiscard]] bool has_passed(const SelfTest& test);
+/// Whether its step with force was done and passed.
+[[nodiscard]] bool has_shown_force(const SelfTest& test);
 
 } // namespace hapnet::peer::self_test

@@ -58,6 +58,11 @@ inline constexpr QuantityKind frequency_kind{
 inline constexpr QuantityKind mobility_kind{
     "a mobility", "10mm/Ns", {{{"m/Ns", 0, 1.0, true}, {"mm/Ns", -3, 1.0, true}}}};
 
+inline constexpr QuantityKind power_kind{
+    "a power", "0.5W or 500mW", {{{"W", 0, 1.0, true}, {"mW", -3}}}};
+inline constexpr QuantityKind energy_kind{
+    "an energy", "0.15J or 150mJ", {{{"J", 0, 1.0, true}, {"mJ", -3}}}};
+
 inline constexpr double radians_per_degree = 0.017453292519943295769; // pi / 180
 inline constexpr QuantityKind angle_kind{
     "an angle",

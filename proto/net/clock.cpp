@@ -26,6 +26,13 @@ double wall_clock_seconds()
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+double seconds_since_boot()
+{
+    timespec since{};
+    base::ensure(clock_gettime(CLOCK_BOOTTIME, &since) == 0);
+    return static_cast<double>(since.tv_sec) + 1e-9 * static_cast<double>(since.tv_nsec);
+}
+
 void sleep_until(base::TimePoint when)
 {
     const auto since_start = when.time_since_epoch();

@@ -12,8 +12,12 @@ namespace hapnet::net {
 /// CLOCK_MONOTONIC. The only clock of the project; called once per wake-up by a shell.
 [[nodiscard]] base::TimePoint monotonic_now();
 
-/// The time of day in seconds since 1970, for manifests, file names and captures only.
+/// The time of day in seconds since 1970, for manifests, file names, captures
+/// and what outlives a program only.
 [[nodiscard]] double wall_clock_seconds();
+
+/// CLOCK_BOOTTIME: how long ago this machine was started, the time asleep included.
+[[nodiscard]] double seconds_since_boot();
 
 /// Sleeps until `when` on CLOCK_MONOTONIC; returns at once when it has passed.
 void sleep_until(base::TimePoint when);

@@ -23,7 +23,7 @@ namespace {
 
 } // namespace
 
-ResultFile::ResultFile(std::string path) : path_{std::move(path)}
+ResultFile::ResultFile(std::string path, unsigned mode) : path_{std::move(path)}
 {
     struct stat found {};
     if (stat(path_.c_str(), &found) == 0) {
@@ -38,7 +38,7 @@ ResultFile::ResultFile(std::string path) : path_{std::move(path)}
         if (error) refuse(error.value(), path_);
     }
     temporary_ = fmt::format("{}.{}.partial", path_, getpid());
-    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
     if (descriptor_ < 0) refuse(errno, path_);
 }
 

@@ -13,8 +13,8 @@ namespace hapnet::net {
 /// device, a pipe) is never replaced but written to.
 class ResultFile {
 public:
-    /// Throws std::system_error naming the file.
-    explicit ResultFile(std::string path);
+    /// Throws std::system_error naming the file. `mode`: of a new file.
+    explicit ResultFile(std::string path, unsigned mode = 0644);
     /// Removes what was not committed.
     ~ResultFile();
     ResultFile(const ResultFile&) = delete;

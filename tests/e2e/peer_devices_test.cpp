@@ -187,11 +187,23 @@ TEST(PeerDevices, RefusesBadUsageNamingTheCure)
     }
 }
 
+TEST(PeerDevices, WantASelfTestBeforeASessionAndSayHow)
+{
+    const TemporaryFolder folder;
+    setenv("XDG_STATE_HOME", folder.file("state").c_str(), 1);
+    const auto outcome =
+        peer({"--remote", free_place(), "--device", "hdapi:Left", "--hd-library", HAPNET_FAKE_HD});
+    unsetenv("XDG_STATE_HOME");
+    EXPECT_EQ(outcome.exit, 3);
+    expect_said(outcome.err, {"hdapi:Left: it has not passed a self-test on this machine",
+                              "hapnet-peer self-test --device hdapi:Left", "--untested-device"});
+}
+
 TEST(PeerDevices, TellsThePersonWithARealDeviceWhereItIsMountedAndTheirPart)
 {
     Process session{"hapnet-peer",
-                    {"--remote", free_place(), "--task", "T3", "--device", "hdapi", "--hd-library",
-                     HAPNET_FAKE_HD, "--stats", "-"}};
+                    {"--remote", free_place(), "--task", "T3", "--untested-device", "--device",
+                     "hdapi", "--hd-library", HAPNET_FAKE_HD, "--stats", "-"}};
     ASSERT_TRUE(session.wait_for_out("ready", 5s)) << session.err();
     session.signal(SIGTERM);
     EXPECT_EQ(session.wait_exit(5s), 0);
@@ -209,8 +221,9 @@ TEST(PeerDevices, ThatPaceTheLoopLeaveARecordWhoseForcesCanBeLivedThroughAgain)
     Peer paced{1,
                place,
                simulated.listen(),
-               {"--task", "T3", "--duration", "6s", "--device", "hdapi", "--hd-library",
-                HAPNET_FAKE_HD, "--mount-offset", "-30mm,0mm,0mm", "--mount-scale", "1.3"}};
+               {"--task", "T3", "--duration", "6s", "--untested-device", "--device", "hdapi",
+                "--hd-library", HAPNET_FAKE_HD, "--mount-offset", "-30mm,0mm,0mm", "--mount-scale",
+                "1.3"}};
     unsetenv(fake_hd_log_variable);
     paced.expect_end();
     simulated.expect_end();

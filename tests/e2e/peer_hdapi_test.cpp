@@ -48,8 +48,9 @@ protected:
     {
         ::setenv(fake_hd_log_variable, log_.c_str(), 1);
         left_.emplace(1, here_, there_,
-                      std::vector<std::string>{"--device", "hdapi", "--hd-library", HAPNET_FAKE_HD,
-                                               "--mount-offset", "-26mm,0mm,0mm", "--task", "T3"});
+                      std::vector<std::string>{"--untested-device", "--device", "hdapi",
+                                               "--hd-library", HAPNET_FAKE_HD, "--mount-offset",
+                                               "-26mm,0mm,0mm", "--task", "T3"});
         ::unsetenv(fake_hd_log_variable);
         right_.emplace(2, there_, here_, std::vector<std::string>{"--task", "T3"});
     }

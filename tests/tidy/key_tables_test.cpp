@@ -160,7 +160,7 @@ const std::set<std::string>& without_table()
 {
     static const std::set<std::string> names{
         "Material", "Sway", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
-        "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "WrittenCorner",
+        "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "EnergyLimits", "WrittenCorner",
         "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "Metrics", "Table1Row", "TaskRow", "LimitRow",

@@ -66,8 +66,8 @@ class TwoFalcons : public ::testing::Test {
 protected:
     std::vector<std::string> options(const std::string& serial)
     {
-        return {"--device", "falcon:" + serial, "--task",         "T3", "--duration",
-                "120s",     "--control",        socket_of(serial)};
+        return {"--untested-device", "--device", "falcon:" + serial, "--task",         "T3",
+                "--duration",        "120s",     "--control",        socket_of(serial)};
     }
     [[nodiscard]] std::string socket_of(const std::string& serial) const
     {
@@ -206,7 +206,7 @@ TEST(FalconAtTheStart, ThatAnotherDaemonHasEndsTheSecondOneWithTheCureAndTheFirs
 {
     umockdev::Testbed testbed;
     Held held{testbed, "FALC0001", 2};
-    Peer first{1, free_place(), free_place(), {"--device", "falcon"}};
+    Peer first{1, free_place(), free_place(), {"--untested-device", "--device", "falcon"}};
     expect_refused(held, {"--device falcon: ", "another program uses", "end that one first"});
     const std::size_t before = held.commands().size();
     EXPECT_TRUE(comes_true([&] { return held.commands().size() > before; }));

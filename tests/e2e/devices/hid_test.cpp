@@ -111,8 +111,8 @@ protected:
     Peer a_{1,
             place_,
             b_.listen(),
-            {"--device", "hid:FFB0001", "--hid-force", "8N", "--force-limit", "500mN", "--task",
-             "T3", "--duration", "120s", "--control", socket_}};
+            {"--untested-device", "--device", "hid:FFB0001", "--hid-force", "8N", "--force-limit",
+             "500mN", "--task", "T3", "--duration", "120s", "--control", socket_}};
 };
 
 TEST_F(JoystickSession, EndsAtZeroAndItsForcesCanBeLivedThroughAgain)

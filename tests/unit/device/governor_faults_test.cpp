@@ -3,6 +3,7 @@
 // When the governor stops at once, what it latches, and how an operator gets it going again.
 #include "tests/support/device/governed.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <gtest/gtest.h>
 #include <limits>
@@ -309,19 +310,44 @@ TEST(GovernorRecovers, NotByAStylusThatLayInItsHolderAllTheTime)
     EXPECT_EQ(governed.governor.state(), GovernorState::ready);
 }
 
-TEST(GovernorRecovers, WhenTheButtonIsPressedAfterASecondAtRest)
+/// Presses the button for so long, and releases it.
+void press(Governance& governed, int ticks)
 {
-    for (const bool counted : {true, false}) {
-        Governance governed = latched();
-        EXPECT_EQ(governed.play(1001, along_x(1.0)), base::Force{});
-        if (counted) {
-            ++governed.sample.presses; // and released, between two samples
-        } else {
-            governed.sample.buttons = 1;
-        }
-        EXPECT_EQ(governed(along_x(1.0)), base::Force{});
-        expect_ramps_in(governed);
+    governed.sample.buttons = 1;
+    ++governed.sample.presses;
+    governed.play(ticks, along_x(1.0));
+    governed.sample.buttons = 0;
+}
+
+TEST(GovernorRecovers, WhenTheButtonIsPressedAfterASecondAtRestAndHeldForThreeTenths)
+{
+    Governance governed = latched();
+    EXPECT_EQ(governed.play(1001, along_x(1.0)), base::Force{});
+    governed.sample.buttons = 1;
+    EXPECT_EQ(governed.play(300, along_x(1.0)), base::Force{});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    EXPECT_EQ(governed(along_x(1.0)), base::Force{});
+    EXPECT_NE(governed.governor.state(), GovernorState::fault);
+    governed.sample.buttons = 0;
+    expect_ramps_in(governed);
+}
+
+TEST(GovernorRecovers, NotByAButtonThatFlickersOrIsPressedShortly)
+{
+    Governance governed = latched();
+    governed.play(1001, {});
+    for (int i = 0; i < 200; ++i) {
+        press(governed, 1);
+        governed.play(i % 3, {});
     }
+    for (int i = 0; i < 10; ++i) {
+        governed.play(1200, {});
+        press(governed, 290);
+    }
+    governed.play(1200, {});
+    ++governed.sample.presses; // and released, between two samples
+    governed.play(10, {});
+    EXPECT_EQ(governed.governor.state(), GovernorState::fault);
 }
 
 TEST(GovernorRecovers, NotByAButtonWhileTheStylusMovesOrJustDid)
@@ -329,18 +355,16 @@ TEST(GovernorRecovers, NotByAButtonWhileTheStylusMovesOrJustDid)
     Governance governed = latched();
     governed.sample.velocity = {{0.06, 0.0, 0.0}};
     governed.play(2000, {});
-    ++governed.sample.presses;
-    governed({});
+    press(governed, 400);
     EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+    governed.play(1, {});
     governed.sample.velocity = {};
     governed.play(900, {});
-    ++governed.sample.presses;
-    governed({});
+    press(governed, 400);
     EXPECT_EQ(governed.governor.state(), GovernorState::fault);
     governed.play(200, {});
-    ++governed.sample.presses;
-    governed({});
-    EXPECT_EQ(governed.governor.state(), GovernorState::ready);
+    press(governed, 400);
+    EXPECT_NE(governed.governor.state(), GovernorState::fault);
 }
 
 TEST(GovernorRecovers, NotByAButtonThatIsHeldDownOrWasPressedBefore)
@@ -363,15 +387,14 @@ TEST(GovernorRecovers, NotWhileTheDeviceIsStillAtFaultOrSilent)
     Governance governed = latched();
     governed.sample.fault = Fault::overheat;
     governed.play(2000, {});
-    ++governed.sample.presses;
+    press(governed, 400);
     governed.sample.docked = true;
     governed({});
     EXPECT_EQ(governed.governor.state(), GovernorState::fault);
     governed.sample.fault = Fault::none;
     governed.speaks = false;
     governed.play(2000, {});
-    ++governed.sample.presses;
-    governed({});
+    press(governed, 400);
     EXPECT_EQ(governed.governor.state(), GovernorState::fault);
 }
 
@@ -385,6 +408,70 @@ TEST(GovernorRecovers, ByAnOperatorsWordUntilTheNextTickFindsTheFaultAgain)
     governed.governor.reset();
     EXPECT_EQ(governed(along_x(1.0)), base::Force{});
     EXPECT_EQ(governed.governor.state(), GovernorState::fault);
+}
+
+/// As pushing(), on a device whose motion has to fit the force.
+Governance checked(double newtons)
+{
+    Governance governed = Governance::ramped_in({.checks_motion = true, .speed_max_m_per_s = 1.0});
+    governed.play(10, along_x(newtons));
+    return governed;
+}
+
+TEST(GovernorLatches, AnEncoderThatStandsStillUnderForce)
+{
+    Governance governed = checked(1.0);
+    governed.play(2980, along_x(1.0));
+    EXPECT_EQ(governed.governor.state(), GovernorState::active);
+    governed.play(20, along_x(1.0));
+    expect_latched(governed, {Fault::communication, Trip::frozen});
+    EXPECT_EQ(governed.governor.counters().frozen_trips, 1U);
+}
+
+TEST(GovernorLatches, NoEncoderThatCountsOrIsHardlyPushedOrHasNothingNewToSay)
+{
+    Governance trembling = checked(1.0);
+    for (int i = 0; i < 10'000; ++i) {
+        trembling.sample.hip = {{i % 2000 < 1000 ? 0.0 : 5e-5, 0.0, 0.0}};
+        trembling(along_x(1.0));
+    }
+    EXPECT_EQ(trembling.governor.state(), GovernorState::active);
+    Governance light = checked(0.4);
+    light.play(10'000, along_x(0.4));
+    EXPECT_EQ(light.governor.state(), GovernorState::active);
+    Governance slow = checked(1.0); // 125 reports a second, as HID has
+    for (int i = 0; i < 10'000; ++i) {
+        slow.speaks = i % 8 == 0;
+        if (slow.speaks) slow.sample.hip.value.x = 1e-4 * (i % 16);
+        slow(along_x(1.0));
+    }
+    EXPECT_EQ(slow.governor.state(), GovernorState::active);
+}
+
+TEST(GovernorLatches, ADeviceThatSpeedsUpAgainstItsOwnForce)
+{
+    Governance governed = checked(2.0);
+    for (int i = 0; i < 60 && governed.governor.state() != GovernorState::fault; ++i) {
+        governed.sample.velocity.value.x -= 0.010; // 10 m/s2 the wrong way: 2 N on 200 g
+        governed.sample.hip.value.x += 1e-3 * governed.sample.velocity.value.x;
+        governed(along_x(2.0));
+    }
+    EXPECT_EQ(governed.governor.fault(), (Latched{Fault::over_velocity, Trip::runaway}));
+    EXPECT_LE(-governed.sample.velocity.x(), 0.42) << "far below the limit of 1 m/s";
+    EXPECT_EQ(governed.governor.counters().runaway_trips, 1U);
+}
+
+TEST(GovernorLatches, NoHandThatRunsIntoAForceOrIsPushedBackByIt)
+{
+    Governance governed = checked(0.0);
+    double velocity = -0.6; // into the cube, which stops it and throws it back
+    for (int i = 0; i < 200; ++i) {
+        velocity = std::min(0.6, velocity + 0.015);
+        governed.sample.velocity.value.x = velocity;
+        governed.sample.hip.value.x += 1e-3 * velocity;
+        governed(along_x(3.0));
+    }
+    EXPECT_NE(governed.governor.state(), GovernorState::fault);
 }
 
 TEST(Trips, HaveNamesAndWordsOfTheirOwn)

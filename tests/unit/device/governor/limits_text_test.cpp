@@ -81,6 +81,8 @@ TEST(LimitsText, RefusesWhatWouldMakeARuleMeaninglessAndSaysWhatIsPossible)
              Case{"heat_time", "1s", "600s", {"0s", "999ms", "601s"}},
              Case{"force_continuous", "1mN", "1000N", {"-1N", "1001N"}},
              Case{"speed_max", "1mm/s", "1000m/s", {"0m/s", "-1m/s", "1001m/s"}},
+             Case{"energy.power_max", "1mW", "100W", {"0W", "-1W", "101W"}},
+             Case{"energy.work_max", "1mJ", "100J", {"0J", "-1J", "101J"}},
          }) {
         const auto line = [&](const std::string& value) { return c.key + " = \"" + value + "\""; };
         EXPECT_EQ(refusal_of_limits(line(c.least)), "");

@@ -63,6 +63,16 @@ public:
         record_.config["stiffness_max_n_per_m"] = stiffness_max_n_per_m;
     }
 
+    /// The energy into its hand is limited. Before play().
+    void limit_energy(const device::EnergyLimits& limits)
+    {
+        device::GovernorLimits all = limits_of_recorded_pair();
+        all.energy = limits;
+        players_[0].rig = device::Rig{std::make_unique<device::ScriptedHand>(), all};
+        record_.config["governor_toml"] = device::print_limits(all);
+    }
+    [[nodiscard]] const device::Governor& governor() const { return players_[0].rig.governor(); }
+
     record::Record play(int ticks)
     {
         for (int i = 0; i < ticks; ++i) {

@@ -45,6 +45,20 @@ TEST(ReplayOfARecord, RendersContactsAsSoftlyAsTheDeviceDidAndFullyWhereTheRecor
     EXPECT_FALSE(replay(record, std::nullopt).has_value());
 }
 
+TEST(ReplayOfARecord, LimitsTheEnergyIntoTheHandAsTheRecordedGovernorDid)
+{
+    RecordedPair pair;
+    pair.limit_energy({.power_max_w = 0.01, .work_max_j = 0.002});
+    record::Record record = pair.play(4000);
+    EXPECT_GT(pair.governor().counters().energy_limited, 100U);
+    const auto replayed = replay(record, std::nullopt);
+    ASSERT_TRUE(replayed.has_value()) << replayed.error().message;
+    EXPECT_EQ(replayed->contact_difference_max_n, 0.0);
+    EXPECT_EQ(replayed->device_difference_max_n, 0.0);
+    record.config["governor_toml"] = device::print_limits(limits_of_recorded_pair());
+    EXPECT_GT(replay(record, std::nullopt).value().device_difference_max_n, 0.1);
+}
+
 TEST(ReplayOfARecord, NoticesAMessageThatWasNotTheRecordedOne)
 {
     const record::Record record = RecordedPair{}.play(2500);
@@ -182,11 +196,11 @@ TEST(ReplayOfATroubledSession, GivesTheForcesAfterAnOperatorHasEndedAFault)
             } else if (tick == 2300) {
                 sample.fault = Fault::communication;
             }
-            sample.presses = tick >= 3400 ? 1 : 0;
+            sample.buttons = tick >= 3400 ? 1 : 0;
         }};
-        const record::Record record = pair.play(4000);
-        EXPECT_EQ(record.ticks[3399].device, base::Force{});
-        EXPECT_GT(base::norm(record.ticks[3999].device), 0.1);
+        const record::Record record = pair.play(4300);
+        EXPECT_EQ(record.ticks[3699].device, base::Force{});
+        EXPECT_GT(base::norm(record.ticks[4299].device), 0.1);
         const auto replayed = replay(record, std::nullopt);
         ASSERT_TRUE(replayed.has_value());
         EXPECT_EQ(replayed->device_difference_max_n, 0.0);

@@ -514,14 +514,14 @@ TEST(PeerCounters, TellWhatCouldNotBeUsed)
     give();
     state.session ^= 1U;
     state.sequence += 10;
-    state.hip = {{10.1, 0.0, 0.0}};
+    state.hip = {{1.1, 0.0, 0.0}}; // eight times as far as the scene's bodies reach: 1.08 m
     give();
     state.hip = {};
-    state.hip_velocity = {{0.0, -1001.0, 0.0}};
+    state.hip_velocity = {{0.0, -11.0, 0.0}}; // through all of that in less than 0.1 s
     give();
     state.hip_velocity = {};
     state.body = wire::BodyState{};
-    state.body->position = {{0.0, 0.0, 11.0}};
+    state.body->position = {{0.0, 0.0, 1.1}};
     give();
     peer.on_datagram({}, pair.now);
     peer.on_datagram(std::array<std::byte, 9>{}, pair.now);

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/fields.hpp"
+#include "proto/base/space.hpp"
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+
+namespace hapnet::device {
+
+/// What a hand may get from its motors beyond what it puts in. Both above 0.
+struct EnergyLimits {
+    double power_max_w = 0.46;
+    double work_max_j = 0.15; // in any 5 s, and so on average 30 mW
+
+    friend bool operator==(const EnergyLimits&, const EnergyLimits&) = default;
+};
+constexpr auto fields_of(base::Tag<EnergyLimits> /*struct*/)
+{
+    return base::fields("energy",
+                        base::field("power_max", &EnergyLimits::power_max_w,
+                                    base::Quantity{base::power_kind, 1e-3, 100.0},
+                                    "greatest power of the motors into the hand"),
+                        base::field("work_max", &EnergyLimits::work_max_j,
+                                    base::Quantity{base::energy_kind, 1e-3, 100.0},
+                                    "greatest work of the motors on the hand in any 5 s, the "
+                                    "hand's own work on them subtracted"));
+}
+
+/// The work between motors and hand, all counted as positive into the hand.
+struct EnergyFigures {
+    double net_j = 0.0;         // since the start: what the hand got less what it put in
+    double net_max_j = 0.0;     // the largest value that net_j had: a passive device has 0
+    double work_5s_max_j = 0.0; // the largest net work within 5 s
+    double power_max_w = 0.0;   // the largest mean power of 5 ms
+};
+
+/// Observes the energy that a device gives to its hand, and takes from a force what would give too
+/// much: a passivity observer and controller in the time domain (B. Hannaford, J.-H. Ryu:
+/// Time-domain passivity control of haptic interfaces, IEEE Trans. Robotics and Automation 18,
+/// 2002). The copy of a scene is passive, so what a hand gets beyond what it put in came from the
+/// other side. The controller only takes away: the part of the force along the hand's motion, and
+/// all of it where the work is used up. A force against the motion passes, as it takes energy out.
+class EnergyGuard {
+public:
+    /// `tick`: the usual time between two calls of pass().
+    EnergyGuard(const EnergyLimits& limits, base::Duration tick);
+
+    /// This force was held for this time, and the hand is now here. In the device's frame.
+    void pass(const base::Force& held, const base::Position& hip, base::Duration duration);
+    /// The device does not tell where the hand is: the next place is not compared with the last.
+    void lose_place() { placed_ = false; }
+
+    /// What may be left of the next force while the device reports this velocity.
+    [[nodiscard]] base::Force allow(const base::Force& wanted, const base::Velocity& reported);
+
+    [[nodiscard]] const EnergyFigures& figures() const { return figures_; }
+
+    /// The lightest hand that the power is kept for, and the time by which a velocity that was
+    /// measured over 5 ms is behind the next tick: a force moves the hand on by as much.
+    static constexpr double hand_kg = 0.2;
+    static constexpr double behind_s = 0.003;
+    /// Work that is left is given out evenly over this time, so that the last of it is no step.
+    static constexpr double reserve_s = 0.005;
+
+private:
+    struct Step {
+        base::Displacement moved{};
+        double seconds = 0.0;
+        double work_j = 0.0;
+    };
+    /// The lowest net_j of one piece of the last 5 s.
+    static constexpr base::Duration piece{std::chrono::milliseconds{50}};
+    static constexpr std::size_t pieces = 100;
+    static constexpr std::size_t steps_max = 50;
+
+    void add(const Step& step);
+    void close_piece();
+    [[nodiscard]] base::Force without_push(const base::Force& wanted, const glm::dvec3& velocity,
+                                           double power_w) const;
+
+    EnergyLimits limits_;
+    EnergyFigures figures_;
+    bool placed_ = false;
+    base::Position hip_;
+
+    std::array<Step, steps_max> steps_{}; // a ring of the last `steps_used_`: 5 ms
+    std::size_t steps_used_;
+    std::size_t next_step_ = 0;
+    Step lately_; // their sum
+
+    std::array<double, pieces> lowest_{};
+    std::size_t next_piece_ = 0;
+    base::Duration into_piece_{};
+    double lowest_now_j_ = 0.0;    // of the piece under way
+    double lowest_before_j_ = 0.0; // of those before
+};
+
+} // namespace hapnet::device

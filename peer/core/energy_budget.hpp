@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/capabilities.hpp"
+#include "device/governor/energy.hpp"
+#include "peer/core/sync/algorithm.hpp"
+
+namespace hapnet::peer {
+
+/// The energy that a session may bring into a hand at this device: above what the tasks need with
+/// this algorithm at delays up to 160 ms, in proportion to the device's force up to an Omni's. A
+/// predicting algorithm shifts the body by what it predicted wrongly, for some milliseconds, and
+/// needs more power for that. docs/design/governor.md has the figures.
+[[nodiscard]] device::EnergyLimits energy_budget(const device::Capabilities& capabilities,
+                                                 const Algorithm& algorithm);
+
+} // namespace hapnet::peer

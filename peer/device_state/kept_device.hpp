@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/capabilities.hpp"
+#include "peer/device_state/state.hpp"
+
+#include <string>
+
+namespace hapnet::peer::device_state {
+
+/// The state of one real device in its file, $XDG_STATE_HOME/hapnet/device/NAME.json, or below
+/// ~/.local/state: read at the start, and written at once (mode 0600) whenever it changes. A file
+/// that cannot be read counts as none; one that cannot be written is said and leaves a session as
+/// it is.
+class KeptDevice {
+public:
+    KeptDevice(const device::Identity& identity, std::string_view place);
+
+    /// As above, for now.
+    [[nodiscard]] std::string_view why_untested() const;
+    [[nodiscard]] double heat_at_start(base::Duration heat_time) const;
+
+    /// Motors are about to be used: until on_rest() their heat is not known, however this ends.
+    void on_use();
+    void on_rest(double heat);
+    /// The device has passed a self-test, now.
+    void on_passed();
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    void save();
+
+    std::string path_; // "": there is no place for it
+    DeviceState state_;
+};
+
+} // namespace hapnet::peer::device_state
