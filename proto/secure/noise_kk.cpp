@@ -85,33 +85,54 @@ NoiseKk::Progress NoiseKk::step()
 {
     base::ensure(is_under_way_);
     const Tokens& tokens = messages[message_];
-    while (!is_refused_ && token_ < tokens.count) {
-        if (apply(tokens.all[token_++])) return is_refused_ ? Progress::refused : Progress::working;
+    for (bool has_multiplied = false; !is_refused_ && token_ < tokens.count; ++token_) {
+        const Token token = tokens.all[token_];
+        if (multiplies(token) && std::exchange(has_multiplied, true)) return Progress::working;
+        apply(token);
     }
     if (is_refused_) return Progress::refused;
     return finish();
 }
 
-/// Returns whether that took a multiplication.
-bool NoiseKk::apply(Token token)
+bool NoiseKk::multiplies(Token token) const
+{
+    switch (token) {
+    case Token::psk:
+    case Token::ss: return false; // known before
+    case Token::e: return writes_;
+    case Token::es:
+    case Token::ee:
+    case Token::se: return true;
+    }
+    return true;
+}
+
+void NoiseKk::apply(Token token)
 {
     const bool is_initiator = role_ == Role::initiator;
     switch (token) {
-    case Token::psk: mix_key_and_hash(keys_.pre_shared().bytes()); return false;
-    case Token::e: return mix_ephemeral();
-    case Token::ss: mix_key(keys_.common().bytes()); return false;
-    case Token::ee: return mix_shared(ephemeral_, other_ephemeral_);
+    case Token::psk: mix_key_and_hash(keys_.pre_shared().bytes()); break;
+    case Token::e: mix_ephemeral(); break;
+    case Token::ss: mix_key(keys_.common().bytes()); break;
+    case Token::ee: mix_shared(ephemeral_, other_ephemeral_); break;
     case Token::es: // the initiator's ephemeral key, the responder's static one
-        return is_initiator ? mix_shared(ephemeral_, keys_.other())
-                            : mix_shared(keys_.own(), other_ephemeral_);
+        if (is_initiator) {
+            mix_shared(ephemeral_, keys_.other());
+        } else {
+            mix_shared(keys_.own(), other_ephemeral_);
+        }
+        break;
     case Token::se:
-        return is_initiator ? mix_shared(keys_.own(), other_ephemeral_)
-                            : mix_shared(ephemeral_, keys_.other());
+        if (is_initiator) {
+            mix_shared(keys_.own(), other_ephemeral_);
+        } else {
+            mix_shared(ephemeral_, keys_.other());
+        }
+        break;
     }
-    return false;
 }
 
-bool NoiseKk::mix_ephemeral()
+void NoiseKk::mix_ephemeral()
 {
     PublicKey& key = writes_ ? ephemeral_public_ : other_ephemeral_;
     if (writes_) {
@@ -122,10 +143,9 @@ bool NoiseKk::mix_ephemeral()
     }
     mix_hash(key);
     mix_key(key); // where a pre-shared key is used it makes the first key unique
-    return writes_;
 }
 
-bool NoiseKk::mix_shared(const Secret& own, const PublicKey& other)
+void NoiseKk::mix_shared(const Secret& own, const PublicKey& other)
 {
     const auto shared = diffie_hellman(own, other);
     if (shared) {
@@ -133,7 +153,6 @@ bool NoiseKk::mix_shared(const Secret& own, const PublicKey& other)
     } else {
         is_refused_ = true;
     }
-    return true;
 }
 
 /// Seals or opens the payload.

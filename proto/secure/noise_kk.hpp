@@ -99,9 +99,10 @@ private:
     void mix_key(Bytes input);
     void mix_key_and_hash(Bytes input);
     void begin(std::size_t size, bool writes);
-    bool mix_ephemeral();
-    bool mix_shared(const Secret& own, const PublicKey& other);
-    [[nodiscard]] bool apply(Token token);
+    void mix_ephemeral();
+    void mix_shared(const Secret& own, const PublicKey& other);
+    [[nodiscard]] bool multiplies(Token token) const;
+    void apply(Token token);
     [[nodiscard]] Progress finish();
 
     Role role_;

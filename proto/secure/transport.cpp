@@ -18,9 +18,8 @@ std::uint64_t nonce_number(Kind kind, std::uint32_t number)
 
 void Sealer::seal(Kind kind, std::uint32_t number, Bytes associated, std::span<std::byte> room)
 {
-    std::uint64_t& next = next_[static_cast<std::size_t>(kind)];
-    base::ensure(number >= next && number <= number_max);
-    next = std::uint64_t{number} + 1;
+    base::ensure(may_seal(kind, number));
+    next_[static_cast<std::size_t>(kind)] = std::uint64_t{number} + 1;
     secure::seal(key_, nonce_number(kind, number), associated, room);
 }
 

@@ -25,6 +25,11 @@ public:
 
     explicit Sealer(Secret key) : key_{std::move(key)} {}
 
+    [[nodiscard]] bool may_seal(Kind kind, std::uint32_t number) const
+    {
+        return number >= next_[static_cast<std::size_t>(kind)] && number <= number_max;
+    }
+
     /// `room` holds the text and after it `tag_bytes` free bytes.
     void seal(Kind kind, std::uint32_t number, Bytes associated, std::span<std::byte> room);
 
