@@ -13,7 +13,7 @@
 
 namespace hapnet::secure {
 
-// The bytes of sealed messages and of handshakes; FORMAT.md in this folder is the specification.
+// The bytes of sealed messages and of handshakes; docs/formats/sealed.md is the specification.
 // Numbers are in little-endian order. Each begins with the magic number and the version of the
 // plain messages, so that any version can tell that it is not its own.
 

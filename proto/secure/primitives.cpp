@@ -170,4 +170,24 @@ bool are_equal(Bytes a, Bytes b)
     return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
+std::string to_base64(Bytes bytes)
+{
+    constexpr int variant = sodium_base64_VARIANT_ORIGINAL;
+    std::string text(sodium_base64_encoded_len(bytes.size(), variant), '\0');
+    sodium_bin2base64(text.data(), text.size(), raw(bytes), bytes.size(), variant);
+    text.pop_back(); // the zero at its end
+    return text;
+}
+
+std::optional<std::array<std::byte, key_bytes>> key_from_base64(std::string_view text)
+{
+    std::array<std::byte, key_bytes> bytes{};
+    std::size_t size = 0;
+    const bool is_base64 =
+        sodium_base642bin(raw_room(bytes), bytes.size(), text.data(), text.size(), nullptr, &size,
+                          nullptr, sodium_base64_VARIANT_ORIGINAL) == 0;
+    if (!is_base64 || size != bytes.size()) return std::nullopt;
+    return bytes;
+}
+
 } // namespace hapnet::secure

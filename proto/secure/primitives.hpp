@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 /// Who may move a hand: keys, the handshake that makes them, and the sealing of messages.
 namespace hapnet::secure {
@@ -96,5 +99,11 @@ void seal(const Secret& key, const WideNonce& nonce, Bytes associated, std::span
 
 /// Whether they are equal, in a time that does not tell where they differ.
 [[nodiscard]] bool are_equal(Bytes a, Bytes b);
+
+/// Base 64 (RFC 4648, with padding), in a time that does not depend on the bytes.
+[[nodiscard]] std::string to_base64(Bytes bytes);
+/// nullopt unless it is the text of so many bytes, written as to_base64() does.
+[[nodiscard]] std::optional<std::array<std::byte, key_bytes>>
+key_from_base64(std::string_view text);
 
 } // namespace hapnet::secure
