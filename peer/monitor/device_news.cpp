@@ -20,10 +20,11 @@ std::string_view way_back(const DeviceNews& news)
     }
     if (news.recovery.by_holder) {
         return "; to feel force again put the stylus into its holder, or hold it still for a "
-               "second and press its button";
+               "second and then its button for half a second";
     }
     if (news.recovery.by_button) {
-        return "; to feel force again hold it still for a second, then press its primary button";
+        return "; to feel force again hold it still for a second, then hold its primary button for "
+               "half a second";
     }
     return "; to feel force again start this program again, as the device has no button";
 }

@@ -42,7 +42,7 @@ TEST(DeviceReporter, TellsAFaultAtOnceAndOnceAndItsEnd)
               "zero force (communication): the device sent data that makes no sense: check its "
               "cable, and use no hub; to feel force again put the stylus into its holder, or hold "
               "it still for a "
-              "second and press its button");
+              "second and then its button for half a second");
     EXPECT_FALSE(reporter.look(CalibrationStep::done, cable, noon + 5s));
     const auto end = reporter.look(CalibrationStep::done, {}, noon + 6s);
     ASSERT_TRUE(end);
@@ -137,7 +137,8 @@ TEST(DeviceNews, AskForNothingThatTheDeviceHasNot)
         return describe(*reporter.look(CalibrationStep::done, cable, noon));
     };
     for (const auto& [recovery, cure] :
-         {std::pair{Recovery{}, "hold it still for a second, then press its primary button"},
+         {std::pair{Recovery{},
+                    "hold it still for a second, then hold its primary button for half a second"},
           std::pair{Recovery{.by_button = false},
                     "start this program again, as the device has no button"},
           std::pair{Recovery{.by_simulated_hand = true},
