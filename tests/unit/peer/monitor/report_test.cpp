@@ -49,6 +49,23 @@ TEST_F(Shown, SaysWhyTheRunIsNotValid)
     EXPECT_NE(verdict().find(" us, more than 1000 us"), std::string::npos) << verdict();
 }
 
+TEST_F(Shown, SaysWhoKeepsTheForceBackAndThatNothingCanBeSent)
+{
+    EXPECT_EQ(show()["force_withheld"], false);
+    status.loop.last_send = net::SendOutcome::no_route;
+    EXPECT_NE(says().find("nothing can be sent to the other peer: there is no route"),
+              std::string::npos);
+    status.withheld = loop::Withheld::by_dead_man;
+    EXPECT_EQ(show()["force_withheld"], true);
+    EXPECT_EQ(show()["state"], "waiting");
+    EXPECT_NE(says().find("the dead man's switch is not held: zero force"), std::string::npos);
+    status.fault = {device::Fault::disconnected, device::Trip::device};
+    EXPECT_EQ(show()["state"], "fault");
+    status.withheld = loop::Withheld::by_emergency_stop;
+    EXPECT_EQ(show()["state"], "emergency_stop");
+    EXPECT_NE(says().find("only a new start of the program"), std::string::npos);
+}
+
 TEST_F(Shown, SaysWhereInTheSessionItIs)
 {
     status.session = Session{.number = 7, .start = base::TimePoint{10s}, .is_left = true};
