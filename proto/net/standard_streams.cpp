@@ -3,6 +3,7 @@
 #include "proto/net/standard_streams.hpp"
 
 #include <fcntl.h>
+#include <initializer_list>
 #include <unistd.h>
 
 namespace hapnet::net {

@@ -228,7 +228,7 @@ TEST(PeerExit, ByADeathOfTheWatchdogItselfEndsInZeroForceThatTheServoGives)
 {
     for (const auto pacing : {device::Pacing::host, device::Pacing::device}) {
         Push push{{.pacing = pacing}};
-        constexpr std::size_t watchdog = 1; // begins before the servo
+        constexpr std::size_t watchdog = 4; // after main, stop and two for text; before the servo
         push.recorded.signal_thread(watchdog, SIGSEGV);
         EXPECT_EQ(push.recorded.wait_end(), 128 + SIGSEGV);
         EXPECT_LT(time_to_zero(push.recorded.told()), patience);
