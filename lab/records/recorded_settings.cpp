@@ -68,6 +68,8 @@ std::string_view validate(const WrittenConfig& config)
 {
     constexpr double seconds_max = 1e6;
     constexpr std::uint64_t tick_ns = 1'000'000;
+    if (config.nonce == 0) return "'nonce' is 0, which no run has";
+    if (config.peer_id == 0) return "'peer_id' is 0, which no peer has";
     if (config.tick_ns != tick_ns) return "'tick_ns': only ticks of 1 ms can be played";
     if (!(config.duration_s > 0.0 && config.duration_s < seconds_max)) {
         return "'duration_s' is out of range";

@@ -14,7 +14,7 @@ namespace hapnet::net {
 base::TimePoint monotonic_now()
 {
     timespec now{};
-    base::ensure(clock_gettime(CLOCK_MONOTONIC, &now) == 0);
+    base::ensure(clock_gettime(CLOCK_BOOTTIME, &now) == 0);
     return base::TimePoint{std::chrono::seconds{now.tv_sec} +
                            std::chrono::nanoseconds{now.tv_nsec}};
 }
@@ -26,13 +26,6 @@ double wall_clock_seconds()
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double seconds_since_boot()
-{
-    timespec since{};
-    base::ensure(clock_gettime(CLOCK_BOOTTIME, &since) == 0);
-    return static_cast<double>(since.tv_sec) + 1e-9 * static_cast<double>(since.tv_nsec);
-}
-
 void sleep_until(base::TimePoint when)
 {
     const auto since_start = when.time_since_epoch();
@@ -40,7 +33,7 @@ void sleep_until(base::TimePoint when)
     timespec until{};
     until.tv_sec = seconds.count();
     until.tv_nsec = (since_start - seconds).count();
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
+    while (clock_nanosleep(CLOCK_BOOTTIME, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
 }
 
 std::string boot_id()

@@ -57,6 +57,7 @@ TEST(PeerFlood, OfRandomAndMutatedDatagramsIsCountedAndHarmless)
     Peer peer{1, place, remote.endpoint().to_text(), {}};
     const auto target = endpoint_of(place);
     const auto stream = base::Seed{1}.stream("flood");
+    const auto begun = std::chrono::steady_clock::now();
     for (std::uint64_t number = 0; number < datagrams; ++number) {
         Host& from = number / 100 % 2 == 0 ? remote : stranger;
         from.send_bytes(target, nonsense(stream, number));
@@ -76,6 +77,12 @@ TEST(PeerFlood, OfRandomAndMutatedDatagramsIsCountedAndHarmless)
     EXPECT_GT(count(messages, "strangers"), datagrams / 4) << messages;
     EXPECT_GT(count(messages, "malformed"), datagrams / 4) << messages;
     EXPECT_EQ(count(messages, "states_received"), 0U);
+    // Of what has no effect the record takes 2000 a second, and a second of them at once.
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    const double recorded = 2000.0 * (took.count() + 1.0);
+    const double heard =
+        static_cast<double>(count(messages, "malformed") + count(messages, "other_session"));
+    EXPECT_GE(peer.statistics()["record_rows_lost"].get<double>(), heard - recorded) << messages;
 }
 
 TEST(PeerFlood, ByStrangersDoesNotEnterASession)

@@ -139,6 +139,18 @@ TEST(ReplayOfARecord, NamesTheKeyThatTheConfigurationLacks)
     }
 }
 
+TEST(ReplayOfARecord, RefusesNumbersThatNoPeerHas)
+{
+    const record::Record whole = RecordedPair{}.play(10);
+    for (const char* key : {"nonce", "peer_id"}) {
+        record::Record record = whole;
+        record.config[key] = 0;
+        const auto replayed = replay(record, std::nullopt);
+        ASSERT_FALSE(replayed.has_value()) << key;
+        EXPECT_NE(replayed.error().message.find(key), std::string::npos);
+    }
+}
+
 // Records of sessions in which something went wrong, and records that are no longer whole.
 
 using device::Fault;

@@ -198,6 +198,44 @@ TEST(Handshake, DoesNotBelieveAStartThatNoSessionCanHave)
     }
 }
 
+TEST(Handshake, GetsOverADamagedStartBeforeTheSessionAndMovesNoneAfterwards)
+{
+    Handshake handshake{introduction(1)};
+    base::TimePoint now{1000h};
+    wire::Hello hello = hello_of(introduction(0), introduction(1).nonce);
+    const auto hear = [&](base::TimePoint start) {
+        now += 20ms;
+        hello.sent = now;
+        hello.echo = wire::Echo{now, 0ns};
+        hello.start = start;
+        EXPECT_FALSE(handshake.on_hello(hello, now));
+        return handshake.session()->start;
+    };
+    const base::TimePoint damaged = now + 100h;
+    const base::TimePoint true_start = now + 1s;
+    EXPECT_EQ(hear(damaged), damaged);
+    EXPECT_EQ(hear(true_start), damaged);
+    EXPECT_EQ(hear(true_start), damaged);
+    EXPECT_EQ(hear(true_start), true_start);
+    EXPECT_EQ(hear(damaged), true_start);
+    now = true_start;
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(hear(damaged), true_start);
+}
+
+TEST(Handshake, DoesNotBelieveAnotherRunWhileTheOneThatItKnowsIsHeard)
+{
+    Meeting meeting{prompt};
+    meeting.run_for(3s);
+    ASSERT_TRUE(meeting.agree());
+    Handshake& handshake = *meeting.sides[0];
+    const auto number = handshake.session()->number;
+    const auto other = hello_of(introduction(1, 99));
+    EXPECT_FALSE(handshake.on_hello(other, meeting.clock(0), Handshake::Known::heard));
+    EXPECT_EQ(handshake.session()->number, number);
+    EXPECT_FALSE(handshake.on_hello(other, meeting.clock(0), Handshake::Known::silent));
+    EXPECT_NE(handshake.session()->number, number);
+}
+
 TEST(Handshake, EchoesTheNewestMessageWithItsAgeUpToWhatTheWireHolds)
 {
     Handshake handshake{introduction(0)};

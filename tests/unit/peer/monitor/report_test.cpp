@@ -13,13 +13,12 @@ using namespace std::chrono_literals;
 struct Shown : testing::Test {
     [[nodiscard]] nlohmann::ordered_json show() const
     {
-        return show_json({options, status, journal, "a device"}, {});
+        return show_json({options, status, "a device"}, {});
     }
     [[nodiscard]] std::string says() const { return show()["says"]; }
 
     Options options;
     loop::ServoStatus status;
-    loop::Journal journal;
 };
 
 TEST_F(Shown, SaysThatItWaitsForTheOther)
@@ -33,7 +32,7 @@ TEST_F(Shown, SaysThatItWaitsForTheOther)
 TEST_F(Shown, SaysWhyTheRunIsNotValid)
 {
     const auto verdict = [&] {
-        const std::string text = summary({options, status, journal, "a device"});
+        const std::string text = summary({options, status, "a device"});
         const auto start = text.find("NOT VALID as a measurement: ");
         return start == std::string::npos ? "valid"
                                           : text.substr(start + 28, text.find('\n') - start - 28);
@@ -48,6 +47,23 @@ TEST_F(Shown, SaysWhyTheRunIsNotValid)
     for (int i = 0; i < 100; ++i) status.loop.late.add(2ms);
     EXPECT_EQ(verdict().rfind("p99 lateness 2", 0), 0U) << verdict();
     EXPECT_NE(verdict().find(" us, more than 1000 us"), std::string::npos) << verdict();
+}
+
+TEST_F(Shown, SaysWhoKeepsTheForceBackAndThatNothingCanBeSent)
+{
+    EXPECT_EQ(show()["force_withheld"], false);
+    status.loop.last_send = net::SendOutcome::no_route;
+    EXPECT_NE(says().find("nothing can be sent to the other peer: there is no route"),
+              std::string::npos);
+    status.withheld = loop::Withheld::by_dead_man;
+    EXPECT_EQ(show()["force_withheld"], true);
+    EXPECT_EQ(show()["state"], "waiting");
+    EXPECT_NE(says().find("the dead man's switch is not held: zero force"), std::string::npos);
+    status.fault = {device::Fault::disconnected, device::Trip::device};
+    EXPECT_EQ(show()["state"], "fault");
+    status.withheld = loop::Withheld::by_emergency_stop;
+    EXPECT_EQ(show()["state"], "emergency_stop");
+    EXPECT_NE(says().find("only a new start of the program"), std::string::npos);
 }
 
 TEST_F(Shown, SaysWhereInTheSessionItIs)

@@ -114,5 +114,25 @@ TEST(Endpoint, ANameThatDoesNotResolveIsNamed)
 
 TEST(Endpoint, LoopbackHasARoute) { EXPECT_NO_THROW(require_route(endpoint("127.0.0.1:9"))); }
 
+TEST(Endpoint, LoopbackHasNoRouteToTheWorld)
+{
+    EXPECT_NO_THROW(require_route(endpoint("127.0.0.1:0"), endpoint("127.0.0.1:9")));
+    EXPECT_THROW(require_route(endpoint("127.0.0.1:0"), endpoint("192.0.2.1:9")),
+                 std::system_error);
+}
+
+TEST(Endpoint, IsOneHostUnlessItStandsForMany)
+{
+    for (const char* one : {"127.0.0.1:1", "192.0.2.1:1", "[::1]:1", "[2001:db8::1]:1"}) {
+        EXPECT_TRUE(endpoint(one).is_one_host()) << one;
+    }
+    for (const char* many : {"0.0.0.0:1", "224.0.0.1:1", "239.255.255.255:1", "255.255.255.255:1",
+                             "[::]:1", "[ff02::1]:1"}) {
+        EXPECT_FALSE(endpoint(many).is_one_host()) << many;
+    }
+    EXPECT_EQ(endpoint("[::1]:7").with_port(9).to_text(), "[::1]:9");
+    EXPECT_EQ(endpoint("127.0.0.1:7").with_port(0).to_text(), "127.0.0.1:0");
+}
+
 } // namespace
 } // namespace hapnet::net
