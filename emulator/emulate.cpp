@@ -37,6 +37,10 @@ namespace {
 
 constexpr std::string_view program = "hapnet-emulator";
 
+constexpr std::string_view spin_warning =
+    "--timing spin may take a whole core. When another program needs that core, the kernel stops "
+    "the emulator for about 50 ms in each second: give it a core of its own, or use precise";
+
 void say(std::string_view text) { net::say(program, text); }
 
 /// One run, from bound sockets to written files. Everything but the recorder's writing happens on
@@ -62,6 +66,7 @@ public:
     void announce() const
     {
         if (const auto shortage = run_.real_time.shortage(); !shortage.empty()) say(shortage);
+        if (run_.options.timing == Timing::spin) say(spin_warning);
         for (const std::string& warning : scenario_.warnings) say(warning);
         fmt::print("{}", ready_line(run_));
         std::fflush(stdout);

@@ -213,7 +213,9 @@ void add_run_options(cli::Command& program, Options& options)
     add_conditions(program, options.conditions, /*own_rate*/ false);
     program.option("--timing", "eco|precise|spin",
                    "eco: sleep until a datagram is due. precise (default): wake shortly before, by "
-                   "as much as this machine needs, and watch the clock. spin: wake 200 us before",
+                   "as much as this machine needs, and watch the clock, as long as 70 % of a core "
+                   "are enough. spin: wake 200 us before, without that limit; needs a core of its "
+                   "own",
                    cli::into(options.timing, parse_timing));
     program.option("--budget", "TIME",
                    "The run is valid when 99 % of the datagrams in each direction leave at most "

@@ -12,6 +12,9 @@ namespace hapnet::net {
 /// CLOCK_MONOTONIC. The only clock of the project; called once per wake-up by a shell.
 [[nodiscard]] base::TimePoint monotonic_now();
 
+/// The processor time that the calling thread has used, in the kernel and out of it. A system call.
+[[nodiscard]] base::Duration thread_processor_time();
+
 /// The time of day in seconds since 1970, for manifests, file names and captures only.
 [[nodiscard]] double wall_clock_seconds();
 
