@@ -6,6 +6,7 @@
 #include "emulator/core/profile/settings.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/core/statistics.hpp"
+#include "emulator/core/verdict.hpp"
 #include "emulator/stream_json.hpp"
 #include "proto/base/version.hpp"
 
@@ -14,6 +15,8 @@
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -77,9 +80,15 @@ Json json_of(const StreamReport& measured)
               {"peak_max", json_in_ms(measured.peak_age_max)}}}};
 }
 
+std::vector<std::string> reasons_against(const ports::Relay::Side& side, base::Duration budget)
+{
+    return invalid_because(side.link.statistics(), side.socket.overflowed(), budget);
+}
+
 Json json_of(const ports::Relay::Side& side, base::Duration budget)
 {
     const Statistics& s = side.link.statistics();
+    const auto reasons = reasons_against(side, budget);
     Json dropped = Json::object();
     for (const DropCause cause : drop_causes) {
         dropped[std::string{to_text(cause)}] = s.dropped_by(cause);
@@ -97,7 +106,8 @@ Json json_of(const ports::Relay::Side& side, base::Duration budget)
             {"strangers", side.strangers},
             {"overflowed", side.socket.overflowed()},
             {"over_budget", s.late_beyond(budget)},
-            {"valid", s.is_valid(budget)},
+            {"valid", reasons.empty()},
+            {"invalid_because", reasons},
             {"lens", json_of(side.link.stream_statistics().report())}};
 }
 
@@ -115,14 +125,14 @@ std::string in_words(const Moments& moments)
                        in_ms(moments.sd.value_or(base::Duration{0})));
 }
 
-/// Whether the emulator was punctual enough for a measurement.
-std::string verdict(const Statistics& s, base::Duration p99, base::Duration budget)
+/// Whether the emulator did what it was asked to, and nothing else.
+std::string verdict(const ports::Relay::Side& side, base::Duration budget)
 {
     constexpr std::uint64_t judged_min = 100; // of fewer, p99 is the one that was latest
-    if (s.lateness.count() < judged_min) return "too few datagrams to judge";
-    if (s.is_valid(budget)) return "valid";
-    return fmt::format("NOT VALID: p99 {:.0f} us is above the budget of {:.0f} us",
-                       Microseconds{p99}.count(), Microseconds{budget}.count());
+    const bool are_too_few = side.link.statistics().lateness.count() < judged_min;
+    const auto reasons = reasons_against(side, are_too_few ? base::Duration::max() : budget);
+    if (!reasons.empty()) return fmt::format("NOT VALID: {}", fmt::join(reasons, "; "));
+    return are_too_few ? "too few datagrams to judge" : "valid";
 }
 
 /// What is missing in the files that were asked for.
@@ -157,7 +167,9 @@ std::string in_words(const char* title, const ports::Relay::Side& side, base::Du
         text +=
             fmt::format("; lateness {:.0f} us median, {:.0f} us p99, {:.0f} us at most: {}",
                         Microseconds{*s.lateness.quantile(0.5)}.count(), Microseconds{*p99}.count(),
-                        Microseconds{*s.lateness.max()}.count(), verdict(s, *p99, budget));
+                        Microseconds{*s.lateness.max()}.count(), verdict(side, budget));
+    } else if (!reasons_against(side, budget).empty()) {
+        text += ": " + verdict(side, budget);
     }
     const StreamReport measured = side.link.stream_statistics().report();
     if (measured.requested_delay && measured.delay) {
@@ -202,9 +214,12 @@ std::string statistics_json(const Run& run)
     const Options& options = run.options;
     const ports::Relay::Side& a = run.relay.a();
     const ports::Relay::Side& b = run.relay.b();
-    const auto valid = [&](const ports::Relay::Side& side) {
-        return side.link.statistics().is_valid(options.budget);
-    };
+    std::vector<std::string> reasons;
+    for (const auto& [way, side] : {std::pair{"up", &a}, std::pair{"down", &b}}) {
+        for (const std::string& reason : reasons_against(*side, options.budget)) {
+            reasons.push_back(fmt::format("{}: {}", way, reason));
+        }
+    }
     const Json json{
         {"program", "hapnet-emulator"},
         {"version", base::version()},
@@ -232,7 +247,8 @@ std::string statistics_json(const Run& run)
         {"capture", or_null(options.capture)},
         {"fates_lost", run.recorder.fates_lost()},
         {"capture_lost", run.recorder.capture_lost()},
-        {"valid", valid(a) && valid(b)},
+        {"valid", reasons.empty()},
+        {"invalid_because", reasons},
         {"up", json_of(a, options.budget)},
         {"down", json_of(b, options.budget)},
     };

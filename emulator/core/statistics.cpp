@@ -22,7 +22,7 @@ std::uint64_t Statistics::dropped_total() const
     return std::accumulate(dropped.begin(), dropped.end(), std::uint64_t{0});
 }
 
-bool Statistics::is_valid(base::Duration budget) const
+bool Statistics::is_punctual(base::Duration budget) const
 {
     const auto p99 = lateness.quantile(0.99);
     return !p99 || *p99 <= budget;

@@ -13,16 +13,16 @@ using namespace std::chrono_literals;
 
 } // namespace
 
-TEST(Statistics, OfNothingAreValid) { EXPECT_TRUE(Statistics{}.is_valid(0ns)); }
+TEST(Statistics, OfNothingArePunctual) { EXPECT_TRUE(Statistics{}.is_punctual(0ns)); }
 
-TEST(Statistics, AreValidAsLongAsOneInAHundredIsLate)
+TEST(Statistics, ArePunctualAsLongAsOneInAHundredIsLate)
 {
     Statistics statistics;
     for (int i = 0; i < 99; ++i) statistics.lateness.add(10us);
     statistics.lateness.add(5ms);
-    EXPECT_TRUE(statistics.is_valid(1ms));
+    EXPECT_TRUE(statistics.is_punctual(1ms));
     statistics.lateness.add(5ms);
-    EXPECT_FALSE(statistics.is_valid(1ms));
+    EXPECT_FALSE(statistics.is_punctual(1ms));
 }
 
 TEST(Statistics, SumDropsOverAllCauses)
