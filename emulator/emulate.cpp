@@ -52,7 +52,10 @@ public:
           scenario_{scenario},
           recorder_{{options.fates, options.capture}},
           path_{scenario.profile,
-                {.seed = scenario.seed, .start = start_, .replay = scenario.replay}},
+                {.seed = scenario.seed,
+                 .start = start_,
+                 .limits = QueueLimits::within(options.in_flight_bytes),
+                 .replay = scenario.replay}},
           relay_{endpoints, path_, recorder_},
           run_{options, scenario_, path_.director(), relay_, recorder_, {}, {}},
           status_{start_}
@@ -60,7 +63,8 @@ public:
         if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
         if (options.control) control_.emplace(*options.control);
         if (options.duration) end_ = start_ + *options.duration;
-        run_.real_time = net::request_real_time(40); // after the recorder's thread was made
+        // After the recorder's thread was made. Most of the slab is never used.
+        run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
     void announce() const

@@ -4,6 +4,7 @@
 
 #include "emulator/core/conditions.hpp"
 #include "emulator/presets.hpp"
+#include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
@@ -183,6 +184,16 @@ base::Result<Timing> parse_timing(const std::string& text)
     return *meant == "eco" ? Timing::eco : *meant == "spin" ? Timing::spin : Timing::precise;
 }
 
+base::Result<std::size_t> parse_in_flight(const std::string& text)
+{
+    constexpr std::size_t least = std::size_t{1} << 20;
+    constexpr std::size_t most = std::size_t{64} << 30;
+    const auto bytes = base::parse_size(text);
+    if (!bytes) return tl::unexpected{bytes.error()};
+    if (*bytes >= least && *bytes <= most) return static_cast<std::size_t>(*bytes);
+    return base::fail(fmt::format("'{}' is out of range: 1MiB to 64GiB", text));
+}
+
 base::Result<net::HostPort> parse_host(const std::string& text)
 {
     auto host = net::parse_host_port(text);
@@ -221,6 +232,11 @@ void add_run_options(cli::Command& program, Options& options)
                    "The run is valid when 99 % of the datagrams in each direction leave at most "
                    "this late (default 1ms)",
                    cli::into(options.budget, base::Time{}));
+    program.option("--in-flight", "SIZE",
+                   "Memory for the datagrams in flight, of both directions together (default "
+                   "256MiB). It holds a datagram for each KiB, or 65 536, of each direction; what "
+                   "finds no room is dropped as queue_full",
+                   cli::into(options.in_flight_bytes, parse_in_flight));
     program.option("--duration", "TIME", "End after this time (default: run until stopped)",
                    cli::into(options.duration, base::Time{}));
     program.option("--stats", "FILE", "Write statistics to FILE at the end; - is stdout",

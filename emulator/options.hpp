@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/queue_limits.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
@@ -9,6 +10,7 @@
 #include "proto/net/program.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -47,6 +49,7 @@ struct Options {
     std::optional<std::string> replay; // fates to apply instead of drawing
     Timing timing = Timing::precise;
     base::Duration budget = std::chrono::milliseconds{1};
+    std::size_t in_flight_bytes = QueueLimits{}.bytes_max;
     std::optional<base::Duration> duration; // nullopt: until SIGINT or SIGTERM
     std::optional<std::string> stats;       // a file, or "-" for stdout
     std::optional<std::string> fates;

@@ -25,6 +25,7 @@ public:
         base::Seed seed{1};
         base::TimePoint start{};               // time 0 of all that depends on time
         QueueLimits limits{};                  // of each direction
+        std::shared_ptr<Slab> slab{};          // null: one for both, as large as the limits say
         std::shared_ptr<const Fates> replay{}; // null: fates are drawn
         bool has_stream_statistics = true;     // false: they are not asked for
     };
@@ -85,6 +86,8 @@ public:
     }
 
 private:
+    EmulatedPath(const Profile& profile, const Setup& setup, const std::shared_ptr<Slab>& slab);
+
     [[nodiscard]] Link& link_of(Direction direction)
     {
         return direction == Direction::up ? up_ : down_;

@@ -4,7 +4,7 @@
 
 #include "emulator/core/delay/theory.hpp"
 #include "emulator/core/loss/loss.hpp"
-#include "emulator/core/slab.hpp"
+#include "emulator/core/queue_limits.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
@@ -175,8 +175,10 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
                                    stream.bytes, at_rate, load_of(conditions, stream) / 1e6));
     }
     if (prediction.statistics.dropped_by(DropCause::queue_full) > 0) {
-        list.push_back(fmt::format("more would be in flight than the emulator holds ({} datagrams, "
-                                   "fewer large ones): the rest is dropped as queue_full",
+        list.push_back(fmt::format("more would be in flight than the emulator holds (--in-flight "
+                                   "{}, {} datagrams): the rest is dropped as queue_full, and the "
+                                   "run is not valid",
+                                   base::size_text(QueueLimits{}.bytes_max),
                                    QueueLimits{}.datagrams_max));
     }
     return list;

@@ -220,6 +220,29 @@ TEST(Emulator, RelaysOverIpv6)
     EXPECT_EQ(emulator.stop()["b"], b.endpoint().to_text());
 }
 
+TEST(Emulator, IsNotValidWhenItHasNoRoomForWhatIsInFlight)
+{
+    Host a;
+    Host b;
+    Emulator emulator{naming(a, b, {"--delay", "10min", "--in-flight", "1MiB"})};
+    const std::vector<std::byte> bytes(1200);
+    constexpr int room = 16 * 42; // blocks, and datagrams of this size in each
+    for (int i = 0; i < room + 8; ++i) {
+        a.send_bytes(emulator.a(), bytes);
+        if (i % 50 == 0) std::ignore = a.receive(1, 5ms); // it keeps up
+    }
+    std::ignore = a.receive(1, 100ms);
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["in_flight"], room);
+    EXPECT_EQ(statistics["up"]["dropped"]["queue_full"], 8);
+    EXPECT_EQ(statistics["up"]["invalid_because"][0], "the emulator lost 8 as queue_full");
+    EXPECT_EQ(statistics["invalid_because"][0], "up: the emulator lost 8 as queue_full");
+    EXPECT_EQ(statistics["invalid_because"].size(), 1U);
+    EXPECT_EQ(statistics["up"]["valid"], false);
+    EXPECT_EQ(statistics["down"]["valid"], true);
+    EXPECT_EQ(statistics["valid"], false);
+}
+
 TEST(Emulator, SurvivesRandomBytesOfAllSizesOnBothSockets)
 {
     Host a;
