@@ -93,6 +93,7 @@ public:
             relay_.release(now);
             run_.elapsed = now - start_;
             if (adopted) tell(endpoints_line(relay_));
+            while (const auto notice = relay_.next_notice()) tell(*notice);
             if (control_) control_->serve(subject, now, path_.next_due());
             if (stop.reload_requested()) reload(now);
             tell_of_files();
@@ -113,7 +114,12 @@ public:
             failure = std::current_exception();
         }
         if (stats_) {
-            stats_->commit(statistics_json(run_));
+            try {
+                stats_->commit(statistics_json(run_));
+            } catch (const std::system_error&) { // they are worth more than their place
+                failure = std::current_exception();
+                fmt::print("{}", statistics_json(run_));
+            }
         } else if (run_.options.stats) {
             fmt::print("{}", statistics_json(run_));
         }
@@ -168,7 +174,7 @@ private:
         if (has_told_of_files_ || !recorder_.has_failed()) return;
         has_told_of_files_ = true;
         tell("what this run records cannot be written any more (is the disk full?): the run goes "
-             "on, but its files will be missing");
+             "on, but its files will end here");
     }
 
     void tell(const std::string& line) const

@@ -40,10 +40,10 @@ public:
 
     /// Takes the next datagram of a direction, which arrived at `arrival`; see Link::on_packet().
     Admission on_packet(Direction direction, std::span<const std::byte> bytes,
-                        base::TimePoint arrival)
+                        base::TimePoint arrival, bool has_destination = true)
     {
         advance(arrival);
-        return link_of(direction).on_packet(bytes, arrival);
+        return link_of(direction).on_packet(bytes, arrival, has_destination);
     }
 
     /// A datagram of a direction that is due at `now`, the earliest first.

@@ -40,14 +40,16 @@ Link::Link(const Conditions& conditions, const Setup& setup)
     displaced_.reserve(displaced_max);
 }
 
-Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival)
+Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
+                          bool has_destination)
 {
     last_arrival_ = std::max(arrival, last_arrival_);
     advance(last_arrival_);
     const Packet packet{statistics_.received, bytes.size(), last_arrival_ - setup_.start};
     const Datagram datagram{
         .number = packet.number, .arrival = last_arrival_, .due = last_arrival_, .bytes = bytes};
-    const Fate fate = fate_of(packet);
+    Fate fate = fate_of(packet);
+    if (!has_destination) fate = without_destination(fate);
     Admission admission{packet.number, fate, fate.drop, {}};
     ++statistics_.received;
     statistics_.bytes_in += bytes.size();

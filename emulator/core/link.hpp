@@ -59,7 +59,9 @@ public:
 
     /// Takes the next datagram of this direction, which arrived at `arrival`, and says what is to
     /// become of it. A queue or Order::keep may make it leave later than its fate says.
-    Admission on_packet(std::span<const std::byte> bytes, base::TimePoint arrival);
+    /// Without a destination it is dropped, after the laws have judged it.
+    Admission on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
+                        bool has_destination = true);
 
     /// A datagram that is due at `now`, the earliest first; nullopt when there is none. It comes
     /// back through on_sent() or on_failed(), once; until then it counts as in flight.

@@ -6,8 +6,11 @@
 #include "proto/net/clock.hpp"
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <span>
+#include <spdlog/fmt/fmt.h>
+#include <utility>
 
 namespace hapnet::emulator::ports {
 
@@ -49,20 +52,16 @@ public:
 
     void flush()
     {
+        if (count_ == 0) return;
         const auto& destination = to_.filter.address();
-        if (count_ > 0 && destination) {
-            const auto outcomes = to_.socket.send_batch(*destination, {bytes_.data(), count_});
-            const auto at = net::monotonic_now();
-            for (std::size_t i = 0; i < count_; ++i) {
-                if (outcomes[i] == net::SendOutcome::sent) {
-                    on_sent(departures_[i], at, *destination);
-                } else {
-                    path_.on_failed(direction_, departures_[i], cause_of(outcomes[i]));
-                }
-            }
-        } else {
-            for (std::size_t i = 0; i < count_; ++i) {
-                path_.on_failed(direction_, departures_[i], DropCause::no_destination);
+        base::ensure(destination.has_value()); // without one, no datagram is admitted
+        const auto outcomes = to_.socket.send_batch(*destination, {bytes_.data(), count_});
+        const auto at = net::monotonic_now();
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (outcomes[i] == net::SendOutcome::sent) {
+                on_sent(departures_[i], at, *destination);
+            } else {
+                path_.on_failed(direction_, departures_[i], cause_of(outcomes[i]));
             }
         }
         count_ = 0;
@@ -108,11 +107,12 @@ int Relay::pass(Side& from, Side& to)
         const Sender sender =
             is_own ? Sender::unknown : from.filter.classify(datagram.from, datagram.at);
         if (sender == Sender::unknown) {
-            ++from.strangers;
+            from.on_stranger(datagram.from, datagram.at, is_own);
             continue;
         }
         if (sender == Sender::adopted) ++adopted;
-        const Admission admission = path_.on_packet(from.direction, datagram.bytes, datagram.at);
+        const Admission admission = path_.on_packet(from.direction, datagram.bytes, datagram.at,
+                                                    to.filter.address().has_value());
         recorder_.on_fate(from.direction, admission.number, admission.fate);
         if (recorder_.captures()) {
             Fate fate = admission.fate;
@@ -157,12 +157,53 @@ Relay::Side::Side(CaptureSide which, const net::Endpoint& listen,
       link{from_here}
 {}
 
+void Relay::Side::on_stranger(const net::Endpoint& who, base::TimePoint at, bool is_own)
+{
+    ++strangers;
+    if (!notice.permits(at)) return;
+    stranger = Stranger{who, filter.address(), filter.heard_at(), filter.adopts(), is_own, at};
+}
+
 Relay::Relay(const Endpoints& endpoints, EmulatedPath& path, Recorder& recorder)
     : path_{path},
       recorder_{recorder},
       a_{CaptureSide::a, endpoints.listen_a, endpoints.a, path.link(Direction::up)},
       b_{CaptureSide::b, endpoints.listen_b, endpoints.b, path.link(Direction::down)}
 {}
+
+namespace {
+
+std::string notice_of(const Relay::Side& side, const Relay::Stranger& stranger)
+{
+    const char name = side.side == CaptureSide::a ? 'a' : 'b';
+    const auto said = fmt::format("{} sends to --listen-{} {}", stranger.who.to_text(), name,
+                                  side.local.to_text());
+    if (stranger.is_own) {
+        return fmt::format("{}: dropped, as it names the emulator's own address as its sender",
+                           said);
+    }
+    if (!stranger.adopts) {
+        return fmt::format(
+            "{0}: dropped, as only {1} may; to let it in, start again with --{2} {3}", said,
+            stranger.owner->to_text(), name, stranger.who.to_text());
+    }
+    const std::chrono::duration<double, std::milli> ago{stranger.at - stranger.owner_heard};
+    return fmt::format("{}: dropped, as {} has that side and was heard {:.0f} ms ago; another "
+                       "sender is taken when it has been silent for 1 s",
+                       said, stranger.owner->to_text(), ago.count());
+}
+
+} // namespace
+
+std::optional<std::string> Relay::next_notice()
+{
+    for (Side* side : {&a_, &b_}) {
+        if (const auto stranger = std::exchange(side->stranger, std::nullopt)) {
+            return notice_of(*side, *stranger);
+        }
+    }
+    return std::nullopt;
+}
 
 int Relay::receive() { return pass(a_, b_) + pass(b_, a_); }
 

@@ -55,6 +55,15 @@ std::vector<std::uint64_t> survivors(const std::vector<std::string>& options, st
     return numbers;
 }
 
+int times_in(const std::string& text, std::string_view words)
+{
+    int times = 0;
+    for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
+        ++times;
+    }
+    return times;
+}
+
 /// Sends a datagram that names `from` as its sender; false where that is not allowed.
 bool send_forged(const net::Endpoint& from, const net::Endpoint& to)
 {
@@ -164,6 +173,8 @@ TEST(Emulator, AdoptsAnewWhenTheAdoptedOneHasBeenSilentForASecond)
         EXPECT_EQ(b.receive(1, 1s).size(), 1U);
     }
     restarted.send(emulator.a(), 1);
+    ASSERT_TRUE(emulator.process().wait_for_err(
+        "another sender is taken when it has been silent for 1 s", 5s));
     EXPECT_EQ(b.receive(2, 300ms).size(), 1U);
     EXPECT_FALSE(emulator.process().wait_exit(900ms)); // goes on running, for more than a second
     restarted.send(emulator.a(), 2);
@@ -184,6 +195,10 @@ TEST(Emulator, CountsAndDropsStrangers)
     a.send(emulator.b(), 8); // known, but not on this side
     a.send(emulator.a(), 9);
     EXPECT_EQ(numbers_of(b.receive(1, 1s)), (std::vector<std::uint64_t>{9}));
+    const auto said = stranger.endpoint().to_text() + " sends to --listen-a " +
+                      emulator.a().to_text() + ": dropped, as only " + a.endpoint().to_text();
+    ASSERT_TRUE(emulator.process().wait_for_err(said, 5s));
+    EXPECT_EQ(times_in(emulator.process().err(), "--listen-a"), 1); // not for each datagram
     const auto statistics = emulator.stop();
     EXPECT_EQ(statistics["up"]["strangers"], 5);
     EXPECT_EQ(statistics["down"]["strangers"], 4);

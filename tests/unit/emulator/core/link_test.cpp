@@ -187,6 +187,19 @@ TEST(Link, HoldsTheDatagramsOfASatelliteLinkByDefault)
     }
 }
 
+TEST(Link, DropsWhatHasNoDestinationAndSaysSoInItsFateUnlessALawDropsItFirst)
+{
+    Link link = link_of({.loss = {ListedLoss{{1}}}, .delay = constant(1s)});
+    const auto first = link.on_packet(payload, start, /*has_destination*/ false);
+    EXPECT_EQ(first.drop, DropCause::no_destination);
+    EXPECT_EQ(first.fate, Fate{.drop = DropCause::no_destination});
+    EXPECT_FALSE(first.fate.is_lost());
+    EXPECT_EQ(link.on_packet(payload, start, false).fate.drop, DropCause::listed_loss);
+    EXPECT_FALSE(link.on_packet(payload, start, true).drop);
+    EXPECT_EQ(link.statistics().dropped_by(DropCause::no_destination), 1U);
+    EXPECT_EQ(link.statistics().in_flight, 1U);
+}
+
 TEST(Link, DoesNotHoldUpTheNextDatagramBehindOneThatDidNotFit)
 {
     Link link = link_of({.delay = constant(1s), .jitter = uniform(1s)}, {.datagrams_max = 1});
