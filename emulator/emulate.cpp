@@ -37,10 +37,6 @@ namespace {
 
 constexpr std::string_view program = "hapnet-emulator";
 
-constexpr std::string_view spin_warning =
-    "--timing spin may take a whole core. When another program needs that core, the kernel stops "
-    "the emulator for about 50 ms in each second: give it a core of its own, or use precise";
-
 void say(std::string_view text) { net::say(program, text); }
 
 /// One run, from bound sockets to written files. Everything but the recorder's writing happens on
@@ -97,7 +93,7 @@ public:
             if (control_) control_->serve(subject, now, path_.next_due());
             if (stop.reload_requested()) reload(now);
             tell_of_files();
-            status_.show(run_, now);
+            status_.show([this] { return status_line(run_); }, now);
         }
         status_.clear();
     }

@@ -6,6 +6,7 @@
 #include "emulator/tools/predict.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
+#include "proto/net/address_set.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/program.hpp"
 
@@ -57,6 +58,16 @@ struct Options {
     std::optional<std::string> control; // the path of a Unix socket
 };
 
+/// A run for any client of a server: `hapnet-emulator --listen ... --upstream HOST:PORT`
+struct UpstreamOptions {
+    net::HostPort listen;
+    net::HostPort upstream;
+    std::vector<net::AddressPattern> allowed; // none: loopback
+    std::size_t clients_max = 64;
+    base::Duration idle = std::chrono::seconds{60};
+    Options run; // its ends and the files of single datagrams are not used
+};
+
 /// `hapnet-emulator check PROFILE`
 struct CheckOptions {
     ConditionOptions conditions;
@@ -79,7 +90,8 @@ struct VerifyOptions {
     bool as_json = false;
 };
 
-using AnyOptions = std::variant<Options, CheckOptions, PredictOptions, VerifyOptions>;
+using AnyOptions =
+    std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions, VerifyOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

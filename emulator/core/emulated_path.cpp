@@ -17,7 +17,8 @@ Link make_link(const Path& path, const EmulatedPath::Setup& setup,
                      .start = setup.start,
                      .limits = setup.limits,
                      .slab = slab,
-                     .has_stream_statistics = setup.has_stream_statistics};
+                     .has_stream_statistics = setup.has_stream_statistics,
+                     .name = setup.name};
     if (setup.replay) {
         const auto& fates = is_up ? setup.replay->up : setup.replay->down;
         link.replay.emplace(std::shared_ptr<const std::vector<Fate>>{setup.replay, &fates});

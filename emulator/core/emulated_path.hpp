@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace hapnet::emulator {
 
@@ -28,6 +29,7 @@ public:
         std::shared_ptr<Slab> slab{};          // null: one for both, as large as the limits say
         std::shared_ptr<const Fates> replay{}; // null: fates are drawn
         bool has_stream_statistics = true;     // false: they are not asked for
+        std::string name{};                    // where there are several; see Pipeline
     };
 
     EmulatedPath(const Profile& profile, const Setup& setup);

@@ -31,7 +31,7 @@ void apply(const Flips& flips, std::span<std::byte> bytes)
 Link::Link(const Conditions& conditions, const Setup& setup)
     : conditions_{conditions},
       setup_{setup},
-      pipeline_{conditions, setup.seed, setup.direction},
+      pipeline_{conditions, setup.seed, setup.direction, setup.name},
       slab_{setup.slab ? setup.slab : std::make_shared<Slab>(setup.limits.bytes_max)},
       line_{setup.limits.datagrams_max},
       bottleneck_{conditions.rate, setup.limits.datagrams_max},

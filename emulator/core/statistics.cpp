@@ -22,6 +22,20 @@ std::uint64_t Statistics::dropped_total() const
     return std::accumulate(dropped.begin(), dropped.end(), std::uint64_t{0});
 }
 
+void Statistics::add(const Statistics& other)
+{
+    received += other.received;
+    delivered += other.delivered;
+    duplicated += other.duplicated;
+    corrupted += other.corrupted;
+    reordered += other.reordered;
+    in_flight += other.in_flight;
+    bytes_in += other.bytes_in;
+    bytes_out += other.bytes_out;
+    for (std::size_t i = 0; i < dropped.size(); ++i) dropped[i] += other.dropped[i];
+    lateness.add(other.lateness);
+}
+
 bool Statistics::is_punctual(base::Duration budget) const
 {
     const auto p99 = lateness.quantile(0.99);

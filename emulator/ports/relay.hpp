@@ -7,6 +7,7 @@
 #include "emulator/core/endpoint_filter.hpp"
 #include "emulator/core/rate_limit.hpp"
 #include "emulator/endpoints.hpp"
+#include "emulator/ports/batch.hpp"
 #include "emulator/recorder.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
@@ -61,6 +62,8 @@ public:
         RateLimit notice{};
         std::optional<Stranger> stranger{}; // one that nobody has been told of
 
+        [[nodiscard]] Exit exit() { return {side, socket, local, filter.address()}; }
+
         void on_stranger(const net::Endpoint& who, base::TimePoint at, bool is_own);
     };
 
@@ -73,7 +76,6 @@ public:
 
 private:
     int pass(Side& from, Side& to);
-    bool send_due(Side& from, Side& to, base::TimePoint now);
 
     EmulatedPath& path_;
     Recorder& recorder_;

@@ -25,6 +25,23 @@ TEST(Statistics, ArePunctualAsLongAsOneInAHundredIsLate)
     EXPECT_FALSE(statistics.is_punctual(1ms));
 }
 
+TEST(Statistics, OfSeveralPathsAddUpToTheSameIdentity)
+{
+    Statistics one;
+    one.received = 10;
+    one.duplicated = 2;
+    one.delivered = 7;
+    one.in_flight = 1;
+    one.dropped_by(DropCause::random_loss) = 4;
+    one.lateness.add(10us);
+    Statistics sum = one;
+    sum.add(one);
+    EXPECT_EQ(sum.received + sum.duplicated, sum.delivered + sum.dropped_total() + sum.in_flight);
+    EXPECT_EQ(sum.received, 20U);
+    EXPECT_EQ(sum.lateness.count(), 2U);
+    EXPECT_EQ(sum.lateness.max(), 10us);
+}
+
 TEST(Statistics, SumDropsOverAllCauses)
 {
     Statistics statistics;
