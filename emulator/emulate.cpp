@@ -48,7 +48,10 @@ public:
           scenario_{scenario},
           recorder_{{options.fates, options.capture}},
           path_{scenario.profile,
-                {.seed = scenario.seed, .start = start_, .replay = scenario.replay}},
+                {.seed = scenario.seed,
+                 .start = start_,
+                 .limits = QueueLimits::within(options.in_flight_bytes),
+                 .replay = scenario.replay}},
           relay_{endpoints, path_, recorder_},
           run_{options, scenario_, path_.director(), relay_, recorder_, {}, {}},
           status_{start_}
@@ -56,12 +59,14 @@ public:
         if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
         if (options.control) control_.emplace(*options.control);
         if (options.duration) end_ = start_ + *options.duration;
-        run_.real_time = net::request_real_time(40); // after the recorder's thread was made
+        // After the recorder's thread was made. Most of the slab is never used.
+        run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
     void announce() const
     {
         if (const auto shortage = run_.real_time.shortage(); !shortage.empty()) say(shortage);
+        if (run_.options.timing == Timing::spin) say(spin_warning);
         for (const std::string& warning : scenario_.warnings) say(warning);
         fmt::print("{}", ready_line(run_));
         std::fflush(stdout);
@@ -84,10 +89,11 @@ public:
             relay_.release(now);
             run_.elapsed = now - start_;
             if (adopted) tell(endpoints_line(relay_));
+            while (const auto notice = relay_.next_notice()) tell(*notice);
             if (control_) control_->serve(subject, now, path_.next_due());
             if (stop.reload_requested()) reload(now);
             tell_of_files();
-            status_.show(run_, now);
+            status_.show([this] { return status_line(run_); }, now);
         }
         status_.clear();
     }
@@ -104,7 +110,12 @@ public:
             failure = std::current_exception();
         }
         if (stats_) {
-            stats_->commit(statistics_json(run_));
+            try {
+                stats_->commit(statistics_json(run_));
+            } catch (const std::system_error&) { // they are worth more than their place
+                failure = std::current_exception();
+                fmt::print("{}", statistics_json(run_));
+            }
         } else if (run_.options.stats) {
             fmt::print("{}", statistics_json(run_));
         }
@@ -159,7 +170,7 @@ private:
         if (has_told_of_files_ || !recorder_.has_failed()) return;
         has_told_of_files_ = true;
         tell("what this run records cannot be written any more (is the disk full?): the run goes "
-             "on, but its files will be missing");
+             "on, but its files will end here");
     }
 
     void tell(const std::string& line) const

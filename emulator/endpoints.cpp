@@ -62,4 +62,37 @@ base::Result<Endpoints> look_up(const Options& options)
     return without_loop({a->listen, b->listen, a->peer, b->peer});
 }
 
+base::Result<ports::Upstream::Places> look_up(const UpstreamOptions& options)
+{
+    const auto listen = net::resolve(options.listen);
+    const auto server = net::resolve(options.upstream);
+    if (server.reaches(listen)) {
+        return base::fail(
+            fmt::format("--upstream {} is where the emulator itself listens: name the "
+                        "server's address",
+                        server.to_text()));
+    }
+    ports::Upstream::Places places{listen, server, {}};
+    if (options.allowed.empty()) {
+        if (!listen.is_loopback()) {
+            return base::fail(fmt::format("--listen {} can be reached from other machines: say who "
+                                          "may use it with --allow, such as --allow 10.0.0.0/8",
+                                          listen.to_text()));
+        }
+        for (const auto& loopback : {net::AddressPattern{"127.0.0.0", std::nullopt, 8},
+                                     net::AddressPattern{"::1", std::nullopt, std::nullopt}}) {
+            if (auto added = places.allowed.add(loopback); !added) {
+                return tl::unexpected{added.error()};
+            }
+        }
+    }
+    for (const auto& pattern : options.allowed) {
+        if (auto added = places.allowed.add(pattern, listen.family()); !added) {
+            return base::fail("--allow " + added.error().message);
+        }
+    }
+    net::require_route(server);
+    return places;
+}
+
 } // namespace hapnet::emulator

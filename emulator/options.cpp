@@ -4,6 +4,7 @@
 
 #include "emulator/core/conditions.hpp"
 #include "emulator/presets.hpp"
+#include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
@@ -25,7 +26,9 @@ constexpr const char* description =
     "leaves from listen-b for B, and the other way round. No root is needed.\n"
     "\n"
     "Without --a and --b the emulator takes the first sender on each side, on loopback only. When "
-    "that sender has been silent for 1 s, another one may take its place.";
+    "that sender has been silent for 1 s, another one may take its place.\n"
+    "\n"
+    "With --listen and --upstream it stands between a server and any number of clients.";
 
 constexpr const char* footer =
     R"(Units are mandatory: ns us ms s min h for times, % for shares, B KiB for sizes, kbit/s Mbit/s
@@ -40,6 +43,7 @@ law depends on time. No datagram leaves before it has arrived.
 
 Examples:
   hapnet-emulator --listen-a :7001 --listen-b :7002 --delay 160ms
+  hapnet-emulator --listen :7001 --upstream 10.0.0.5:53 --delay 80ms --loss 2%
   hapnet-emulator --listen-a 0.0.0.0:7001 --listen-b 0.0.0.0:7002 \
       --a 10.0.0.1:7000 --b 10.0.0.2:7000 --delay 80ms --jitter 5ms \
       --down.loss 10% --seed 42 --duration 30s --stats run.json
@@ -48,9 +52,9 @@ Examples:
   hapnet-emulator predict lte --rate 1000
   hapnet-emulator check --delay 80ms --jitter 15ms
 
-The emulator prints one line "ready a=... b=..." on stdout when it listens; port 0 takes any free
-port. SIGINT or SIGTERM ends the run and writes the files. SIGHUP reads --profile again; without a
-profile it ends the run.)";
+The emulator prints one line "ready a=... b=..." (with --upstream "ready listen=...") on stdout when
+it listens; port 0 takes any free port. SIGINT or SIGTERM ends the run and writes the files. SIGHUP
+reads --profile again; without a profile, or with --upstream, it ends the run.)";
 
 constexpr const char* exit_codes = R"(  0  done
   1  the run failed
@@ -183,6 +187,16 @@ base::Result<Timing> parse_timing(const std::string& text)
     return *meant == "eco" ? Timing::eco : *meant == "spin" ? Timing::spin : Timing::precise;
 }
 
+base::Result<std::size_t> parse_in_flight(const std::string& text)
+{
+    constexpr std::size_t least = std::size_t{1} << 20;
+    constexpr std::size_t most = std::size_t{64} << 30;
+    const auto bytes = base::parse_size(text);
+    if (!bytes) return tl::unexpected{bytes.error()};
+    if (*bytes >= least && *bytes <= most) return static_cast<std::size_t>(*bytes);
+    return base::fail(fmt::format("'{}' is out of range: 1MiB to 64GiB", text));
+}
+
 base::Result<net::HostPort> parse_host(const std::string& text)
 {
     auto host = net::parse_host_port(text);
@@ -194,14 +208,12 @@ base::Result<net::HostPort> parse_host(const std::string& text)
 
 void add_run_options(cli::Command& program, Options& options)
 {
-    program
-        .option("--listen-a", "ADDRESS", "Where A sends to: HOST:PORT; :PORT listens on loopback",
-                cli::into(options.listen_a, net::parse_listen_address))
-        .required("127.0.0.1:7001");
-    program
-        .option("--listen-b", "ADDRESS", "Where B sends to",
-                cli::into(options.listen_b, net::parse_listen_address))
-        .required("127.0.0.1:7002");
+    program.option("--listen-a", "ADDRESS",
+                   "Where A sends to: HOST:PORT; :PORT listens on loopback. Required, as is "
+                   "--listen-b, without --upstream",
+                   cli::into(options.listen_a, net::parse_listen_address));
+    program.option("--listen-b", "ADDRESS", "Where B sends to",
+                   cli::into(options.listen_b, net::parse_listen_address));
     program.option("--a", "HOST:PORT", "Address of A (default: the first sender)",
                    cli::into(options.a, parse_host));
     program.option("--b", "HOST:PORT", "Address of B (default: the first sender)",
@@ -213,12 +225,19 @@ void add_run_options(cli::Command& program, Options& options)
     add_conditions(program, options.conditions, /*own_rate*/ false);
     program.option("--timing", "eco|precise|spin",
                    "eco: sleep until a datagram is due. precise (default): wake shortly before, by "
-                   "as much as this machine needs, and watch the clock. spin: wake 200 us before",
+                   "as much as this machine needs, and watch the clock, as long as 70 % of a core "
+                   "are enough. spin: wake 200 us before, without that limit; needs a core of its "
+                   "own",
                    cli::into(options.timing, parse_timing));
     program.option("--budget", "TIME",
                    "The run is valid when 99 % of the datagrams in each direction leave at most "
                    "this late (default 1ms)",
                    cli::into(options.budget, base::Time{}));
+    program.option("--in-flight", "SIZE",
+                   "Memory for the datagrams in flight, of both directions together (default "
+                   "256MiB). It holds a datagram for each KiB, or 65 536, of each direction; what "
+                   "finds no room is dropped as queue_full",
+                   cli::into(options.in_flight_bytes, parse_in_flight));
     program.option("--duration", "TIME", "End after this time (default: run until stopped)",
                    cli::into(options.duration, base::Time{}));
     program.option("--stats", "FILE", "Write statistics to FILE at the end; - is stdout",
@@ -237,6 +256,50 @@ void add_run_options(cli::Command& program, Options& options)
                    "Listen on this Unix socket for hapnet-ctl, which shows and changes the "
                    "conditions while the emulator runs",
                    cli::into(options.control));
+}
+
+constexpr const char* clients_group = "Any client of a server, instead of A and B";
+
+/// Patterns, one after the other.
+cli::Take allow_into(std::vector<net::AddressPattern>& into)
+{
+    return [&into](const std::string& text) -> base::Result<void> {
+        auto pattern = net::parse_address_pattern(text);
+        if (!pattern) return tl::unexpected{pattern.error()};
+        into.push_back(*std::move(pattern));
+        return {};
+    };
+}
+
+void add_upstream_options(cli::Command& program, UpstreamOptions& options)
+{
+    constexpr std::uint64_t clients_most = 1024;
+    program
+        .option("--upstream", "HOST:PORT",
+                "The server. Each address that sends to --listen gets a path of its own to it: up "
+                "is to the server",
+                cli::into(options.upstream, parse_host))
+        .under(clients_group);
+    program
+        .option("--listen", "ADDRESS", "Where its clients send to",
+                cli::into(options.listen, net::parse_listen_address))
+        .under(clients_group);
+    program
+        .option(
+            "--allow", "HOST|NET/BITS",
+            "Who may be a client, such as 10.0.0.0/8; may be repeated. Required unless --listen "
+            "is on loopback",
+            allow_into(options.allowed))
+        .repeated()
+        .under(clients_group);
+    program
+        .option("--clients", "NUMBER", "How many at a time at most (default 64)",
+                cli::into(options.clients_max, base::Count{1, clients_most}))
+        .under(clients_group);
+    program
+        .option("--idle", "TIME", "Forget a client that has been silent for so long (default 1min)",
+                cli::into(options.idle, base::Time{}))
+        .under(clients_group);
 }
 
 /// The spacing of datagrams that come "1000" or "1000/s".
@@ -352,9 +415,47 @@ base::Result<void> require_own_addresses(const Options& options)
                                   a.host, a.port));
 }
 
-net::CommandLine<AnyOptions> checked(Options options)
+base::Result<void> require_addresses(const cli::Command& program)
 {
-    auto fine = require_own_addresses(options);
+    const std::array required{std::pair{"--listen-a", "127.0.0.1:7001"},
+                              std::pair{"--listen-b", "127.0.0.1:7002"}};
+    for (const auto& [option, example] : required) {
+        if (program.is_given(option)) continue;
+        return base::fail(
+            fmt::format("{0} is required: {0} {1}, or --listen and --upstream for any "
+                        "client of a server",
+                        option, example));
+    }
+    for (const char* option : {"--listen", "--allow", "--clients", "--idle"}) {
+        if (!program.is_given(option)) continue;
+        return base::fail(fmt::format("{} goes with --upstream HOST:PORT", option));
+    }
+    return {};
+}
+
+/// What has no meaning, or none yet, with many clients.
+base::Result<void> require_upstream(const cli::Command& program)
+{
+    for (const char* option : {"--listen-a", "--listen-b", "--a", "--b"}) {
+        if (!program.is_given(option)) continue;
+        return base::fail(fmt::format("{} and --upstream exclude each other: clients send to "
+                                      "--listen",
+                                      option));
+    }
+    for (const char* option : {"--fates", "--replay", "--pcap", "--control"}) {
+        if (!program.is_given(option)) continue;
+        return base::fail(fmt::format("{} is for one pair, and --upstream has many: use --listen-a "
+                                      "and --listen-b with it",
+                                      option));
+    }
+    if (program.is_given("--listen")) return {};
+    return base::fail("--listen is required: --listen 127.0.0.1:7001");
+}
+
+net::CommandLine<AnyOptions> checked(Options options, const cli::Command& program)
+{
+    auto fine = require_addresses(program);
+    if (fine) fine = require_own_addresses(options);
     if (fine) fine = require_own_files(options);
     if (!fine) return tl::unexpected{fine.error()};
     return AnyOptions{std::move(options)};
@@ -380,6 +481,8 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     program.add_exit_codes(exit_codes);
     Options options;
     add_run_options(program, options);
+    UpstreamOptions through;
+    add_upstream_options(program, through);
 
     cli::Command& check = program.command("check", "Describes a profile, stage by stage");
     check.describe(check_description);
@@ -414,7 +517,12 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
     if (is_list) return net::Answer{preset_list('\n')};
     if (verify.is_chosen()) return AnyOptions{std::move(verifying)};
-    if (!check.is_chosen() && !predict.is_chosen()) return checked(std::move(options));
+    if (!check.is_chosen() && !predict.is_chosen()) {
+        if (!program.is_given("--upstream")) return checked(std::move(options), program);
+        if (auto fine = require_upstream(program); !fine) return tl::unexpected{fine.error()};
+        through.run = std::move(options);
+        return AnyOptions{std::move(through)};
+    }
     const auto fine = check.is_chosen() ? require_conditions(checking.conditions, check)
                                         : require_conditions(predicting.conditions, predict);
     if (!fine) return tl::unexpected{fine.error()};

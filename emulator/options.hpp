@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/queue_limits.hpp"
 #include "emulator/tools/predict.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
+#include "proto/net/address_set.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/program.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -47,11 +50,22 @@ struct Options {
     std::optional<std::string> replay; // fates to apply instead of drawing
     Timing timing = Timing::precise;
     base::Duration budget = std::chrono::milliseconds{1};
+    std::size_t in_flight_bytes = QueueLimits{}.bytes_max;
     std::optional<base::Duration> duration; // nullopt: until SIGINT or SIGTERM
     std::optional<std::string> stats;       // a file, or "-" for stdout
     std::optional<std::string> fates;
     std::optional<std::string> capture;
     std::optional<std::string> control; // the path of a Unix socket
+};
+
+/// A run for any client of a server: `hapnet-emulator --listen ... --upstream HOST:PORT`
+struct UpstreamOptions {
+    net::HostPort listen;
+    net::HostPort upstream;
+    std::vector<net::AddressPattern> allowed; // none: loopback
+    std::size_t clients_max = 64;
+    base::Duration idle = std::chrono::seconds{60};
+    Options run; // its ends and the files of single datagrams are not used
 };
 
 /// `hapnet-emulator check PROFILE`
@@ -76,7 +90,8 @@ struct VerifyOptions {
     bool as_json = false;
 };
 
-using AnyOptions = std::variant<Options, CheckOptions, PredictOptions, VerifyOptions>;
+using AnyOptions =
+    std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions, VerifyOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

@@ -24,13 +24,23 @@ SleepPolicy::Margin margin_of(Timing timing)
     return {};
 }
 
+/// Whoever asks for spin is warned, and gets it.
+SleepPolicy::Watching watching_of(Timing timing)
+{
+    return timing == Timing::spin ? SleepPolicy::Watching::without_limit
+                                  : SleepPolicy::Watching::within_budget;
+}
+
 } // namespace
 
-Pacer::Pacer(Timing timing, base::TimePoint now) : policy_{margin_of(timing), now} {}
+Pacer::Pacer(Timing timing, base::TimePoint now)
+    : policy_{margin_of(timing), now, watching_of(timing)}
+{}
 
 void Pacer::wait(std::span<const int> descriptors, std::optional<base::TimePoint> deadline)
 {
     const auto before = net::monotonic_now();
+    if (policy_.wants_usage(before)) policy_.on_usage(net::thread_processor_time(), before);
     const auto plan = policy_.plan(deadline, before);
     if (const auto* spin = std::get_if<SleepPolicy::Spin>(&plan)) {
         if (!spin->warm_up) return;

@@ -9,8 +9,14 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace hapnet::emulator {
+
+/// What `spin` risks.
+inline constexpr std::string_view spin_warning =
+    "--timing spin may take a whole core. When another program needs that core, the kernel stops "
+    "the emulator for about 50 ms in each second: give it a core of its own, or use precise";
 
 /// Waits for datagrams and deadlines as SleepPolicy decides.
 class Pacer {

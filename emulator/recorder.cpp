@@ -237,9 +237,16 @@ void Recorder::finish()
     if (!thread_.joinable()) return;
     stop_.store(true, std::memory_order_release);
     thread_.join();
-    if (failure_) std::rethrow_exception(failure_);
-    if (fates_) fates_->finish();
-    if (capture_) capture_->file.commit({});
+    try {
+        if (failure_) std::rethrow_exception(failure_);
+        if (fates_) fates_->finish();
+        if (capture_) capture_->file.commit({});
+    } catch (...) {
+        failed_.store(true, std::memory_order_release);
+        if (fates_) fates_->file.keep();
+        if (capture_) capture_->file.keep();
+        throw;
+    }
 }
 
 } // namespace hapnet::emulator

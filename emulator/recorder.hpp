@@ -65,7 +65,8 @@ public:
     [[nodiscard]] bool has_failed() const { return failed_.load(std::memory_order_acquire); }
 
     /// Writes all that was handed over and puts the files into their places. Throws what the
-    /// thread failed of. Nothing may be handed over any more.
+    /// thread failed of; what it had written until then is in its place. Nothing may be handed over
+    /// any more.
     void finish();
 
 private:

@@ -10,6 +10,7 @@
 #include "proto/base/time.hpp"
 #include "proto/net/real_time.hpp"
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace hapnet::emulator {
@@ -30,6 +31,9 @@ struct Run {
 
 /// Who is on each side: "a is 127.0.0.1:5000, b is not known yet".
 [[nodiscard]] std::string endpoints_line(const ports::Relay& relay);
+
+/// What of each direction differs from the default, as a profile says it.
+[[nodiscard]] nlohmann::ordered_json configuration_json(const Path& path);
 
 /// What --stats writes: one JSON object.
 [[nodiscard]] std::string statistics_json(const Run& run);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/report.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/program.hpp"
 
@@ -22,11 +21,12 @@ public:
 
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_; }
 
-    void show(const Run& run, base::TimePoint now)
+    /// `line` gives the line, when it is time for one.
+    void show(const auto& line, base::TimePoint now)
     {
         if (!base::is_due(next_, now)) return;
         next_ = now + std::chrono::milliseconds{500};
-        net::tell(fmt::format("\r{}\x1b[K", status_line(run)));
+        net::tell(fmt::format("\r{}\x1b[K", line()));
     }
 
     /// Makes room for another line.

@@ -15,4 +15,11 @@ namespace hapnet::emulator {
 [[nodiscard]] nlohmann::ordered_json json_in_ms(const std::optional<Moments>& moments);
 [[nodiscard]] nlohmann::ordered_json json_in_ms(const std::optional<Quantiles>& quantiles);
 
+/// The value, or null where it is unknown.
+template <typename T>
+[[nodiscard]] nlohmann::ordered_json or_null(const std::optional<T>& value)
+{
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
 } // namespace hapnet::emulator

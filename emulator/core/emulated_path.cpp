@@ -8,14 +8,17 @@ namespace hapnet::emulator {
 
 namespace {
 
-Link make_link(const Path& path, const EmulatedPath::Setup& setup, Direction direction)
+Link make_link(const Path& path, const EmulatedPath::Setup& setup,
+               const std::shared_ptr<Slab>& slab, Direction direction)
 {
     const bool is_up = direction == Direction::up;
     Link::Setup link{.seed = setup.seed,
                      .direction = direction,
                      .start = setup.start,
                      .limits = setup.limits,
-                     .has_stream_statistics = setup.has_stream_statistics};
+                     .slab = slab,
+                     .has_stream_statistics = setup.has_stream_statistics,
+                     .name = setup.name};
     if (setup.replay) {
         const auto& fates = is_up ? setup.replay->up : setup.replay->down;
         link.replay.emplace(std::shared_ptr<const std::vector<Fate>>{setup.replay, &fates});
@@ -26,9 +29,15 @@ Link make_link(const Path& path, const EmulatedPath::Setup& setup, Direction dir
 } // namespace
 
 EmulatedPath::EmulatedPath(const Profile& profile, const Setup& setup)
+    : EmulatedPath{profile, setup,
+                   setup.slab ? setup.slab : std::make_shared<Slab>(setup.limits.bytes_max)}
+{}
+
+EmulatedPath::EmulatedPath(const Profile& profile, const Setup& setup,
+                           const std::shared_ptr<Slab>& slab)
     : director_{profile, setup.start},
-      up_{make_link(director_.path(), setup, Direction::up)},
-      down_{make_link(director_.path(), setup, Direction::down)}
+      up_{make_link(director_.path(), setup, slab, Direction::up)},
+      down_{make_link(director_.path(), setup, slab, Direction::down)}
 {}
 
 base::Result<void> EmulatedPath::apply(const Command& command, base::TimePoint now)

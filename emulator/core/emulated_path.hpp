@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace hapnet::emulator {
 
@@ -25,8 +26,10 @@ public:
         base::Seed seed{1};
         base::TimePoint start{};               // time 0 of all that depends on time
         QueueLimits limits{};                  // of each direction
+        std::shared_ptr<Slab> slab{};          // null: one for both, as large as the limits say
         std::shared_ptr<const Fates> replay{}; // null: fates are drawn
         bool has_stream_statistics = true;     // false: they are not asked for
+        std::string name{};                    // where there are several; see Pipeline
     };
 
     EmulatedPath(const Profile& profile, const Setup& setup);
@@ -39,10 +42,10 @@ public:
 
     /// Takes the next datagram of a direction, which arrived at `arrival`; see Link::on_packet().
     Admission on_packet(Direction direction, std::span<const std::byte> bytes,
-                        base::TimePoint arrival)
+                        base::TimePoint arrival, bool has_destination = true)
     {
         advance(arrival);
-        return link_of(direction).on_packet(bytes, arrival);
+        return link_of(direction).on_packet(bytes, arrival, has_destination);
     }
 
     /// A datagram of a direction that is due at `now`, the earliest first.
@@ -85,6 +88,8 @@ public:
     }
 
 private:
+    EmulatedPath(const Profile& profile, const Setup& setup, const std::shared_ptr<Slab>& slab);
+
     [[nodiscard]] Link& link_of(Direction direction)
     {
         return direction == Direction::up ? up_ : down_;

@@ -49,6 +49,12 @@ public:
     /// nullopt until an endpoint is adopted.
     [[nodiscard]] const std::optional<Address>& address() const { return address_; }
 
+    /// When its last datagram came.
+    [[nodiscard]] base::TimePoint heard_at() const { return heard_; }
+
+    /// Whether another sender may take the place of a silent one.
+    [[nodiscard]] bool adopts() const { return adopts_; }
+
 private:
     std::optional<Address> address_;
     bool adopts_;

@@ -29,7 +29,7 @@ enum class DropCause : std::uint8_t {
     rate_queue_full,  // the drop-tail queue of the configured rate
     replay_ended,     // more datagrams than the fates that are replayed
     queue_full,       // our own bound: too much in flight
-    no_destination,   // the other side is not known yet
+    no_destination,   // the other side was not known yet when it arrived
     no_route,         // the system knew no way to the other side
     refused,          // the other side's machine said that nobody listens there
     too_big,          // larger than the way out carries
@@ -96,7 +96,8 @@ inline constexpr std::size_t loss_laws_max = 8;
 
 /// What is to become of a datagram: delivered, or dropped for a cause. A pure function of the seed,
 /// the direction, the conditions and the numbers of the datagrams, and for laws that depend on time
-/// of the arrivals; what the queues make of it is not part of it.
+/// of the arrivals; what the queues make of it is not part of it. One that is delivered by all laws
+/// is dropped nevertheless as long as there is nobody on the other side: no_destination.
 struct Fate {
     std::optional<DropCause> drop{}; // nullopt: it is delivered
     // Of a delivered one; of a dropped one all of these are as they stand here.
@@ -107,7 +108,18 @@ struct Fate {
 
     std::array<LossState, loss_laws_max> states{}; // of the laws, in the order of their list
 
+    /// Whether the conditions, or a replay, drop it.
+    [[nodiscard]] bool is_lost() const { return drop && *drop != DropCause::no_destination; }
+
     friend bool operator==(const Fate&, const Fate&) = default;
 };
+
+/// The same of a datagram that has no destination: the first cause counts, and the states of the
+/// laws stay.
+[[nodiscard]] inline Fate without_destination(const Fate& fate)
+{
+    if (fate.drop) return fate;
+    return {.drop = DropCause::no_destination, .states = fate.states};
+}
 
 } // namespace hapnet::emulator

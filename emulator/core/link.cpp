@@ -31,8 +31,8 @@ void apply(const Flips& flips, std::span<std::byte> bytes)
 Link::Link(const Conditions& conditions, const Setup& setup)
     : conditions_{conditions},
       setup_{setup},
-      pipeline_{conditions, setup.seed, setup.direction},
-      slab_{setup.limits},
+      pipeline_{conditions, setup.seed, setup.direction, setup.name},
+      slab_{setup.slab ? setup.slab : std::make_shared<Slab>(setup.limits.bytes_max)},
       line_{setup.limits.datagrams_max},
       bottleneck_{conditions.rate, setup.limits.datagrams_max},
       last_arrival_{setup.start}
@@ -40,14 +40,16 @@ Link::Link(const Conditions& conditions, const Setup& setup)
     displaced_.reserve(displaced_max);
 }
 
-Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival)
+Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
+                          bool has_destination)
 {
     last_arrival_ = std::max(arrival, last_arrival_);
     advance(last_arrival_);
     const Packet packet{statistics_.received, bytes.size(), last_arrival_ - setup_.start};
     const Datagram datagram{
         .number = packet.number, .arrival = last_arrival_, .due = last_arrival_, .bytes = bytes};
-    const Fate fate = fate_of(packet);
+    Fate fate = fate_of(packet);
+    if (!has_destination) fate = without_destination(fate);
     Admission admission{packet.number, fate, fate.drop, {}};
     ++statistics_.received;
     statistics_.bytes_in += bytes.size();
@@ -90,9 +92,10 @@ bool Link::passes_untouched(const Fate& fate) const
 
 bool Link::hold(Datagram datagram, const Fate& fate)
 {
-    if (!store(datagram)) return false;
+    const auto stored = store(datagram);
+    if (!stored) return false;
     if (fate.flips.count > 0) {
-        apply(fate.flips, slab_.bytes(datagram.slot));
+        apply(fate.flips, *stored);
         ++statistics_.corrupted;
     }
     if (bottleneck_.is_on() || !bottleneck_.is_idle()) {
@@ -103,16 +106,31 @@ bool Link::hold(Datagram datagram, const Fate& fate)
     return true;
 }
 
-/// Gives the datagram a copy of its bytes that is ours.
-bool Link::store(Datagram& datagram)
+/// Gives the datagram a copy of its bytes that is ours, and returns it.
+std::optional<std::span<std::byte>> Link::store(Datagram& datagram)
 {
-    if (slab_.used() >= setup_.limits.datagrams_max) return false;
-    const auto slot = slab_.store(datagram.bytes);
-    if (!slot) return false;
-    datagram.slot = *slot;
-    datagram.bytes = slab_.bytes(*slot);
+    if (held_datagrams_ >= setup_.limits.datagrams_max) return std::nullopt;
+    const auto stored = slab_->store(datagram.bytes);
+    if (!stored) return std::nullopt;
+    if (held_bytes_ + stored->slot_bytes > setup_.limits.bytes_max) {
+        slab_->release(stored->slot);
+        return std::nullopt;
+    }
+    held_bytes_ += stored->slot_bytes;
+    ++held_datagrams_;
+    datagram.slot = stored->slot;
+    datagram.bytes = stored->bytes;
     ++statistics_.in_flight;
-    return true;
+    return stored->bytes;
+}
+
+/// The datagram has left, or will not leave.
+void Link::release(const Datagram& datagram)
+{
+    --statistics_.in_flight;
+    if (datagram.slot == Slab::no_slot) return;
+    --held_datagrams_;
+    held_bytes_ -= slab_->release(datagram.slot);
 }
 
 /// Finds the time at which a datagram is to leave that was ready for its delay when it was due.
@@ -202,7 +220,6 @@ std::optional<base::TimePoint> Link::next_deadline() const
 
 void Link::on_sent(const Datagram& datagram, base::TimePoint at)
 {
-    --statistics_.in_flight;
     ++statistics_.delivered;
     statistics_.bytes_out += datagram.bytes.size();
     statistics_.lateness.add(at - datagram.due);
@@ -212,14 +229,13 @@ void Link::on_sent(const Datagram& datagram, base::TimePoint at)
     } else if (!datagram.is_copy) {
         ++statistics_.reordered;
     }
-    if (datagram.slot != Slab::no_slot) slab_.release(datagram.slot);
+    release(datagram);
 }
 
 void Link::on_failed(const Datagram& datagram, DropCause cause)
 {
-    --statistics_.in_flight;
     ++statistics_.dropped_by(cause);
-    if (datagram.slot != Slab::no_slot) slab_.release(datagram.slot);
+    release(datagram);
 }
 
 void Link::change(const Conditions& conditions, base::TimePoint now)

@@ -9,6 +9,7 @@
 #include "emulator/core/fate.hpp"
 #include "emulator/core/fates/replay.hpp"
 #include "emulator/core/pipeline.hpp"
+#include "emulator/core/queue_limits.hpp"
 #include "emulator/core/slab.hpp"
 #include "emulator/core/statistics.hpp"
 #include "emulator/core/stream_statistics.hpp"
@@ -17,8 +18,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -34,7 +37,8 @@ struct Admission {
 };
 
 /// One direction of an emulated path. Does no I/O and reads no clock: feed it with on_packet(),
-/// drain it with poll(), and call again by next_deadline(). All memory is taken at construction.
+/// drain it with poll(), and call again by next_deadline(). All memory is taken at construction;
+/// what is still in flight at the end stays in the slab.
 class Link {
 public:
     struct Setup {
@@ -42,15 +46,24 @@ public:
         Direction direction = Direction::up;
         base::TimePoint start{}; // time 0 of windows and periods
         QueueLimits limits{};
+        std::shared_ptr<Slab> slab{};      // for the bytes in flight; null: one of its own
         std::optional<Replay> replay{};    // gives the fates instead of the conditions
         bool has_stream_statistics = true; // false: they are not asked for
+        std::string name{};                // of the path, where there are several: "client/1"
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
+    Link(Link&&) = default;
+    Link& operator=(Link&&) = default;
+    Link(const Link&) = delete; // two would use each other's slots
+    Link& operator=(const Link&) = delete;
+    ~Link() = default;
 
     /// Takes the next datagram of this direction, which arrived at `arrival`, and says what is to
     /// become of it. A queue or Order::keep may make it leave later than its fate says.
-    Admission on_packet(std::span<const std::byte> bytes, base::TimePoint arrival);
+    /// Without a destination it is dropped, after the laws have judged it.
+    Admission on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
+                        bool has_destination = true);
 
     /// A datagram that is due at `now`, the earliest first; nullopt when there is none. It comes
     /// back through on_sent() or on_failed(), once; until then it counts as in flight.
@@ -78,7 +91,8 @@ private:
     [[nodiscard]] bool is_over_rate(const Datagram& datagram, const Fate& fate);
     [[nodiscard]] bool passes_untouched(const Fate& fate) const;
     [[nodiscard]] bool hold(Datagram datagram, const Fate& fate);
-    [[nodiscard]] bool store(Datagram& datagram);
+    [[nodiscard]] std::optional<std::span<std::byte>> store(Datagram& datagram);
+    void release(const Datagram& datagram);
     void schedule(Datagram datagram, const Fate& fate);
     void schedule_copy(Datagram copy, base::Duration after);
     void put(const Datagram& datagram);
@@ -93,7 +107,9 @@ private:
     Conditions conditions_;
     Setup setup_;
     Pipeline pipeline_;
-    Slab slab_;
+    std::shared_ptr<Slab> slab_;
+    std::size_t held_datagrams_ = 0; // in the slab
+    std::size_t held_bytes_ = 0;     // of the slab
     DelayLine line_;
     Bottleneck bottleneck_;
     std::vector<Queued> displaced_; // until a later datagram is scheduled (Reordering by places)

@@ -12,9 +12,9 @@ namespace hapnet::emulator {
 
 namespace {
 
-base::RandomStream stream_of(base::Seed seed, Direction direction, std::string_view stage)
+base::RandomStream stream_of(base::Seed seed, std::string_view way, std::string_view stage)
 {
-    return seed.stream(fmt::format("{}/{}", to_text(direction), stage));
+    return seed.stream(fmt::format("{}/{}", way, stage));
 }
 
 /// Whether a share of all datagrams includes this one. A stage that is absent draws nothing.
@@ -25,18 +25,20 @@ bool is_drawn(base::Probability share, const base::RandomStream& stream, std::ui
 
 } // namespace
 
-Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction direction)
+Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction direction,
+                   std::string_view path)
     : seed_{seed},
-      direction_{direction},
+      way_{path.empty() ? std::string{to_text(direction)}
+                        : fmt::format("{}/{}", path, to_text(direction))},
       mtu_{conditions.mtu},
       corrupt_{conditions.corrupt},
-      corrupt_stream_{stream_of(seed, direction, "corrupt")},
+      corrupt_stream_{stream_of(seed, way_, "corrupt")},
       duplicate_{conditions.duplicate},
-      duplicate_stream_{stream_of(seed, direction, "duplicate")},
-      delay_{conditions.delay, stream_of(seed, direction, "delay")},
-      jitter_{conditions.jitter, stream_of(seed, direction, "jitter")},
+      duplicate_stream_{stream_of(seed, way_, "duplicate")},
+      delay_{conditions.delay, stream_of(seed, way_, "delay")},
+      jitter_{conditions.jitter, stream_of(seed, way_, "jitter")},
       reorder_{conditions.reorder},
-      reorder_stream_{stream_of(seed, direction, "reorder")}
+      reorder_stream_{stream_of(seed, way_, "reorder")}
 {
     change_losses(conditions.loss);
 }
@@ -115,7 +117,7 @@ Pipeline::LossStage Pipeline::loss_stage(const std::vector<LossLaw>& laws, std::
     const LawIndex position = index_of(laws, index);
     auto name = fmt::format("loss/{}", name_of(laws[index]));
     if (position.occurrence > 1) name += fmt::format("#{}", position.occurrence);
-    return {position, {laws[index], stream_of(seed_, direction_, name)}};
+    return {position, {laws[index], stream_of(seed_, way_, name)}};
 }
 
 void Pipeline::change_losses(const std::vector<LossLaw>& laws)

@@ -9,6 +9,8 @@
 #include "emulator/core/packet.hpp"
 #include "proto/base/random.hpp"
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -22,7 +24,9 @@ namespace hapnet::emulator {
 /// reorder. The rate and the order of departure are kept by Link.
 class Pipeline {
 public:
-    Pipeline(const Conditions& conditions, base::Seed seed, Direction direction);
+    /// The streams of a path with a name begin with it: "client/1/up/jitter".
+    Pipeline(const Conditions& conditions, base::Seed seed, Direction direction,
+             std::string_view path = {});
 
     /// Packets are shown in the order of their numbers, none left out.
     [[nodiscard]] Fate on_packet(const Packet& packet);
@@ -51,7 +55,7 @@ private:
     [[nodiscard]] base::Duration draw_copy(std::uint64_t number) const;
 
     base::Seed seed_;
-    Direction direction_;
+    std::string way_; // what the names of its streams begin with
     Mtu mtu_;
     std::vector<LossStage> loss_;
     Corruption corrupt_;

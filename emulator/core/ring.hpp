@@ -10,40 +10,48 @@
 
 namespace hapnet::emulator {
 
-/// A first-in-first-out queue of bounded size whose memory is taken at construction.
+/// A first-in-first-out queue of bounded size whose memory is reserved at construction; a part
+/// that has never been used is never touched.
 template <typename T>
 class Ring {
 public:
-    explicit Ring(std::size_t size_max) : entries_(std::bit_ceil(size_max)) {}
+    explicit Ring(std::size_t size_max) : mask_{std::bit_ceil(size_max) - 1}
+    {
+        entries_.reserve(mask_ + 1);
+    }
 
     [[nodiscard]] bool empty() const { return size_ == 0; }
     [[nodiscard]] std::size_t size() const { return size_; }
-    [[nodiscard]] bool full() const { return size_ == entries_.size(); }
+    [[nodiscard]] bool full() const { return size_ > mask_; }
 
     void push(const T& entry)
     {
-        base::ensure(size_ < entries_.size());
-        entries_[(first_ + size_) & mask()] = entry;
+        base::ensure(!full());
+        const std::size_t place = (first_ + size_) & mask_;
+        if (place == entries_.size()) { // for the first time: they come in order
+            entries_.push_back(entry);
+        } else {
+            entries_[place] = entry;
+        }
         ++size_;
     }
 
     [[nodiscard]] T& front() { return entries_[first_]; }
     [[nodiscard]] const T& front() const { return entries_[first_]; }
-    [[nodiscard]] const T& back() const { return entries_[(first_ + size_ - 1) & mask()]; }
+    [[nodiscard]] const T& back() const { return entries_[(first_ + size_ - 1) & mask_]; }
 
     T pop()
     {
         base::ensure(size_ > 0);
         const T entry = entries_[first_];
-        first_ = (first_ + 1) & mask();
+        first_ = (first_ + 1) & mask_;
         --size_;
         return entry;
     }
 
 private:
-    [[nodiscard]] std::size_t mask() const { return entries_.size() - 1; }
-
-    std::vector<T> entries_; // a power of two of them
+    std::size_t mask_;       // a power of two, less one
+    std::vector<T> entries_; // those that have ever been used
     std::size_t first_ = 0;
     std::size_t size_ = 0;
 };

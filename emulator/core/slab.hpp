@@ -12,47 +12,77 @@
 
 namespace hapnet::emulator {
 
-/// How much one direction holds at a time.
-struct QueueLimits {
-    /// 65 s of a 1 kHz stream, or 160 ms of 400 kHz.
-    std::size_t datagrams_max = 65'536;
-};
-
-/// Memory for the bytes of the datagrams in flight, all of it reserved at construction: storing
-/// never allocates, and what has never been used costs no memory either (the system gives pages
-/// on first use). Three sizes of slots: for datagrams up to 256, 2048 and 65536 bytes, a quarter
-/// as many of the second as of the first, and up to 128 of the last.
+/// Memory for the bytes of the datagrams in flight, of all links that share it. All of it is
+/// reserved at construction: storing never allocates, and what has never been used costs no memory
+/// either (the system gives pages on first use).
+///
+/// It is cut into blocks of 64 KiB. A block has slots of one size, the smallest of a few that holds
+/// the datagram which needed it, and is free for any size again when its last slot is.
 class Slab {
 public:
     using Slot = std::uint32_t;
     static constexpr Slot no_slot = 0xffff'ffff;
+    static constexpr std::size_t block_bytes = std::size_t{64} << 10;
+    /// So that slots have a number.
+    static constexpr std::size_t bytes_limit = std::size_t{256} << 30;
 
-    explicit Slab(QueueLimits limits);
+    /// At least one block, at most `bytes_limit`; a part of a block is not used.
+    explicit Slab(std::size_t bytes_max);
 
-    /// A copy of `bytes` (at most 65536) in the smallest free slot that holds them; nullopt when
-    /// there is none.
-    [[nodiscard]] std::optional<Slot> store(std::span<const std::byte> bytes);
-
-    [[nodiscard]] std::span<std::byte> bytes(Slot slot);
-
-    /// The slot is free from now on.
-    void release(Slot slot);
-
-    [[nodiscard]] std::size_t used() const { return used_; }
-
-private:
-    struct SizeClass {
-        std::size_t slot_bytes = 0;
-        Slot first = 0;
-        std::unique_ptr<std::byte[]> memory; // NOLINT(*-avoid-c-arrays): not filled with zeros
-        std::vector<Slot> free;
+    struct Stored {
+        Slot slot = no_slot;
+        std::span<std::byte> bytes; // the copy
+        std::size_t slot_bytes = 0; // what it takes of the memory
     };
 
-    [[nodiscard]] SizeClass& class_of(Slot slot);
+    /// A copy of `bytes` (at most 65536); nullopt when there is no room.
+    [[nodiscard]] std::optional<Stored> store(std::span<const std::byte> bytes);
 
-    std::array<SizeClass, 3> classes_;
-    std::vector<std::uint32_t> lengths_; // by slot
-    std::size_t used_ = 0;
+    /// The slot is free from now on. Returns how much of the memory that is.
+    std::size_t release(Slot slot);
+
+private:
+    static constexpr std::array<std::uint32_t, 10> sizes{128,  256,  512,  1024,   1536,
+                                                         2048, 4096, 8192, 16'384, 65'536};
+    static constexpr auto capacities = [] { // in slots
+        std::array<std::uint32_t, sizes.size()> each{};
+        for (std::size_t i = 0; i < sizes.size(); ++i) {
+            each[i] = static_cast<std::uint32_t>(block_bytes) / sizes[i];
+        }
+        return each;
+    }();
+    /// So many numbers a block has for its slots; those of the smallest size need all of them.
+    static constexpr std::uint32_t slots_max = block_bytes / sizes.front();
+    static constexpr std::uint32_t none = 0xffff'ffff;
+
+    /// A free slot holds the index of the next free one of its block.
+    using Index = std::uint16_t;
+    static constexpr Index no_index = 0xffff;
+
+    struct Block {
+        std::uint32_t previous = none; // among the blocks of its size that have room
+        std::uint32_t next = none;     // the same, or the next free block
+        Index used = 0;                // slots
+        Index touched = 0;             // slots that have ever been used since the block was free
+        Index free = no_index;         // the first of those of them that are free
+        std::uint8_t size = 0;         // which of `sizes`
+    };
+
+    [[nodiscard]] static std::uint8_t size_for(std::size_t bytes);
+    [[nodiscard]] std::optional<std::uint32_t> block_with_room(std::uint8_t size);
+    [[nodiscard]] Index take_index(Block& block, std::byte* memory);
+    void open(std::uint32_t number);
+    void close(std::uint32_t number);
+    [[nodiscard]] std::byte* memory_of(std::uint32_t block) const
+    {
+        return memory_.get() + std::size_t{block} * block_bytes;
+    }
+
+    std::unique_ptr<std::byte[]> memory_; // NOLINT(*-avoid-c-arrays): not filled with zeros
+    std::vector<Block> blocks_;
+    std::array<std::uint32_t, sizes.size()> open_; // the first block of each size that has room
+    std::uint32_t free_ = none;                    // the first free block that has been used
+    std::uint32_t touched_ = 0;                    // the first that has not, and all behind it
 };
 
 } // namespace hapnet::emulator

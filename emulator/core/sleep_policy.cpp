@@ -28,8 +28,12 @@ constexpr base::Duration margin_at_start = 60us;
 
 } // namespace
 
-SleepPolicy::SleepPolicy(Margin limits, base::TimePoint now)
-    : limits_{limits}, margin_{std::clamp(margin_at_start, limits.least, limits.most)}, slept_{now}
+SleepPolicy::SleepPolicy(Margin limits, base::TimePoint now, Watching watching)
+    : limits_{limits},
+      watching_{watching},
+      budget_{now},
+      margin_{std::clamp(margin_at_start, limits.least, limits.most)},
+      slept_{now}
 {}
 
 SleepPolicy::Plan SleepPolicy::plan(std::optional<base::TimePoint> deadline,
@@ -37,7 +41,8 @@ SleepPolicy::Plan SleepPolicy::plan(std::optional<base::TimePoint> deadline,
 {
     if (now - slept_ > awake_max) return Yield{now + rest};
     if (!deadline) return Sleep{};
-    if (*deadline - now > margin_) return Sleep{*deadline - margin_};
+    const auto margin = may_watch() ? margin_ : base::Duration{0};
+    if (*deadline - now > margin) return Sleep{*deadline - margin};
     return Spin{.warm_up = is_cold_ && *deadline - now >= warm_up_time};
 }
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/watch_budget.hpp"
 #include "proto/base/time.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <variant>
 
@@ -15,7 +17,8 @@ namespace hapnet::emulator {
 /// nearly all of them leave time for a warm-up: it grows fast and shrinks slowly.
 ///
 /// It also sees to it that a busy relay sleeps at times: a SCHED_FIFO thread that never sleeps
-/// keeps the kernel from receiving (ksoftirqd).
+/// keeps the kernel from receiving (ksoftirqd), and one that rarely sleeps is stopped for the sake
+/// of other programs. So it spins only as long as a WatchBudget lasts.
 class SleepPolicy {
 public:
     /// The least and the most margin; equal ones fix it.
@@ -23,6 +26,8 @@ public:
         base::Duration least{};
         base::Duration most{};
     };
+
+    enum class Watching : std::uint8_t { within_budget, without_limit };
 
     struct Spin { // return at once and read the clock again
         /// There is time to bring the way of a datagram into the caches, which a sleep has emptied.
@@ -36,7 +41,7 @@ public:
     };
     using Plan = std::variant<Spin, Sleep, Yield>;
 
-    SleepPolicy(Margin limits, base::TimePoint now);
+    SleepPolicy(Margin limits, base::TimePoint now, Watching watching = Watching::within_budget);
 
     /// What to do at `now` before `deadline`; nullopt: there is none.
     [[nodiscard]] Plan plan(std::optional<base::TimePoint> deadline, base::TimePoint now) const;
@@ -50,13 +55,29 @@ public:
     /// How `plan` went.
     void on_wake_up(const Plan& plan, const WakeUp& wake_up);
 
+    /// Whether on_usage() is to be called.
+    [[nodiscard]] bool wants_usage(base::TimePoint now) const { return budget_.wants_usage(now); }
+
+    /// The relay's thread has used so much processor time since it began.
+    void on_usage(base::Duration processor_time, base::TimePoint now)
+    {
+        budget_.on_usage(processor_time, now);
+    }
+
     /// The warm-up that was planned has been done.
     void on_warm_up() { is_cold_ = false; }
 
     [[nodiscard]] base::Duration margin() const { return margin_; }
 
 private:
+    [[nodiscard]] bool may_watch() const
+    {
+        return watching_ == Watching::without_limit || budget_.permits();
+    }
+
     Margin limits_;
+    Watching watching_;
+    WatchBudget budget_;
     base::Duration margin_;
     base::TimePoint slept_; // when a real sleep last ended
     bool is_cold_ = false;  // since then

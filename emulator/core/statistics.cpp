@@ -22,7 +22,21 @@ std::uint64_t Statistics::dropped_total() const
     return std::accumulate(dropped.begin(), dropped.end(), std::uint64_t{0});
 }
 
-bool Statistics::is_valid(base::Duration budget) const
+void Statistics::add(const Statistics& other)
+{
+    received += other.received;
+    delivered += other.delivered;
+    duplicated += other.duplicated;
+    corrupted += other.corrupted;
+    reordered += other.reordered;
+    in_flight += other.in_flight;
+    bytes_in += other.bytes_in;
+    bytes_out += other.bytes_out;
+    for (std::size_t i = 0; i < dropped.size(); ++i) dropped[i] += other.dropped[i];
+    lateness.add(other.lateness);
+}
+
+bool Statistics::is_punctual(base::Duration budget) const
 {
     const auto p99 = lateness.quantile(0.99);
     return !p99 || *p99 <= budget;

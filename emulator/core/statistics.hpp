@@ -29,9 +29,12 @@ struct Statistics {
     [[nodiscard]] std::uint64_t dropped_by(DropCause cause) const;
     [[nodiscard]] std::uint64_t dropped_total() const;
 
+    /// Adds up the directions of several paths.
+    void add(const Statistics& other);
+
     /// Whether the emulator's own timing error is tolerable: 99 % left at most `budget` late, or
     /// nothing left at all.
-    [[nodiscard]] bool is_valid(base::Duration budget) const;
+    [[nodiscard]] bool is_punctual(base::Duration budget) const;
 
     /// How many left more than `budget` late.
     [[nodiscard]] std::uint64_t late_beyond(base::Duration budget) const;

@@ -5,7 +5,9 @@
 #include "emulator/core/capture/pcapng.hpp"
 #include "emulator/core/emulated_path.hpp"
 #include "emulator/core/endpoint_filter.hpp"
+#include "emulator/core/rate_limit.hpp"
 #include "emulator/endpoints.hpp"
+#include "emulator/ports/batch.hpp"
 #include "emulator/recorder.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
@@ -13,6 +15,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace hapnet::emulator::ports {
 
@@ -34,6 +37,16 @@ public:
     /// not have to wait long. What is left is still due.
     void release(base::TimePoint now);
 
+    /// Somebody whose datagram was dropped, and why.
+    struct Stranger {
+        net::Endpoint who;
+        std::optional<net::Endpoint> owner; // of this side
+        base::TimePoint owner_heard{};
+        bool adopts = false; // this side takes another one when its owner is silent
+        bool is_own = false; // forged
+        base::TimePoint at{};
+    };
+
     /// One side of the relay, and the direction that begins there.
     struct Side {
         Side(CaptureSide which, const net::Endpoint& listen,
@@ -46,13 +59,23 @@ public:
         EndpointFilter<net::Endpoint> filter;
         const Link& link;            // of that direction
         std::uint64_t strangers = 0; // datagrams from any other address, our own among them
+        RateLimit notice{};
+        std::optional<Stranger> stranger{}; // one that nobody has been told of
+
+        [[nodiscard]] Exit exit() { return {side, socket, local, filter.address()}; }
+
+        void on_stranger(const net::Endpoint& who, base::TimePoint at, bool is_own);
     };
+
+    /// A stranger of either side that somebody should be told of, once for each; nullopt: there is
+    /// none. After one no other of its side is named for a while.
+    [[nodiscard]] std::optional<std::string> next_notice();
+
     [[nodiscard]] const Side& a() const { return a_; }
     [[nodiscard]] const Side& b() const { return b_; }
 
 private:
     int pass(Side& from, Side& to);
-    bool send_due(Side& from, Side& to, base::TimePoint now);
 
     EmulatedPath& path_;
     Recorder& recorder_;

@@ -4,7 +4,7 @@
 
 #include "emulator/core/delay/theory.hpp"
 #include "emulator/core/loss/loss.hpp"
-#include "emulator/core/slab.hpp"
+#include "emulator/core/queue_limits.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
@@ -70,7 +70,10 @@ std::string variation_in_words(std::string_view name, const Variation& variation
     std::string text =
         fmt::format("{} {}: mean {}", name, name_of(variation.law), in_ms(theory.mean()));
     text += theory.sd() ? fmt::format(", sd {}", in_ms(*theory.sd())) : ", sd infinite";
-    if (variation.correlation_time > base::Duration{0}) {
+    if (const auto* traced = std::get_if<TraceLaw>(&variation.law)) {
+        text += traced->trace->is_by_time() ? ", each datagram as its time in the file says"
+                                            : ", the n-th datagram as the n-th value says";
+    } else if (variation.correlation_time > base::Duration{0}) {
         text += fmt::format(", correlated over {}", in_ms(variation.correlation_time));
     } else {
         text += ", each datagram on its own";
@@ -95,6 +98,19 @@ std::string reorder_in_words(const Reordering& reorder)
                        displacement.places > 0
                            ? fmt::format("after {} later ones", displacement.places)
                            : fmt::format("{} behind their turn", in_ms(displacement.time)));
+}
+
+/// What would keep the order without making the delay longer. A trace has the correlation that was
+/// recorded.
+std::string_view remedy_of(const Conditions& conditions)
+{
+    const auto is_trace = [](const Variation& variation) {
+        return std::holds_alternative<TraceLaw>(variation.law);
+    };
+    if (is_trace(conditions.delay) || is_trace(conditions.jitter)) return "";
+    return conditions.jitter.correlation_time > base::Duration{0}
+               ? "a longer correlation_time keeps order, mean and sd, and "
+               : "a correlation_time (100ms, say) keeps order, mean and sd, and ";
 }
 
 bool varies(const Variation& variation)
@@ -152,13 +168,10 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
         prediction.added_by_queues > noticeable) {
         list.push_back(fmt::format(
             "keeping the order makes the mean {} longer and the sd {} instead of {} {}, with {} of "
-            "the gaps below 50 us; {} keeps order, mean and sd, and order = \"free\" reorders",
+            "the gaps below 50 us; {}order = \"free\" reorders",
             in_ms(prediction.added_by_queues), in_ms(*measured.delay->sd),
             in_ms(*measured.requested_delay->sd), at_rate,
-            in_percent(measured.clumped_share.value_or(0.0)),
-            conditions.jitter.correlation_time > base::Duration{0}
-                ? "a longer correlation_time"
-                : "a correlation_time (100ms, say)"));
+            in_percent(measured.clumped_share.value_or(0.0)), remedy_of(conditions)));
     }
     if (has_jitter && conditions.order == Order::free && measured.reordered > 0) {
         const auto delivered =
@@ -175,8 +188,10 @@ std::vector<std::string> warnings(const Conditions& conditions, const Stream& st
                                    stream.bytes, at_rate, load_of(conditions, stream) / 1e6));
     }
     if (prediction.statistics.dropped_by(DropCause::queue_full) > 0) {
-        list.push_back(fmt::format("more would be in flight than the emulator holds ({} datagrams, "
-                                   "fewer large ones): the rest is dropped as queue_full",
+        list.push_back(fmt::format("more would be in flight than the emulator holds (--in-flight "
+                                   "{}, {} datagrams): the rest is dropped as queue_full, and the "
+                                   "run is not valid",
+                                   base::size_text(QueueLimits{}.bytes_max),
                                    QueueLimits{}.datagrams_max));
     }
     return list;

@@ -11,7 +11,11 @@ std::vector<std::string> SessionFiles::invalid_because() const
         if (reason.is_string()) reasons.push_back(reason.get<std::string>());
     }
     if (!emulator.value("valid", false)) {
-        reasons.emplace_back("the emulator was later than its budget");
+        const auto why = emulator.value("invalid_because", nlohmann::ordered_json::array());
+        for (const auto& reason : why) {
+            if (reason.is_string()) reasons.push_back("emulator: " + reason.get<std::string>());
+        }
+        if (why.empty()) reasons.emplace_back("the emulator was later than its budget");
     }
     return reasons;
 }

@@ -24,7 +24,7 @@ public:
     static constexpr base::TimePoint start{std::chrono::seconds{1000}};
     /// The default bound on the datagrams in a link: 1 s of them, which fit into a processor's
     /// cache. Memory for the emulator's own bound would take longer to set up than a session takes.
-    static constexpr emulator::QueueLimits few{1024};
+    static constexpr emulator::QueueLimits few{.datagrams_max = 1024, .bytes_max = 4U << 20};
 
     /// One pair. The setting must be valid: see validate().
     explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);

@@ -37,6 +37,13 @@ void DurationHistogram::add(Duration duration)
     max_ = std::max(max_, nanoseconds);
 }
 
+void DurationHistogram::add(const DurationHistogram& other)
+{
+    for (std::size_t i = 0; i < bins; ++i) counts_[i] += other.counts_[i];
+    count_ += other.count_;
+    max_ = std::max(max_, other.max_);
+}
+
 std::optional<Duration> DurationHistogram::quantile(double q) const
 {
     ensure(q > 0.0 && q <= 1.0);

@@ -17,6 +17,8 @@ namespace hapnet::base {
 class DurationHistogram {
 public:
     void add(Duration duration);
+    /// All that another one has counted.
+    void add(const DurationHistogram& other);
 
     [[nodiscard]] std::uint64_t count() const { return count_; }
 

@@ -63,6 +63,9 @@ void Server::serve(const Subject& subject, base::TimePoint now,
         send(*client, now);
         if (client->conversation.is_over() && client->conversation.output().empty()) {
             client.reset();
+        } else if (client->conversation.is_gone()) {
+            let_go(std::move(client->conversation));
+            client.reset();
         } else {
             want(*client, place);
         }
@@ -74,7 +77,7 @@ void Server::attend(const net::Ready& ready)
     if (ready.key == listener_key) return admit();
     auto& client = clients_[ready.key];
     if (!client) return;
-    if (ready.is_readable) {
+    if (ready.is_readable && client->conversation.room() > 0) {
         take(*client);
     } else if (ready.is_gone) {
         client->conversation.on_gone();
@@ -124,6 +127,17 @@ void Server::answer_one(const Subject& subject, base::TimePoint now)
         turn_ = (turn_ + i + 1) % clients_max;
         has_more_ = true;
     }
+    if (has_more_ || departed_.empty()) return;
+    departed_.front().advance(subject, now);
+    if (departed_.front().is_over()) departed_.pop_front();
+    has_more_ = !departed_.empty();
+}
+
+void Server::let_go(Conversation conversation)
+{
+    if (departed_.size() == departed_max) departed_.pop_front();
+    departed_.push_back(std::move(conversation));
+    has_more_ = true;
 }
 
 void Server::send(Client& client, base::TimePoint now)

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,6 +21,9 @@ namespace hapnet::control {
 class Server {
 public:
     static constexpr std::size_t clients_max = 16;
+    /// Those that have hung up leave their place at once. What so many of them have asked before is
+    /// still done, a little at a time; beyond that the oldest requests are given up.
+    static constexpr std::size_t departed_max = 16;
 
     /// What its clients may cost whoever serves them.
     struct Limits {
@@ -55,13 +59,15 @@ private:
     void answer_one(const Subject& subject, base::TimePoint now);
     static void send(Client& client, base::TimePoint now);
     void want(Client& client, std::size_t place);
+    void let_go(Conversation conversation);
 
     net::UnixListener listener_;
     Limits limits_;
     net::WaitSet wait_set_;
     std::array<std::optional<Client>, clients_max> clients_;
-    std::size_t turn_ = 0;  // whose request is looked at first
-    bool has_more_ = false; // somebody's request waits already
+    std::deque<Conversation> departed_; // their clients are gone, what they have asked is not done
+    std::size_t turn_ = 0;              // whose request is looked at first
+    bool has_more_ = false;             // somebody's request waits already
     base::TimePoint last_served_{};
 };
 

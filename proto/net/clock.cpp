@@ -19,6 +19,13 @@ base::TimePoint monotonic_now()
                            std::chrono::nanoseconds{now.tv_nsec}};
 }
 
+base::Duration thread_processor_time()
+{
+    timespec used{};
+    base::ensure(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used) == 0);
+    return std::chrono::seconds{used.tv_sec} + std::chrono::nanoseconds{used.tv_nsec};
+}
+
 double wall_clock_seconds()
 {
     timespec now{};

@@ -14,6 +14,9 @@ namespace hapnet::net {
 /// a shell.
 [[nodiscard]] base::TimePoint monotonic_now();
 
+/// The processor time that the calling thread has used, in the kernel and out of it. A system call.
+[[nodiscard]] base::Duration thread_processor_time();
+
 /// The time of day in seconds since 1970, for manifests, file names, captures
 /// and what outlives a program only.
 [[nodiscard]] double wall_clock_seconds();

@@ -14,7 +14,7 @@ namespace {
 
 /// Locking memory that may yet grow makes later allocations fail once RLIMIT_MEMLOCK is
 /// reached, so ask only where there is no limit.
-bool lock_memory()
+bool lock_memory(Locking locking)
 {
     rlimit limit{};
     if (getrlimit(RLIMIT_MEMLOCK, &limit) != 0) return false;
@@ -22,18 +22,19 @@ bool lock_memory()
         limit.rlim_cur = limit.rlim_max = RLIM_INFINITY;
         if (setrlimit(RLIMIT_MEMLOCK, &limit) != 0) return false;
     }
-    return mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+    const int as_used = locking == Locking::as_used ? MCL_ONFAULT : 0;
+    return mlockall(MCL_CURRENT | MCL_FUTURE | as_used) == 0;
 }
 
 } // namespace
 
-RealTime request_real_time(int priority)
+RealTime request_real_time(int priority, Locking locking)
 {
     RealTime granted;
     const sched_param parameters{.sched_priority = priority};
     granted.fifo = sched_setscheduler(0, SCHED_FIFO, &parameters) == 0;
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); // 1 ns instead of 50 us; always allowed
-    granted.locked_memory = lock_memory();
+    granted.locked_memory = lock_memory(locking);
     return granted;
 }
 

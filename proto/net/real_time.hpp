@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace hapnet::net {
@@ -14,9 +15,13 @@ struct RealTime {
     [[nodiscard]] std::string shortage() const;
 };
 
+/// Which memory is locked: all that is reserved, or each page from its first use on, for a process
+/// that reserves far more than it usually needs.
+enum class Locking : std::uint8_t { at_once, as_used };
+
 /// Asks for SCHED_FIFO at `priority` and the finest timer slack for the calling thread, and for
 /// locked memory for the process. Never fails: says what it got.
-[[nodiscard]] RealTime request_real_time(int priority);
+[[nodiscard]] RealTime request_real_time(int priority, Locking locking = Locking::at_once);
 
 /// The calling thread is one of many again: before long work that nothing waits for.
 void leave_real_time();

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/result_file.hpp"
 
+#include "proto/base/text.hpp"
+
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
+#include <limits>
 #include <spdlog/fmt/fmt.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -19,6 +24,37 @@ namespace {
 [[noreturn]] void refuse(int error, const std::string& path)
 {
     throw std::system_error{error, std::generic_category(), fmt::format("cannot write {}", path)};
+}
+
+/// Whether the process of a "PID" has ended, as far as can be seen from here.
+bool has_ended(std::string_view pid)
+{
+    const auto number = base::parse_count(pid, std::numeric_limits<pid_t>::max());
+    return number && *number > 0 && kill(static_cast<pid_t>(*number), 0) != 0 && errno == ESRCH;
+}
+
+/// Removes what killed processes have left of `path`.
+void remove_leftovers(const std::string& path)
+{
+    namespace fs = std::filesystem;
+    constexpr std::string_view end = ".partial";
+    const fs::path place{path};
+    const auto beginning = place.filename().string() + ".";
+    std::error_code error;
+    const auto folder = place.has_parent_path() ? place.parent_path() : fs::path{"."};
+    for (fs::directory_iterator entry{folder, error}, last; !error && entry != last;
+         entry.increment(error)) {
+        const auto name = entry->path().filename().string();
+        if (name.size() <= beginning.size() + end.size()) continue;
+        if (!name.starts_with(beginning) || !name.ends_with(end)) continue;
+        const auto pid = std::string_view{name}.substr(beginning.size(),
+                                                       name.size() - beginning.size() - end.size());
+        if (!has_ended(pid)) continue;
+        const int descriptor = open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+        if (descriptor < 0) continue;
+        if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) unlink(entry->path().c_str());
+        close(descriptor);
+    }
 }
 
 } // namespace
@@ -37,9 +73,11 @@ ResultFile::ResultFile(std::string path, unsigned mode) : path_{std::move(path)}
         path_ = std::filesystem::canonical(path_, error).string();
         if (error) refuse(error.value(), path_);
     }
+    remove_leftovers(path_);
     temporary_ = fmt::format("{}.{}.partial", path_, getpid());
     descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
     if (descriptor_ < 0) refuse(errno, path_);
+    flock(descriptor_, LOCK_EX | LOCK_NB); // says that somebody is at it, also across containers
 }
 
 ResultFile::~ResultFile()
@@ -51,11 +89,25 @@ ResultFile::~ResultFile()
 
 void ResultFile::append(std::string_view text)
 {
+    const auto length = static_cast<off_t>(text.size());
     while (!text.empty()) {
         const auto count = write(descriptor_, text.data(), text.size());
-        if (count < 0 && errno != EINTR) refuse(errno, path_);
+        if (count < 0 && errno != EINTR) {
+            const int error = errno;
+            if (!temporary_.empty() && ftruncate(descriptor_, length_) == 0) {
+                lseek(descriptor_, length_, SEEK_SET);
+            }
+            refuse(error, path_);
+        }
         if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
     }
+    length_ += length;
+}
+
+void ResultFile::keep() noexcept
+{
+    if (temporary_.empty() || descriptor_ < 0 || length_ == 0) return;
+    if (std::rename(temporary_.c_str(), path_.c_str()) == 0) close(std::exchange(descriptor_, -1));
 }
 
 void ResultFile::commit(std::string_view text)

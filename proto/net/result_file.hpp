@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <sys/types.h>
 
 namespace hapnet::net {
 
@@ -11,6 +12,9 @@ namespace hapnet::net {
 /// name, which is taken at construction, so that a place that cannot be written is found before
 /// the run and not after it. A symbolic link is followed; what is there and is no regular file (a
 /// device, a pipe) is never replaced but written to.
+///
+/// The temporary name is FILE.PID.partial. A process that is killed leaves it behind, with what it
+/// had written; the next one that writes FILE removes it.
 class ResultFile {
 public:
     /// Throws std::system_error naming the file. `mode`: of a new file.
@@ -20,8 +24,13 @@ public:
     ResultFile(const ResultFile&) = delete;
     ResultFile& operator=(const ResultFile&) = delete;
 
-    /// Writes text that the file goes on with. Throws std::system_error.
+    /// Writes text that the file goes on with. Throws std::system_error; then none of it is
+    /// written.
     void append(std::string_view text);
+
+    /// Moves what was written to its place, after append() has failed. Does nothing when that is
+    /// not possible.
+    void keep() noexcept;
 
     /// Writes the text that it ends with and moves the file to its place. Throws
     /// std::system_error.
@@ -30,6 +39,7 @@ public:
 private:
     std::string path_;
     std::string temporary_; // empty: written in place
+    off_t length_ = 0;
     int descriptor_ = -1;
 };
 

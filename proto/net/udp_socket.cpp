@@ -103,7 +103,7 @@ struct UdpSocket::Inbox {
     explicit Inbox(Load load)
     {
         for (std::size_t i = 0; i < batch_max; ++i) {
-            vectors[i] = {.iov_base = payload.data() + i * payload_bytes_max,
+            vectors[i] = {.iov_base = payload.get() + i * payload_bytes_max,
                           .iov_len = payload_bytes_max};
             msghdr& header = headers[i].msg_hdr;
             header.msg_name = &senders[i];
@@ -127,7 +127,7 @@ struct UdpSocket::Inbox {
     /// Cuts a message into its datagrams.
     void put(std::size_t index, std::size_t segment_bytes, base::TimePoint at)
     {
-        const std::span<const std::byte> bytes{payload.data() + index * payload_bytes_max,
+        const std::span<const std::byte> bytes{payload.get() + index * payload_bytes_max,
                                                headers[index].msg_len};
         const Endpoint from{senders[index], headers[index].msg_hdr.msg_namelen};
         const std::size_t step = segment_bytes == 0 ? payload_bytes_max : segment_bytes;
@@ -146,7 +146,9 @@ struct UdpSocket::Inbox {
         overflowed_last = total;
     }
 
-    std::vector<std::byte> payload = std::vector<std::byte>(batch_max * payload_bytes_max);
+    // Not filled with zeros: most of it is never used.
+    std::unique_ptr<std::byte[]> payload = // NOLINT(*-avoid-c-arrays)
+        std::make_unique_for_overwrite<std::byte[]>(batch_max * payload_bytes_max);
     std::array<iovec, batch_max> vectors{};
     std::array<mmsghdr, batch_max> headers{};
     std::array<sockaddr_storage, batch_max> senders{};

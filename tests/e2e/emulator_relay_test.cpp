@@ -55,6 +55,15 @@ std::vector<std::uint64_t> survivors(const std::vector<std::string>& options, st
     return numbers;
 }
 
+int times_in(const std::string& text, std::string_view words)
+{
+    int times = 0;
+    for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
+        ++times;
+    }
+    return times;
+}
+
 /// Sends a datagram that names `from` as its sender; false where that is not allowed.
 bool send_forged(const net::Endpoint& from, const net::Endpoint& to)
 {
@@ -164,6 +173,8 @@ TEST(Emulator, AdoptsAnewWhenTheAdoptedOneHasBeenSilentForASecond)
         EXPECT_EQ(b.receive(1, 1s).size(), 1U);
     }
     restarted.send(emulator.a(), 1);
+    ASSERT_TRUE(emulator.process().wait_for_err(
+        "another sender is taken when it has been silent for 1 s", 5s));
     EXPECT_EQ(b.receive(2, 300ms).size(), 1U);
     EXPECT_FALSE(emulator.process().wait_exit(900ms)); // goes on running, for more than a second
     restarted.send(emulator.a(), 2);
@@ -184,6 +195,10 @@ TEST(Emulator, CountsAndDropsStrangers)
     a.send(emulator.b(), 8); // known, but not on this side
     a.send(emulator.a(), 9);
     EXPECT_EQ(numbers_of(b.receive(1, 1s)), (std::vector<std::uint64_t>{9}));
+    const auto said = stranger.endpoint().to_text() + " sends to --listen-a " +
+                      emulator.a().to_text() + ": dropped, as only " + a.endpoint().to_text();
+    ASSERT_TRUE(emulator.process().wait_for_err(said, 5s));
+    EXPECT_EQ(times_in(emulator.process().err(), "--listen-a"), 1); // not for each datagram
     const auto statistics = emulator.stop();
     EXPECT_EQ(statistics["up"]["strangers"], 5);
     EXPECT_EQ(statistics["down"]["strangers"], 4);
@@ -218,6 +233,29 @@ TEST(Emulator, RelaysOverIpv6)
     stream(a, emulator.a(), 100, 1ms);
     EXPECT_EQ(b.receive(100, 1s).size(), 100U);
     EXPECT_EQ(emulator.stop()["b"], b.endpoint().to_text());
+}
+
+TEST(Emulator, IsNotValidWhenItHasNoRoomForWhatIsInFlight)
+{
+    Host a;
+    Host b;
+    Emulator emulator{naming(a, b, {"--delay", "10min", "--in-flight", "1MiB"})};
+    const std::vector<std::byte> bytes(1200);
+    constexpr int room = 16 * 42; // blocks, and datagrams of this size in each
+    for (int i = 0; i < room + 8; ++i) {
+        a.send_bytes(emulator.a(), bytes);
+        if (i % 50 == 0) std::ignore = a.receive(1, 5ms); // it keeps up
+    }
+    std::ignore = a.receive(1, 100ms);
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["up"]["in_flight"], room);
+    EXPECT_EQ(statistics["up"]["dropped"]["queue_full"], 8);
+    EXPECT_EQ(statistics["up"]["invalid_because"][0], "the emulator lost 8 as queue_full");
+    EXPECT_EQ(statistics["invalid_because"][0], "up: the emulator lost 8 as queue_full");
+    EXPECT_EQ(statistics["invalid_because"].size(), 1U);
+    EXPECT_EQ(statistics["up"]["valid"], false);
+    EXPECT_EQ(statistics["down"]["valid"], true);
+    EXPECT_EQ(statistics["valid"], false);
 }
 
 TEST(Emulator, SurvivesRandomBytesOfAllSizesOnBothSockets)

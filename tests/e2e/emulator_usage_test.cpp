@@ -182,8 +182,9 @@ TEST(EmulatorUsage, WritesStatisticsToStdoutForADash)
 TEST(EmulatorUsage, EndsCleanlyOnEitherSignalWithItsStatisticsWritten)
 {
     for (const int signal_number : {SIGTERM, SIGINT}) {
-        Emulator emulator{{"--delay", "1s"}};
         Host a;
+        Host b;
+        Emulator emulator{{"--delay", "1s", "--b", b.endpoint().to_text()}};
         a.send(emulator.a(), 0);
         a.receive(1, 50ms);
         const auto statistics = emulator.stop(signal_number);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "proto/base/text.hpp"
+#include "proto/net/address_set.hpp"
 #include "proto/net/endpoint.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
@@ -21,5 +22,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         base::ensure(base::parse_probability(base::to_text(*share)).value() == *share);
     }
     std::ignore = net::parse_host_port(text);
+    if (const auto pattern = net::parse_address_pattern(text)) {
+        base::ensure(!pattern->host.empty() && pattern->prefix.value_or(0) <= 128);
+        net::AddressSet set; // of a network, which needs no look-up of names
+        if (pattern->prefix) base::ensure(set.add(*pattern).has_value() != set.empty());
+    }
     return 0;
 }

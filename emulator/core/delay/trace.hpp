@@ -31,6 +31,8 @@ public:
 
     [[nodiscard]] base::Duration at(const Packet& packet) const;
 
+    [[nodiscard]] bool is_by_time() const { return !times_.empty(); }
+
     /// In the order of the trace.
     [[nodiscard]] const std::vector<base::Duration>& delays() const { return delays_; }
 

@@ -102,7 +102,7 @@ LossRecord loss_record(std::span<const Fate> fates, std::size_t laws)
     LossRecord record{.lost = {}, .states = std::vector<std::vector<LossState>>(laws)};
     record.lost.reserve(fates.size());
     for (const Fate& fate : fates) {
-        record.lost.push_back(fate.drop ? 1 : 0);
+        record.lost.push_back(fate.is_lost() ? 1 : 0);
         if (fate.drop == DropCause::mtu) record.is_hidden = true;
         for (std::size_t i = 0; i < laws; ++i) record.states[i].push_back(fate.states[i]);
     }

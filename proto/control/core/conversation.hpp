@@ -51,6 +51,7 @@ public:
 
     /// The client is no longer there: what it has asked is still done, but nobody is answered.
     void on_gone();
+    [[nodiscard]] bool is_gone() const { return is_gone_; }
 
     /// One step: answers one request, or looks at the one that waits. Returns whether it did
     /// something that may be followed by more at once.

@@ -5,10 +5,12 @@
 #include "emulator/core/fates/fates.hpp"
 #include "proto/base/version.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <sys/resource.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -145,6 +147,30 @@ TEST_F(RecorderFiles, OnAFullDiskAreReportedAtTheEnd)
     Recorder recorder{{{}, "/dev/full"}};
     EXPECT_THROW(recorder.finish(), std::system_error);
     EXPECT_TRUE(recorder.has_failed());
+}
+
+TEST_F(RecorderFiles, OnADiskThatFillsUpKeepWhatFoundRoom)
+{
+    std::signal(SIGXFSZ, SIG_IGN); // a file that is too long stands for a full disk
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    rlimit small = before;
+    small.rlim_cur = 300'000;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    {
+        Recorder recorder{{path("fates.csv"), {}}};
+        for (std::uint64_t number = 0; number < 20'000; ++number) { // 600 KB, in several writes
+            recorder.on_fate(Direction::up, number, fate_of(number));
+        }
+        EXPECT_THROW(recorder.finish(), std::system_error);
+        EXPECT_TRUE(recorder.has_failed());
+    }
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto kept = text("fates.csv");
+    EXPECT_GT(kept.size(), 1000U);
+    EXPECT_LE(kept.size(), 300'000U);
+    EXPECT_EQ(kept.back(), '\n'); // whole rows
+    EXPECT_EQ(names(), std::vector<std::string>{"fates.csv"});
 }
 
 TEST(Recorder, WithoutAFileDoesNothing)

@@ -66,6 +66,28 @@ std::vector<Fate> fates(const Conditions& conditions, Direction direction, std::
 
 } // namespace
 
+TEST(Verify, PassesARunWhoseFirstDatagramsHadNoDestinationYet)
+{
+    Claim claim;
+    claim.seed = base::Seed{5};
+    claim.alpha = alpha;
+    claim.path.up.loss = {RandomLoss{30_percent}};
+    Pipeline pipeline{claim.path.up, *claim.seed, Direction::up};
+    std::vector<Fate> fates;
+    for (std::uint64_t number = 0; number < 20'000; ++number) {
+        const Fate drawn = pipeline.on_packet({.number = number});
+        fates.push_back(number < 5000 ? without_destination(drawn) : drawn);
+    }
+    for (const TestResult& result : verify_direction(claim, Direction::up, fates)) {
+        EXPECT_NE(result.outcome, Outcome::failed) << result.name << ": " << result.sentence;
+    }
+    fates[7000] = without_destination(Fate{}); // one that the law had to lose, or not
+    fates[7001] = Fate{.drop = DropCause::random_loss};
+    fates[7002] = Fate{};
+    fates[7003] = Fate{.drop = DropCause::random_loss};
+    EXPECT_EQ(verify_direction(claim, Direction::up, fates).at(0).outcome, Outcome::failed);
+}
+
 TEST(VerifyRejects, AShareThatIsOffByOnePercentOfItself)
 {
     // Over 10^6 datagrams 30.3 % instead of 30 % is 6.5 standard deviations.

@@ -105,36 +105,4 @@ TEST(DelayLine, GivesWhatAPlainSortGivesForAnyTimes)
     }
 }
 
-TEST(Slab, KeepsBytesUntilTheyAreReleased)
-{
-    Slab slab{{.datagrams_max = 4}};
-    const std::array<std::byte, 3> bytes{std::byte{1}, std::byte{2}, std::byte{3}};
-    const auto slot = slab.store(bytes);
-    ASSERT_TRUE(slot);
-    EXPECT_TRUE(std::ranges::equal(slab.bytes(*slot), bytes));
-    EXPECT_EQ(slab.used(), 1U);
-    slab.release(*slot);
-    EXPECT_EQ(slab.used(), 0U);
-}
-
-TEST(Slab, TakesALargerSlotWhenTheSmallOnesAreUsedUpAndNoneWhenAllAre)
-{
-    Slab slab{{.datagrams_max = 4}}; // 4 small, 1 medium, 4 large
-    const std::vector<std::byte> small(256);
-    for (int i = 0; i < 9; ++i) EXPECT_TRUE(slab.store(small)) << i;
-    EXPECT_FALSE(slab.store(small));
-}
-
-TEST(Slab, HoldsTheLargestDatagramAndTheEmptyOne)
-{
-    Slab slab{{.datagrams_max = 2}};
-    const std::vector<std::byte> largest(65'535, std::byte{7});
-    const auto slot = slab.store(largest);
-    ASSERT_TRUE(slot);
-    EXPECT_TRUE(std::ranges::equal(slab.bytes(*slot), largest));
-    const auto empty = slab.store({});
-    ASSERT_TRUE(empty);
-    EXPECT_TRUE(slab.bytes(*empty).empty());
-}
-
 } // namespace hapnet::emulator::delay_line_test

@@ -150,6 +150,56 @@ TEST(Link, DropsAndCountsWhatExceedsItsBound)
     EXPECT_EQ(link.statistics().in_flight, 2U);
 }
 
+TEST(Link, HoldsAsManyBytesAsItsLimitSaysWhateverTheSlabHas)
+{
+    Link::Setup setup{base::Seed{7}, Direction::up, start, {.bytes_max = 4 * 1536 + 256}};
+    setup.slab = std::make_shared<Slab>(std::size_t{1} << 20);
+    Link link{{.delay = constant(1s)}, setup};
+    const std::vector<std::byte> large(1200);
+    const std::vector<std::byte> small(200);
+    for (int i = 0; i < 4; ++i) EXPECT_FALSE(link.on_packet(large, start).drop);
+    EXPECT_EQ(link.on_packet(large, start).drop, DropCause::queue_full);
+    EXPECT_FALSE(link.on_packet(small, start).drop);
+    EXPECT_EQ(link.on_packet(small, start).drop, DropCause::queue_full);
+    link.on_sent(*link.poll(start + 1s), start + 1s);
+    EXPECT_FALSE(link.on_packet(large, start + 1s).drop);
+}
+
+TEST(Link, SharesASlabWithOthers)
+{
+    Link::Setup setup{base::Seed{7}, Direction::up, start, {}};
+    setup.slab = std::make_shared<Slab>(Slab::block_bytes);
+    Link one{{.delay = constant(1s)}, setup};
+    Link other{{.delay = constant(1s)}, setup};
+    const std::vector<std::byte> large(60'000);
+    EXPECT_FALSE(one.on_packet(large, start).drop);
+    EXPECT_EQ(other.on_packet(large, start).drop, DropCause::queue_full);
+    one.on_sent(*one.poll(start + 1s), start + 1s);
+    EXPECT_FALSE(other.on_packet(large, start + 1s).drop);
+}
+
+TEST(Link, HoldsTheDatagramsOfASatelliteLinkByDefault)
+{
+    Link link{{.delay = constant(600ms)}, {base::Seed{7}, Direction::up, start}};
+    const std::vector<std::byte> large(1200);
+    for (int i = 0; i < 18'000; ++i) { // 30 000 a second, 288 Mbit/s
+        EXPECT_FALSE(link.on_packet(large, start + i * 33us).drop);
+    }
+}
+
+TEST(Link, DropsWhatHasNoDestinationAndSaysSoInItsFateUnlessALawDropsItFirst)
+{
+    Link link = link_of({.loss = {ListedLoss{{1}}}, .delay = constant(1s)});
+    const auto first = link.on_packet(payload, start, /*has_destination*/ false);
+    EXPECT_EQ(first.drop, DropCause::no_destination);
+    EXPECT_EQ(first.fate, Fate{.drop = DropCause::no_destination});
+    EXPECT_FALSE(first.fate.is_lost());
+    EXPECT_EQ(link.on_packet(payload, start, false).fate.drop, DropCause::listed_loss);
+    EXPECT_FALSE(link.on_packet(payload, start, true).drop);
+    EXPECT_EQ(link.statistics().dropped_by(DropCause::no_destination), 1U);
+    EXPECT_EQ(link.statistics().in_flight, 1U);
+}
+
 TEST(Link, DoesNotHoldUpTheNextDatagramBehindOneThatDidNotFit)
 {
     Link link = link_of({.delay = constant(1s), .jitter = uniform(1s)}, {.datagrams_max = 1});

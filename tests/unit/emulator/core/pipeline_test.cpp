@@ -49,6 +49,17 @@ TEST(Pipeline, DropsWhatIsLargerThanTheMtuWithItsHeaders)
     EXPECT_EQ(first_fate(conditions, 1473), Fate{.drop = DropCause::mtu});
 }
 
+TEST(Pipeline, OfAPathWithANameDrawsFromStreamsThatBeginWithIt)
+{
+    const Conditions conditions{.loss = {RandomLoss{50_percent}}};
+    Pipeline pipeline{conditions, seed, Direction::up, "client/7"};
+    LossProcess loss{RandomLoss{50_percent}, seed.stream("client/7/up/loss/random")};
+    for (std::uint64_t number = 0; number < 100; ++number) {
+        const Packet packet{number, 96, 1ms};
+        EXPECT_EQ(pipeline.on_packet(packet).drop, loss.on_packet(packet));
+    }
+}
+
 TEST(Pipeline, DrawsFromStreamsNamedByDirectionAndStage)
 {
     const Conditions conditions{

@@ -126,6 +126,61 @@ TEST(SleepPolicy, SettlesWhereAllButAFewWakeUpsLeaveTimeForAWarmUp)
     EXPECT_LE(later, counted / 50);
 }
 
+/// One second of a stream whose datagrams are due every `spacing`, each for `work` of processor
+/// time: how much of that second the thread is awake. Sleeps end as they should.
+base::Duration awake_in_a_second(SleepPolicy policy, base::Duration spacing, base::Duration work)
+{
+    auto now = start;
+    base::Duration used{};
+    base::Duration used_before{};
+    const auto be_awake = [&](base::Duration time) {
+        now += time;
+        used += time;
+    };
+    auto deadline = start + spacing;
+    while (now < start + 2s) {
+        if (now < start + 1s) used_before = used; // what was saved up may be spent first
+        if (policy.wants_usage(now)) policy.on_usage(used, now);
+        const auto plan = policy.plan(deadline, now);
+        if (const auto* sleep = std::get_if<SleepPolicy::Sleep>(&plan)) {
+            const auto slept = now;
+            now = std::max(now, *sleep->until);
+            policy.on_wake_up(plan, {slept, now, false});
+        } else if (const auto* yield = std::get_if<SleepPolicy::Yield>(&plan)) {
+            const auto slept = now;
+            now = yield->until;
+            policy.on_wake_up(plan, {slept, now, false});
+        } else if (now < deadline) {
+            be_awake(1us);
+        }
+        if (now < deadline) continue;
+        be_awake(work);
+        deadline += spacing;
+    }
+    return used - used_before;
+}
+
+TEST(SleepPolicy, WatchesNoMoreThanLeavesOtherProgramsThreeTenthsOfACore)
+{
+    for (const auto spacing : {40us, 60us, 70us, 100us, 200us, 1000us}) {
+        const auto awake = awake_in_a_second(SleepPolicy{fixed, start}, spacing, 10us);
+        EXPECT_LE(awake, 710ms) << spacing.count();
+        EXPECT_GE(awake, std::min<base::Duration>(680ms, 1s / spacing * 69us)) << spacing.count();
+    }
+}
+
+TEST(SleepPolicy, SleepsToTheDeadlineWhereTheWorkAloneTakesMoreThanTheBudget)
+{
+    const auto awake = awake_in_a_second(SleepPolicy{fixed, start}, 50us, 40us);
+    EXPECT_NEAR(base::to_seconds(awake), 0.8, 0.005);
+}
+
+TEST(SleepPolicy, WatchesWithoutLimitWhereThatIsAskedFor)
+{
+    const SleepPolicy policy{fixed, start, SleepPolicy::Watching::without_limit};
+    EXPECT_GE(awake_in_a_second(policy, 60us, 10us), 990ms);
+}
+
 TEST(SleepPolicy, LearnsNothingFromASleepThatADatagramEnded)
 {
     SleepPolicy policy{learning, start};

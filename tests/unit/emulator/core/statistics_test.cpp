@@ -13,16 +13,33 @@ using namespace std::chrono_literals;
 
 } // namespace
 
-TEST(Statistics, OfNothingAreValid) { EXPECT_TRUE(Statistics{}.is_valid(0ns)); }
+TEST(Statistics, OfNothingArePunctual) { EXPECT_TRUE(Statistics{}.is_punctual(0ns)); }
 
-TEST(Statistics, AreValidAsLongAsOneInAHundredIsLate)
+TEST(Statistics, ArePunctualAsLongAsOneInAHundredIsLate)
 {
     Statistics statistics;
     for (int i = 0; i < 99; ++i) statistics.lateness.add(10us);
     statistics.lateness.add(5ms);
-    EXPECT_TRUE(statistics.is_valid(1ms));
+    EXPECT_TRUE(statistics.is_punctual(1ms));
     statistics.lateness.add(5ms);
-    EXPECT_FALSE(statistics.is_valid(1ms));
+    EXPECT_FALSE(statistics.is_punctual(1ms));
+}
+
+TEST(Statistics, OfSeveralPathsAddUpToTheSameIdentity)
+{
+    Statistics one;
+    one.received = 10;
+    one.duplicated = 2;
+    one.delivered = 7;
+    one.in_flight = 1;
+    one.dropped_by(DropCause::random_loss) = 4;
+    one.lateness.add(10us);
+    Statistics sum = one;
+    sum.add(one);
+    EXPECT_EQ(sum.received + sum.duplicated, sum.delivered + sum.dropped_total() + sum.in_flight);
+    EXPECT_EQ(sum.received, 20U);
+    EXPECT_EQ(sum.lateness.count(), 2U);
+    EXPECT_EQ(sum.lateness.max(), 10us);
 }
 
 TEST(Statistics, SumDropsOverAllCauses)

@@ -3,13 +3,16 @@
 #include "proto/net/result_file.hpp"
 
 #include <array>
+#include <csignal>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <string>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -60,6 +63,44 @@ TEST_F(ResultFileTest, KeepsTheOldResultWhenNothingIsCommitted)
     }
     EXPECT_EQ(text_of(path), "old");
     EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(ResultFileTest, KeepsWhatWasWrittenBeforeTheDiskWasFull)
+{
+    const auto path = folder / "result";
+    std::signal(SIGXFSZ, SIG_IGN); // a file that is too long stands for a full disk
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    rlimit small = before;
+    small.rlim_cur = 1000;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    {
+        ResultFile file{path};
+        file.append(std::string(600, 'a'));
+        EXPECT_THROW(file.append(std::string(600, 'b')), std::system_error);
+        EXPECT_FALSE(std::filesystem::exists(path));
+        file.keep();
+    }
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    EXPECT_EQ(text_of(path), std::string(600, 'a')); // no part of what did not fit
+    EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(ResultFileTest, RemovesWhatAKilledProcessLeftOfItsFileAndNothingElse)
+{
+    const pid_t child = fork();
+    if (child == 0) _exit(0);
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    const auto dead = std::to_string(child);
+    const auto alive = std::to_string(getppid());
+    for (const std::string& name : {"result." + dead + ".partial", "result." + alive + ".partial",
+                                    "results." + dead + ".partial", "result." + dead + ".part",
+                                    std::string{"result.x.partial"}}) {
+        std::ofstream{folder / name} << "part";
+    }
+    ResultFile{folder / "result"}.commit("whole");
+    EXPECT_FALSE(std::filesystem::exists(folder / ("result." + dead + ".partial")));
+    EXPECT_EQ(files(), 5U);
 }
 
 TEST_F(ResultFileTest, FollowsASymbolicLinkInsteadOfReplacingIt)

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/ensure.hpp"
+#include "proto/base/time.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// The clients of one server, by the addresses that they send from. Each has a place, which is free
+/// again when it is forgotten, and a number, which is not used again.
+template <typename Address>
+class ClientTable {
+public:
+    ClientTable(std::size_t clients_max, base::Duration idle) : idle_{idle}, places_(clients_max) {}
+
+    /// The place of a client that is known; it has sent at `at`.
+    [[nodiscard]] std::optional<std::size_t> find(const Address& address, base::TimePoint at)
+    {
+        for (std::size_t i = 0; i < places_.size(); ++i) { // mostly the one that was last
+            const std::size_t place = (last_ + i) % places_.size();
+            auto& client = places_[place];
+            if (!client || client->address != address) continue;
+            last_ = place;
+            client->heard = at;
+            return place;
+        }
+        return std::nullopt;
+    }
+
+    /// Takes in a client that is not known; nullopt: there is no place.
+    [[nodiscard]] std::optional<std::size_t> add(const Address& address, base::TimePoint at)
+    {
+        for (std::size_t place = 0; place < places_.size(); ++place) {
+            if (places_[place]) continue;
+            places_[place].emplace(Client{address, ++numbered_, at});
+            return place;
+        }
+        return std::nullopt;
+    }
+
+    /// A number from 1, in the order of the first datagrams.
+    [[nodiscard]] std::uint64_t number(std::size_t place) const { return at(place).number; }
+    [[nodiscard]] const Address& address(std::size_t place) const { return at(place).address; }
+
+    /// When the client will have been silent for so long that it may be forgotten.
+    [[nodiscard]] base::TimePoint idle_at(std::size_t place) const
+    {
+        return at(place).heard + idle_;
+    }
+
+    void forget(std::size_t place)
+    {
+        base::ensure(places_.at(place).has_value());
+        places_[place].reset();
+    }
+
+    [[nodiscard]] bool is_used(std::size_t place) const { return places_[place].has_value(); }
+    [[nodiscard]] std::size_t size_max() const { return places_.size(); }
+    /// Also those that are forgotten.
+    [[nodiscard]] std::uint64_t numbered() const { return numbered_; }
+
+private:
+    struct Client {
+        Address address;
+        std::uint64_t number = 0;
+        base::TimePoint heard{};
+    };
+    [[nodiscard]] const Client& at(std::size_t place) const
+    {
+        base::ensure(places_.at(place).has_value());
+        return *places_[place];
+    }
+
+    base::Duration idle_;
+    std::vector<std::optional<Client>> places_;
+    std::size_t last_ = 0;
+    std::uint64_t numbered_ = 0;
+};
+
+} // namespace hapnet::emulator

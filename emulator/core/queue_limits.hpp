@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+namespace hapnet::emulator {
+
+/// What may be in flight at a time.
+struct QueueLimits {
+    static constexpr std::size_t bytes_by_default = std::size_t{256} << 20;
+    static constexpr std::size_t datagrams_min = 65'536;
+
+    /// Of each direction. The memory for the queues, about 350 bytes a datagram, is reserved for
+    /// as many, and used for as many as there were.
+    std::size_t datagrams_max = datagrams_of(bytes_by_default);
+    /// Of each direction; the size of the slab where it is not shared.
+    std::size_t bytes_max = bytes_by_default;
+
+    /// The limits of a path that has so much memory: a datagram for each KiB, or 65 536.
+    [[nodiscard]] static constexpr QueueLimits within(std::size_t bytes)
+    {
+        return {.datagrams_max = datagrams_of(bytes), .bytes_max = bytes};
+    }
+
+private:
+    static constexpr std::size_t datagrams_of(std::size_t bytes)
+    {
+        return std::max(datagrams_min, bytes >> 10);
+    }
+};
+
+} // namespace hapnet::emulator

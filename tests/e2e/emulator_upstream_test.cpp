@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+// The emulator between a server and any number of clients.
+#include "proto/net/clock.hpp"
+#include "proto/net/udp_socket.hpp"
+#include "tests/e2e/emulator.hpp"
+#include "tests/e2e/process.hpp"
+#include "tests/e2e/udp.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <gtest/gtest.h>
+#include <list>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hapnet::e2e {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Answers every datagram with the same bytes.
+class EchoServer {
+public:
+    [[nodiscard]] std::string address() const { return socket_.local().to_text(); }
+
+    /// Until so many have come, or nothing for a while.
+    void answer(std::size_t count)
+    {
+        const auto end = net::monotonic_now() + 5s;
+        for (std::size_t answered = 0; answered < count && net::monotonic_now() < end;) {
+            for (const auto& datagram : socket_.receive()) {
+                EXPECT_EQ(socket_.send(datagram.from, datagram.bytes), net::SendOutcome::sent);
+                ++answered;
+            }
+            net::sleep_until(net::monotonic_now() + 1ms);
+        }
+    }
+
+private:
+    net::UdpSocket socket_{endpoint_of("127.0.0.1:0")};
+};
+
+class UpstreamRunning {
+public:
+    explicit UpstreamRunning(const EchoServer& server, const std::vector<std::string>& options)
+    {
+        std::vector<std::string> words{"--listen",       "127.0.0.1:0", "--upstream",
+                                       server.address(), "--stats",     folder_.file("stats.json")};
+        words.insert(words.end(), options.begin(), options.end());
+        process.emplace("hapnet-emulator", words);
+        const auto ready = process->wait_for_out("ready ", 10s);
+        if (!ready) throw std::runtime_error{"the emulator is not ready: " + process->err()};
+        listen = endpoint_in(*ready, "listen");
+    }
+
+    [[nodiscard]] nlohmann::json stop()
+    {
+        process->signal(SIGTERM);
+        EXPECT_EQ(process->wait_exit(10s), 0) << process->err();
+        auto statistics = nlohmann::json::parse(text_of(folder_.file("stats.json")));
+        expect_identity(statistics["up"]);
+        expect_identity(statistics["down"]);
+        for (const auto& client : statistics["clients"]) {
+            expect_identity(client["up"]);
+            expect_identity(client["down"]);
+        }
+        return statistics;
+    }
+
+    std::optional<Process> process;
+    std::optional<net::Endpoint> listen;
+
+private:
+    TemporaryFolder folder_;
+};
+
+} // namespace
+
+TEST(EmulatorUpstream, GivesTenClientsInParallelTheirOwnAnswersAndTheirOwnPaths)
+{
+    EchoServer server;
+    UpstreamRunning emulator{server, {"--delay", "20ms", "--seed", "3"}};
+    std::list<Host> clients(10);
+    std::uint64_t number = 0;
+    for (Host& client : clients) client.send(*emulator.listen, number++);
+    server.answer(10);
+    number = 0;
+    for (Host& client : clients) {
+        EXPECT_EQ(numbers_of(client.receive(1, 2s)), std::vector<std::uint64_t>{number++});
+        EXPECT_GE(client.arrivals()[0].delay, 40ms - 4us);
+    }
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["clients"].size(), 10U);
+    EXPECT_EQ(statistics["clients_seen"], 10);
+    EXPECT_EQ(statistics["up"]["received"], 10);
+    EXPECT_EQ(statistics["down"]["delivered"], 10);
+    EXPECT_EQ(statistics["clients"][4]["client"], 5);
+    EXPECT_EQ(statistics["clients"][4]["up"]["delivered"], 1);
+    EXPECT_EQ(statistics["clients"][4]["address"],
+              std::next(clients.begin(), 4)->endpoint().to_text());
+}
+
+TEST(EmulatorUpstream, TurnsAwayWhoIsNotAllowedAndWhoIsOneTooManyAndSaysSoOnce)
+{
+    EchoServer server;
+    Host inside;
+    Host outside;
+    {
+        UpstreamRunning emulator{server, {"--allow", inside.endpoint().to_text()}};
+        for (std::uint64_t i = 0; i < 5; ++i) outside.send(*emulator.listen, i);
+        inside.send(*emulator.listen, 7);
+        server.answer(1);
+        EXPECT_EQ(numbers_of(inside.receive(1, 2s)), std::vector<std::uint64_t>{7});
+        EXPECT_TRUE(emulator.process->wait_for_err("as --allow does not name it", 5s));
+        const auto statistics = emulator.stop();
+        EXPECT_EQ(statistics["up"]["strangers"], 5);
+        EXPECT_EQ(statistics["up"]["received"], 1);
+    }
+    UpstreamRunning emulator{server, {"--clients", "1", "--idle", "1s"}};
+    inside.send(*emulator.listen, 1);
+    server.answer(1);
+    outside.send(*emulator.listen, 2);
+    EXPECT_TRUE(emulator.process->wait_for_err("as there are 1 clients already", 5s));
+    EXPECT_FALSE(emulator.process->wait_exit(1500ms)); // the first one is forgotten
+    outside.send(*emulator.listen, 3);
+    server.answer(1);
+    EXPECT_EQ(numbers_of(outside.receive(1, 2s)), std::vector<std::uint64_t>{3});
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["refused"], 1);
+    EXPECT_EQ(statistics["clients_forgotten"], 1);
+    EXPECT_EQ(statistics["clients_seen"], 2);
+    EXPECT_EQ(statistics["up"]["received"], 2);
+}
+
+TEST(EmulatorUpstream, IsNeverAnOpenRelayAndNeverItsOwnServer)
+{
+    const auto said = [](const std::vector<std::string>& words) {
+        Process process{"hapnet-emulator", words};
+        EXPECT_EQ(process.wait_exit(10s), 2);
+        return process.err();
+    };
+    EXPECT_NE(said({"--listen", "0.0.0.0:0", "--upstream", "127.0.0.1:9"}).find("--allow"),
+              std::string::npos);
+    EXPECT_NE(said({"--listen", "127.0.0.1:9001", "--upstream", "127.0.0.1:9001"})
+                  .find("where the emulator itself listens"),
+              std::string::npos);
+}
+
+} // namespace hapnet::e2e
