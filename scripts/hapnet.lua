@@ -2,9 +2,9 @@
 -- SPDX-License-Identifier: MIT
 --
 -- Wireshark's dissector of Hapnet's messages (docs/formats/wire.md, docs/formats/sealed.md):
---     tshark -X lua_script:scripts/hapnet.lua -r RUN.pcapng
--- or copy it into the folder of personal Lua plugins. A message is known by its first four bytes,
--- on any port. Sequence, time of sending and age need no key; of a sealed message the rest is
+--     tshark -X lua_script:scripts/hapnet.lua -o udp.try_heuristic_first:TRUE -r RUN.pcapng
+-- or copy it into the folder of personal Lua plugins and set that preference of UDP. A message is
+-- known by its first four bytes, on any port; the preference keeps others who claim a port back. Sequence, time of sending and age need no key; of a sealed message the rest is
 -- shown as bytes.
 
 local hapnet = Proto("hapnet", "Hapnet")
@@ -86,7 +86,8 @@ local function age_ms(pinfo, sent)
     if not pinfo.visited and (not least[stream] or apart < least[stream]) then
         least[stream] = apart
     end
-    return apart - (least[stream] or apart)
+    local age = apart - (least[stream] or apart)
+    return math.floor(1e3 * age + 0.5) / 1e3
 end
 
 local function vector(range, read, format)

@@ -15,10 +15,13 @@ trap 'rm -rf "$folder"' EXIT
 export TZ=UTC HOME="$folder"
 text2pcap -q -t %H:%M:%S.%f -u 7000,7001 "$here/messages.txt" "$folder/messages.pcap" \
     2>"$folder/log" || { cat "$folder/log" && exit 1; }
+show() {
+    tshark -X "lua_script:$script" -o udp.try_heuristic_first:TRUE -r "$folder/messages.pcap" "$@"
+}
 {
-    tshark -X "lua_script:$script" -r "$folder/messages.pcap" -T fields -E separator=/s \
+    show -T fields -E separator=/s \
         -e frame.number -e _ws.col.Protocol -e _ws.col.Info
-    tshark -X "lua_script:$script" -r "$folder/messages.pcap" -O hapnet |
+    show -O hapnet |
         sed -n '/^Hapnet/,/^$/p'
 } 2>"$folder/log" >"$folder/shown.txt" || { cat "$folder/log" && exit 1; }
 if [[ ${HAPNET_WRITE_GOLDEN:-} == 1 ]]; then
