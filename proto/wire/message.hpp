@@ -164,6 +164,8 @@ public:
     [[nodiscard]] const BodyState* end() const { return all_.data() + count_; }
     [[nodiscard]] BodyState* begin() { return all_.data(); }
     [[nodiscard]] BodyState* end() { return all_.data() + count_; }
+    /// nullptr: there is none.
+    [[nodiscard]] const BodyState* first() const { return empty() ? nullptr : begin(); }
     /// nullptr: not among them.
     [[nodiscard]] const BodyState* find(std::uint16_t body) const;
 
