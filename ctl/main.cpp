@@ -6,6 +6,7 @@
 #include "ctl/request.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/program.hpp"
+#include "proto/net/standard_streams.hpp"
 #include "proto/net/stop_signal.hpp"
 
 #include <chrono>
@@ -128,5 +129,6 @@ int main_program(std::span<char*> words)
 
 int main(int argc, char** argv)
 {
+    hapnet::net::fill_standard_streams();
     return hapnet::ctl::main_program({argv, static_cast<std::size_t>(argc)});
 }

@@ -29,7 +29,8 @@ the answer names the first datagram of each direction that it holds for. A setti
 timeline of the profile changes the same key. With --for it ends by itself, even if hapnet-ctl is
 gone by then.
 
-A peer answers show, stats, watch, wait and stop. Its settings cannot be changed while it runs.
+A peer answers show, stats, watch, wait, stop and estop. Its settings cannot be changed while it
+runs.
 
 Examples:
   hapnet-ctl /tmp/emulator.sock show
@@ -133,6 +134,8 @@ void add_commands(cli::Command& program, Options& options, Words& settings)
                 cli::into(options.timeout, base::Time{base::Duration{0}, longest}));
     program.command("stop", "Ends the session of a peer with zero force, as SIGTERM does; "
                             "statistics are written");
+    program.command("estop", "Emergency stop: ends the force of a peer at once, until the peer is "
+                             "started anew; its session goes on without");
 }
 
 } // namespace

@@ -124,6 +124,7 @@ std::string in_words(const Options& options, const Json& reply)
         return statistics.dump(2) + "\n";
     }
     if (command == "stop") return "the peer ends with zero force\n";
+    if (command == "estop") return "zero force until the peer is started anew\n";
     if (command == "wait") {
         const auto until = text_at(reply, "/until");
         const double elapsed_s = number_at(reply, "/elapsed_s");

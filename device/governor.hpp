@@ -56,12 +56,15 @@ enum class GovernorState : std::uint8_t {
     ramping,     // at part of its strength: on its way in or out
     active,
     fault, // latched: zero force until an operator has acted
+    /// Never of a governor itself: a person has stopped the force, and the loop keeps it from the
+    /// device.
+    withheld,
 };
 
 /// In statistics.
 constexpr auto names_of(base::Tag<GovernorState> /*enum*/)
 {
-    return base::names("off", "calibrating", "ready", "ramping", "active", "fault");
+    return base::names("off", "calibrating", "ready", "ramping", "active", "fault", "withheld");
 }
 
 /// Stands between what the scene wants and what a motor gets; the only way to a motor. Its rules,

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
+#include "proto/net/standard_streams.hpp"
 
 #include <cstddef>
 #include <span>
@@ -26,5 +27,6 @@ int main_program(std::span<char*> words)
 
 int main(int argc, char** argv)
 {
+    hapnet::net::fill_standard_streams();
     return hapnet::emulator::main_program({argv, static_cast<std::size_t>(argc)});
 }

@@ -15,10 +15,14 @@
 #include "proto/net/crash_signal.hpp"
 #include "proto/net/program.hpp"
 #include "proto/net/result_file.hpp"
+#include "proto/net/standard_streams.hpp"
 #include "proto/net/stop_signal.hpp"
+#include "proto/net/text_queue.hpp"
 
+#include <cstring>
 #include <memory>
 #include <spdlog/fmt/fmt.h>
+#include <unistd.h>
 
 namespace hapnet::peer {
 
@@ -26,7 +30,16 @@ namespace {
 
 constexpr std::string_view program = "hapnet-peer";
 
-void say(std::string_view text) { net::say(program, text); }
+/// After a stop the process is gone by then, whatever blocks it; an orderly end takes a tenth.
+constexpr base::Duration gone_after{std::chrono::milliseconds{800}};
+
+/// stdout and stderr, which need not be read.
+struct Screen {
+    net::TextQueue out{STDOUT_FILENO};
+    net::TextQueue err{STDERR_FILENO};
+
+    void say(std::string_view text) { err.put(fmt::format("{}: {}\n", program, text)); }
+};
 
 struct Endpoints {
     net::Endpoint listen;
@@ -71,7 +84,12 @@ base::Result<Endpoints> look_up(const Options& options)
             endpoints.listen.family() == AF_INET6 ? "[::]" : "0.0.0.0",
             given != 0 ? given : endpoints.remote.port()));
     }
-    net::require_route(endpoints.remote);
+    if (!endpoints.remote.is_one_host()) {
+        return base::fail(fmt::format("--remote {} is not the address of one host, and no answer "
+                                      "can come from it: name the other peer's own address",
+                                      endpoints.remote.to_text()));
+    }
+    net::require_route(endpoints.listen, endpoints.remote);
     return endpoints;
 }
 
@@ -83,6 +101,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     settings.introduction.nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U);
     settings.introduction.scene_hash = scene::hash(options.scene);
     settings.introduction.seed = options.seed.value();
+    settings.introduction.boot = wire::boot_of(net::boot_id());
     settings.introduction.task = wire::TaskName::from_text(device::name_of(options.task)).value();
     settings.scene = options.scene;
     settings.algorithm = options.algorithm;
@@ -114,12 +133,19 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
 }
 
 /// Introduces a real device to its holder, and says which forces of the scene it cannot render.
-void introduce(const Options& options, const device::Rig& rig)
+void introduce(const Options& options, const device::Rig& rig, Screen& screen)
 {
-    say(introduction(rig.device(), rig.mount(), options.task));
+    screen.say(introduction(rig.device(), rig.mount(), options.task));
     const std::string softer = note_on_stiffness(rig.device().capabilities(), rig.mount(),
                                                  options.scene.hands.stiffness_n_per_m);
-    if (!softer.empty()) say(softer);
+    if (!softer.empty()) screen.say(softer);
+}
+
+loop::DeadMan dead_man_of(const Options& options)
+{
+    if (!options.dead_man) return {};
+    if (*options.dead_man == "button") return loop::DeadMan{loop::DeviceButton{}};
+    return loop::DeadMan{loop::EvdevSwitch{options.dead_man->substr(std::strlen("evdev:"))}};
 }
 
 std::string ready_line(const Options& options, const net::UdpSocket& socket,
@@ -130,79 +156,103 @@ std::string ready_line(const Options& options, const net::UdpSocket& socket,
                        name_of(options.algorithm), options.seed.value());
 }
 
-void write_statistics(const monitor::Run& run, std::optional<net::ResultFile>& file)
+void write_statistics(const monitor::Run& run, std::optional<net::ResultFile>& file, Screen& screen)
 {
     const std::string statistics = statistics_json(run).dump(2) + "\n";
     if (file) {
         file->commit(statistics);
     } else if (run.options.stats) {
-        fmt::print("{}", statistics);
+        screen.out.put(statistics);
     }
 }
 
 /// Tells how the run went; its exit code.
-int conclude(const monitor::Run& run, const device::Governor& governor,
-             const monitor::Monitor& monitor)
+int conclude(const monitor::Run& run, const device::Governor& governor, Screen& screen)
 {
-    net::tell(summary(run));
+    screen.err.put(summary(run));
     if (const auto reason = run.status.refusal) {
-        say(fmt::format("refused: the two peers do not match: {}", monitor::describe(*reason)));
+        screen.say(
+            fmt::format("refused: the two peers do not match: {}", monitor::describe(*reason)));
         return net::exit_failed;
     }
     if (const std::string fault = monitor::fault_at_the_end(governor); !fault.empty()) {
-        say(fault);
+        screen.say(fault);
         return net::exit_failed;
     }
-    if (const auto failure = monitor.record_failure()) std::rethrow_exception(failure);
-    return 0;
+    return run.options.record && !run.is_record_whole ? net::exit_environment : 0;
+}
+
+/// Waits for whoever reads what the program has said, but not for ever; what was to be printed and
+/// could not be is an error.
+int finish(int code, const Screen& screen, const net::StopSignal& stop)
+{
+    loop::wait_for_readers(screen.out, stop);
+    loop::wait_for_readers(screen.err, stop);
+    if (const int error = screen.out.error(); error != 0) {
+        throw std::system_error{error, std::generic_category(), "cannot write the output"};
+    }
+    return code == 0 && (!screen.out.is_done() || screen.out.lost() > 0) ? net::exit_environment
+                                                                         : code;
 }
 
 base::Result<int> run(const Options& options)
 {
     const auto endpoints = look_up(options);
     if (!endpoints) return tl::unexpected{endpoints.error()};
-    net::StopSignal stop; // before any thread
+    const net::StopSignal stop; // before any thread
+    stop.enforce(gone_after, net::exit_environment);
+    Screen screen;
     const net::CrashSignal crash;
     const net::CrashStack stack;
     net::UdpSocket socket{endpoints->listen};
     std::optional<control::Server> server; // before the device is touched
     if (options.control) server.emplace(*options.control, monitor::ControlSession::limits);
+    std::optional<net::ResultFile> file;
+    if (options.stats && *options.stats != "-") file.emplace(*options.stats);
+    loop::ForceGate gate{stop, dead_man_of(options)};
     auto opened = open_chosen(options.device, options.task);
     if (!opened) {
-        say(describe_open_error(options.device, opened.error()));
-        return net::exit_environment;
+        screen.say(describe_open_error(options.device, opened.error()));
+        return finish(net::exit_environment, screen, stop);
     }
     const device::Mount mount = mount_of(options.device, (*opened)->capabilities());
     device::Rig rig{*std::move(opened), device::GovernorLimits{.force_max_n = options.force_max_n},
                     mount};
     const std::string device = device::description(rig.device());
-    if (options.device.is_real()) introduce(options, rig);
+    if (options.device.is_real()) introduce(options, rig, screen);
     const double allowed_n = rig.governor().limits().force_max_n;
     const bool is_asked_for = options.force_max_n != Options{}.force_max_n;
     const std::string lower = note_on_force_limit(options.force_max_n, allowed_n);
-    if (is_asked_for && !lower.empty()) say(lower);
+    if (is_asked_for && !lower.empty()) screen.say(lower);
     const Settings settings = settings_of(options, rig);
     loop::Journal journal;
-    monitor::Monitor monitor{journal, writer_for(options, device, rig, settings), options.id};
-    std::optional<net::ResultFile> file;
-    if (options.stats && *options.stats != "-") file.emplace(*options.stats);
     Side side{settings};
     loop::Watchdog watchdog{rig.device(), &crash};
-    loop::Servo servo{{side, rig, socket, endpoints->remote, journal, watchdog}};
+    loop::Servo servo{{side, rig, socket, endpoints->remote, journal, watchdog, gate}};
+    // Last of all that may fail: the file is emptied.
+    monitor::Monitor monitor{journal, screen.err, writer_for(options, device, rig, settings),
+                             options.id};
 
     std::optional<monitor::ControlSession> control_session;
     if (server) {
-        control_session.emplace(monitor::ControlSession::Parts{
-            *server, servo, options, journal, monitor, device, monitor::recovery_of(rig.device())});
+        control_session.emplace(monitor::ControlSession::Parts{*server, servo, stop, gate, options,
+                                                               monitor, device,
+                                                               monitor::recovery_of(rig.device())});
     }
 
-    loop::supervise({servo, monitor, stop, control_session ? &*control_session : nullptr},
+    loop::supervise({servo, monitor, stop, gate, screen.out, screen.err,
+                     control_session ? &*control_session : nullptr},
                     ready_line(options, socket, endpoints->remote));
 
     const loop::ServoStatus status = servo.status();
-    const monitor::Run run{options, status, journal, device, !monitor.record_failure()};
-    write_statistics(run, file);
-    return conclude(run, rig.governor(), monitor);
+    const monitor::Run run{options,
+                           status,
+                           device,
+                           monitor.is_record_whole(),
+                           monitor.rows_lost(),
+                           screen.err.lost() + screen.out.lost()};
+    write_statistics(run, file, screen);
+    return finish(conclude(run, rig.governor(), screen), screen, stop);
 }
 
 base::Result<int> execute(const Command& command)
@@ -221,5 +271,6 @@ int main_program(std::span<char*> words)
 
 int main(int argc, char** argv)
 {
+    hapnet::net::fill_standard_streams();
     return hapnet::peer::main_program({argv, static_cast<std::size_t>(argc)});
 }

@@ -13,6 +13,7 @@
 #include "lab/runner/freed_memory.hpp"
 #include "lab/scenes/explain.hpp"
 #include "peer/core/sync/text.hpp"
+#include "proto/net/standard_streams.hpp"
 #include "proto/net/text_file.hpp"
 #include "scene/text/text.hpp"
 
@@ -142,5 +143,6 @@ int main_program(std::span<char*> words)
 
 int main(int argc, char** argv)
 {
+    hapnet::net::fill_standard_streams();
     return hapnet::lab::main_program({argv, static_cast<std::size_t>(argc)});
 }

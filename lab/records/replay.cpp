@@ -28,7 +28,9 @@ public:
     void show(const record::TickRow& row)
     {
         sample_ = peer::sample_of(row);
-        was_at_fault_ = row.governor == static_cast<std::uint8_t>(device::GovernorState::fault);
+        const auto state = static_cast<device::GovernorState>(row.governor);
+        was_at_fault_ = state == device::GovernorState::fault;
+        was_withheld_ = state == device::GovernorState::withheld;
     }
 
     [[nodiscard]] const device::Sample& read(base::TimePoint /*now*/) const { return sample_; }
@@ -37,6 +39,10 @@ public:
         device::Sample own = sample_; // in the device's frame
         own.hip = mount_.to_device(sample_.hip);
         own.velocity = mount_.to_device(sample_.velocity);
+        if (was_withheld_) { // as a person had decided, which no row explains
+            std::ignore = governor_.govern({{}, false}, own, now);
+            return {};
+        }
         const device::ForceRequest request{mount_.to_device(wanted), permitted};
         if (was_at_fault_ && governor_.state() != device::GovernorState::fault) {
             // A fault that nothing in the row explains was latched by the watchdog.
@@ -56,6 +62,7 @@ private:
     device::Governor governor_;
     device::Sample sample_; // in the scene
     bool was_at_fault_ = false;
+    bool was_withheld_ = false;
 };
 
 /// One peer as it was.

@@ -48,13 +48,14 @@ Each pair runs in two terminals. The second pair needs hapnet-emulator with --li
 docs/use/hardware.md, and run doctor and self-test first.
 
 The peer prints one line "ready ..." on stdout when its loop runs, and events on stderr. SIGINT,
-SIGTERM, SIGHUP or hapnet-ctl SOCKET stop ends it with zero force and says goodbye to the other
-peer.)";
+SIGTERM, SIGHUP, a terminal that goes away or hapnet-ctl SOCKET stop ends it within a second, with
+zero force at once, and says goodbye to the other peer. Enter at its terminal, or hapnet-ctl SOCKET
+estop, is an emergency stop: zero force until the program is started anew.)";
 
 constexpr const char* exit_codes = R"(  0  done
   1  the run failed
   2  bad usage
-  3  the system refused (port in use, no route, no such device))";
+  3  the system refused (port in use, no route, no such device), or the record is incomplete)";
 
 constexpr const char* list_devices_description =
     "Lists every haptic device that can be seen, without opening any; for one that cannot be used, "

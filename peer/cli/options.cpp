@@ -11,6 +11,7 @@
 #include "scene/text/text.hpp"
 
 #include <cctype>
+#include <filesystem>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -19,17 +20,37 @@ namespace hapnet::peer {
 namespace {
 
 constexpr double force_limit_max_n = 40.0; // more than any of the devices has
+constexpr double force_limit_min_n = 1e-3; // less than any hand feels
+constexpr double grip_damping_min_ns_per_m = 1e-3;
 
 /// A damping that leaves something to be felt.
 base::Result<double> parse_grip_damping(const std::string& text)
 {
     auto damping = base::parse_quantity(text, base::damping_kind);
-    if (damping && !(*damping > 0.0 && *damping <= scene::damping_max_ns_per_m)) {
+    if (damping &&
+        !(*damping >= grip_damping_min_ns_per_m && *damping <= scene::damping_max_ns_per_m)) {
         return base::fail(
-            fmt::format("'{}' is out of range: more than 0, and at most {}, is possible", text,
+            fmt::format("'{}' is out of range: more than 0 ({} or more), and at most {}, is "
+                        "possible",
+                        text, base::quantity_text(grip_damping_min_ns_per_m, base::damping_kind),
                         base::quantity_text(scene::damping_max_ns_per_m, base::damping_kind)));
     }
     return damping;
+}
+
+/// No force, or one that can be felt.
+base::Result<double> parse_force_limit(const std::string& text)
+{
+    auto force = base::parse_quantity(text, base::force_kind);
+    const bool is_none = force && *force == 0.0;
+    if (force && !is_none && !(*force >= force_limit_min_n && *force <= force_limit_max_n)) {
+        return base::fail(fmt::format("'{}' is out of range: 0N to {} is possible, and {} the "
+                                      "least above 0N",
+                                      text,
+                                      base::quantity_text(force_limit_max_n, base::force_kind),
+                                      base::quantity_text(force_limit_min_n, base::force_kind)));
+    }
+    return force;
 }
 
 /// A scene that two peers can share.
@@ -76,8 +97,46 @@ base::Result<net::HostPort> parse_remote(const std::string& text)
 
 base::Result<std::string> parse_record(const std::string& file)
 {
-    if (file != "-") return file;
-    return base::fail("'-' is not a file: a record needs one");
+    if (file != "-" && !file.empty()) return file;
+    return base::fail(fmt::format("'{}' is not a file: a record needs one", file));
+}
+
+base::Result<std::string> parse_result_file(const std::string& file)
+{
+    if (!file.empty()) return file;
+    return base::fail("needs a file; - is stdout");
+}
+
+constexpr std::string_view evdev_prefix = "evdev:";
+
+base::Result<std::string> parse_dead_man(const std::string& text)
+{
+    const bool is_evdev = text.starts_with(evdev_prefix) && text.size() > evdev_prefix.size();
+    if (text == "button" || is_evdev) return text;
+    return base::fail(fmt::format("'{}': write button, or evdev: and a device of the kernel, such "
+                                  "as evdev:/dev/input/event5",
+                                  text));
+}
+
+/// Whether two names are of one regular file, also of one that does not exist yet.
+bool is_one_file(const std::string& a, const std::string& b)
+{
+    std::error_code trouble;
+    if (std::filesystem::exists(a, trouble) && std::filesystem::exists(b, trouble)) {
+        return std::filesystem::is_regular_file(a, trouble) &&
+               std::filesystem::equivalent(a, b, trouble);
+    }
+    return std::filesystem::weakly_canonical(a, trouble) ==
+           std::filesystem::weakly_canonical(b, trouble);
+}
+
+base::Result<void> check_results(const Options& options)
+{
+    if (!options.record || !options.stats || !is_one_file(*options.record, *options.stats)) {
+        return {};
+    }
+    return base::fail(fmt::format("--record and --stats are both {}: give each a file of its own",
+                                  *options.record));
 }
 
 base::Result<void> refuse_key(const std::string& /*file*/)
@@ -91,10 +150,11 @@ void add_results(cli::Command& program, Options& options)
     program.option("--record", "FILE", "Write every tick and message to FILE (see hapnet-lab)",
                    cli::into(options.record, parse_record));
     program.option("--stats", "FILE", "Write statistics to FILE at the end; - is stdout",
-                   cli::into(options.stats));
+                   cli::into(options.stats, parse_result_file));
     program.option("--control", "SOCKET",
                    "Listen on this Unix socket for hapnet-ctl, which may show the session and "
-                   "stop it, and change nothing: hapnet-ctl SOCKET show|stats|watch|wait|stop",
+                   "stop it, and change nothing: hapnet-ctl SOCKET "
+                   "show|stats|watch|wait|stop|estop",
                    cli::into(options.control));
 }
 
@@ -123,11 +183,14 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
         "The least damping of device and hand together. A contact that needs more than "
         "this to be passive is rendered softer (default 4Ns/m, a nominal grip on a stylus)",
         cli::into(options.grip_damping_ns_per_m, parse_grip_damping));
-    program.option(
-        "--force-limit", "FORCE",
-        "Maximum force on the hand; 0N: no force (default 3.3N, an Omni's peak; never "
-        "more than the device allows). See docs/design/governor.md",
-        cli::into(options.force_max_n, base::Quantity{base::force_kind, 0.0, force_limit_max_n}));
+    program.option("--force-limit", "FORCE",
+                   "Maximum force on the hand; 0N: no force (default 3.3N, an Omni's peak; never "
+                   "more than the device allows). See docs/design/governor.md",
+                   cli::into(options.force_max_n, parse_force_limit));
+    program.option("--dead-man", "button|evdev:DEVICE",
+                   "Force only while a button of the haptic device is held, or a key of an input "
+                   "device such as a foot switch (evdev:/dev/input/event5), which is grabbed",
+                   cli::into(options.dead_man, parse_dead_man));
     program.option("--task", "P1|T1|...|T6", "What the hands do, simulated or yours (default P1)",
                    cli::into(options.task, parse_task));
     program.option("--algorithm", "NAME|FILE",
@@ -159,6 +222,7 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
 base::Result<void> complete(Options& options, const cli::Command& program)
 {
     if (auto fine = check_device_options(program, options.device); !fine) return fine;
+    if (auto fine = check_results(options); !fine) return fine;
     if (program.is_given("--scene")) return {};
     const std::string scene{device::scene_of(options.task)};
     const auto taken = take_scene(scene, options);

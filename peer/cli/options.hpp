@@ -32,6 +32,7 @@ struct Options {
     base::Seed seed{1};
     base::Duration duration{std::chrono::seconds{30}};
     bool insecure = false;
+    std::optional<std::string> dead_man; // "button", or "evdev:" and a device of the kernel
     std::optional<std::string> record;
     std::optional<std::string> stats;   // a file, or "-" for stdout
     std::optional<std::string> control; // where its socket is to be

@@ -3,6 +3,7 @@
 #include "device/rig.hpp"
 #include "peer/cli/chosen_device.hpp"
 #include "peer/cli/commands.hpp"
+#include "peer/loop/force_gate.hpp"
 #include "peer/loop/watchdog.hpp"
 #include "peer/loop/watched_rig.hpp"
 #include "peer/loop/zero_force.hpp"
@@ -35,13 +36,14 @@ constexpr int test_priority = 45; // as the loop of a session
 constexpr base::Duration test_tick = 1ms;
 constexpr base::Duration prompts_shown_every = 50ms;
 constexpr int ticks_after_the_end = 60; // a governor's fade
+constexpr base::Duration gone_after_a_stop = 800ms;
 
 /// The test's loop, at the device's pace where it has one, and what another thread sees of it.
 /// Watched like that of a session: the self-test is what a device's first force comes from.
 class TestLoop {
 public:
-    TestLoop(SelfTest& test, device::Rig& rig, loop::Watchdog& watchdog)
-        : test_{test}, rig_{rig}, watchdog_{watchdog}
+    TestLoop(SelfTest& test, device::Rig& rig, loop::Watchdog& watchdog, loop::ForceGate& gate)
+        : test_{test}, rig_{rig}, watchdog_{watchdog}, gate_{gate}
     {}
 
     void run()
@@ -60,7 +62,6 @@ public:
             tick();
         }
     }
-    void stop() { stop_.store(true, std::memory_order_relaxed); }
     [[nodiscard]] Prompt prompt() const { return prompt_.load(std::memory_order_relaxed); }
 
 private:
@@ -70,13 +71,13 @@ private:
     {
         const base::TimePoint now = net::monotonic_now();
         watchdog_.beat(now);
-        loop::WatchedRig watched{rig_, watchdog_};
+        loop::WatchedRig watched{rig_, watchdog_, &gate_};
         if (watchdog_.take_fault()) {
             rig_.governor().latch({device::Fault::timeout, device::Trip::loop});
         }
         const device::Sample& sample = watched.read(now);
         self_test::StepRequest request{.is_done = true};
-        if (!is_ending_ && !stop_.load(std::memory_order_relaxed)) {
+        if (!is_ending_ && !gate_.is_stopping()) {
             request = test_.on_tick({sample, rig_.calibration(), applied_}, now);
         }
         if (watchdog_.is_dying()) return;
@@ -89,15 +90,15 @@ private:
     SelfTest& test_;
     device::Rig& rig_;
     loop::Watchdog& watchdog_;
+    loop::ForceGate& gate_;
     base::Force applied_;
     bool is_ending_ = false;
     int ticks_left_ = ticks_after_the_end;
-    std::atomic<bool> stop_{false};
     std::atomic<Prompt> prompt_{Prompt::nothing};
 };
 
 /// Shows what the person is to do until the loop has ended; SIGINT and SIGTERM end it.
-void accompany(TestLoop& loop, net::StopSignal& stop)
+void accompany(TestLoop& loop, const net::StopSignal& stop)
 {
     auto ended = std::async(std::launch::async, [&loop] { loop.run(); });
     Prompt shown = Prompt::nothing;
@@ -105,7 +106,6 @@ void accompany(TestLoop& loop, net::StopSignal& stop)
         const std::array descriptors{stop.descriptor()};
         net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
                            net::monotonic_now() + prompts_shown_every);
-        if (stop.requested()) loop.stop();
         const Prompt prompt = loop.prompt();
         if (prompt == shown) continue;
         shown = prompt;
@@ -129,7 +129,8 @@ base::Result<int> run(const SelfTestCommand& command)
 {
     std::optional<net::ResultFile> file;
     if (command.json) file.emplace(*command.json);
-    net::StopSignal stop; // before any thread
+    const net::StopSignal stop; // before any thread
+    stop.enforce(gone_after_a_stop, net::exit_environment);
     const net::CrashSignal crash;
     const net::CrashStack stack;
     auto opened = open_chosen(command.device, device::Task::p1);
@@ -152,7 +153,8 @@ base::Result<int> run(const SelfTestCommand& command)
         rig.device().on_cue({.start = net::monotonic_now(), .hands_on = {}, .seed = base::Seed{}});
     }
     loop::Watchdog watchdog{rig.device(), &crash};
-    TestLoop loop{test, rig, watchdog};
+    loop::ForceGate gate{stop};
+    TestLoop loop{test, rig, watchdog, gate};
     accompany(loop, stop);
     test.stop();
     fmt::print("{}", self_test::report_text(rig.device(), test));

@@ -36,6 +36,12 @@ std::string stopped(const PeerControl& peer)
     return control::line_of(Json{{"ok", true}, {"stopping", true}});
 }
 
+std::string stopped_in_emergency(const PeerControl& peer)
+{
+    peer.stop_in_emergency();
+    return control::line_of(Json{{"ok", true}, {"force", "off"}});
+}
+
 /// The answer to a command without members, or that it has too many.
 template <typename Reply>
 control::Answer answer_with(Members& members, Reply reply)
@@ -64,6 +70,7 @@ control::Answer answer_to(std::string_view line, const PeerControl& peer)
     if (members.error()) return control::refusal(*members.error());
     if (command == "show") return answer_with(members, [&] { return shown(peer); });
     if (command == "stop") return answer_with(members, [&] { return stopped(peer); });
+    if (command == "estop") return answer_with(members, [&] { return stopped_in_emergency(peer); });
     if (command == "stats") {
         return answer_with(members, [&] { return control::statistics_reply(peer.statistics()); });
     }
@@ -72,10 +79,10 @@ control::Answer answer_to(std::string_view line, const PeerControl& peer)
     if (is_for_an_emulator(command)) {
         return control::refusal(fmt::format(
             "'{}' is for an emulator: a running peer cannot be changed; use show, stats, "
-            "watch, wait or stop",
+            "watch, wait, stop or estop",
             command));
     }
-    return control::refusal("\"command\" must be one of show, stats, watch, wait, stop");
+    return control::refusal("\"command\" must be one of show, stats, watch, wait, stop, estop");
 }
 
 control::Subject subject_of(PeerControl peer)

@@ -17,6 +17,8 @@ struct PeerControl {
     std::function<nlohmann::ordered_json()> statistics;
     /// As SIGTERM does.
     std::function<void()> stop;
+    /// Zero force from now on, until the program is started anew; the session goes on without.
+    std::function<void()> stop_in_emergency;
 };
 
 /// The answer to a request line; PROTOCOL.md describes the requests. A request that would change

@@ -47,10 +47,12 @@ std::optional<wire::ByeReason> Handshake::refusal_of(const wire::Hello& hello) c
 }
 
 std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
-                                                   base::TimePoint arrived)
+                                                   base::TimePoint arrived, Known known)
 {
     if (const auto reason = refusal_of(hello)) return reason;
-    if (!remote_ || remote_->nonce != hello.nonce) meet(hello);
+    const bool is_of_another_run = !remote_ || remote_->nonce != hello.nonce;
+    if (is_of_another_run && remote_ && known == Known::heard) return std::nullopt;
+    if (is_of_another_run) meet(hello);
     if (hello.nonce_heard != self_.nonce) { // it has not heard this run of us yet
         asked_ = true;
         last_heard_ = wire::Echo{hello.sent, {}};
@@ -69,6 +71,7 @@ void Handshake::meet(const wire::Hello& hello)
     if (hello.boot != 0 && hello.boot == self_.boot) clock_.set_same_clock();
     last_heard_.reset();
     start_heard_.reset();
+    other_start_.reset();
     acknowledged_ = false;
     if (!session_) return;
     // The other side was restarted: this one goes on and lets it join.
@@ -119,9 +122,21 @@ void Handshake::adopt(const wire::Hello& hello, base::TimePoint arrived)
     if (!clock || start_heard_ == hello.start) return;
     const base::TimePoint start = *hello.start - clock->offset;
     if (std::chrono::abs(start - arrived) > start_away_max) return;
+    if (start_heard_ && !may_replace_start(*hello.start, arrived)) return;
     start_heard_ = hello.start;
     session_ =
         Session{number(), start, hello.seed, length_with(hello), is_left(), hello.in_session};
+}
+
+bool Handshake::may_replace_start(base::TimePoint start, base::TimePoint arrived)
+{
+    const bool has_begun = acknowledged_ || arrived >= session_->start;
+    if (has_begun) return false;
+    if (other_start_ != start) {
+        other_start_ = start;
+        times_other_start_ = 0;
+    }
+    return ++times_other_start_ >= starts_needed;
 }
 
 void Handshake::on_echo(const std::optional<wire::Echo>& echo, base::TimePoint sent,

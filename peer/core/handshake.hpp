@@ -46,9 +46,16 @@ public:
 
     explicit Handshake(const Introduction& introduction) : self_{introduction} {}
 
+    /// While the run that was met is heard, nobody else's hello is believed: it may be forged. A
+    /// run that was started anew keeps saying hello until the former one has fallen silent.
+    enum class Known : std::uint8_t { silent, heard };
+    /// A start that differs from the one agreed on counts when it came so often before the session
+    /// has begun, as the first may have been damaged; never once it has.
+    static constexpr int starts_needed = 3;
+
     /// Takes a hello in. Returns why the two cannot play together, if so.
-    [[nodiscard]] std::optional<wire::ByeReason> on_hello(const wire::Hello& hello,
-                                                          base::TimePoint arrived);
+    [[nodiscard]] std::optional<wire::ByeReason>
+    on_hello(const wire::Hello& hello, base::TimePoint arrived, Known known = Known::silent);
 
     /// Takes the clock echo of any message of the other side.
     void on_echo(const std::optional<wire::Echo>& echo, base::TimePoint sent,
@@ -84,6 +91,7 @@ private:
     void agree(const wire::Hello& hello, base::TimePoint arrived);
     void propose(base::TimePoint start, const wire::Hello& hello);
     void adopt(const wire::Hello& hello, base::TimePoint arrived);
+    [[nodiscard]] bool may_replace_start(base::TimePoint start, base::TimePoint arrived);
 
     Introduction self_;
     std::optional<RemotePeer> remote_;
@@ -96,6 +104,8 @@ private:
     bool acknowledged_ = false; // the other side knows the start
     bool asked_ = true;         // a hello is wanted although all is settled
     std::optional<base::TimePoint> start_heard_; // the other side's start, on its clock
+    std::optional<base::TimePoint> other_start_; // that was heard instead, and how often
+    int times_other_start_ = 0;
     std::optional<base::TimePoint> last_hello_;
 };
 

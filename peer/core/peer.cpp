@@ -71,7 +71,8 @@ Peer::Peer(const Settings& settings)
       world_{world_of(settings)},
       friction_{friction_of(settings)},
       force_max_n_{std::min(settings.scene.hands.force_max_n, scene::force_max_n)},
-      share_{rendered_share(settings)}
+      share_{rendered_share(settings)},
+      sequences_{settings.tick}
 {}
 
 base::Duration Peer::hands_on() const
@@ -100,7 +101,9 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
     ++counters_.hellos;
     const bool had_met = handshake_.has_met();
     const bool had_session = session().has_value();
-    if (const auto reason = handshake_.on_hello(hello, arrived)) {
+    const bool is_heard = had_session && !gone_ && remote_.freshness(arrived) >= 1.0;
+    const auto known = is_heard ? Handshake::Known::heard : Handshake::Known::silent;
+    if (const auto reason = handshake_.on_hello(hello, arrived, known)) {
         if (had_session) {
             outbox_.put(wire::encode(wire::Bye{0, *reason})); // our session goes on without it
         } else {
@@ -117,6 +120,9 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
                                           : Numbering{.number = session()->number});
     agreed_at_ = arrived;
     remote_.forget();
+    sequences_.forget();
+    last_body_ = arrived;
+    states_without_body_ = 0;
     std::visit([](auto& algorithm) { algorithm.forget(); }, settings_.algorithm);
     gone_ = false;
     lost_ = false;
@@ -126,18 +132,27 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived)
 
 void Peer::on_message(const wire::State& state, base::TimePoint arrived)
 {
-    if (!session() || state.session != current_.number || gone_) {
+    if (!session() || state.session != current_.number) {
         ++counters_.other_session;
         return;
     }
-    if (!is_plausible(state) || state.sequence > sequence_max(arrived)) {
+    if (!is_plausible(state) || state.sequence > sequence_max(arrived) ||
+        !sequences_.admits(state, arrived)) {
         ++counters_.implausible;
+        return;
+    }
+    if (gone_ && !takes_back_goodbye(state, arrived)) {
+        ++counters_.other_session;
         return;
     }
     handshake_.on_state();
     handshake_.on_echo(state.echo, state.sent, arrived);
     const bool taken = remote_.update(state, arrived);
     ++(taken ? counters_.states : counters_.outdated);
+    if (taken) {
+        sequences_.on_taken(state, arrived);
+        look_for_body(state, arrived);
+    }
     const ReceivedState received{.state = state,
                                  .arrived = arrived,
                                  .taken = taken,
@@ -145,6 +160,35 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived)
                                  .tick = settings_.tick,
                                  .force_max_n = force_max_n_};
     std::visit([&](auto& algorithm) { algorithm.hear(received); }, settings_.algorithm);
+}
+
+/// Whether the other side goes on although it has said goodbye; then the goodbye is forgotten.
+bool Peer::takes_back_goodbye(const wire::State& state, base::TimePoint arrived)
+{
+    if (leaving_) return false;
+    if (!goodbye_.last_sent) goodbye_.last_sent = state.sent;
+    const bool goes_on = state.sent - *goodbye_.last_sent > goodbye_doubted_for &&
+                         arrived - goodbye_.heard > goodbye_doubted_for;
+    if (!goes_on) return false;
+    gone_ = false;
+    lost_ = true; // so that a person is told that it is back
+    return true;
+}
+
+/// Tells once when something on the path lets only the shorter messages through.
+void Peer::look_for_body(const wire::State& state, base::TimePoint arrived)
+{
+    if (!state.bodies.empty()) {
+        last_body_ = arrived;
+        states_without_body_ = 0;
+        return;
+    }
+    ++states_without_body_;
+    const bool is_missed = states_without_body_ >= states_without_body_max &&
+                           arrived - last_body_ >= body_missed_after;
+    if (!is_missed || body_missed_) return;
+    body_missed_ = true;
+    events_.put(Event::no_body);
 }
 
 std::uint32_t Peer::sequence_max(base::TimePoint arrived) const
@@ -176,6 +220,8 @@ void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)
     }
     if (!session() || bye.session != current_.number || gone_) return;
     gone_ = true;
+    goodbye_ = {.heard = arrived, .last_sent = {}};
+    if (remote_.state()) goodbye_.last_sent = remote_.state()->sent;
     if (!leaving_) events_.put(Event::left);
 }
 
@@ -279,7 +325,7 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
     if (body_known_) move_world(tick, situation, input);
     account(tick, position() - before, now);
     // The governor's own fade runs along with the remote's: zero when the remote counts as gone.
-    tick.permitted = usable && body_known_ && tick.freshness >= 1.0;
+    tick.permitted = usable && body_known_ && tick.freshness >= 1.0 && tick.phase == Phase::running;
     if (!gone_) say_state(tick, now, usable ? hand : Hand{});
 }
 

@@ -7,6 +7,7 @@
 #include "peer/core/handshake.hpp"
 #include "peer/core/outbox.hpp"
 #include "peer/core/remote.hpp"
+#include "peer/core/sequence_guard.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/record/rows.hpp"
@@ -58,6 +59,7 @@ enum class Event : std::uint8_t {
     hands_off,
     ended,
     stopped, // before there was a session
+    no_body, // states come, but none that tells where the body is
 };
 
 /// Counters of received messages, and of those that could not be used.
@@ -107,6 +109,12 @@ public:
     static constexpr int refusals_needed = 3;
     static constexpr base::Duration refusal_every{std::chrono::milliseconds{4}};
     static constexpr base::Duration::rep sequence_slack = 1000; // ticks
+    /// A goodbye is taken back when states go on that were sent so long after it: it was forged, or
+    /// damaged. Those that it overtook on its way do not count.
+    static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
+    /// So many states without a body, and for a second, are no chance: every 64th has it.
+    static constexpr std::uint32_t states_without_body_max = 10 * body_every;
+    static constexpr base::Duration body_missed_after{std::chrono::seconds{1}};
 
     /// The scene must be one that shared_body() and World::freeze() accept.
     explicit Peer(const Settings& settings);
@@ -154,6 +162,8 @@ private:
     void on_message(const wire::State& state, base::TimePoint arrived);
     void on_message(const wire::Bye& bye, base::TimePoint arrived);
     [[nodiscard]] bool is_plausible(const wire::State& state) const;
+    [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
+    void look_for_body(const wire::State& state, base::TimePoint arrived);
     void consider_refusal(const PendingRefusal& refusal, base::TimePoint arrived);
     [[nodiscard]] std::uint32_t sequence_max(base::TimePoint arrived) const;
 
@@ -180,9 +190,18 @@ private:
     Counters counters_;
 
     Phase phase_ = Phase::waiting;
-    bool gone_ = false;      // the other side said goodbye
-    bool lost_ = false;      // the other side fell silent
-    bool body_known_ = true; // false: joined late, the other side's body not seen yet
+    bool gone_ = false; // the other side said goodbye
+    struct Goodbye {
+        base::TimePoint heard;
+        std::optional<base::TimePoint> last_sent; // of its states until then, on its clock
+    };
+    Goodbye goodbye_;
+    SequenceGuard sequences_;
+    base::TimePoint last_body_; // of the other side, or the session's agreement
+    std::uint32_t states_without_body_ = 0;
+    bool body_missed_ = false; // and a person has been told
+    bool lost_ = false;        // the other side fell silent
+    bool body_known_ = true;   // false: joined late, the other side's body not seen yet
     struct Numbering {
         std::uint32_t number = 0; // of the session
         std::uint32_t sequence = 0;

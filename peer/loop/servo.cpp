@@ -84,9 +84,7 @@ void Servo::tick(const TickTime& time, base::TimePoint now)
 {
     counters_.late.add(time.late);
     counters_.missed += time.missed_before;
-    if (stop_.load(std::memory_order_relaxed)) {
-        parts_.side.peer().leave(wire::ByeReason::interrupted);
-    }
+    if (parts_.gate.is_stopping()) parts_.side.peer().leave(wire::ByeReason::interrupted);
     play(now);
     parts_.journal.put(parts_.side.row(counters_.ticks, time));
     ++counters_.ticks;
@@ -98,12 +96,14 @@ void Servo::tick(const TickTime& time, base::TimePoint now)
 
 void Servo::play(base::TimePoint now)
 {
-    WatchedRig rig{parts_.rig, parts_.watchdog};
+    WatchedRig rig{parts_.rig, parts_.watchdog, &parts_.gate};
     receive();
     if (parts_.watchdog.take_fault()) {
         parts_.rig.governor().latch({device::Fault::timeout, device::Trip::loop});
     }
     parts_.side.step(now, rig);
+    withheld_ = rig.withheld();
+    if (withheld_ != Withheld::no) ++counters_.withheld;
     send();
     while (const auto event = parts_.side.event()) parts_.journal.put(TimedEvent{*event, now});
     report_device(now);
@@ -133,6 +133,7 @@ void Servo::describe(ServoStatus& status) const
     status.refusal = peer.refusal();
     status.calibration = parts_.rig.calibration();
     status.governor_state = governor.state();
+    status.withheld = withheld_;
     status.fault = governor.fault();
     status.governor = governor.counters();
     status.force_limit_n = governor.limits().force_max_n;
@@ -160,7 +161,10 @@ void Servo::receive()
                 ++counters_.strangers;
                 continue;
             }
-            parts_.side.on_datagram(received.bytes, received.at);
+            if (!is_worth_a_row(received)) {
+                ++counters_.unrecorded;
+                continue;
+            }
             if (received.bytes.size() > record::MessageRow::bytes_max) continue;
             record::MessageRow row{.tick = counters_.ticks,
                                    .received_at = received.at,
@@ -172,11 +176,24 @@ void Servo::receive()
     }
 }
 
+/// Lets the session hear a datagram, and says whether the record is to have it: one that changed
+/// something always; others, such as duplicates, as long as they are no flood, which would fill the
+/// disk.
+bool Servo::is_worth_a_row(const net::Received& received)
+{
+    const std::uint64_t states_before = parts_.side.peer().counters().states;
+    parts_.side.on_datagram(received.bytes, received.at);
+    if (parts_.side.peer().counters().states != states_before) return true;
+    return without_effect_.admits(received.at);
+}
+
 void Servo::send()
 {
     while (const auto datagram = parts_.side.poll()) {
         const auto outcome = parts_.socket.send(parts_.remote, datagram->bytes());
         if (outcome != net::SendOutcome::sent) ++counters_.send_failures;
+        counters_.last_send = outcome;
+        sending_.store(outcome, std::memory_order_relaxed);
     }
 }
 

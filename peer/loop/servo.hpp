@@ -4,10 +4,13 @@
 
 #include "device/rig.hpp"
 #include "peer/core/side.hpp"
+#include "peer/loop/force_gate.hpp"
 #include "peer/loop/journal.hpp"
 #include "peer/loop/servo_status.hpp"
 #include "peer/loop/snapshot_slot.hpp"
 #include "peer/loop/watchdog.hpp"
+#include "peer/monitor/device_news.hpp"
+#include "peer/monitor/rate_limit.hpp"
 #include "proto/net/real_time.hpp"
 #include "proto/net/udp_socket.hpp"
 
@@ -19,7 +22,8 @@ namespace hapnet::peer::loop {
 /// journal, in this order. It runs at a fixed rate, waking at absolute times. A device that sets
 /// the pace calls it instead, on a thread of the device's choice; when that device falls silent,
 /// the loop goes on at the fixed rate. A tick that comes a whole period late skips the ones that it
-/// has missed and counts them. However run() ends, the device has then been told zero force three
+/// has missed and counts them. In the tick after a stop was asked for the force is zero, whatever
+/// the other threads are doing. However run() ends, the device has then been told zero force three
 /// times.
 class Servo {
 public:
@@ -31,20 +35,25 @@ public:
         net::Endpoint remote;
         Journal& journal;
         Watchdog& watchdog;
+        ForceGate& gate;
         base::Duration tick{std::chrono::milliseconds{1}};
     };
 
     explicit Servo(const Parts& parts);
 
-    /// Runs until the session has ended, or until the goodbyes after stop() are sent.
+    /// Runs until the session has ended, or until the goodbyes after a stop are sent.
     void run();
 
-    /// From another thread: leave the session and end.
-    void stop() { stop_.store(true, std::memory_order_relaxed); }
     /// From another thread: whether the loop has run its first tick.
     [[nodiscard]] bool is_running() const { return running_.load(std::memory_order_acquire); }
     /// From another thread: whether run() has returned.
     [[nodiscard]] bool is_done() const { return done_.load(std::memory_order_acquire); }
+
+    /// From another thread: what became of the newest datagram.
+    [[nodiscard]] net::SendOutcome sending() const
+    {
+        return sending_.load(std::memory_order_relaxed);
+    }
 
     /// From one other thread: requests its status after the next tick, and takes that status.
     void request_status() { status_slot_.request(); }
@@ -65,6 +74,7 @@ private:
     void play(base::TimePoint now);
     void report_device(base::TimePoint now);
     void receive();
+    [[nodiscard]] bool is_worth_a_row(const net::Received& received);
     void send();
     void note_session(base::TimePoint now);
     void describe(ServoStatus& status) const;
@@ -76,9 +86,12 @@ private:
     base::TimePoint last_tick_;
     SnapshotSlot<ServoStatus> status_slot_;
     net::RealTime real_time_;
+    /// 2000 a second, and a second of them at once: a true path duplicates no more than all.
+    monitor::RateLimit without_effect_{2000, std::chrono::microseconds{500}};
     std::optional<record::SessionRow> noted_;
     std::optional<base::TimePoint> noted_at_;
-    std::atomic<bool> stop_{false};
+    Withheld withheld_ = Withheld::no; // in the last tick
+    std::atomic<net::SendOutcome> sending_{net::SendOutcome::sent};
     std::atomic<bool> running_{false};
     std::atomic<bool> done_{false};
 };

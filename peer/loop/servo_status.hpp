@@ -4,7 +4,9 @@
 
 #include "device/rig.hpp"
 #include "peer/core/peer.hpp"
+#include "peer/loop/force_gate.hpp"
 #include "proto/base/histogram.hpp"
+#include "proto/net/batch_sender.hpp"
 #include "proto/net/real_time.hpp"
 #include "proto/record/rows.hpp"
 
@@ -19,6 +21,9 @@ struct LoopCounters {
     base::DurationHistogram late;
     std::uint64_t strangers = 0;     // datagrams from other addresses than the remote
     std::uint64_t send_failures = 0; // not fatal: the remote's host may be down
+    net::SendOutcome last_send = net::SendOutcome::sent;
+    std::uint64_t withheld = 0;   // ticks in which a person or a signal had stopped the force
+    std::uint64_t unrecorded = 0; // datagrams of a flood that the record leaves out
 };
 
 /// The status of a peer after one of its ticks; statistics are made from it. 19 KiB.
@@ -35,6 +40,7 @@ struct ServoStatus {
     std::optional<wire::ByeReason> refusal;
     device::CalibrationStep calibration = device::CalibrationStep::done;
     device::GovernorState governor_state = device::GovernorState::off;
+    Withheld withheld = Withheld::no;
     device::Latched fault{};
     device::GovernorCounters governor;
     double force_limit_n = 0.0;

@@ -3,14 +3,15 @@
 #include "peer/loop/supervise.hpp"
 
 #include "proto/net/clock.hpp"
-#include "proto/net/program.hpp"
+#include "proto/net/terminal_key.hpp"
 #include "proto/net/wait.hpp"
 
 #include <array>
-#include <cstdio>
 #include <exception>
+#include <span>
 #include <spdlog/fmt/fmt.h>
 #include <thread>
+#include <utility>
 
 namespace hapnet::peer::loop {
 
@@ -46,42 +47,91 @@ private:
     std::jthread thread_; // last: it uses the others
 };
 
+void announce(const Supervised& supervised, const std::string& ready)
+{
+    supervised.out.put(ready);
+    const auto shortage = supervised.servo.real_time().shortage();
+    if (!shortage.empty()) supervised.screen.put(fmt::format("hapnet-peer: {}\n", shortage));
+}
+
+/// The emergency stop: Enter at the terminal, or a client of the control socket.
+class EmergencyStop {
+public:
+    EmergencyStop(ForceGate& gate, net::TextQueue& screen) : gate_{gate}, screen_{screen} {}
+
+    void look()
+    {
+        if (key_.was_pressed()) gate_.stop_in_emergency();
+        if (is_told_ || !gate_.is_stopped_in_emergency()) return;
+        is_told_ = true;
+        screen_.put("hapnet-peer: emergency stop: zero force until the program is started anew; "
+                    "Ctrl-C ends it\n");
+    }
+
+private:
+    ForceGate& gate_;
+    net::TextQueue& screen_;
+    net::TerminalKey key_;
+    bool is_told_ = false;
+};
+
+/// One round of the thread that watches; it sleeps until something happens, or for a while.
+void look_after(const Supervised& supervised, EmergencyStop& emergency)
+{
+    const auto& [servo, monitor, stop, gate, out, screen, control_session] = supervised;
+    const base::Duration every =
+        control_session != nullptr ? monitor::ControlSession::every : drain_every;
+    // Once a stop is asked for, the descriptor may stay readable: then only sleep.
+    const std::array descriptors{stop.descriptor()};
+    net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
+                       net::monotonic_now() + every);
+    emergency.look();
+    if (control_session != nullptr) control_session->serve(net::monotonic_now());
+    monitor.on_sending(servo.sending());
+    monitor.drain();
+}
+
 } // namespace
 
 void supervise(const Supervised& supervised, const std::string& ready)
 {
-    const auto& [servo, monitor, stop, control_session] = supervised;
-    const base::Duration every =
-        control_session != nullptr ? monitor::ControlSession::every : drain_every;
+    Servo& servo = supervised.servo;
+    monitor::Monitor& monitor = supervised.monitor;
+    EmergencyStop emergency{supervised.gate, supervised.screen};
     ServoThread thread{servo};
     bool is_announced = false;
     try {
         while (!servo.is_done() && !thread.has_failed()) {
-            const auto now = net::monotonic_now();
-            const std::array descriptors{stop.descriptor()};
-            // Once a stop is asked for, the descriptor may stay readable: then only sleep.
-            net::wait_readable(stop.requested() ? std::span<const int>{} : descriptors,
-                               now + every);
-            if (stop.requested()) servo.stop();
+            look_after(supervised, emergency);
             if (!is_announced && servo.is_running()) {
-                fmt::print("{}", ready);
-                std::fflush(stdout);
+                announce(supervised, ready);
                 is_announced = true;
-                if (const auto shortage = servo.real_time().shortage(); !shortage.empty()) {
-                    net::say("hapnet-peer", shortage);
-                }
             }
-            if (control_session != nullptr) control_session->serve(net::monotonic_now());
-            monitor.drain();
             monitor.show(net::monotonic_now());
         }
     } catch (...) {
-        servo.stop(); // whatever it is: the hand comes first
+        supervised.stop.request(); // whatever it is: the hand comes first
         thread.join();
         throw;
     }
     thread.join();
+    monitor.close();
+    while (!monitor.is_done() && supervised.stop.requested_for() < give_up_after) {
+        look_after(supervised, emergency);
+    }
     monitor.finish();
+}
+
+void wait_for_readers(const net::TextQueue& text, const net::StopSignal& stop)
+{
+    std::uint64_t written = text.written();
+    base::TimePoint progress = net::monotonic_now();
+    while (!text.is_done()) {
+        const auto now = net::monotonic_now();
+        if (text.written() != std::exchange(written, text.written())) progress = now;
+        if (stop.requested_for() >= give_up_after || now - progress >= text_patience) return;
+        net::wait_readable({}, now + std::chrono::milliseconds{5});
+    }
 }
 
 } // namespace hapnet::peer::loop

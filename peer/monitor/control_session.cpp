@@ -20,8 +20,8 @@ ControlSession::ControlSession(Parts parts) : parts_{std::move(parts)}, subject_
 control::Subject ControlSession::subject()
 {
     const auto run = [this] {
-        return Run{parts_.options, *status_, parts_.journal, parts_.device,
-                   !parts_.monitor.record_failure()};
+        return Run{parts_.options, *status_, parts_.device, parts_.monitor.is_record_whole(),
+                   parts_.monitor.rows_lost()};
     };
     return subject_of({.show = [this, run] { return show_json(run(), parts_.recovery); },
                        .statistics =
@@ -30,7 +30,8 @@ control::Subject ControlSession::subject()
                                json["elapsed_s"] = base::to_seconds(status_->elapsed);
                                return json;
                            },
-                       .stop = [this] { parts_.servo.stop(); }});
+                       .stop = [this] { parts_.stop.request(); },
+                       .stop_in_emergency = [this] { parts_.gate.stop_in_emergency(); }});
 }
 
 void ControlSession::serve(base::TimePoint now)

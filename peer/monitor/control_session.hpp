@@ -21,8 +21,9 @@ public:
     struct Parts {
         control::Server& server;
         loop::Servo& servo;
+        const net::StopSignal& stop;
+        loop::ForceGate& gate;
         const Options& options;
-        const loop::Journal& journal;
         const Monitor& monitor;
         std::string device; // its description
         Recovery recovery{};

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/monitor.hpp"
 
-#include "proto/net/program.hpp"
-
 #include <algorithm>
 #include <spdlog/fmt/fmt.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -19,6 +18,9 @@ constexpr base::Duration elsewhere_every{std::chrono::seconds{5}};
 std::string line_of(const StatusLine& status, const StatusLine& before)
 {
     const record::TickRow& tick = *status.tick;
+    if (const auto trouble = describe(status.sending); !trouble.empty()) {
+        return fmt::format("nothing can be sent to the other peer: {}", trouble);
+    }
     if (!status.session) {
         if (status.is_met) return "agreeing on the start with the other peer";
         return "waiting for the other peer; is it running, and is the emulator between the two?";
@@ -32,6 +34,11 @@ std::string line_of(const StatusLine& status, const StatusLine& before)
         ticks == 0 ? 0.0 : 1000.0 * static_cast<double>(messages) / static_cast<double>(ticks);
     std::string phase{record::name_of(tick.phase)};
     std::replace(phase.begin(), phase.end(), '_', ' ');
+    if (tick.governor == static_cast<std::uint8_t>(device::GovernorState::withheld)) {
+        return fmt::format("{:5.1f} of {:.0f} s  zero force: the dead man's switch is not held, or "
+                           "the force was stopped",
+                           at, base::to_seconds(status.session->length));
+    }
     return fmt::format("{:5.1f} of {:.0f} s  {:<9}  cube x {:+6.1f} mm  force {:4.2f} N  "
                        "received {:4.0f}/s  round trip {:5.1f} ms  missed ticks {}",
                        at, base::to_seconds(status.session->length), phase, tick.cube.x() * 1e3,
@@ -40,6 +47,22 @@ std::string line_of(const StatusLine& status, const StatusLine& before)
 }
 
 } // namespace
+
+std::string_view describe(net::SendOutcome outcome)
+{
+    switch (outcome) {
+    case net::SendOutcome::sent:
+    case net::SendOutcome::buffer_full:
+        return ""; // for the moment
+    // Said by the other host, or by this one of an earlier datagram: nobody listens there yet.
+    case net::SendOutcome::refused: return "";
+    case net::SendOutcome::no_route: return "there is no route to it; is the network up?";
+    case net::SendOutcome::too_big: return "the network takes no datagrams of this size";
+    case net::SendOutcome::failed:
+        return "the system refuses; can --listen reach --remote, and does a firewall allow it?";
+    }
+    return "";
+}
 
 std::string_view describe(Event event)
 {
@@ -57,18 +80,23 @@ std::string_view describe(Event event)
     case Event::refused: return "the two peers do not match: no session";
     case Event::hands_off: return "hands off";
     case Event::ended: return "session ended";
+    case Event::no_body:
+        return "messages of the other peer come, but none that tells where the cube is: something "
+               "on the path drops the longer ones (144 bytes); the two cubes will not agree";
     case Event::stopped: return "stopped before a session began";
     }
     return "";
 }
 
-Monitor::Monitor(loop::Journal& journal, std::optional<record::Writer> writer,
-                 std::uint16_t peer_id)
+Monitor::Monitor(loop::Journal& journal, net::TextQueue& screen,
+                 std::optional<record::Writer> writer, std::uint16_t peer_id)
     : journal_{journal},
-      writer_{std::move(writer)},
+      screen_{screen},
       peer_id_{peer_id},
       is_terminal_{isatty(STDERR_FILENO) != 0}
-{}
+{
+    if (writer) recorder_.emplace(*std::move(writer));
+}
 
 void Monitor::drain()
 {
@@ -83,15 +111,12 @@ void Monitor::drain()
             tell(at, describe(news));
         }
     }
+    look_at_record();
 }
 
 void Monitor::take(const record::Row& row)
 {
-    try {
-        if (writer_) writer_->write(row);
-    } catch (const std::system_error& error) {
-        give_up_record(error);
-    }
+    if (recorder_) recorder_->put(row);
     if (const auto* tick = std::get_if<record::TickRow>(&row)) {
         status_.tick = *tick;
         if (tick->sent_sequence > 0) ++status_.ticks_in_session;
@@ -103,15 +128,44 @@ void Monitor::take(const record::Row& row)
     }
 }
 
-void Monitor::give_up_record(const std::system_error& error)
+/// Tells once that the record has ended before its time.
+void Monitor::look_at_record()
 {
-    record_failure_ = std::current_exception();
-    writer_.reset();
-    say(fmt::format("{}: the record ends here, and the session goes on without it", error.what()));
+    const auto failure = record_failure();
+    if (!failure || is_failure_told_) return;
+    is_failure_told_ = true;
+    try {
+        std::rethrow_exception(failure);
+    } catch (const std::system_error& error) {
+        say(fmt::format("{}: the record ends here, and the session goes on without it",
+                        error.what()));
+    }
+}
+
+std::exception_ptr Monitor::record_failure() const
+{
+    return recorder_ ? recorder_->failure() : nullptr;
+}
+
+std::uint64_t Monitor::rows_lost() const
+{
+    return journal_.lost() + (recorder_ ? recorder_->lost() : 0);
+}
+
+bool Monitor::is_record_whole() const
+{
+    return !record_failure() && rows_lost() == 0 && (!is_closed_ || is_done());
 }
 
 void Monitor::tell(base::TimePoint at, std::string_view words)
 {
+    if (!events_.admits(at)) {
+        ++events_left_out_;
+        return;
+    }
+    if (const auto left_out = std::exchange(events_left_out_, 0); left_out > 0) {
+        say(fmt::format("{} messages were left out here: too many at a time", left_out));
+    }
     const bool in_session = status_.session && at >= status_.session->start;
     if (in_session) {
         say(fmt::format("{:.1f} s: {}", base::to_seconds(at - status_.session->start), words));
@@ -122,9 +176,9 @@ void Monitor::tell(base::TimePoint at, std::string_view words)
 
 void Monitor::say(std::string_view text)
 {
-    if (line_open_) net::tell("\r\x1b[K");
+    screen_.put(
+        fmt::format("{}hapnet-peer {}: {}\n", line_open_ ? "\r\x1b[K" : "", peer_id_, text));
     line_open_ = false;
-    net::tell(fmt::format("hapnet-peer {}: {}\n", peer_id_, text));
 }
 
 void Monitor::show(base::TimePoint now)
@@ -135,7 +189,7 @@ void Monitor::show(base::TimePoint now)
     if (next_show_ || is_terminal_) {
         const std::string line = line_of(status_, shown_);
         if (is_terminal_) {
-            net::tell(fmt::format("\r\x1b[Khapnet-peer {}: {}", peer_id_, line));
+            screen_.put(fmt::format("\r\x1b[Khapnet-peer {}: {}", peer_id_, line));
             line_open_ = true;
         } else {
             say(line);
@@ -145,15 +199,20 @@ void Monitor::show(base::TimePoint now)
     next_show_ = now + every;
 }
 
-void Monitor::finish()
+void Monitor::close()
 {
     drain();
-    try {
-        if (writer_) writer_->flush();
-    } catch (const std::system_error& error) {
-        give_up_record(error);
+    if (recorder_) recorder_->close();
+    is_closed_ = true;
+}
+
+void Monitor::finish()
+{
+    look_at_record();
+    if (events_left_out_ > 0) {
+        say(fmt::format("{} more messages were left out: too many at a time", events_left_out_));
     }
-    if (line_open_) net::tell("\n");
+    if (line_open_) screen_.put("\n");
     line_open_ = false;
 }
 

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "peer/loop/journal.hpp"
-#include "proto/record/writer.hpp"
+#include "peer/monitor/rate_limit.hpp"
+#include "peer/monitor/recorder.hpp"
+#include "proto/net/batch_sender.hpp"
+#include "proto/net/text_queue.hpp"
 
 #include <exception>
 #include <optional>
-#include <system_error>
+#include <string_view>
 
 namespace hapnet::peer::monitor {
 
@@ -19,34 +22,61 @@ struct StatusLine {
     std::uint64_t messages = 0;
     std::uint64_t ticks_in_session = 0;
     std::uint64_t missed = 0;
+    net::SendOutcome sending = net::SendOutcome::sent; // of late
 };
 
-/// Reads the journal of the servo thread: writes the record, prints events for a person, and draws
-/// a status line on a terminal (elsewhere a plain line every 5 s).
+/// Reads the journal of the servo thread: hands rows to the record, prints events for a person, and
+/// draws a status line on a terminal (elsewhere a plain line every 5 s). It waits for nobody:
+/// record and text are written by threads of their own.
 class Monitor {
 public:
-    /// `writer` may be empty.
-    Monitor(loop::Journal& journal, std::optional<record::Writer> writer, std::uint16_t peer_id);
+    /// Events beyond so many are left out, and counted: the network must not fill a log.
+    static constexpr int events_at_once = 20;
+    static constexpr base::Duration event_every{std::chrono::milliseconds{500}};
+
+    /// Text goes to `screen`, which outlives it. `writer` may be empty.
+    Monitor(loop::Journal& journal, net::TextQueue& screen, std::optional<record::Writer> writer,
+            std::uint16_t peer_id);
 
     /// Reads everything in the journal. When the record cannot be written any more (a full disk),
     /// it says so once and goes on without it.
     void drain();
     /// Shows the status, if it is time to.
     void show(base::TimePoint now);
-    /// After the servo has ended: reads the rest, closes the record, ends the line.
+    /// What became of the newest datagram that was sent.
+    void on_sending(net::SendOutcome outcome) { status_.sending = outcome; }
+    /// After the servo has ended: reads the rest and closes the record, without waiting for that.
+    void close();
+    /// After close(): whether the record is on the disk, as far as it will ever be.
+    [[nodiscard]] bool is_done() const { return !recorder_ || recorder_->is_done(); }
+    /// After close(): tells of a record that has failed meanwhile, and ends the line.
     void finish();
-    /// Why the record is incomplete; null: it is complete.
-    [[nodiscard]] std::exception_ptr record_failure() const { return record_failure_; }
+
+    /// Why the record is incomplete; null: its file has not refused.
+    [[nodiscard]] std::exception_ptr record_failure() const;
+    /// Whether the record has every row so far, or will have. After close(), once is_done().
+    [[nodiscard]] bool is_record_whole() const;
+    /// Rows that found no room on their way to the record.
+    [[nodiscard]] std::uint64_t rows_lost() const;
+    /// Rows that have reached the record: it grows as long as the disk takes them.
+    [[nodiscard]] std::uint64_t rows_written() const
+    {
+        return recorder_ ? recorder_->written() : 0;
+    }
 
 private:
     void take(const record::Row& row);
-    void give_up_record(const std::system_error& error);
+    void look_at_record();
     void tell(base::TimePoint at, std::string_view words);
     void say(std::string_view text);
 
     loop::Journal& journal_;
-    std::optional<record::Writer> writer_;
-    std::exception_ptr record_failure_;
+    net::TextQueue& screen_;
+    std::optional<Recorder> recorder_;
+    bool is_failure_told_ = false;
+    bool is_closed_ = false;
+    RateLimit events_{events_at_once, event_every};
+    std::uint64_t events_left_out_ = 0;
     std::uint16_t peer_id_;
     bool is_terminal_;
     bool line_open_ = false;
@@ -54,6 +84,9 @@ private:
     StatusLine shown_;
     std::optional<base::TimePoint> next_show_;
 };
+
+/// Why nothing leaves, in words for a person; "" when it does, or soon will.
+[[nodiscard]] std::string_view describe(net::SendOutcome outcome);
 
 /// An event in words for a person.
 [[nodiscard]] std::string_view describe(Event event);

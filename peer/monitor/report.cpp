@@ -3,6 +3,7 @@
 #include "peer/monitor/report.hpp"
 
 #include "peer/core/sync/text.hpp"
+#include "peer/monitor/monitor.hpp"
 #include "proto/base/text.hpp"
 #include "proto/base/version.hpp"
 #include "proto/net/clock.hpp"
@@ -112,6 +113,7 @@ json governor_json(const Run& run)
               {"nonsense", c.nonsense_trips}}},
             {"resets", c.resets},
             {"watchdog_halts", run.status.watchdog_halts},
+            {"withheld", run.status.loop.withheld},
             {"unusable_samples", run.status.messages.unusable_hand},
             {"device",
              {{"reads", device.reads},
@@ -170,9 +172,24 @@ std::string_view words_on_phase(const loop::ServoStatus& status)
     return "";
 }
 
-/// The most important state: a fault, the calibration or the session, in this order.
+/// Who keeps the force from the hand, and what to do; "" when nobody does.
+std::string_view words_on(loop::Withheld withheld)
+{
+    switch (withheld) {
+    case loop::Withheld::no: return "";
+    case loop::Withheld::by_stop: return "stopping: zero force";
+    case loop::Withheld::by_emergency_stop:
+        return "emergency stop: zero force; only a new start of the program gives force again";
+    case loop::Withheld::by_dead_man:
+        return "the dead man's switch is not held: zero force; hold it, and the force ramps in";
+    }
+    return "";
+}
+
+/// The most important state: a stop, a fault, the calibration or the session, in this order.
 std::string_view state_of(const loop::ServoStatus& status)
 {
+    if (status.withheld == loop::Withheld::by_emergency_stop) return "emergency_stop";
     if (is_at_fault(status)) return "fault";
     return is_calibrating(status) ? "calibrating" : record::name_of(status.phase);
 }
@@ -180,9 +197,15 @@ std::string_view state_of(const loop::ServoStatus& status)
 std::string says(const loop::ServoStatus& status, const Recovery& recovery)
 {
     DeviceNews news{status.calibration, status.fault, false, recovery};
+    const std::string withheld{words_on(status.withheld)};
+    if (status.withheld == loop::Withheld::by_emergency_stop) return withheld;
     if (is_at_fault(status)) return describe(news);
     news.is_of_calibration = true;
     if (is_calibrating(status)) return describe(news);
+    if (!withheld.empty()) return withheld;
+    if (const auto trouble = describe(status.loop.last_send); !trouble.empty()) {
+        return fmt::format("nothing can be sent to the other peer: {}", trouble);
+    }
     return std::string{words_on_phase(status)};
 }
 
@@ -226,6 +249,7 @@ json configuration_json(const Options& options, std::string_view device)
             {"operator_toml", simulated ? json(print_operator(options.device.person)) : json{}},
             {"duration_s", base::to_seconds(options.duration)},
             {"tick_ns", 1'000'000},
+            {"wire", wire::protocol_version},
             {"boot_id", net::boot_id()},
             {"started_unix_s", net::wall_clock_seconds()}};
 }
@@ -238,7 +262,8 @@ json statistics_json(const Run& run)
     out["tick"] = tick_json(run.status.loop);
     out["messages"] = messages_json(run);
     out["governor"] = governor_json(run);
-    out["record_rows_lost"] = run.journal.lost();
+    out["record_rows_lost"] = run.rows_lost + run.status.loop.unrecorded;
+    out["texts_lost"] = run.texts_lost;
     out["record_whole"] = run.options.record ? json(run.is_record_whole) : json{};
     out["real_time"] = {{"fifo", run.status.real_time.fifo},
                         {"locked_memory", run.status.real_time.locked_memory}};
@@ -270,6 +295,7 @@ Ordered show_json(const Run& run, const Recovery& recovery)
             {"session", shown_session(run)},
             {"force_n", base::norm(status.force)},
             {"governor", device::name_of(status.governor_state)},
+            {"force_withheld", status.withheld != loop::Withheld::no},
             {"fault", shown_fault(status)}};
 }
 
@@ -291,9 +317,18 @@ std::string summary(const Run& run)
                             "end\n",
                             run.options.id);
     }
-    if (const auto lost = run.journal.lost(); lost > 0) {
-        text +=
-            fmt::format("hapnet-peer {}: {} rows of the record were lost\n", run.options.id, lost);
+    if (run.rows_lost > 0) {
+        text += fmt::format("hapnet-peer {}: {} rows of the record were lost\n", run.options.id,
+                            run.rows_lost);
+    }
+    if (const auto left_out = loop.unrecorded; left_out > 0 && run.options.record) {
+        text += fmt::format("hapnet-peer {}: a flood of {} datagrams that had no effect was left "
+                            "out of the record\n",
+                            run.options.id, left_out);
+    }
+    if (run.texts_lost > 0) {
+        text += fmt::format("hapnet-peer {}: {} messages were lost, as they were not read\n",
+                            run.options.id, run.texts_lost);
     }
     return text;
 }

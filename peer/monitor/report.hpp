@@ -3,10 +3,10 @@
 #pragma once
 
 #include "peer/cli/options.hpp"
-#include "peer/loop/journal.hpp"
 #include "peer/loop/servo_status.hpp"
 #include "peer/monitor/device_news.hpp"
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -16,9 +16,10 @@ namespace hapnet::peer::monitor {
 struct Run {
     const Options& options;
     const loop::ServoStatus& status;
-    const loop::Journal& journal;
     std::string device;
     bool is_record_whole = true;
+    std::uint64_t rows_lost = 0;  // on their way to the record
+    std::uint64_t texts_lost = 0; // messages for a person that nobody took
 };
 
 /// The configuration of a peer as records and statistics carry it.

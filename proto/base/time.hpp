@@ -8,7 +8,7 @@
 namespace hapnet::base {
 
 /// The one clock of the cores. It has no now(): a core that wants to read a clock does not
-/// compile. Shells fill it from CLOCK_MONOTONIC, virtual time from a counter.
+/// compile. Shells fill it from CLOCK_BOOTTIME, virtual time from a counter.
 struct Timeline {
     using duration = std::chrono::nanoseconds;
     using rep = duration::rep;

@@ -14,7 +14,7 @@ namespace hapnet::net {
 base::TimePoint monotonic_now()
 {
     timespec now{};
-    base::ensure(clock_gettime(CLOCK_MONOTONIC, &now) == 0);
+    base::ensure(clock_gettime(CLOCK_BOOTTIME, &now) == 0);
     return base::TimePoint{std::chrono::seconds{now.tv_sec} +
                            std::chrono::nanoseconds{now.tv_nsec}};
 }
@@ -33,7 +33,7 @@ void sleep_until(base::TimePoint when)
     timespec until{};
     until.tv_sec = seconds.count();
     until.tv_nsec = (since_start - seconds).count();
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
+    while (clock_nanosleep(CLOCK_BOOTTIME, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
 }
 
 std::string boot_id()

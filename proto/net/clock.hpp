@@ -9,17 +9,19 @@
 
 namespace hapnet::net {
 
-/// CLOCK_MONOTONIC. The only clock of the project; called once per wake-up by a shell.
+/// CLOCK_BOOTTIME: it never steps, and goes on while the machine is suspended, so that a loop finds
+/// the gap, and motors have cooled by it. The only clock of the project; called once per wake-up by
+/// a shell.
 [[nodiscard]] base::TimePoint monotonic_now();
 
 /// The time of day in seconds since 1970, for manifests, file names and captures only.
 [[nodiscard]] double wall_clock_seconds();
 
-/// Sleeps until `when` on CLOCK_MONOTONIC; returns at once when it has passed.
+/// Sleeps until `when` on that clock; returns at once when it has passed.
 void sleep_until(base::TimePoint when);
 
 /// The identity of this boot of this machine: two records with equal boot ids have one
-/// CLOCK_MONOTONIC and compare directly. Empty when the system does not tell.
+/// clock and compare directly. Empty when the system does not tell.
 [[nodiscard]] std::string boot_id();
 
 /// 64 bits from the kernel's random source, for session nonces; never for an experiment.

@@ -11,8 +11,10 @@
 #include <cstring>
 #include <netdb.h>
 #include <netinet/in.h>
+#include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
+#include <tuple>
 #include <unistd.h>
 
 namespace hapnet::net {
@@ -83,6 +85,32 @@ bool Endpoint::is_any() const
     }
     const auto host = address_as<sockaddr_in6>(address_).sin6_addr;
     return IN6_IS_ADDR_UNSPECIFIED(&host);
+}
+
+Endpoint Endpoint::with_port(std::uint16_t port) const
+{
+    Endpoint other = *this;
+    if (family() == AF_INET) {
+        auto address = address_as<sockaddr_in>(address_);
+        address.sin_port = htons(port);
+        std::memcpy(&other.address_, &address, sizeof address);
+    } else {
+        auto address = address_as<sockaddr_in6>(address_);
+        address.sin6_port = htons(port);
+        std::memcpy(&other.address_, &address, sizeof address);
+    }
+    return other;
+}
+
+bool Endpoint::is_one_host() const
+{
+    if (is_any()) return false;
+    if (family() == AF_INET) {
+        const auto host = ntohl(address_as<sockaddr_in>(address_).sin_addr.s_addr);
+        return !IN_MULTICAST(host) && host != INADDR_BROADCAST;
+    }
+    const auto host = address_as<sockaddr_in6>(address_).sin6_addr;
+    return !IN6_IS_ADDR_MULTICAST(&host);
 }
 
 std::string Endpoint::to_text() const
@@ -161,17 +189,30 @@ Endpoint resolve(const HostPort& where, int family)
     return Endpoint{address, length};
 }
 
-void require_route(const Endpoint& remote)
+namespace {
+
+void require_route_from(const std::optional<Endpoint>& listen, const Endpoint& remote)
 {
     const int descriptor = socket(remote.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (descriptor < 0) throw std::system_error{errno, std::generic_category(), "socket"};
+    // An address that cannot be bound to is found where it is bound in earnest, and named there.
+    if (listen) std::ignore = bind(descriptor, listen->address(), listen->length());
     const int outcome = connect(descriptor, remote.address(), remote.length());
     const int error = errno;
     close(descriptor);
-    if (outcome != 0) {
-        throw std::system_error{error, std::generic_category(),
-                                fmt::format("cannot reach {}", remote.to_text())};
-    }
+    if (outcome == 0) return;
+    const std::string from = listen ? fmt::format(" from {}", listen->to_text()) : std::string{};
+    throw std::system_error{error, std::generic_category(),
+                            fmt::format("cannot reach {}{}", remote.to_text(), from)};
+}
+
+} // namespace
+
+void require_route(const Endpoint& remote) { require_route_from(std::nullopt, remote); }
+
+void require_route(const Endpoint& listen, const Endpoint& remote)
+{
+    require_route_from(listen.with_port(0), remote); // any port: the one asked for may be taken
 }
 
 } // namespace hapnet::net

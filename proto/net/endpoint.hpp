@@ -21,8 +21,11 @@ public:
     [[nodiscard]] socklen_t length() const { return length_; }
     [[nodiscard]] int family() const { return address_.ss_family; }
     [[nodiscard]] std::uint16_t port() const;
+    [[nodiscard]] Endpoint with_port(std::uint16_t port) const;
     [[nodiscard]] bool is_loopback() const;
     [[nodiscard]] bool is_any() const;
+    /// Whether one host can answer from it: no group of hosts, no broadcast, and not any address.
+    [[nodiscard]] bool is_one_host() const;
 
     /// Whether what is sent here arrives at a socket of this machine that listens at `listen`.
     [[nodiscard]] bool reaches(const Endpoint& listen) const;
@@ -54,5 +57,9 @@ struct HostPort {
 
 /// Throws std::system_error when this machine has no route to `remote`. Sends nothing.
 void require_route(const Endpoint& remote);
+
+/// Throws std::system_error when a socket at `listen` cannot send to `remote`: this machine has no
+/// route, or none from that address. Sends nothing.
+void require_route(const Endpoint& listen, const Endpoint& remote);
 
 } // namespace hapnet::net

@@ -2,49 +2,162 @@
 // SPDX-License-Identifier: MIT
 #include "proto/net/stop_signal.hpp"
 
+#include "proto/net/clock.hpp"
+#include "proto/net/detached_thread.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/signalfd.h>
 #include <system_error>
+#include <tuple>
 #include <unistd.h>
-#include <utility>
 
 namespace hapnet::net {
 
-StopSignal::StopSignal(Hangup hangup) : hangup_{hangup}
+namespace {
+
+[[noreturn]] void refuse(const char* what)
 {
-    std::signal(SIGPIPE, SIG_IGN);
+    throw std::system_error{errno, std::generic_category(), what};
+}
+
+int signals_as_descriptor()
+{
     sigset_t signals{};
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    descriptor_ = signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC);
-    if (descriptor_ < 0) throw std::system_error{errno, std::generic_category(), "signalfd"};
+    const int descriptor = signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC);
+    if (descriptor < 0) refuse("signalfd");
+    return descriptor;
 }
 
-StopSignal::~StopSignal() { close(descriptor_); }
+} // namespace
 
-bool StopSignal::requested()
-{
-    take();
-    return requested_;
-}
-
-bool StopSignal::reload_requested()
-{
-    take();
-    return std::exchange(reload_requested_, false);
-}
-
-void StopSignal::take()
-{
-    signalfd_siginfo info{};
-    while (read(descriptor_, &info, sizeof info) == static_cast<ssize_t>(sizeof info)) {
-        const bool is_hangup = info.ssi_signo == static_cast<std::uint32_t>(SIGHUP);
-        (is_hangup && hangup_ == Hangup::reload ? reload_requested_ : requested_) = true;
+struct StopSignal::State {
+    explicit State(Hangup means) : hangup{means}, signals{signals_as_descriptor()}
+    {
+        wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+        if (wake < 0) {
+            close(signals);
+            refuse("eventfd");
+        }
     }
+    ~State()
+    {
+        close(signals);
+        close(wake);
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    void request()
+    {
+        base::Duration::rep never = 0;
+        const auto now = monotonic_now().time_since_epoch().count();
+        if (!requested_at.compare_exchange_strong(never, now, std::memory_order_acq_rel)) return;
+        const std::uint64_t one = 1;
+        std::ignore = write(wake, &one, sizeof one);
+    }
+
+    void take()
+    {
+        signalfd_siginfo info{};
+        while (read(signals, &info, sizeof info) == static_cast<ssize_t>(sizeof info)) {
+            const bool is_hangup = info.ssi_signo == static_cast<std::uint32_t>(SIGHUP);
+            if (is_hangup && hangup == Hangup::reload) {
+                reload.store(true, std::memory_order_release);
+            } else {
+                request();
+            }
+        }
+    }
+
+    Hangup hangup;
+    int signals;
+    int wake = -1; // readable once a stop was asked for, whoever learnt of it first
+    [[nodiscard]] bool is_requested() const
+    {
+        return requested_at.load(std::memory_order_acquire) != 0;
+    }
+
+    std::atomic<base::Duration::rep> requested_at{0}; // on the timeline; 0: never
+    std::atomic<bool> reload{false};
+};
+
+namespace {
+
+/// The standard descriptors that are terminals; -1, which poll() passes over, for others.
+std::array<int, 3> terminals()
+{
+    std::array<int, 3> found{STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO};
+    for (int& descriptor : found) {
+        if (isatty(descriptor) == 0) descriptor = -1;
+    }
+    return found;
+}
+
+} // namespace
+
+StopSignal::StopSignal(Hangup hangup)
+{
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGTTIN, SIG_IGN);
+    state_ = std::make_shared<State>(hangup);
+}
+
+int StopSignal::descriptor() const { return state_->signals; }
+
+bool StopSignal::requested() const
+{
+    if (state_->is_requested()) return true;
+    state_->take();
+    return state_->is_requested();
+}
+
+base::Duration StopSignal::requested_for() const
+{
+    if (!requested()) return {};
+    const base::TimePoint at{base::Duration{state_->requested_at.load(std::memory_order_acquire)}};
+    return std::max(base::Duration{1}, monotonic_now() - at);
+}
+
+void StopSignal::request() const { state_->request(); }
+
+bool StopSignal::reload_requested() const
+{
+    state_->take();
+    return state_->reload.exchange(false, std::memory_order_acq_rel);
+}
+
+void StopSignal::enforce(base::Duration patience, int code) const
+{
+    start_detached([state = state_, patience, code] {
+        const auto [in, out, error] = terminals();
+        // A terminal is asked for nothing: poll() tells of a hangup regardless.
+        std::array<pollfd, 5> polled{{{state->wake, POLLIN, 0},
+                                      {state->signals, POLLIN, 0},
+                                      {in, 0, 0},
+                                      {out, 0, 0},
+                                      {error, 0, 0}}};
+        while (!state->is_requested()) {
+            if (poll(polled.data(), polled.size(), -1) < 0) continue;
+            state->take();
+            for (std::size_t i = 2; i < polled.size(); ++i) {
+                if ((polled[i].revents & (POLLHUP | POLLERR | POLLNVAL)) == 0) continue;
+                state->request();
+            }
+        }
+        sleep_until(monotonic_now() + patience);
+        _exit(code);
+    });
 }
 
 } // namespace hapnet::net

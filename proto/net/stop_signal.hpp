@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/time.hpp"
+
 #include <cstdint>
+#include <memory>
 
 namespace hapnet::net {
 
@@ -11,30 +14,39 @@ enum class Hangup : std::uint8_t { stop, reload };
 
 /// SIGINT, SIGTERM and SIGHUP as something to wait for. Construct one, first thing in main and
 /// before any thread: from then on they interrupt nothing and are read here. SIGPIPE is ignored
-/// from then on: a reader that has left must not end a session.
+/// from then on: a reader that has left must not end a session. So is SIGTTIN: a program in the
+/// background that looks at its terminal must not be stopped with a force on its motors.
 class StopSignal {
 public:
     explicit StopSignal(Hangup hangup = Hangup::stop);
-    ~StopSignal();
+    ~StopSignal() = default;
     StopSignal(const StopSignal&) = delete;
     StopSignal& operator=(const StopSignal&) = delete;
 
-    /// Readable once a signal has come.
-    [[nodiscard]] int descriptor() const { return descriptor_; }
+    /// Readable once a signal has come, until one of the functions below was called.
+    [[nodiscard]] int descriptor() const;
 
-    /// Whether one that means stop has come since construction; stays true.
-    [[nodiscard]] bool requested();
+    /// Whether one that means stop has come since construction; stays true. From any thread: each
+    /// one that asks learns of a signal by itself, whatever the others are doing. Never blocks.
+    [[nodiscard]] bool requested() const;
+
+    /// For how long a stop has been asked for; 0: it has not.
+    [[nodiscard]] base::Duration requested_for() const;
+
+    /// From any thread: as if such a signal had come.
+    void request() const;
 
     /// Whether one that means reload has come since the last call.
-    [[nodiscard]] bool reload_requested();
+    [[nodiscard]] bool reload_requested() const;
+
+    /// From now on, until the process has gone: when it is still there `patience` after a stop was
+    /// asked for, it ends by _exit(code), whatever blocks it. And a terminal at one of the standard
+    /// descriptors that hangs up asks for a stop. A thread that writes nothing sees to both.
+    void enforce(base::Duration patience, int code) const;
 
 private:
-    void take();
-
-    Hangup hangup_;
-    int descriptor_ = -1;
-    bool requested_ = false;
-    bool reload_requested_ = false;
+    struct State;
+    std::shared_ptr<State> state_;
 };
 
 } // namespace hapnet::net

@@ -27,8 +27,8 @@ base::Duration to_duration(const timespec& time)
     return std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec};
 }
 
-/// CLOCK_MONOTONIC minus CLOCK_REALTIME. Being interrupted between the readings would shift the
-/// stamps by as much, so the closest of a few readings counts; the first usually does.
+/// The clock of monotonic_now() minus CLOCK_REALTIME. Being interrupted between the readings would
+/// shift the stamps by as much, so the closest of a few readings counts; the first usually does.
 base::Duration monotonic_minus_real()
 {
     constexpr int readings_max = 4;

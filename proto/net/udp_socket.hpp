@@ -17,7 +17,7 @@ namespace hapnet::net {
 struct Received {
     std::span<const std::byte> bytes; // valid until the next receive()
     Endpoint from;
-    base::TimePoint at; // the kernel's receive stamp, on CLOCK_MONOTONIC
+    base::TimePoint at; // the kernel's receive stamp
 };
 
 /// What a socket is for.

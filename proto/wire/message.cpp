@@ -370,6 +370,19 @@ Result<Message> taken(ByteReader& in)
 
 } // namespace
 
+/// FNV-1a, folded to 32 bits.
+std::uint32_t boot_of(std::string_view boot_id)
+{
+    if (boot_id.empty()) return 0;
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char c : boot_id) {
+        hash ^= static_cast<unsigned char>(c);
+        hash *= 0x100000001b3U;
+    }
+    const auto folded = static_cast<std::uint32_t>(hash ^ hash >> 32);
+    return folded == 0 ? 1 : folded;
+}
+
 std::optional<TaskName> TaskName::from_text(std::string_view text)
 {
     const auto is_printable = [](char c) { return c > ' ' && c <= '~'; };

@@ -55,6 +55,9 @@ private:
     std::array<char, bytes_max> characters_{};
 };
 
+/// A hash of the text that names a machine's boot; 0 for an empty one.
+[[nodiscard]] std::uint32_t boot_of(std::string_view boot_id);
+
 /// A hand and its device as seen from the scene, in SI units; 0: not said.
 struct HandModel {
     float mass = 0.0F, damping = 0.0F, stiffness = 0.0F, friction = 0.0F;

@@ -128,6 +128,50 @@ TEST(PeerUsage, ListensOnLoopbackForLoopbackOnly)
                    {"--remote 192.0.2.1:7000", "--listen 127.0.0.1:0", "--listen 0.0.0.0:7000"});
 }
 
+TEST(PeerUsage, RefusesARemoteFromWhichNoAnswerCanCome)
+{
+    for (const char* remote : {"224.0.0.1:7000", "255.255.255.255:7000", "0.0.0.0:7000"}) {
+        expect_refusal(
+            run("hapnet-peer", {"--remote", remote, "--listen", "0.0.0.0:0", "--insecure"}), 2,
+            {"--remote", remote, "one host"});
+    }
+}
+
+TEST(PeerUsage, RefusesOneFileForTwoResults)
+{
+    const TemporaryFolder folder;
+    const std::string file = folder.file("same");
+    expect_refusal(run_peer_with({"--record", file, "--stats", file}), 2, {"--record", file});
+    std::ofstream{file} << "kept";
+    std::filesystem::create_symlink(file, folder.file("other"));
+    expect_refusal(run_peer_with({"--record", folder.file("other"), "--stats", file}), 2,
+                   {"--record", "--stats"});
+    EXPECT_EQ(text_of(file), "kept");
+    expect_refusal(run_peer_with({"--stats", ""}), 2, {"--stats", "needs a file"});
+    expect_refusal(run_peer_with({"--record", ""}), 2, {"--record", "not a file"});
+}
+
+TEST(PeerUsage, LeavesAnOlderRecordAsItIsWhenItRefusesToStart)
+{
+    const TemporaryFolder folder;
+    const std::string file = folder.file("keep.rec");
+    std::ofstream{file} << "an older record";
+    expect_refusal(run_peer_with({"--record", file, "--stats", "/no/such/folder/x.json"}), 3,
+                   {"/no/such/folder"});
+    expect_refusal(run_peer_with({"--record", file, "--control", "/no/such/folder/x.sock"}), 3,
+                   {"/no/such/folder"});
+    expect_refusal(run_peer_with({"--record", file, "--dead-man", "evdev:/dev/null"}), 3,
+                   {"--dead-man", "/dev/null"});
+    EXPECT_EQ(text_of(file), "an older record");
+}
+
+TEST(PeerUsage, RefusesForcesAndDampingsThatNoHandCouldTellFromNone)
+{
+    expect_refusal(run_peer_with({"--grip-damping", "1e-300Ns/m"}), 2, {"--grip-damping"});
+    expect_refusal(run_peer_with({"--force-limit", "1e-320N"}), 2, {"--force-limit", "0N to 40N"});
+    expect_refusal(run_peer_with({"--dead-man", "pedal"}), 2, {"--dead-man", "'pedal'", "button"});
+}
+
 TEST(PeerUsage, EndsWithThreeWhenTheSystemRefuses)
 {
     const Host occupant;

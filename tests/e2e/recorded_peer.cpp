@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -40,6 +41,17 @@ int fall(volatile int* depth)
     return *depth < 0 ? 0 : fall(depth) + room[0];
 }
 
+/// Puts a pipe there that is full, and that nobody reads.
+void block(int descriptor)
+{
+    int ends[2] = {-1, -1};
+    if (::pipe2(ends, O_NONBLOCK) != 0) std::abort(); // its reading end stays open
+    const std::string text(4096, '.');
+    while (write(ends[1], text.data(), text.size()) > 0) {}
+    fcntl(ends[1], F_SETFL, 0);
+    dup2(ends[1], descriptor);
+}
+
 class RecordingOmni final : public device::Device {
 public:
     RecordingOmni(const RecordedPlay& play, int pipe)
@@ -58,6 +70,7 @@ public:
     {
         device::Sample sample = omni_.read(now);
         if (pushes_ == pushes_before_trouble) trouble(sample);
+        if (play_.needs_button) hold(sample);
         if (pushes_ == pushes_before_trouble && play_.trouble == Trouble::late_read && !hung_) {
             hang(60ms);
         }
@@ -99,6 +112,14 @@ private:
         hung_ = true;
         tell({.is_trouble = true});
         net::sleep_until(net::monotonic_now() + duration);
+    }
+    /// The button, held but for 20 ms in the middle of a push.
+    void hold(device::Sample& sample)
+    {
+        const bool is_released = pushes_ >= pushes_before_trouble && released_ < 20;
+        if (is_released && released_++ == 0) tell({.is_trouble = true});
+        sample.buttons = is_released ? 0 : 2;
+        sample.gripping = sample.gripping && !is_released;
     }
     void begin_trouble()
     {
@@ -149,6 +170,7 @@ private:
     device::Capabilities capabilities_;
     int pushes_ = 0;
     bool hung_ = false;
+    int released_ = 0; // ticks
     bool is_troubled_ = false;
 };
 
@@ -156,13 +178,21 @@ private:
 base::Result<int> play(const std::pair<RecordedPlay, int>& options)
 {
     const auto& [asked, pipe] = options;
-    net::StopSignal stop;
+    const net::StopSignal stop;
+    stop.enforce(800ms, net::exit_environment);
+    net::TextQueue out{STDOUT_FILENO};
+    net::TextQueue screen{STDERR_FILENO};
     const net::CrashSignal crash;
     const net::CrashStack stack;
     net::UdpSocket socket{net::resolve(net::parse_host_port(asked.listen).value())};
     device::Rig rig{std::make_unique<RecordingOmni>(asked, pipe), device::GovernorLimits{}};
     peer::loop::Journal journal;
-    peer::monitor::Monitor monitor{journal, std::nullopt, 1};
+    std::optional<record::Writer> writer;
+    if (!asked.record.empty()) writer.emplace(asked.record, nlohmann::json::object());
+    peer::monitor::Monitor monitor{journal, screen, std::move(writer), 1};
+    peer::loop::ForceGate gate{stop, asked.needs_button
+                                         ? peer::loop::DeadMan{peer::loop::DeviceButton{}}
+                                         : peer::loop::DeadMan{}};
     peer::Settings settings;
     settings.introduction = {.id = 1,
                              .nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U),
@@ -173,18 +203,20 @@ base::Result<int> play(const std::pair<RecordedPlay, int>& options)
     peer::loop::Watchdog watchdog{rig.device(), &crash};
     peer::loop::Servo servo{{side, rig, socket,
                              net::resolve(net::parse_host_port(asked.remote).value()), journal,
-                             watchdog}};
+                             watchdog, gate}};
     const peer::Options unused;
     std::optional<control::Server> server;
     std::optional<peer::monitor::ControlSession> control_session;
     if (!asked.control.empty()) {
         server.emplace(asked.control, peer::monitor::ControlSession::limits);
-        control_session.emplace(peer::monitor::ControlSession::Parts{*server, servo, unused,
-                                                                     journal, monitor, "recorded"});
+        control_session.emplace(peer::monitor::ControlSession::Parts{*server, servo, stop, gate,
+                                                                     unused, monitor, "recorded"});
     }
-    peer::loop::supervise({servo, monitor, stop, control_session ? &*control_session : nullptr},
-                          "");
-    return 0;
+    peer::loop::supervise(
+        {servo, monitor, stop, gate, out, screen, control_session ? &*control_session : nullptr},
+        asked.blocked ? "ready\n" : "");
+    peer::loop::wait_for_readers(screen, stop);
+    return monitor.is_record_whole() ? 0 : net::exit_environment;
 }
 
 } // namespace
@@ -193,10 +225,15 @@ RecordedPeer::RecordedPeer(const RecordedPlay& asked)
 {
     int ends[2] = {-1, -1};
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error{"pipe2"};
+    std::fflush(stdout); // or the child would print it, too
     pid_ = fork();
     if (pid_ == 0) {
-        const int messages = open(asked.messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        dup2(messages, STDERR_FILENO);
+        if (asked.blocked) {
+            block(STDOUT_FILENO);
+            block(STDERR_FILENO);
+        } else {
+            dup2(open(asked.messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+        }
         const net::CommandLine<std::pair<RecordedPlay, int>> line{std::pair{asked, ends[1]}};
         // Not this test program's own ways out.
         _exit(net::run_program<std::pair<RecordedPlay, int>>("recorded peer", line, play));

@@ -32,8 +32,11 @@ struct RecordedPlay {
     device::Pacing pacing = device::Pacing::host;
     std::string listen{};
     std::string remote{};
-    std::string messages{}; // the file that its stderr goes to
-    std::string control{};  // where its control socket is to be; empty: it has none
+    std::string messages{};    // the file that its stderr goes to
+    std::string control{};     // where its control socket is to be; empty: it has none
+    std::string record{};      // where its record goes; empty: it writes none
+    bool blocked = false;      // stdout and stderr are full pipes that nobody reads
+    bool needs_button = false; // a dead man's switch, let go in the middle of a push
 };
 
 /// One thing that the device was told: bytes as they go through a pipe.

@@ -67,6 +67,10 @@ TEST_F(TalkWithAPeer, StopsOnceAskedToAndAnswersFirst)
     EXPECT_EQ(fake.stops, 1);
     EXPECT_NE(refused({{"command", "stop"}, {"for", "1s"}}).find("\"for\""), std::string::npos);
     EXPECT_EQ(fake.stops, 1) << "a request that is refused does nothing";
+    EXPECT_EQ(fake.emergency_stops, 0);
+    EXPECT_EQ(ask({{"command", "estop"}}), (json{{"ok", true}, {"force", "off"}}));
+    EXPECT_EQ(fake.emergency_stops, 1);
+    EXPECT_EQ(fake.stops, 1);
 }
 
 TEST_F(TalkWithAPeer, RefusesWhatWouldChangeItSayingWhatThereIs)
@@ -75,7 +79,8 @@ TEST_F(TalkWithAPeer, RefusesWhatWouldChangeItSayingWhatThereIs)
         const auto error = refused({{"command", command}, {"profile", ""}, {"settings", 1}});
         EXPECT_NE(error.find("cannot be changed"), std::string::npos) << error;
         EXPECT_NE(error.find(command), std::string::npos) << error;
-        EXPECT_NE(error.find("show, stats, watch, wait or stop"), std::string::npos) << error;
+        EXPECT_NE(error.find("show, stats, watch, wait, stop or estop"), std::string::npos)
+            << error;
     }
     EXPECT_NE(refused({{"command", "shwo"}}).find("must be one of show"), std::string::npos);
     EXPECT_EQ(fake.stops, 0);

@@ -16,9 +16,11 @@ struct FakePeerControl {
                                       {"elapsed_s", 2.5}};
     nlohmann::ordered_json shown{{"program", "hapnet-peer"}, {"state", "running"}};
     int stops = 0;
+    int emergency_stops = 0;
     control::Subject subject = subject_of({.show = [this] { return shown; },
                                            .statistics = [this] { return statistics; },
-                                           .stop = [this] { ++stops; }});
+                                           .stop = [this] { ++stops; },
+                                           .stop_in_emergency = [this] { ++emergency_stops; }});
 };
 
 } // namespace hapnet::peer

@@ -153,7 +153,7 @@ TEST(PeerSession, RefusesAnotherVersionOfTheProtocolWhenItHasHeardItThrice)
 {
     Peer peer{settings_of(1, 50)};
     const base::TimePoint now{std::chrono::hours{1}};
-    const std::array<std::byte, 4> newer{std::byte{'H'}, std::byte{'N'}, std::byte{2},
+    const std::array<std::byte, 4> newer{std::byte{'H'}, std::byte{'N'}, std::byte{3},
                                          std::byte{9}};
     for (const auto at : {0ms, 1ms, 20ms}) peer.on_datagram(newer, now + at); // 1 ms is the same
     EXPECT_FALSE(peer.refusal());

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "peer/monitor/monitor.hpp"
 
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <thread>
+#include <unistd.h>
 
 namespace hapnet::peer::monitor {
 namespace {
@@ -53,7 +58,8 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
     bool was_whole_at_first = false;
     {
         loop::Journal journal;
-        Monitor monitor{journal, record::Writer{path, nlohmann::json::object()}, 1};
+        net::TextQueue screen{STDERR_FILENO};
+        Monitor monitor{journal, screen, record::Writer{path, nlohmann::json::object()}, 1};
         was_whole_at_first = monitor.record_failure() == nullptr;
         const FileSizeLimit limit{16'384};
         ASSERT_TRUE(limit.is_in_force());
@@ -61,7 +67,11 @@ TEST(Monitor, TellsOnceThatADiskIsFullAndGoesOnWithoutTheRecord)
             for (int i = 0; i < 1000; ++i) journal.put(record::Row{record::TickRow{}});
             monitor.drain();
         }
+        monitor.close();
+        while (!monitor.is_done()) std::this_thread::yield();
         monitor.finish();
+        while (!screen.is_done()) std::this_thread::yield();
+        EXPECT_FALSE(monitor.is_record_whole());
         failure = monitor.record_failure();
         EXPECT_FALSE(journal.take());
     }
@@ -78,16 +88,21 @@ TEST(Monitor, NoLongerWaitsForAPeerThatAnswered)
 {
     testing::internal::CaptureStderr();
     loop::Journal journal;
-    Monitor monitor{journal, std::nullopt, 1};
+    net::TextQueue screen{STDERR_FILENO};
+    Monitor monitor{journal, screen, std::nullopt, 1};
     base::TimePoint now{1s};
+    const auto said_so_far = [&] {
+        while (!screen.is_done()) std::this_thread::yield();
+        return testing::internal::GetCapturedStderr();
+    };
     const auto line_with = [&](std::optional<Event> event) {
         journal.put(record::Row{record::TickRow{}});
         if (event) journal.put(loop::TimedEvent{*event, now});
         monitor.drain();
-        testing::internal::GetCapturedStderr();
+        said_so_far();
         testing::internal::CaptureStderr();
         monitor.show(now += 5s);
-        const std::string said = testing::internal::GetCapturedStderr();
+        const std::string said = said_so_far();
         testing::internal::CaptureStderr();
         return said;
     };
@@ -96,6 +111,52 @@ TEST(Monitor, NoLongerWaitsForAPeerThatAnswered)
     EXPECT_EQ(line_with(Event::met), "hapnet-peer 1: agreeing on the start with the other peer\n");
     EXPECT_EQ(line_with({}), "hapnet-peer 1: agreeing on the start with the other peer\n");
     testing::internal::GetCapturedStderr();
+}
+
+TEST(Monitor, LetsNoFloodOfEventsFillALog)
+{
+    testing::internal::CaptureStderr();
+    loop::Journal journal;
+    net::TextQueue screen{STDERR_FILENO};
+    Monitor monitor{journal, screen, std::nullopt, 1};
+    const base::TimePoint start{1h};
+    for (int i = 0; i < 3000; ++i) { // a thousand a second
+        journal.put(loop::TimedEvent{Event::restarted, start + i * 1ms});
+        monitor.drain();
+    }
+    journal.put(loop::TimedEvent{Event::left, start + 1min});
+    monitor.close();
+    monitor.finish();
+    while (!screen.is_done()) std::this_thread::yield();
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_LE(count_of("restarted", said), 26U);
+    EXPECT_GE(count_of("restarted", said), 20U);
+    EXPECT_EQ(count_of("messages were left out", said), 6U) << said; // one for each gap
+    EXPECT_EQ(count_of("goodbye", said), 1U) << "what comes later is said";
+}
+
+TEST(Monitor, WaitsForNobodyWhoDoesNotReadWhatItSays)
+{
+    std::signal(SIGPIPE, SIG_IGN); // as every program of ours does
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
+    loop::Journal journal;
+    net::TextQueue screen{ends[1]};
+    Monitor monitor{journal, screen, std::nullopt, 1};
+    base::TimePoint now{1h};
+    for (int i = 0; i < 10'000; ++i) { // 1 MB: more than a pipe and the queue hold
+        journal.put(record::Row{record::TickRow{}});
+        monitor.drain();
+        monitor.show(now += 5s);
+    }
+    monitor.close();
+    monitor.finish();
+    EXPECT_FALSE(screen.is_done());
+    EXPECT_GT(screen.lost(), 1000U);
+    close(ends[0]); // now the write fails, and the thread ends
+    while (!screen.is_done()) std::this_thread::yield();
+    EXPECT_EQ(screen.error(), EPIPE);
+    close(ends[1]);
 }
 
 } // namespace

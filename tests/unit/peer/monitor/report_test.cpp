@@ -13,13 +13,12 @@ using namespace std::chrono_literals;
 struct Shown : testing::Test {
     [[nodiscard]] nlohmann::ordered_json show() const
     {
-        return show_json({options, status, journal, "a device"}, {});
+        return show_json({options, status, "a device"}, {});
     }
     [[nodiscard]] std::string says() const { return show()["says"]; }
 
     Options options;
     loop::ServoStatus status;
-    loop::Journal journal;
 };
 
 TEST_F(Shown, SaysThatItWaitsForTheOther)
@@ -33,7 +32,7 @@ TEST_F(Shown, SaysThatItWaitsForTheOther)
 TEST_F(Shown, SaysWhyTheRunIsNotValid)
 {
     const auto verdict = [&] {
-        const std::string text = summary({options, status, journal, "a device"});
+        const std::string text = summary({options, status, "a device"});
         const auto start = text.find("NOT VALID as a measurement: ");
         return start == std::string::npos ? "valid"
                                           : text.substr(start + 28, text.find('\n') - start - 28);

@@ -6,7 +6,16 @@
 
 #include <array>
 #include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <tuple>
+#include <unistd.h>
 
 namespace hapnet::net {
 namespace {
@@ -21,6 +30,34 @@ TEST(Clock, NeverRunsBackwards)
         ASSERT_GE(now, last);
         last = now;
     }
+}
+
+TEST(Clock, GoesOnWhileTheMachineIsSuspended)
+{
+    // In a namespace of its own, in which the machine has been suspended for 1000 s.
+    const pid_t outer = fork();
+    if (outer == 0) {
+        if (unshare(CLONE_NEWTIME) != 0) _exit(77);
+        std::ofstream offsets{"/proc/self/timens_offsets"};
+        offsets << "boottime 1000 0\n" << std::flush;
+        if (!offsets) _exit(77);
+        const auto before = monotonic_now();
+        const pid_t inner = fork();
+        if (inner == 0) {
+            const auto later = monotonic_now();
+            const bool is_later = later - before >= 1000s && later - before < 1100s;
+            sleep_until(later + 1ms);
+            const bool has_slept = monotonic_now() - later >= 1ms;
+            _exit(is_later && has_slept && monotonic_now() - later < 100s ? 0 : 1);
+        }
+        int status = -1;
+        waitpid(inner, &status, 0);
+        _exit(WEXITSTATUS(status));
+    }
+    int status = -1;
+    waitpid(outer, &status, 0);
+    if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "needs to be root, to set a clock of its own";
+    EXPECT_EQ(status, 0);
 }
 
 TEST(Clock, SleepingUntilAPastMomentReturnsAtOnce)
@@ -73,6 +110,57 @@ TEST(StopSignal, TakesAHangupForAStopUnlessItMeansReload)
     EXPECT_FALSE(stop.requested());
     EXPECT_TRUE(stop.reload_requested());
     EXPECT_FALSE(stop.reload_requested()); // consumed
+}
+
+TEST(StopSignal, IsSeenByWhoeverAsksAndAskedForFromAnywhere)
+{
+    const StopSignal stop;
+    EXPECT_EQ(stop.requested_for(), base::Duration{0});
+    std::thread{[&stop] { stop.request(); }}.join();
+    EXPECT_TRUE(stop.requested());
+    EXPECT_GT(stop.requested_for(), base::Duration{0});
+}
+
+/// What a child ends with that a signal, or its terminal, asks to end while it is stuck.
+template <typename Stop>
+int end_of_a_stuck_child(Stop ask)
+{
+    std::array<int, 2> started{};
+    if (pipe(started.data()) != 0) return -1;
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    grantpt(terminal);
+    unlockpt(terminal);
+    const std::string name = ptsname(terminal);
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(open(name.c_str(), O_RDWR | O_NOCTTY), STDIN_FILENO);
+        close(terminal);
+        const StopSignal stop;
+        stop.enforce(10ms, 33);
+        std::ignore = write(started[1], "!", 1);
+        while (true) pause();
+    }
+    char byte = 0;
+    std::ignore = read(started[0], &byte, 1);
+    ask(child, terminal);
+    int status = -1;
+    waitpid(child, &status, 0);
+    close(started[0]);
+    close(started[1]);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(StopSignal, EndsAProcessThatIsStuck)
+{
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        EXPECT_EQ(end_of_a_stuck_child([&](pid_t child, int /*terminal*/) { kill(child, signal); }),
+                  33);
+    }
+}
+
+TEST(StopSignal, ComesFromATerminalThatGoesAway)
+{
+    EXPECT_EQ(end_of_a_stuck_child([](pid_t /*child*/, int terminal) { close(terminal); }), 33);
 }
 
 } // namespace

@@ -212,6 +212,14 @@ TEST(Format, SaysAnIntentionAsFarAsItCan)
     EXPECT_NEAR(said.intention_velocity.z(), 0.12345, 1e-4);
 }
 
+TEST(Boot, IsTheHashOfItsNameAndNeverZero)
+{
+    EXPECT_EQ(boot_of(""), 0U);
+    EXPECT_NE(boot_of("a"), 0U);
+    EXPECT_NE(boot_of("a"), boot_of("b"));
+    EXPECT_EQ(boot_of("9f2c"), boot_of("9f2c"));
+}
+
 TEST(Sums, AreSubtractedModuloTwoToThe32)
 {
     EXPECT_EQ(difference({5, 0, 0x8000'0000}, {3, 0xffff'ffff, 0x7fff'ffff}),

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/sequence_guard.hpp"
+
+#include <algorithm>
+
+namespace hapnet::peer {
+
+namespace {
+
+// By so much a state moves what is usual. A device may set a pace 1.4 % above the nominal one
+// (DeviceTimer), and a queue may empty at almost a millisecond a state.
+constexpr base::Duration lead_step{std::chrono::microseconds{125}};
+constexpr base::Duration transit_step{std::chrono::milliseconds{1}};
+
+base::Duration stepped(base::Duration from, base::Duration to, base::Duration step)
+{
+    return from + std::clamp(to - from, -step, step);
+}
+
+} // namespace
+
+SequenceGuard::Usual SequenceGuard::of(const wire::State& state, base::TimePoint arrived) const
+{
+    const base::Duration numbered = static_cast<base::Duration::rep>(state.sequence) * tick_;
+    return {numbered - state.sent.time_since_epoch(), arrived - state.sent, arrived};
+}
+
+bool SequenceGuard::admits(const wire::State& state, base::TimePoint arrived) const
+{
+    if (!usual_ || arrived - usual_->last >= forgotten_after) return true;
+    const Usual now = of(state, arrived);
+    return now.lead <= usual_->lead + numbered_ahead_max &&
+           now.transit >= usual_->transit - faster_max;
+}
+
+void SequenceGuard::on_taken(const wire::State& state, base::TimePoint arrived)
+{
+    const Usual now = of(state, arrived);
+    if (!usual_ || arrived - usual_->last >= forgotten_after) {
+        usual_ = now;
+        return;
+    }
+    usual_->lead = stepped(usual_->lead, now.lead, lead_step);
+    usual_->transit = stepped(usual_->transit, now.transit, transit_step);
+    usual_->last = std::max(usual_->last, arrived);
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/governor.hpp"
+#include "peer/loop/dead_man.hpp"
+#include "proto/net/stop_signal.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <utility>
+
+namespace hapnet::peer::loop {
+
+/// Who keeps all force from the hand, whatever session and scene ask for.
+enum class Withheld : std::uint8_t {
+    no,
+    by_stop,           // the program is to end
+    by_emergency_stop, // for the rest of the program's life
+    by_dead_man,       // the dead man's switch is not held
+};
+
+/// Stands between the governor and the motors, and only ever closes: a person, or a signal, has
+/// stopped the force. Asked by the loop once per tick, so that a stop waits for no other thread.
+class ForceGate {
+public:
+    /// `stop` outlives it.
+    explicit ForceGate(const net::StopSignal& stop, DeadMan dead_man = {})
+        : stop_{stop}, dead_man_{std::move(dead_man)}
+    {}
+
+    /// From any thread. Latches: only a new start of the program gives force again.
+    void stop_in_emergency() { emergency_.store(true, std::memory_order_release); }
+    /// From any thread.
+    [[nodiscard]] bool is_stopped_in_emergency() const
+    {
+        return emergency_.load(std::memory_order_acquire);
+    }
+    [[nodiscard]] bool is_stopping() const { return stop_.requested(); }
+    [[nodiscard]] bool has_dead_man() const { return dead_man_.is_asked_for(); }
+
+    /// The loop's side, once per tick: the sample that the device just gave, and the governor's
+    /// state after the tick before.
+    [[nodiscard]] Withheld look(const device::Sample& sample, device::GovernorState governor)
+    {
+        const bool is_held = dead_man_.is_held(sample); // every tick, as it reads its input
+        if (is_stopping()) return Withheld::by_stop;
+        if (is_stopped_in_emergency()) return Withheld::by_emergency_stop;
+        // A switch that is let go for a moment must not make the force jump: it comes back when the
+        // governor has faded out, too, and ramps it in.
+        const bool still_fades =
+            governor == device::GovernorState::ramping || governor == device::GovernorState::active;
+        was_released_ = !is_held || (was_released_ && still_fades);
+        return was_released_ ? Withheld::by_dead_man : Withheld::no;
+    }
+
+private:
+    const net::StopSignal& stop_;
+    DeadMan dead_man_;
+    bool was_released_ = false;
+    std::atomic<bool> emergency_{false};
+};
+
+} // namespace hapnet::peer::loop

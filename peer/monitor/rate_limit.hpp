@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+namespace hapnet::peer::monitor {
+
+/// Lets a few things through at once, and then one each `every`: a bucket of tokens.
+class RateLimit {
+public:
+    RateLimit(int at_once, base::Duration every) : room_{at_once * every}, every_{every} {}
+
+    /// Whether one more may pass at `now`, which never runs backwards.
+    [[nodiscard]] bool admits(base::TimePoint now)
+    {
+        if (last_) level_ = std::max(base::Duration{0}, level_ - (now - *last_));
+        last_ = now;
+        if (level_ + every_ > room_) return false;
+        level_ += every_;
+        return true;
+    }
+
+private:
+    base::Duration room_;
+    base::Duration every_;
+    base::Duration level_{};
+    std::optional<base::TimePoint> last_;
+};
+
+} // namespace hapnet::peer::monitor

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace hapnet::net {
+
+/// The Enter key of the terminal at stdin, for a program that asks nothing else of it. There is
+/// none where stdin is a file or a pipe, and while the program is in the background.
+class TerminalKey {
+public:
+    explicit TerminalKey(int descriptor = 0);
+
+    /// Whether it was pressed since the last call. Never blocks.
+    [[nodiscard]] bool was_pressed() const;
+
+private:
+    int descriptor_; // -1: no terminal
+};
+
+} // namespace hapnet::net

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+namespace hapnet::net {
+
+/// Text on its way to a terminal, a pipe or a log, which a thread of its own writes: a program that
+/// must not stand still says something here, and never waits for whoever reads it. Bounded: what
+/// finds no room is dropped whole, and counted. What is still unwritten when the process ends is
+/// lost.
+class TextQueue {
+public:
+    static constexpr std::size_t bytes_max = std::size_t{256} << 10;
+
+    /// Writes to `descriptor`, which stays the caller's.
+    explicit TextQueue(int descriptor);
+    /// Waits for nothing: see is_done().
+    ~TextQueue();
+    TextQueue(const TextQueue&) = delete;
+    TextQueue& operator=(const TextQueue&) = delete;
+
+    /// From any thread.
+    void put(std::string_view text);
+
+    /// Whether all text was written, dropped or refused.
+    [[nodiscard]] bool is_done() const;
+    /// Bytes that were written, ever: it grows as long as somebody takes them.
+    [[nodiscard]] std::uint64_t written() const;
+    /// Texts that were dropped: for want of room, or because the descriptor refused.
+    [[nodiscard]] std::uint64_t lost() const;
+    /// The error number of the first write that was refused; 0: none was.
+    [[nodiscard]] int error() const;
+
+private:
+    struct State;
+    std::shared_ptr<State> state_;
+};
+
+} // namespace hapnet::net
