@@ -103,6 +103,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     settings.introduction.nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U);
     settings.introduction.scene_hash = scene::hash(options.scene);
     settings.introduction.seed = options.seed.value();
+    settings.introduction.boot = wire::boot_of(net::boot_id());
     settings.introduction.task = wire::TaskName::from_text(device::name_of(options.task)).value();
     settings.scene = options.scene;
     settings.algorithm = options.algorithm;

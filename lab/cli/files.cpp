@@ -27,6 +27,16 @@ base::Result<record::Record> read_record(const std::string& path)
         net::say("hapnet-lab", path + " ends inside a row, which is left out: its writer was "
                                       "killed or its disk was full");
     }
+    if (record && record->config.value("program", "") == "hapnet-peer") {
+        const auto wire = record->config.value("wire", std::int64_t{1}); // said from version 2 on
+        if (wire != wire::protocol_version) {
+            return base::fail(
+                fmt::format("{}: its messages are of version {} of the wire, and this "
+                            "program reads version {}: use the hapnet-lab of the "
+                            "version that recorded it",
+                            path, wire, wire::protocol_version));
+        }
+    }
     return record;
 }
 

@@ -43,6 +43,7 @@ struct WrittenConfig {
     std::optional<double> stiffness_max_n_per_m{}; // older records do not have it
     double duration_s = 0.0;
     std::string task;
+    std::optional<std::string> boot_id{};
     std::string scene_toml;
     std::string algorithm_toml;
     std::string governor_toml;
@@ -58,7 +59,7 @@ constexpr auto fields_of(base::Tag<WrittenConfig>)
         base::member("grip_damping_ns_per_m", &Own::grip_damping_ns_per_m),
         base::member("stiffness_max_n_per_m", &Own::stiffness_max_n_per_m),
         base::member("duration_s", &Own::duration_s), base::member("task", &Own::task),
-        base::member("scene_toml", &Own::scene_toml),
+        base::member("boot_id", &Own::boot_id), base::member("scene_toml", &Own::scene_toml),
         base::member("algorithm_toml", &Own::algorithm_toml),
         base::member("governor_toml", &Own::governor_toml), base::member("mount", &Own::mount));
 }
@@ -105,6 +106,7 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     settings.introduction.nonce = written->nonce;
     settings.introduction.seed = written->seed;
     settings.introduction.task = *name;
+    settings.introduction.boot = wire::boot_of(written->boot_id.value_or(""));
     settings.tick = base::Duration{static_cast<base::Duration::rep>(written->tick_ns)};
     settings.grip_damping_ns_per_m = written->grip_damping_ns_per_m;
     settings.stiffness_max_n_per_m = written->stiffness_max_n_per_m.value_or(0.0);

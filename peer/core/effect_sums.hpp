@@ -3,8 +3,8 @@
 #pragma once
 
 #include "proto/base/space.hpp"
+#include "proto/wire/message.hpp"
 
-#include <array>
 #include <cstdint>
 
 namespace hapnet::peer {
@@ -16,26 +16,21 @@ public:
     void add(base::Displacement moved) { displacement_ += moved; }
     void add(base::Impulse given) { impulse_ += given; }
 
-    /// In nanometres.
-    [[nodiscard]] std::array<std::int64_t, 3> displacement_nm() const
-    {
-        return billionths(displacement_.value);
-    }
-    /// In nanonewton seconds.
-    [[nodiscard]] std::array<std::int64_t, 3> impulse_nns() const
-    {
-        return billionths(impulse_.value);
-    }
+    /// In micrometres, as the wire has it.
+    [[nodiscard]] wire::Sums displacement_um() const { return millionths(displacement_.value); }
+    /// In micronewton seconds.
+    [[nodiscard]] wire::Sums impulse_uns() const { return millionths(impulse_.value); }
 
 private:
-    [[nodiscard]] static std::array<std::int64_t, 3> billionths(const glm::dvec3& v)
+    [[nodiscard]] static wire::Sums millionths(const glm::dvec3& v)
     {
         // Written out: the library's rounding function is not inlined, and this runs six times a
         // tick.
         const auto rounded = [](double x) {
-            return static_cast<std::int64_t>(x < 0.0 ? x - 0.5 : x + 0.5);
+            return static_cast<std::uint32_t>(
+                static_cast<std::int64_t>(x < 0.0 ? x - 0.5 : x + 0.5));
         };
-        return {rounded(v.x * 1e9), rounded(v.y * 1e9), rounded(v.z * 1e9)};
+        return {rounded(v.x * 1e6), rounded(v.y * 1e6), rounded(v.z * 1e6)};
     }
 
     base::Displacement displacement_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/handshake.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace hapnet::peer {
@@ -24,6 +25,14 @@ std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
     mixed *= 0x94d049bb133111ebU;
     const auto number = static_cast<std::uint32_t>(mixed >> 32);
     return number == 0 ? 1 : number;
+}
+
+/// Rounded up, and 0 never: that says nothing.
+std::uint32_t in_milliseconds(base::Duration length)
+{
+    const auto whole = std::chrono::ceil<std::chrono::milliseconds>(length).count();
+    return static_cast<std::uint32_t>(
+        std::clamp<std::int64_t>(whole, 1, std::numeric_limits<std::uint32_t>::max()));
 }
 
 } // namespace
@@ -59,6 +68,7 @@ void Handshake::meet(const wire::Hello& hello)
 {
     remote_ = RemotePeer{hello.nonce, hello.peer_id};
     clock_.reset();
+    if (hello.boot != 0 && hello.boot == self_.boot) clock_.set_same_clock();
     last_heard_.reset();
     start_heard_.reset();
     other_start_.reset();
@@ -84,7 +94,7 @@ void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
 {
     const bool ours_to_decide = owns_start_ || (is_left() && !hello.in_session);
     if (ours_to_decide) {
-        if (!session_) propose(arrived + start_after);
+        if (!session_) propose(arrived + start_after, hello);
         if (hello.start_heard == session_->start) acknowledged_ = true;
         asked_ = !acknowledged_;
     } else if (hello.start) {
@@ -93,9 +103,16 @@ void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
     }
 }
 
-void Handshake::propose(base::TimePoint start)
+/// A side that is in session says the length that was agreed on; so it stays as it is.
+base::Duration Handshake::length_with(const wire::Hello& hello) const
 {
-    session_ = Session{number(), start, self_.seed, is_left(), false};
+    if (hello.length_ms == 0) return self_.length;
+    return std::min<base::Duration>(self_.length, std::chrono::milliseconds{hello.length_ms});
+}
+
+void Handshake::propose(base::TimePoint start, const wire::Hello& hello)
+{
+    session_ = Session{number(), start, self_.seed, length_with(hello), is_left(), false};
     owns_start_ = true;
 }
 
@@ -107,7 +124,8 @@ void Handshake::adopt(const wire::Hello& hello, base::TimePoint arrived)
     if (std::chrono::abs(start - arrived) > start_away_max) return;
     if (start_heard_ && !may_replace_start(*hello.start, arrived)) return;
     start_heard_ = hello.start;
-    session_ = Session{number(), start, hello.seed, is_left(), hello.in_session};
+    session_ =
+        Session{number(), start, hello.seed, length_with(hello), is_left(), hello.in_session};
 }
 
 bool Handshake::may_replace_start(base::TimePoint start, base::TimePoint arrived)
@@ -167,6 +185,10 @@ std::optional<wire::Hello> Handshake::hello(base::TimePoint now)
     hello.start_heard = start_heard_;
     hello.in_session = stayed_;
     hello.task = self_.task;
+    hello.length_ms = in_milliseconds(session_ ? session_->length : self_.length);
+    hello.heard = remote_ && remote_->id < 32 ? std::uint32_t{1} << remote_->id : 0;
+    hello.boot = self_.boot;
+    hello.hand = self_.hand;
     return hello;
 }
 

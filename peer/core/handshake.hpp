@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/clock_offset.hpp"
+#include "peer/core/clock_sync.hpp"
 #include "proto/wire/message.hpp"
 
 #include <optional>
@@ -18,6 +18,10 @@ struct Introduction {
     std::uint64_t seed = 0;
     std::uint16_t tick_rate_hz = 1000;
     wire::TaskName task;
+    base::Duration length{std::chrono::seconds{30}}; // of the session: Settings::length
+    std::uint32_t boot =
+        0; // a hash of this machine's boot id: equal ones share a clock; 0: unknown
+    wire::HandModel hand{}; // 0: not said
 };
 
 /// The session two peers have agreed on, as one of them sees it.
@@ -25,6 +29,7 @@ struct Session {
     std::uint32_t number = 0;
     base::TimePoint start; // on this peer's clock
     std::uint64_t seed = 0;
+    base::Duration length{};  // the shorter one of those that the two were asked for
     bool is_left = false;     // the lower id
     bool joined_late = false; // the other side was there before: take its cube
 };
@@ -66,7 +71,9 @@ public:
     [[nodiscard]] std::optional<wire::Echo> echo(base::TimePoint now) const;
 
     [[nodiscard]] const std::optional<Session>& session() const { return session_; }
-    [[nodiscard]] std::optional<ClockOffset::Estimate> clock() const { return clock_.estimate(); }
+    [[nodiscard]] std::optional<ClockEstimate> clock() const { return clock_.estimate(); }
+    /// How often the other side's clock has jumped.
+    [[nodiscard]] std::uint32_t clock_jumps() const { return clock_.jumps(); }
     /// Whether the other side has been heard in this run of it.
     [[nodiscard]] bool has_met() const { return remote_.has_value(); }
 
@@ -80,14 +87,15 @@ private:
     void meet(const wire::Hello& hello);
     [[nodiscard]] bool is_left() const;
     [[nodiscard]] std::uint32_t number() const;
+    [[nodiscard]] base::Duration length_with(const wire::Hello& hello) const;
     void agree(const wire::Hello& hello, base::TimePoint arrived);
-    void propose(base::TimePoint start);
+    void propose(base::TimePoint start, const wire::Hello& hello);
     void adopt(const wire::Hello& hello, base::TimePoint arrived);
     [[nodiscard]] bool may_replace_start(base::TimePoint start, base::TimePoint arrived);
 
     Introduction self_;
     std::optional<RemotePeer> remote_;
-    ClockOffset clock_;
+    ClockSync clock_;
     std::optional<wire::Echo> last_heard_; // `age` unused: its arrival is below
     base::TimePoint last_heard_at_;
     std::optional<Session> session_;

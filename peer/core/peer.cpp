@@ -72,11 +72,18 @@ double rendered_share(const Settings& settings)
         passive_share(wall, base::to_seconds(settings.tick), settings.grip_damping_ns_per_m));
 }
 
+Introduction introduction_of(const Settings& settings)
+{
+    Introduction introduction = settings.introduction;
+    introduction.length = settings.length;
+    return introduction;
+}
+
 } // namespace
 
 Peer::Peer(const Settings& settings)
     : settings_{settings},
-      handshake_{settings.introduction},
+      handshake_{introduction_of(settings)},
       remote_{settings.staleness, base_options(settings.algorithm).stale},
       body_{shared_body_of(settings)},
       world_{world_of(settings)},
@@ -89,7 +96,7 @@ Peer::Peer(const Settings& settings)
 
 base::Duration Peer::hands_on() const
 {
-    return settings_.length - std::min(hands_off_length, settings_.length / 2);
+    return length() - std::min(hands_off_length, length() / 2);
 }
 
 void Peer::on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived)
@@ -190,7 +197,7 @@ bool Peer::takes_back_goodbye(const wire::State& state, base::TimePoint arrived)
 /// Tells once when something on the path lets only the shorter messages through.
 void Peer::look_for_body(const wire::State& state, base::TimePoint arrived)
 {
-    if (state.body) {
+    if (!state.bodies.empty()) {
         last_body_ = arrived;
         states_without_body_ = 0;
         return;
@@ -221,8 +228,9 @@ bool Peer::is_plausible(const wire::State& state) const
                scene::is_within(velocity.value, speed_m_per_s);
     };
     if (!is_possible(state.hip, state.hip_velocity)) return false;
-    const auto& body = state.body;
-    return !body || (body->body == body_ && is_possible(body->position, body->velocity));
+    return std::all_of(state.bodies.begin(), state.bodies.end(), [&](const wire::BodyState& body) {
+        return body.body == body_ && is_possible(body.position, body.velocity);
+    });
 }
 
 void Peer::on_message(const wire::Bye& bye, base::TimePoint arrived)
@@ -273,7 +281,7 @@ Phase Peer::phase_at(base::TimePoint now) const
     const base::Duration since_start = now - session()->start;
     if (since_start < base::Duration{0}) return Phase::countdown;
     if (since_start < hands_on()) return Phase::running;
-    if (since_start < settings_.length) return Phase::hands_off;
+    if (since_start < length()) return Phase::hands_off;
     return Phase::ended;
 }
 
@@ -402,13 +410,15 @@ void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
     state.holding = tick.touched.holding;
     state.hip = hand.hip;
     state.hip_velocity = hand.velocity;
+    state.intention_velocity = hand.velocity; // no algorithm asks for more than the HIP yet
     state.contact_force = tick.touched.on_body;
     if (mentions_body(now)) {
-        state.body = wire::BodyState{.body = static_cast<std::uint16_t>(body_),
-                                     .position = position(),
-                                     .velocity = velocity(),
-                                     .caused_displacement_nm = effects_.displacement_nm(),
-                                     .caused_impulse_nns = effects_.impulse_nns()};
+        state.bodies.add({.body = static_cast<std::uint16_t>(body_),
+                          .position = position(),
+                          .velocity = velocity(),
+                          .caused_displacement_um = effects_.displacement_um(),
+                          .caused_impulse_uns = effects_.impulse_uns(),
+                          .turning = {}});
     }
     outbox_.put(wire::encode(state));
     ++counters_.sent;

@@ -137,13 +137,17 @@ public:
     [[nodiscard]] base::Position position() const { return world_.position(body_); } // of body()
     [[nodiscard]] base::Velocity velocity() const { return world_.velocity(body_); }
     [[nodiscard]] const std::optional<Session>& session() const { return handshake_.session(); }
-    [[nodiscard]] std::optional<ClockOffset::Estimate> clock() const { return handshake_.clock(); }
+    [[nodiscard]] std::optional<ClockEstimate> clock() const { return handshake_.clock(); }
     [[nodiscard]] const Counters& counters() const { return counters_; }
     [[nodiscard]] bool is_alone() const { return gone_; }
     [[nodiscard]] std::optional<wire::ByeReason> refusal() const { return refusal_; }
     /// Time from the start until the hands let go.
     [[nodiscard]] base::Duration hands_on() const;
-    [[nodiscard]] base::Duration length() const { return settings_.length; }
+    /// What was agreed on; before that what this peer was asked for.
+    [[nodiscard]] base::Duration length() const
+    {
+        return session() ? session()->length : settings_.length;
+    }
 
 private:
     /// A reason why the two cannot play together, until it has come often enough.

@@ -12,7 +12,7 @@ bool Remote::update(const wire::State& state, base::TimePoint arrived)
     if (is_stale && stale_ == Stale::drop) return false;
     arrived_ = arrived_ ? std::max(*arrived_, arrived) : arrived;
     state_ = state;
-    if (state.body) body_ = state.body;
+    if (const wire::BodyState* const body = state.bodies.first()) body_ = *body;
     return true;
 }
 

@@ -36,7 +36,7 @@ struct ServoStatus {
     LoopCounters loop;
     Counters messages;
     std::optional<Session> session;
-    std::optional<ClockOffset::Estimate> clock;
+    std::optional<ClockEstimate> clock;
     std::optional<wire::ByeReason> refusal;
     device::CalibrationStep calibration = device::CalibrationStep::done;
     device::GovernorState governor_state = device::GovernorState::off;

@@ -266,6 +266,7 @@ json configuration_json(const Options& options, std::string_view device)
             {"operator_toml", simulated ? json(print_operator(options.device.person)) : json{}},
             {"duration_s", base::to_seconds(options.duration)},
             {"tick_ns", 1'000'000},
+            {"wire", wire::protocol_version},
             {"boot_id", net::boot_id()},
             {"started_unix_s", net::wall_clock_seconds()}};
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 
 namespace hapnet::wire {
 
@@ -116,6 +117,15 @@ std::optional<base::TimePoint> take_optional_time(ByteReader& in, bool present, 
     return std::nullopt;
 }
 
+constexpr std::uint32_t ids_known = ~std::uint32_t{1}; // 1 to 31
+
+bool is_canonical(const HandModel& hand)
+{
+    const auto is_size = [](float value) { return std::isfinite(value) && !std::signbit(value); };
+    return is_size(hand.mass) && is_size(hand.damping) && is_size(hand.stiffness) &&
+           is_size(hand.friction);
+}
+
 void put(ByteWriter& out, const Hello& hello)
 {
     base::ensure(hello.nonce != 0);
@@ -139,6 +149,14 @@ void put(ByteWriter& out, const Hello& hello)
     base::ensure(!task.empty());
     out.raw(std::as_bytes(std::span{task}));
     for (auto i = task.size(); i < TaskName::bytes_max; ++i) out.u8(0);
+    base::ensure(is_canonical(hello.hand) && (hello.heard & ~ids_known) == 0);
+    out.u32(hello.length_ms);
+    out.u32(hello.heard);
+    out.u32(hello.boot);
+    out.f32(hello.hand.mass);
+    out.f32(hello.hand.damping);
+    out.f32(hello.hand.stiffness);
+    out.f32(hello.hand.friction);
 }
 
 /// The error in a message; nullptr: none.
@@ -160,7 +178,13 @@ Fault take(ByteReader& in, Hello& hello)
     hello.start_heard = take_optional_time(in, (flags & flag_start_heard) != 0, canonical);
     hello.in_session = (flags & flag_in_session) != 0;
     const auto name = in.raw(TaskName::bytes_max);
+    hello.length_ms = in.u32();
+    hello.heard = in.u32();
+    hello.boot = in.u32();
+    hello.hand = {
+        .mass = in.f32(), .damping = in.f32(), .stiffness = in.f32(), .friction = in.f32()};
     if (!in.complete()) return "hello: wrong length";
+    canonical = canonical && is_canonical(hello.hand) && (hello.heard & ~ids_known) == 0;
     const auto end = std::find(name.begin(), name.end(), std::byte{0});
     canonical =
         canonical && std::all_of(end, name.end(), [](std::byte b) { return b == std::byte{0}; });
@@ -175,22 +199,76 @@ Fault take(ByteReader& in, Hello& hello)
     return nullptr;
 }
 
-void put(ByteWriter& out, const BodyState& body)
+constexpr std::uint16_t flag_turning = 0x8000;
+static_assert((BodyState::id_max & flag_turning) == 0);
+
+void put_sums(ByteWriter& out, const Sums& sums)
 {
-    out.u16(body.body);
-    put_vector(out, body.position.value);
-    put_vector(out, body.velocity.value);
-    for (const auto component : body.caused_displacement_nm) out.i64(component);
-    for (const auto component : body.caused_impulse_nns) out.i64(component);
+    for (const std::uint32_t sum : sums) out.u32(sum);
 }
 
-void take(ByteReader& in, BodyState& body)
+Sums take_sums(ByteReader& in) { return {in.u32(), in.u32(), in.u32()}; }
+
+void put(ByteWriter& out, const BodyState& body)
 {
-    body.body = in.u16();
-    body.position = {take_vector(in)};
-    body.velocity = {take_vector(in)};
-    for (auto& component : body.caused_displacement_nm) component = in.i64();
-    for (auto& component : body.caused_impulse_nns) component = in.i64();
+    base::ensure(body.body <= BodyState::id_max);
+    const std::uint16_t turning = body.turning ? flag_turning : 0;
+    out.u16(static_cast<std::uint16_t>(body.body | turning));
+    put_vector(out, body.position.value);
+    put_vector(out, body.velocity.value);
+    put_sums(out, body.caused_displacement_um);
+    put_sums(out, body.caused_impulse_uns);
+    if (!body.turning) return;
+    out.u64(body.turning->orientation.code());
+    put_vector(out, body.turning->angular_velocity);
+    put_sums(out, body.turning->caused_rotation_urad);
+    put_sums(out, body.turning->caused_angular_impulse_unms);
+}
+
+BodyState take_body(ByteReader& in, bool& canonical)
+{
+    const std::uint16_t id = in.u16();
+    BodyState body{.body = static_cast<std::uint16_t>(id & ~flag_turning),
+                   .position = {take_vector(in)},
+                   .velocity = {take_vector(in)},
+                   .caused_displacement_um = take_sums(in),
+                   .caused_impulse_uns = take_sums(in),
+                   .turning = {}};
+    if ((id & flag_turning) == 0) return body;
+    Turning& turning = body.turning.emplace();
+    const auto orientation = Orientation::from_code(in.u64());
+    canonical = canonical && orientation.has_value();
+    turning.orientation = orientation.value_or(Orientation{});
+    turning.angular_velocity = take_vector(in);
+    turning.caused_rotation_urad = take_sums(in);
+    turning.caused_angular_impulse_unms = take_sums(in);
+    return body;
+}
+
+// An intention is said in such steps, metres and metres per second.
+constexpr double intention_step = 1e-5, intention_velocity_step = 2e-4;
+constexpr std::int16_t steps_max = 0x7fff;
+
+void put_steps(ByteWriter& out, const glm::dvec3& v, double step)
+{
+    for (const double component : {v.x, v.y, v.z}) {
+        base::ensure(std::isfinite(component));
+        const double limit = steps_max;
+        const auto steps =
+            static_cast<std::int16_t>(std::lround(std::clamp(component / step, -limit, limit)));
+        out.u16(static_cast<std::uint16_t>(steps));
+    }
+}
+
+glm::dvec3 take_steps(ByteReader& in, double step, bool& canonical)
+{
+    glm::dvec3 v{0.0};
+    for (glm::length_t i = 0; i < 3; ++i) {
+        const auto steps = static_cast<std::int16_t>(in.u16());
+        canonical = canonical && steps >= -steps_max;
+        v[i] = step * steps;
+    }
+    return v;
 }
 
 void put(ByteWriter& out, const State& state)
@@ -202,22 +280,32 @@ void put(ByteWriter& out, const State& state)
     put_time(out, state.sent);
     const int flags =
         flag_if(state.echo.has_value(), flag_echo) | flag_if(state.touching, flag_touching) |
-        flag_if(state.holding, flag_holding) | flag_if(state.body.has_value(), flag_body);
+        flag_if(state.holding, flag_holding) | flag_if(!state.bodies.empty(), flag_body);
     out.u8(static_cast<std::uint8_t>(flags));
     out.u8(0); // reserved
     put_echo(out, state.echo);
     put_vector(out, state.hip.value);
     put_vector(out, state.hip_velocity.value);
     put_vector(out, state.contact_force.value);
-    if (state.body) put(out, *state.body);
+    put_steps(out, state.intention.value, intention_step);
+    put_steps(out, state.intention_velocity.value, intention_velocity_step);
+    out.u32(state.work_uj);
+    for (const BodyState& body : state.bodies) put(out, body);
+}
+
+bool is_finite(const BodyState& body)
+{
+    return base::is_finite(body.position) && base::is_finite(body.velocity) &&
+           (!body.turning || base::is_finite(base::Velocity{body.turning->angular_velocity}));
 }
 
 bool is_finite(const State& state)
 {
-    const bool body_is = !state.body || (base::is_finite(state.body->position) &&
-                                         base::is_finite(state.body->velocity));
+    const auto& bodies = state.bodies;
     return base::is_finite(state.hip) && base::is_finite(state.hip_velocity) &&
-           base::is_finite(state.contact_force) && body_is;
+           base::is_finite(state.contact_force) &&
+           std::all_of(bodies.begin(), bodies.end(),
+                       [](const BodyState& body) { return is_finite(body); });
 }
 
 Fault take(ByteReader& in, State& state)
@@ -234,8 +322,19 @@ Fault take(ByteReader& in, State& state)
     state.hip = {take_vector(in)};
     state.hip_velocity = {take_vector(in)};
     state.contact_force = {take_vector(in)};
-    if ((flags & flag_body) != 0) take(in, state.body.emplace());
+    state.intention = {take_steps(in, intention_step, canonical)};
+    state.intention_velocity = {take_steps(in, intention_velocity_step, canonical)};
+    state.work_uj = in.u32();
+    while (in.ok() && !in.complete()) {
+        const BodyState body = take_body(in, canonical);
+        const bool fits = state.bodies.size() < bodies_max;
+        const bool ascends = state.bodies.empty() || (state.bodies.end() - 1)->body < body.body;
+        if (!in.ok() || !fits) return "state: wrong length";
+        if (!ascends) return "state: not canonical";
+        state.bodies.add(body);
+    }
     if (!in.complete()) return "state: wrong length";
+    canonical = canonical && ((flags & flag_body) != 0) == !state.bodies.empty();
     if (!is_finite(state)) return "state: not finite";
     if (state.sequence == 0 || reserved != 0 || (flags & ~flags_known) != 0 || !canonical ||
         (state.holding && !state.touching)) {
@@ -271,6 +370,19 @@ Result<Message> taken(ByteReader& in)
 
 } // namespace
 
+/// FNV-1a, folded to 32 bits.
+std::uint32_t boot_of(std::string_view boot_id)
+{
+    if (boot_id.empty()) return 0;
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char c : boot_id) {
+        hash ^= static_cast<unsigned char>(c);
+        hash *= 0x100000001b3U;
+    }
+    const auto folded = static_cast<std::uint32_t>(hash ^ hash >> 32);
+    return folded == 0 ? 1 : folded;
+}
+
 std::optional<TaskName> TaskName::from_text(std::string_view text)
 {
     const auto is_printable = [](char c) { return c > ' ' && c <= '~'; };
@@ -285,6 +397,103 @@ std::string_view TaskName::text() const
 {
     const auto end = std::find(characters_.begin(), characters_.end(), '\0');
     return {characters_.data(), static_cast<std::size_t>(end - characters_.begin())};
+}
+
+namespace {
+
+constexpr unsigned component_bits = 20;
+constexpr std::uint64_t component_mask = (std::uint64_t{1} << component_bits) - 1;
+constexpr std::uint64_t zero_component = std::uint64_t{1} << (component_bits - 1);
+// The smaller components are at most 1/sqrt(2) in size.
+constexpr double component_step = 0.70710678118654752440 / static_cast<double>(zero_component - 1);
+
+struct SmallestThree {
+    std::array<double, 3> small{};
+    double largest_square = 1.0;
+};
+SmallestThree smallest_three(std::uint64_t code)
+{
+    SmallestThree result;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint64_t field = code >> (component_bits * i) & component_mask;
+        const auto steps =
+            static_cast<std::int64_t>(field) - static_cast<std::int64_t>(zero_component);
+        result.small[i] = component_step * static_cast<double>(steps);
+        result.largest_square -= result.small[i] * result.small[i];
+    }
+    return result;
+}
+
+} // namespace
+
+Orientation Orientation::from(const glm::dquat& orientation)
+{
+    const double size = std::sqrt(glm::dot(orientation, orientation));
+    base::ensure(std::abs(size - 1.0) < 1e-3);
+    const std::array<double, 4> components{orientation.w / size, orientation.x / size,
+                                           orientation.y / size, orientation.z / size};
+    std::size_t largest = 0;
+    for (std::size_t i = 1; i < 4; ++i) {
+        if (std::abs(components[i]) > std::abs(components[largest])) largest = i;
+    }
+    const double sign = components[largest] < 0.0 ? -1.0 : 1.0; // q and -q are one orientation
+    std::uint64_t code = std::uint64_t{largest} << (3 * component_bits);
+    unsigned place = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (i == largest) continue;
+        const auto steps = std::llround(sign * components[i] / component_step);
+        code |= (static_cast<std::uint64_t>(steps + static_cast<long long>(zero_component)) &
+                 component_mask)
+                << (component_bits * place++);
+    }
+    return Orientation{code};
+}
+
+std::optional<Orientation> Orientation::from_code(std::uint64_t code)
+{
+    if (code >> (3 * component_bits + 2) != 0) return std::nullopt;
+    for (unsigned i = 0; i < 3; ++i) { // symmetrical: the least code has no opposite
+        if ((code >> (component_bits * i) & component_mask) == 0) return std::nullopt;
+    }
+    if (!(smallest_three(code).largest_square >= 0.0)) return std::nullopt;
+    return Orientation{code};
+}
+
+glm::dquat Orientation::quaternion() const
+{
+    const SmallestThree three = smallest_three(code_);
+    const std::size_t largest = code_ >> (3 * component_bits);
+    std::array<double, 4> components{};
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        components[i] = i == largest ? std::sqrt(three.largest_square) : three.small[next++];
+    return {components[0], components[1], components[2], components[3]};
+}
+
+BodyStates& BodyStates::operator=(const BodyStates& other)
+{
+    if (this == &other) return *this;
+    count_ = 0;
+    for (const BodyState& body : other) std::construct_at(&all_[count_++], body);
+    return *this;
+}
+
+BodyState& BodyStates::add(const BodyState& body)
+{
+    base::ensure(count_ < all_.size() && (count_ == 0 || all_[count_ - 1].body < body.body));
+    return *std::construct_at(&all_[count_++], body);
+}
+
+const BodyState* BodyStates::find(std::uint16_t body) const
+{
+    const auto* const found =
+        std::find_if(begin(), end(), [body](const BodyState& each) { return each.body == body; });
+    return found == end() ? nullptr : found;
+}
+
+bool operator==(const BodyStates& a, const BodyStates& b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 template <typename Kind>

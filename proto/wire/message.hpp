@@ -9,22 +9,27 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 
-/// The messages between two peers and their bytes. FORMAT.md in this folder is the
-/// specification; this header is its vocabulary.
+/// The messages between two peers and their bytes. docs/formats/wire.md is the specification; this
+/// header is its vocabulary.
 namespace hapnet::wire {
 
-inline constexpr std::uint8_t protocol_version = 1;
+inline constexpr std::uint8_t protocol_version = 2;
 
-/// Bytes kept free at the end of every message for an authentication tag.
-inline constexpr std::size_t tag_bytes = 16;
-/// The longest message, the tag's room not counted.
-inline constexpr std::size_t message_bytes_max = 144;
+/// Bodies that one state describes, at most.
+inline constexpr std::size_t bodies_max = 8;
+/// The longest message: a state with eight bodies that turn. Always one datagram.
+inline constexpr std::size_t message_bytes_max = 838;
+/// Bytes kept free behind every message, which sealing needs.
+inline constexpr std::size_t seal_bytes_max = 20;
 
 /// Answers "when did my message reach you?": the two stamps from which the receiver computes
 /// round-trip time and clock offset, as NTP does (RFC 5905).
@@ -50,6 +55,16 @@ private:
     std::array<char, bytes_max> characters_{};
 };
 
+/// A hash of the text that names a machine's boot; 0 for an empty one.
+[[nodiscard]] std::uint32_t boot_of(std::string_view boot_id);
+
+/// A hand and its device as seen from the scene, in SI units; 0: not said.
+struct HandModel {
+    float mass = 0.0F, damping = 0.0F, stiffness = 0.0F, friction = 0.0F;
+
+    friend bool operator==(const HandModel&, const HandModel&) = default;
+};
+
 /// "Here I am, this is what I play; have you heard me?" Sent every 20 ms until both know the
 /// start.
 struct Hello {
@@ -65,21 +80,106 @@ struct Hello {
     std::optional<base::TimePoint> start_heard; // the other side's `start`, as it said it
     bool in_session = false; // the sender was there before: its start and seed count
     TaskName task;
+    std::uint32_t length_ms = 0; // of the session that the sender was asked for; 0: not said
+    std::uint32_t heard = 0;     // bit i: the sender hears peer i, of the ids 1 to 31
+    std::uint32_t boot = 0;      // a hash of the boot id of the sender's machine; 0: unknown
+    HandModel hand;
 
     friend bool operator==(const Hello&, const Hello&) = default;
 };
 
+/// An orientation in 62 bits: which component of the unit quaternion is the largest, and the other
+/// three in steps of 1.3e-6; at most 4 microradians off.
+class Orientation {
+public:
+    Orientation() = default; // not turned
+    /// Of a quaternion of about unit length; ensures that it is not far from it.
+    [[nodiscard]] static Orientation from(const glm::dquat& orientation);
+    /// nullopt for a code that no quaternion has.
+    [[nodiscard]] static std::optional<Orientation> from_code(std::uint64_t code);
+
+    [[nodiscard]] glm::dquat quaternion() const; // of unit length
+    [[nodiscard]] std::uint64_t code() const { return code_; }
+
+    friend bool operator==(const Orientation&, const Orientation&) = default;
+
+private:
+    /// Of the quaternion 1: its first component is the largest, the others are zero.
+    static constexpr std::uint64_t upright =
+        std::uint64_t{0x8'0000} << 40 | std::uint64_t{0x8'0000} << 20 | 0x8'0000U;
+
+    explicit Orientation(std::uint64_t code) : code_{code} {}
+
+    std::uint64_t code_ = upright;
+};
+
+/// Sums since the session began, modulo 2^32: a receiver subtracts the last that it read, with
+/// difference(). As running sums they survive loss, reordering and duplication.
+using Sums = std::array<std::uint32_t, 3>;
+/// What was added since, if it is less than 2^31 in size.
+[[nodiscard]] constexpr std::array<std::int32_t, 3> difference(const Sums& now, const Sums& before)
+{
+    std::array<std::int32_t, 3> added{};
+    for (std::size_t i = 0; i < 3; ++i) added[i] = static_cast<std::int32_t>(now[i] - before[i]);
+    return added;
+}
+
+/// What is said of a body that can turn, besides.
+struct Turning {
+    Orientation orientation;
+    glm::dvec3 angular_velocity{0.0}; // rad/s
+    Sums caused_rotation_urad{};
+    Sums caused_angular_impulse_unms{}; // millionths of N m s
+
+    friend bool operator==(const Turning&, const Turning&) = default;
+};
+
 /// A body that a peer moves: its absolute state, and the effects that this peer itself has caused
-/// since the session began. The sums are in billionths of a metre and of a newton second; as
-/// running sums they survive loss, reordering and duplication.
+/// since the session began.
 struct BodyState {
+    static constexpr std::uint16_t id_max = 0x7fff;
+
     std::uint16_t body = 0;
     base::Position position;
     base::Velocity velocity;
-    std::array<std::int64_t, 3> caused_displacement_nm{};
-    std::array<std::int64_t, 3> caused_impulse_nns{};
+    Sums caused_displacement_um{};
+    Sums caused_impulse_uns{}; // millionths of N s
+    std::optional<Turning> turning;
 
     friend bool operator==(const BodyState&, const BodyState&) = default;
+};
+
+/// The bodies of a state, with ascending ids. Copying costs as much as there is in it.
+class BodyStates {
+public:
+    BodyStates() {} // NOLINT(*-member-init,*-use-equals-default): nothing is made before add()
+    BodyStates(const BodyStates& other) : BodyStates{} { *this = other; }
+    ~BodyStates() = default;
+    BodyStates& operator=(const BodyStates& other);
+
+    /// Ensures that there is room, and that the id is greater than those before it.
+    BodyState& add(const BodyState& body);
+    void clear() { count_ = 0; }
+
+    [[nodiscard]] bool empty() const { return count_ == 0; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] const BodyState* begin() const { return all_.data(); }
+    [[nodiscard]] const BodyState* end() const { return all_.data() + count_; }
+    [[nodiscard]] BodyState* begin() { return all_.data(); }
+    [[nodiscard]] BodyState* end() { return all_.data() + count_; }
+    /// nullptr: there is none.
+    [[nodiscard]] const BodyState* first() const { return empty() ? nullptr : begin(); }
+    /// nullptr: not among them.
+    [[nodiscard]] const BodyState* find(std::uint16_t body) const;
+
+    friend bool operator==(const BodyStates& a, const BodyStates& b);
+
+private:
+    static_assert(std::is_trivially_destructible_v<BodyState>);
+    union {
+        std::array<BodyState, bodies_max> all_; // the first count_ of them
+    };
+    std::size_t count_ = 0;
 };
 
 /// One tick of one peer.
@@ -92,8 +192,13 @@ struct State {
     bool holding = false;  // it holds it
     base::Position hip;
     base::Velocity hip_velocity;
-    base::Force contact_force;     // that the sender's hand exerts on the body
-    std::optional<BodyState> body; // left out while nothing touches or moves it
+    base::Force contact_force; // that the sender's hand exerts on the bodies
+    /// Where the hand wants to be, from the HIP; to 10 um, at most 0.327 m along an axis.
+    base::Displacement intention;
+    base::Velocity intention_velocity; // to 0.2 mm/s, at most 6.55 m/s along an axis
+    /// Of the hand on its device since the session began, in microjoules, modulo 2^32.
+    std::uint32_t work_uj = 0;
+    BodyStates bodies; // that something touches or moves
 
     friend bool operator==(const State&, const State&) = default;
 };
@@ -122,6 +227,14 @@ using Message = std::variant<Hello, State, Bye>;
 /// The bytes of one encoded message.
 class Datagram {
 public:
+    Datagram() = default;                              // NOLINT(*-member-init): empty
+    Datagram(const Datagram& other) { *this = other; } // NOLINT(*-member-init)
+    Datagram& operator=(const Datagram& other)
+    {
+        size_ = other.size_;
+        std::memcpy(bytes_.data(), other.bytes_.data(), size_);
+        return *this;
+    }
     [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.data(), size_}; }
 
 private:
@@ -131,13 +244,14 @@ private:
     template <typename Kind>
     [[nodiscard]] static Datagram of(const Kind& message);
 
-    std::array<std::byte, message_bytes_max> bytes_{};
+    // What is behind the message is never read.
+    std::array<std::byte, message_bytes_max> bytes_;
     std::size_t size_ = 0;
 };
 
 /// Ensures what decode() checks: finite vectors, times within 2^60 ns, no zero nonce, echo age in
-/// range. Positions,
-/// velocities and forces are rounded to single precision (4 nm at 10 cm).
+/// range. Positions, velocities and forces are rounded to single precision (4 nm at 10 cm); an
+/// intention that is farther from the HIP than can be said is said as far as it can be.
 [[nodiscard]] Datagram encode(const Hello& hello);
 [[nodiscard]] Datagram encode(const State& state);
 [[nodiscard]] Datagram encode(const Bye& bye);

@@ -49,10 +49,10 @@ void DeadReckoning::hear(const ReceivedState& received)
     const auto age = one_way_delay(received);
     if (age) delay_.add(*age);
     if (!received.taken) return;
-    const auto& body = received.state.body;
-    if (!body && !newest_) return;
+    const wire::BodyState* const body = received.state.bodies.first();
+    if (body == nullptr && !newest_) return;
     // A message without a body says that nothing moves it.
-    const Fix fix{.place = body ? body->position : newest_->place,
+    const Fix fix{.place = body != nullptr ? body->position : newest_->place,
                   .arrived = received.arrived,
                   .sent = received.state.sent,
                   .age = std::max(base::Duration{0}, age.value_or(base::Duration{0}))};

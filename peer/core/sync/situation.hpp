@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "peer/core/clock_offset.hpp"
+#include "peer/core/clock_sync.hpp"
 #include "peer/core/remote.hpp"
 #include "scene/world.hpp"
 
@@ -22,7 +22,7 @@ struct ReceivedState {
     /// False: it is older than one that was taken, or its duplicate. It tells of the network's
     /// delay and of nothing else.
     bool taken = true;
-    std::optional<ClockOffset::Estimate> clock{}; // the other side's, as far as it is known
+    std::optional<ClockEstimate> clock{}; // the other side's, as far as it is known
     base::Duration tick{std::chrono::milliseconds{1}};
     double force_max_n = scene::force_max_n; // that a contact of this scene can exert
 };
@@ -35,7 +35,7 @@ struct Situation {
     double freshness = 0.0; // of its state, 0 to 1
     bool yields = false;    // at rest, this peer takes the other's pose (the higher id)
     base::Duration tick{std::chrono::milliseconds{1}}; // from here on as in ReceivedState
-    std::optional<ClockOffset::Estimate> clock{};
+    std::optional<ClockEstimate> clock{};
     double force_max_n = scene::force_max_n;
 };
 

@@ -24,9 +24,9 @@ std::vector<std::byte> nonsense(const base::RandomStream& stream, std::uint64_t 
             return most * (2.0 * stream.uniform(round, draw) - 1.0);
         };
         state.contact_force = {{wild(1002, 1e30), wild(1003, 1e30), wild(1004, 1e3)}};
-        state.body = wire::BodyState{};
-        state.body->position = {{wild(1005, 0.1), wild(1006, 0.1), wild(1007, 12.0)}};
-        state.body->velocity = {{wild(1008, 1000.0), wild(1009, 1.0), wild(1010, 1000.0)}};
+        wire::BodyState& body = state.bodies.add(wire::BodyState{});
+        body.position = {{wild(1005, 0.1), wild(1006, 0.1), wild(1007, 12.0)}};
+        body.velocity = {{wild(1008, 1000.0), wild(1009, 1.0), wild(1010, 1000.0)}};
         message = state;
     }
     const auto datagram = wire::encode(message);

@@ -43,6 +43,10 @@ private:
         std::string name(1 + below(TaskName::bytes_max), ' ');
         for (char& c : name) c = static_cast<char>('!' + below('~' - '!' + 1));
         hello.task = TaskName::from_text(name).value();
+        hello.length_ms = u32();
+        hello.heard = u32() & ~1U;
+        hello.boot = u32();
+        hello.hand = {size(), size(), size(), size()};
         return hello;
     }
 
@@ -58,19 +62,43 @@ private:
         state.hip = {vector()};
         state.hip_velocity = {vector()};
         state.contact_force = {vector()};
-        if (coin()) state.body = body();
+        state.intention = {1e-5 * steps()};
+        state.intention_velocity = {2e-4 * steps()};
+        state.work_uj = u32();
+        std::uint32_t id = 0;
+        for (auto left = coin() ? below(bodies_max + 1) : 0; left > 0; --left) {
+            id += 1 + static_cast<std::uint32_t>(below(4000));
+            state.bodies.add(body(static_cast<std::uint16_t>(id - 1)));
+        }
         return state;
     }
 
-    [[nodiscard]] BodyState body()
+    [[nodiscard]] BodyState body(std::uint16_t id)
     {
         BodyState body;
-        body.body = static_cast<std::uint16_t>(bits());
+        body.body = id;
         body.position = {vector()};
         body.velocity = {vector()};
-        for (auto& sum : body.caused_displacement_nm) sum = std::bit_cast<std::int64_t>(bits());
-        for (auto& sum : body.caused_impulse_nns) sum = std::bit_cast<std::int64_t>(bits());
+        body.caused_displacement_um = {u32(), u32(), u32()};
+        body.caused_impulse_uns = {u32(), u32(), u32()};
+        if (coin()) return body;
+        Turning& turning = body.turning.emplace();
+        const auto component = [this] { return stream_.uniform(round_, draw_++) - 0.5; };
+        turning.orientation = Orientation::from(
+            glm::normalize(glm::dquat{component(), component(), component(), component()}));
+        turning.angular_velocity = vector();
+        turning.caused_rotation_urad = {u32(), u32(), u32()};
+        turning.caused_angular_impulse_unms = {u32(), u32(), u32()};
         return body;
+    }
+
+    [[nodiscard]] float size() { return static_cast<float>(below(1000)) / 8.0F; }
+    /// What an intention is said in.
+    [[nodiscard]] glm::dvec3 steps()
+    {
+        const auto one = [this] { return static_cast<double>(below(0xffff)) - 0x7fff; };
+        const double x = one(), y = one(), z = one();
+        return {x, y, z};
     }
 
     [[nodiscard]] std::optional<Echo> echo()

@@ -191,10 +191,8 @@ public:
             auto& due = arriving.at(static_cast<std::size_t>(ms) % 512);
             for (const wire::State& heard : std::exchange(due, {})) {
                 const bool taken = remote.update(heard, now);
-                reckoning.hear({.state = heard,
-                                .arrived = now,
-                                .taken = taken,
-                                .clock = ClockOffset::Estimate{}});
+                reckoning.hear(
+                    {.state = heard, .arrived = now, .taken = taken, .clock = ClockEstimate{}});
             }
             const auto place = reckoning.predicted(now);
             const double x = place ? place->x() : 0.0;
@@ -232,8 +230,8 @@ private:
         state.sequence = static_cast<std::uint32_t>(ms + 1);
         state.sent = base::TimePoint{1h} + std::chrono::milliseconds{ms};
         state.touching = true;
-        state.body = wire::BodyState{};
-        state.body->position = {{path(ms), 0.0, 0.0}};
+        wire::BodyState& body = state.bodies.add(wire::BodyState{});
+        body.position = {{path(ms), 0.0, 0.0}};
         return state;
     }
 };

@@ -191,7 +191,7 @@ TEST(ShortMessagesOnly, AreToldToAPersonASecondLater)
     while (!pair.told(0, Event::no_body) && ++ticks < 5000) {
         pair.step();
         wire::State state = pair.state_sent_by(1).value();
-        state.body.reset();
+        state.bodies.clear();
         give(pair, 0, state);
     }
     EXPECT_GE(ticks, 1000U);

@@ -153,7 +153,7 @@ TEST(PeerSession, RefusesAnotherVersionOfTheProtocolWhenItHasHeardItThrice)
 {
     Peer peer{settings_of(1, 50)};
     const base::TimePoint now{std::chrono::hours{1}};
-    const std::array<std::byte, 4> newer{std::byte{'H'}, std::byte{'N'}, std::byte{2},
+    const std::array<std::byte, 4> newer{std::byte{'H'}, std::byte{'N'}, std::byte{3},
                                          std::byte{9}};
     for (const auto at : {0ms, 1ms, 20ms}) peer.on_datagram(newer, now + at); // 1 ms is the same
     EXPECT_FALSE(peer.refusal());
@@ -303,8 +303,8 @@ TEST(PeerState, TellsOfHandTouchAndForce)
     EXPECT_EQ(pair.ticks[0].touched.on_body, world.touch(0).on_body);
     EXPECT_NEAR(state->contact_force.x(), world.touch(0).on_body.x(), 1e-6);
     EXPECT_EQ(pair.ticks[0].force, -pair.ticks[0].touched.on_body);
-    ASSERT_TRUE(state->body);
-    EXPECT_NEAR(state->body->position.x(), pair.peers[0]->body().position.x(), 1e-9);
+    ASSERT_FALSE(state->bodies.empty());
+    EXPECT_NEAR(state->bodies.first()->position.x(), pair.peers[0]->body().position.x(), 1e-9);
 
     pair.hands[0].gripping = true;
     pair.step();
@@ -326,9 +326,9 @@ TEST(PeerState, IsOfTheSharedBodyWhateverItsPlaceInTheScene)
     EXPECT_GT(pair.peers[0]->body().position.x(), 0.001);
     EXPECT_NEAR(pair.peers[1]->body().position.x(), pair.peers[0]->body().position.x(), 1e-3);
     wire::State state = pair.state_sent_by(0).value();
-    EXPECT_EQ(state.body->body, 1U);
+    EXPECT_EQ(state.bodies.first()->body, 1U);
     state.sequence += 10;
-    state.body->body = 0; // stands still for ever
+    state.bodies.begin()->body = 0; // stands still for ever
     pair.peers[1]->on_datagram(wire::encode(state).bytes(), pair.now);
     EXPECT_EQ(pair.peers[1]->counters().implausible, 1U);
 }
@@ -396,8 +396,8 @@ TEST(PeerState, LeavesTheBodyOutASecondAfterItsLastStirAndThenRepeatsItEvery64th
         const auto state = pair.state_sent_by(0);
         ASSERT_TRUE(state);
         const bool due = pair.now - stirred < Peer::body_lingers || state->sequence % 64 == 1;
-        EXPECT_EQ(state->body.has_value(), due) << ms;
-        bodies += state->body ? 1 : 0;
+        EXPECT_EQ(!state->bodies.empty(), due) << ms;
+        bodies += static_cast<int>(state->bodies.size());
     }
     EXPECT_GT(bodies, 1000 + 3000 / 64);
     EXPECT_LT(bodies, 2000);
@@ -416,12 +416,12 @@ TEST(PeerLedger, HoldsTheTimeIntegralOfTheForceAndTheMotionOfTheHand)
     }
     pair.hands[0] = {.hip = {{-0.05, 0.0, 0.0}}, .velocity = {}};
     pair.run_for(300ms); // the cube coasts, and that is this hand's doing too
-    const auto body = pair.state_sent_by(0).value().body.value();
-    EXPECT_NEAR(static_cast<double>(body.caused_impulse_nns[0]), 1e9 * impulse, 1.0);
+    const wire::BodyState body = *pair.state_sent_by(0).value().bodies.first();
+    EXPECT_NEAR(static_cast<double>(body.caused_impulse_uns[0]), 1e6 * impulse, 1.0);
     const double moved = pair.peers[0]->body().position.x() - from;
     EXPECT_GT(moved, 0.001);
-    EXPECT_NEAR(static_cast<double>(body.caused_displacement_nm[0]), 1e9 * moved, 10.0);
-    EXPECT_EQ(body.caused_impulse_nns[1], 0);
+    EXPECT_NEAR(static_cast<double>(body.caused_displacement_um[0]), 1e6 * moved, 1.0);
+    EXPECT_EQ(body.caused_impulse_uns[1], 0U);
 }
 
 TEST(PeerLedger, DoesNotClaimWhatTheOtherHandDidAfterThisOneLetGo)
@@ -433,7 +433,8 @@ TEST(PeerLedger, DoesNotClaimWhatTheOtherHandDidAfterThisOneLetGo)
     pair.hands[0] = {.hip = {{-0.05, 0.0, 0.0}}, .velocity = {}};
     pair.hands[1] = {.hip = {{0.020, 0.0, 0.0}}, .velocity = {}}; // pushes left, at once
     const auto caused = [&] {
-        return pair.state_sent_by(0).value().body.value().caused_displacement_nm[0];
+        return static_cast<std::int32_t>(
+            pair.state_sent_by(0).value().bodies.first()->caused_displacement_um[0]);
     };
     pair.run_for(5ms); // the other side's touch is known
     const auto at_hand_over = caused();
@@ -452,12 +453,12 @@ TEST(PeerLedger, LosesNothingWhenMessagesAreLost)
     pair.run_for(500ms);
     pair.cut = false;
     pair.run_for(10ms);
-    const auto said = pair.state_sent_by(0).value().body.value();
-    EXPECT_GT(said.caused_impulse_nns[0], 0);
+    const wire::BodyState said = *pair.state_sent_by(0).value().bodies.first();
+    EXPECT_GT(said.caused_impulse_uns[0], 0U);
     pair.hands[0] = {.hip = {{-0.05, 0.0, 0.0}}, .velocity = {}};
     pair.run_for(500ms);
-    const auto later = pair.state_sent_by(0).value().body.value();
-    EXPECT_GE(later.caused_impulse_nns[0], said.caused_impulse_nns[0]);
+    const wire::BodyState later = *pair.state_sent_by(0).value().bodies.first();
+    EXPECT_GE(later.caused_impulse_uns[0], said.caused_impulse_uns[0]);
 }
 
 TEST(PeerHand, ThatNobodyHoldsNeitherFeelsNorMovesAnything)
@@ -520,8 +521,7 @@ TEST(PeerCounters, TellWhatCouldNotBeUsed)
     state.hip_velocity = {{0.0, -11.0, 0.0}}; // through all of that in less than 0.1 s
     give();
     state.hip_velocity = {};
-    state.body = wire::BodyState{};
-    state.body->position = {{0.0, 0.0, 1.1}};
+    state.bodies.add(wire::BodyState{}).position = {{0.0, 0.0, 1.1}};
     give();
     peer.on_datagram({}, pair.now);
     peer.on_datagram(std::array<std::byte, 9>{}, pair.now);

@@ -35,8 +35,7 @@ TEST(Remote, KeepsTheNewestBodyThroughStatesWithoutOne)
 {
     Remote remote{{}};
     wire::State with_body = state_number(1);
-    with_body.body = wire::BodyState{};
-    with_body.body->position = {{0.01, 0.0, 0.0}};
+    with_body.bodies.add(wire::BodyState{}).position = {{0.01, 0.0, 0.0}};
     remote.update(with_body, start);
     remote.update(state_number(2), start + 1ms);
     ASSERT_TRUE(remote.body());

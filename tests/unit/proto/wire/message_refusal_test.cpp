@@ -40,7 +40,7 @@ std::string error_of(const Bytes& bytes)
 TEST(Refusal, OfEveryTruncationAndEveryExtension)
 {
     State bare = full_state();
-    bare.body.reset();
+    bare.bodies.clear();
     for (const Message& message :
          {Message{full_hello()}, Message{full_state()}, Message{bare}, Message{Bye{}}}) {
         Bytes bytes = bytes_of_message(message);
@@ -48,7 +48,7 @@ TEST(Refusal, OfEveryTruncationAndEveryExtension)
             EXPECT_FALSE(decode(std::span{bytes}.first(size))) << size;
         }
         while (bytes.size() < 2048) {
-            bytes.push_back(std::byte{0});
+            bytes.push_back(std::byte{0}); // a second body 0 does not ascend
             EXPECT_FALSE(decode(bytes)) << bytes.size();
         }
     }
@@ -59,7 +59,7 @@ TEST(Refusal, OfAnotherMagicVersionOrType)
     const Bytes hello = bytes_of_message(full_hello());
     EXPECT_EQ(error_of(with(hello, 0, 'h')), "not one of ours");
     EXPECT_EQ(error_of(with(hello, 1, 'n')), "not one of ours");
-    EXPECT_EQ(error_of(with(hello, 2, 2)), "another protocol version");
+    EXPECT_EQ(error_of(with(hello, 2, 1)), "another protocol version");
     EXPECT_EQ(error_of(with(hello, 3, 0)), "unknown type");
     EXPECT_EQ(error_of(with(hello, 3, 4)), "unknown type");
     EXPECT_EQ(error_of(with(hello, 3, 2)), "state: wrong length");
@@ -85,7 +85,8 @@ TEST(Refusal, OfAbsentFieldsThatAreNotZero)
     }
     const Bytes state = bytes_of_message(full_state());
     EXPECT_EQ(error_of(with(state, state_flags, 0x0e)), "state: not canonical");
-    EXPECT_EQ(error_of(with(state, state_flags, 0x07)), "state: wrong length"); // no body
+    EXPECT_EQ(error_of(with(state, state_flags, 0x07)),
+              "state: not canonical"); // a body all the same
     Hello silent = full_hello();
     silent.echo.reset();
     EXPECT_EQ(error_of(with(bytes_of_message(silent), hello_echo + 8, 1)), "hello: not canonical");
@@ -122,7 +123,8 @@ TEST(Refusal, OfVectorsThatAreNotFinite)
 {
     const Bytes state = bytes_of_message(full_state());
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    for (std::size_t offset = 34; offset < 96; offset += offset == 66 ? 6 : 4) {
+    for (std::size_t offset = 34; offset < 112; offset += 4) {
+        if (offset == 70) offset = 88; // the body's
         for (const float value : {infinity, -infinity, std::numeric_limits<float>::quiet_NaN()}) {
             EXPECT_EQ(error_of(with_float(state, offset, value)), "state: not finite") << offset;
         }
@@ -130,6 +132,46 @@ TEST(Refusal, OfVectorsThatAreNotFinite)
                   "state: not finite")
             << offset;
     }
+}
+
+TEST(Refusal, OfBodiesThatDoNotAscendOrAreTooMany)
+{
+    State state = full_state();
+    BodyState second = plain_body();
+    second.body = 0x0301;
+    state.bodies.add(second);
+    const Bytes two = bytes_of_message(state);
+    EXPECT_TRUE(decode(two));
+    EXPECT_EQ(error_of(with(two, 86 + 50 + 1, 0x02)), "state: not canonical"); // the same id
+    EXPECT_EQ(error_of(with(two, 86 + 50 + 1, 0x01)), "state: not canonical"); // a lower one
+    Bytes nine = bytes_of_message(full_state());
+    for (int i = 1; i < 9; ++i) {
+        const Bytes body = bytes_of(std::span{nine}.subspan(86, 50));
+        nine.insert(nine.end(), body.begin(), body.end());
+        nine[nine.size() - 49] = static_cast<std::byte>(0x02 + i);
+        EXPECT_EQ(error_of(nine), i < 8 ? "accepted" : "state: wrong length");
+    }
+}
+
+TEST(Refusal, OfOrientationsAndIntentionsThatNobodySays)
+{
+    State state = full_state();
+    state.bodies.clear();
+    state.bodies.add(turning_body());
+    const Bytes turning = bytes_of_message(state);
+    EXPECT_EQ(error_of(with(turning, 86 + 57, 0x58)), "state: not canonical");            // bit 62
+    EXPECT_EQ(error_of(with(with(turning, 70, 0x00), 71, 0x80)), "state: not canonical"); // -32768
+    EXPECT_EQ(error_of(with(with(turning, 70, 0x01), 71, 0x80)), "accepted");             // -32767
+}
+
+TEST(Refusal, OfHellosThatHearPeerZeroOrHaveANegativeHand)
+{
+    const Bytes hello = bytes_of_message(full_hello());
+    EXPECT_EQ(error_of(with(hello, 93, 0x07)), "hello: not canonical");
+    EXPECT_EQ(error_of(with_float(hello, 101, -1.0F)), "hello: not canonical");
+    EXPECT_EQ(error_of(with_float(hello, 105, -0.0F)), "hello: not canonical");
+    EXPECT_EQ(error_of(with_float(hello, 113, std::numeric_limits<float>::infinity())),
+              "hello: not canonical");
 }
 
 TEST(Refusal, OfTimesMoreThanTwoToTheSixtyNanosecondsFromZero)
@@ -152,7 +194,7 @@ TEST(Refusal, OfTimesMoreThanTwoToTheSixtyNanosecondsFromZero)
 TEST(Version, IsReadFromTheFirstThreeBytesWhateverFollows)
 {
     EXPECT_EQ(version_of(encode(full_hello()).bytes()), protocol_version);
-    EXPECT_EQ(version_of(bytes_of("48 4e 02")), 2);
+    EXPECT_EQ(version_of(bytes_of("48 4e 01")), 1);
     EXPECT_EQ(version_of(bytes_of("48 4e 00 ff ff ff")), 0);
     EXPECT_EQ(version_of(bytes_of("48 4e")), std::nullopt);
     EXPECT_EQ(version_of(bytes_of("48 4f 01")), std::nullopt);

@@ -21,9 +21,9 @@ wire::State heard(bool touching, double force_x, double body_x, double body_spee
     state.sequence = 1;
     state.touching = touching;
     state.contact_force = {{force_x, 0.0, 0.0}};
-    state.body = wire::BodyState{};
-    state.body->position = {{body_x, 0.0, 0.0}};
-    state.body->velocity = {{body_speed, 0.0, 0.0}};
+    wire::BodyState& body = state.bodies.add(wire::BodyState{});
+    body.position = {{body_x, 0.0, 0.0}};
+    body.velocity = {{body_speed, 0.0, 0.0}};
     return state;
 }
 

@@ -123,7 +123,7 @@ TEST(BaseOptions, TheStrongerKeepsTheBodyForTheHysteresisAndForARoundTripAtLeast
 {
     const auto changes_over_at = [](base::Duration hysteresis, base::Duration half_round_trip) {
         Copy copy = copy_with({.both_push = BothPush::stronger, .hysteresis = hysteresis});
-        copy.clock = ClockOffset::Estimate{{}, half_round_trip};
+        copy.clock = ClockEstimate{{}, half_round_trip};
         std::ignore = copy.tick(0.0, pushing_hip(0.004));
         copy.hear({.body_mm = 3.0, .force_n = -0.5}, 1.0);
         std::ignore = copy.tick(1.0, pushing_hip(0.004)); // this side leads from 1 ms on
@@ -185,9 +185,9 @@ TEST(BaseOptions, AlongXAloneTheOtherSideActsOnNothingElse)
     state.sequence = 1;
     state.touching = true;
     state.contact_force = {{-0.3, 0.4, 1.2}};
-    state.body = wire::BodyState{};
-    state.body->position = {{0.001, 0.002, 0.003}};
-    state.body->velocity = {{0.1, 0.2, 0.3}};
+    wire::BodyState& body = state.bodies.add(wire::BodyState{});
+    body.position = {{0.001, 0.002, 0.003}};
+    body.velocity = {{0.1, 0.2, 0.3}};
     remote.update(state, start);
     const Situation situation{.now = start, .remote = remote, .freshness = 1.0};
     EXPECT_EQ(presence_of(situation, options).force, (base::Force{{-0.3, 0.0, 0.0}}));

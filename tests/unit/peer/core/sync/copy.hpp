@@ -60,9 +60,9 @@ public:
         state.contact_force = {{word.force_n, 0.0, 0.0}};
         state.hip = {{1e-3 * word.hip_mm, 0.0, 0.0}};
         if (word.has_body) {
-            state.body = wire::BodyState{};
-            state.body->position = {{1e-3 * word.body_mm, 0.0, 0.0}};
-            state.body->velocity = {{word.speed_m_per_s, 0.0, 0.0}};
+            wire::BodyState& body = state.bodies.add(wire::BodyState{});
+            body.position = {{1e-3 * word.body_mm, 0.0, 0.0}};
+            body.velocity = {{word.speed_m_per_s, 0.0, 0.0}};
         }
         const bool taken = remote.update(state, at_ms(arrived_ms));
         algorithm.hear({.state = state,
@@ -89,7 +89,7 @@ public:
     Remote remote;
     scene::World world = paper_world();
     bool yields = true;
-    std::optional<ClockOffset::Estimate> clock = ClockOffset::Estimate{};
+    std::optional<ClockEstimate> clock = ClockEstimate{};
 };
 
 /// What happens without the other side, but for a push along x.

@@ -43,7 +43,7 @@ TEST(DeadReckoning, LooksAheadByTheMeanDelayOrThisMessagesOwnOrAFixedTimeOrNotAt
 {
     const auto at_15_ms = [](Horizon horizon) {
         Copy copy = copy_with({.velocity = VelocityRule::sender, .horizon = horizon});
-        copy.clock = ClockOffset::Estimate{5s, {}}; // their clock is so far ahead
+        copy.clock = ClockEstimate{5s, {}}; // their clock is so far ahead
         copy.hear({.sequence = 1, .sent_ms = 5000.0, .body_mm = 0.0}, 10.0);
         copy.hear({.sequence = 5, .sent_ms = 5004.0, .body_mm = 1.2}, 12.0);
         return predicted_mm(copy, 15.0);
@@ -67,7 +67,7 @@ TEST(DeadReckoning, CountsAnOvertakenMessageInTheDelayAndNowhereElse)
 
 TEST(DeadReckoning, LooksAheadByHalfTheRoundTripWhateverTheAsymmetryOfThePath)
 {
-    ClockOffset clock; // equal clocks; 20 ms there, 60 ms back
+    ClockSync clock; // equal clocks; 20 ms there, 60 ms back
     clock.add({at_ms(0.0), at_ms(20.0), at_ms(20.0), at_ms(80.0)});
     Copy copy = copy_with({});
     copy.clock = clock.estimate();

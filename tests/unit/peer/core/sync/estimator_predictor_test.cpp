@@ -77,7 +77,7 @@ TEST(EstimatorPredictor, CarriesTheForceOnByTheAgeOfItsSample)
 TEST(EstimatorPredictor, ReadsTheAgeFromTheSendersClockOrElseFromTheArrival)
 {
     Copy copy = copy_with(plain);
-    copy.clock = ClockOffset::Estimate{5s, {}};
+    copy.clock = ClockEstimate{5s, {}};
     copy.hear({.sequence = 1, .sent_ms = 5000.0, .force_n = 1.0}, 5.0);
     copy.hear({.sequence = 2, .sent_ms = 5001.0, .force_n = 1.1}, 6.0);
     EXPECT_NEAR(copy.tick(8.0).remote_force.x(), 1.1 + 0.7, rounding);

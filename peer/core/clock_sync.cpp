@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "peer/core/clock_sync.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapnet::peer {
+
+namespace {
+
+// The clocks count from a boot: none is ten years ahead of another.
+constexpr base::Duration offset_max{std::chrono::hours{10 * 365 * 24}};
+// A round trip that is longer than the shortest by less than this met hardly any queue.
+constexpr base::Duration longer_least{std::chrono::microseconds{100}};
+constexpr std::int64_t longer_share = 10; // or by less than a tenth of it
+
+base::Duration rounded(double ns) { return base::Duration{std::llround(ns)}; }
+
+} // namespace
+
+void ClockSync::add(const ClockSample& s)
+{
+    const base::Duration round_trip = (s.answer_heard - s.sent) - (s.answered - s.heard);
+    const Window sample{s.answer_heard, ((s.heard - s.sent) + (s.answered - s.answer_heard)) / 2,
+                        round_trip};
+    const bool is_believable =
+        round_trip >= base::Duration{0} && std::chrono::abs(sample.offset) <= offset_max;
+    if (!is_believable) return;
+    if (!first_) {
+        first_ = s.answer_heard;
+        said_at_ = s.answer_heard;
+    }
+    if (open_ && s.answer_heard - open_since_ >= window) close_window();
+    if (!open_) open_since_ = s.answer_heard;
+    if (!open_ || sample.round_trip < open_->round_trip) {
+        open_ = sample;
+        fit_ = fit(s.answer_heard);
+    }
+    const bool agrees = std::chrono::abs(sample.offset - said_) <= round_trip / 2 + jump_least;
+    if (agreeing_left_ > 0 && agrees) --agreeing_left_;
+    follow(s.answer_heard);
+}
+
+void ClockSync::close_window()
+{
+    if (count_ == closed_.size()) {
+        std::move(closed_.begin() + 1, closed_.end(), closed_.begin());
+        --count_;
+    }
+    closed_[count_++] = *open_;
+    open_.reset();
+    if (!has_jumped()) return;
+    std::move(closed_.begin() + static_cast<std::ptrdiff_t>(count_ - windows_for_jump),
+              closed_.begin() + static_cast<std::ptrdiff_t>(count_), closed_.begin());
+    count_ = windows_for_jump;
+    ++jumps_;
+    agreeing_left_ = samples_after_jump;
+    said_at_ = closed_[count_ - 1].at;
+    said_ = fit(said_at_).offset;
+}
+
+/// Whether the last windows all say that the clock is elsewhere, on the same side.
+bool ClockSync::has_jumped() const
+{
+    if (count_ < windows_for_jump) return false;
+    int ahead = 0, behind = 0;
+    for (std::size_t i = count_ - windows_for_jump; i < count_; ++i) {
+        const base::Duration apart = closed_[i].offset - said_;
+        const base::Duration bound =
+            std::max(closed_[i].round_trip / 2, fit_.uncertainty) + jump_least;
+        ahead += static_cast<int>(apart > bound);
+        behind += static_cast<int>(apart < -bound);
+    }
+    return std::max(ahead, behind) == static_cast<int>(windows_for_jump);
+}
+
+ClockSync::Fit ClockSync::fit(base::TimePoint now) const
+{
+    // The window that is open counts as soon as it has a sample.
+    const auto each_window = [this](const auto& look) {
+        for (std::size_t i = 0; i < count_; ++i) look(closed_[i]);
+        if (open_) look(*open_);
+    };
+    Window best = open_ ? *open_ : closed_[0];
+    each_window([&best](const Window& each) {
+        if (each.round_trip < best.round_trip) best = each;
+    });
+    const base::Duration longest =
+        best.round_trip + std::max(longer_least, best.round_trip / longer_share);
+    // Sums about the best one: equal offsets differ by exactly 0.
+    double n = 0.0, t = 0.0, tt = 0.0, x = 0.0, tx = 0.0, xx = 0.0;
+    each_window([&](const Window& each) {
+        if (each.round_trip > longest) return;
+        const double time = base::to_seconds(each.at - now);
+        const auto apart = static_cast<double>((each.offset - best.offset).count());
+        n += 1.0;
+        t += time;
+        tt += time * time;
+        x += apart;
+        tx += time * apart;
+        xx += apart * apart;
+    });
+    const base::Duration half_trip = best.round_trip / 2;
+    if (n < static_cast<double>(windows_for_skew)) return {now, best.offset, half_trip, 0.0};
+    const double spread = tt - t * t / n;
+    const double slope = spread > 0.0 ? (tx - t * x / n) / spread : 0.0; // ns per s
+    if (!(std::abs(slope) <= 1e3 * skew_max_ppm)) return {now, best.offset, half_trip, 0.0};
+    const double here = x / n - slope * t / n;
+    const double left = std::max(0.0, xx - x * x / n - slope * slope * spread);
+    const double error = std::sqrt(left / (n - 2.0) * (1.0 / n + (t / n) * (t / n) / spread));
+    return {now, best.offset + rounded(here), half_trip + rounded(2.0 * error), 1e-9 * slope};
+}
+
+/// Brings what is said nearer to what is found.
+void ClockSync::follow(base::TimePoint now)
+{
+    const base::Duration apart = fit_.at_time(now) - said_;
+    const bool is_settling = now - *first_ < settles_within;
+    const base::Duration most =
+        std::chrono::duration_cast<base::Duration>(slew_max * (now - said_at_));
+    said_ += is_settling ? apart : std::clamp(apart, -most, most);
+    said_at_ = now;
+}
+
+std::optional<ClockEstimate> ClockSync::estimate() const
+{
+    if (is_same_clock_) return ClockEstimate{};
+    if (!first_) return std::nullopt;
+    // What slewing has not reached yet is uncertain, too.
+    const base::Duration behind = std::chrono::abs(fit_.at_time(said_at_) - said_);
+    return ClockEstimate{said_, fit_.uncertainty + behind, 1e6 * fit_.skew};
+}
+
+} // namespace hapnet::peer

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::peer {
+
+/// A measurement of the other side's clock by one echoed message.
+struct ClockSample {
+    base::TimePoint sent;         // by us, our clock
+    base::TimePoint heard;        // by them, their clock
+    base::TimePoint answered;     // by them, their clock
+    base::TimePoint answer_heard; // by us, our clock
+};
+
+/// How the other side's clock stands to ours.
+struct ClockEstimate {
+    base::Duration offset{};      // their clock minus ours, now
+    base::Duration uncertainty{}; // half the least round trip, which bounds what asymmetry can
+                                  // hide, and what the fit may err by
+    double skew_ppm = 0.0;        // by how much theirs runs faster
+};
+
+/// Estimates the other side's clock from echoes (NTP's offset, RFC 5905 section 8). Queueing delays
+/// both lengthen a round trip and spoil its offset, so of each second only the sample with the
+/// shortest round trip is kept, 64 seconds of them, and of these only those that are about as short
+/// as the shortest. A straight line through them gives offset and skew.
+///
+/// What it says never steps once it has settled, in the first two seconds: it follows by 500 us a
+/// second at most. A clock that jumps (a machine that slept, a virtual one that was moved) is
+/// recognised after eight seconds; then it steps once.
+class ClockSync {
+public:
+    static constexpr base::Duration window{std::chrono::seconds{1}};
+    static constexpr std::size_t windows_max = 64;
+    static constexpr base::Duration settles_within{std::chrono::seconds{2}};
+    static constexpr double slew_max = 500e-6;
+    static constexpr double skew_max_ppm = 200.0; // crystals are a tenth of that apart
+    static constexpr std::size_t windows_for_skew = 8;
+    static constexpr std::size_t windows_for_jump = 8;
+    static constexpr base::Duration jump_least{std::chrono::milliseconds{50}};
+    static constexpr std::uint32_t samples_after_jump = 8;
+
+    /// Ignores samples with a negative round trip or an offset of more than ten years.
+    void add(const ClockSample& sample);
+    /// The two run on one machine: their clocks are one.
+    void set_same_clock() { is_same_clock_ = true; }
+
+    /// nullopt before the first sample.
+    [[nodiscard]] std::optional<ClockEstimate> estimate() const;
+    /// How often the other side's clock has jumped.
+    [[nodiscard]] std::uint32_t jumps() const { return jumps_; }
+    /// After a jump, until enough samples agree: nothing should be predicted from the estimate.
+    [[nodiscard]] bool is_in_doubt() const { return agreeing_left_ > 0; }
+
+    void reset() { *this = ClockSync{}; }
+
+private:
+    struct Window {
+        base::TimePoint at; // when its sample arrived
+        base::Duration offset;
+        base::Duration round_trip;
+    };
+    /// The line through the windows.
+    struct Fit {
+        base::TimePoint when{};
+        base::Duration offset{}; // then
+        base::Duration uncertainty{};
+        double skew = 0.0;
+
+        [[nodiscard]] base::Duration at_time(base::TimePoint now) const
+        {
+            return offset + std::chrono::duration_cast<base::Duration>(skew * (now - when));
+        }
+    };
+
+    void close_window();
+    [[nodiscard]] bool has_jumped() const;
+    [[nodiscard]] Fit fit(base::TimePoint now) const;
+    void follow(base::TimePoint now);
+
+    bool is_same_clock_ = false;
+    std::optional<base::TimePoint> first_;
+    std::optional<Window> open_; // of the second that goes on
+    base::TimePoint open_since_;
+    std::array<Window, windows_max> closed_{}; // the newest last
+    std::size_t count_ = 0;
+    Fit fit_;
+    base::Duration said_{}; // the offset as it is told
+    base::TimePoint said_at_;
+    std::uint32_t jumps_ = 0;
+    std::uint32_t agreeing_left_ = 0;
+};
+
+} // namespace hapnet::peer
