@@ -127,8 +127,9 @@ wire::State forged(const Attack& attack, const Player& victim, int tick)
     state.touching = true;
     state.hip = hand.hip;
     state.contact_force = {{3.3 * push, 0.0, 0.0}};
-    state.body = wire::BodyState{.position = {{place, 0.0, 0.0}},
-                                 .velocity = {{hand.velocity.x(), 0.0, 0.0}}};
+    wire::BodyState& body = state.bodies.add(wire::BodyState{});
+    body.position = {{place, 0.0, 0.0}};
+    body.velocity = {{hand.velocity.x(), 0.0, 0.0}};
     return state;
 }
 
