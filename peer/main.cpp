@@ -231,10 +231,10 @@ base::Result<int> run(const Options& options)
     const device::Mount mount = mount_of(options.device, (*opened)->capabilities());
     auto kept = kept_of(options.device, **opened);
     if (kept && !options.untested_device && !kept->why_untested().empty()) {
-        say(fmt::format("{}: {}: run 'hapnet-peer self-test --device {}', or allow it with "
-                        "--untested-device",
-                        options.device.name, kept->why_untested(), options.device.name));
-        return net::exit_environment;
+        screen.say(fmt::format("{}: {}: run 'hapnet-peer self-test --device {}', or allow it with "
+                               "--untested-device",
+                               options.device.name, kept->why_untested(), options.device.name));
+        return finish(net::exit_environment, screen, stop);
     }
     const device::GovernorLimits limits = limits_of(options, (*opened)->capabilities(), kept);
     if (kept) kept->on_use();
