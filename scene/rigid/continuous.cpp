@@ -97,11 +97,11 @@ void ContinuousCollision::begin(const Bodies& bodies, std::span<const Slot> acti
                                 std::span<const BodyIntegration> integrations,
                                 ContactSolver& solver)
 {
-    departures_.resize(bodies.awake);
+    departures_.resize(bodies.movable);
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
         Departure& departure = departures_[slot];
-        departure.position = bodies.position.at(slot);
-        departure.orientation = bodies.orientation.at(slot);
+        departure.beginning = {bodies.position.at(slot), bodies.orientation.at(slot),
+                               bodies.velocity.at(slot), bodies.angular_momentum.at(slot)};
         departure.turn = Departure::Turn::free;
         departure.first_touch.time = scales_.tick;
     }
@@ -125,6 +125,7 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
     flyers_.clear();
     meetings_.clear();
     woken_.clear();
+    has_changed_any_ = false;
     steps_left_ = steps_max_;
     for (const Slot slot : active) {
         if (!goes_far(chord(state.bodies, slot), 0.0)) continue;
@@ -148,6 +149,7 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
     for (const Flyer& flyer : flyers_.all()) {
         flyer_of_[flyer.body] = none;
         if (!flyer.has_changed) continue;
+        has_changed_any_ = true;
         const Slot slot = bodies.slot_of[flyer.body];
         bodies.position.put(slot, flyer.flight.centre + scales_.tick * flyer.flight.velocity);
         bodies.orientation.put(slot, orientation_at(flyer.flight, scales_.tick));
@@ -201,27 +203,28 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
         flight.velocity = bodies.velocity.at(slot);
         flight.spin = bodies.angular_momentum.at(slot);
     }
-    if (slot >= departures_.size()) return flight; // fixed or asleep
+    if (slot >= bodies.awake) return flight; // asleep, or it is not moved
     const Departure& departure = departures_[slot];
-    flight.velocity = scales_.rate * (flight.centre - departure.position);
+    flight.velocity = scales_.rate * (flight.centre - departure.beginning.position);
     if (properties.turning != Turning::locked) {
         switch (departure.turn) {
         case Departure::Turn::steady: flight.spin = departure.spin; break;
         case Departure::Turn::by_hands:
-            flight.spin = scales_.rate * turn_between(departure.orientation, flight.orientation);
+            flight.spin =
+                scales_.rate * turn_between(departure.beginning.orientation, flight.orientation);
             break;
         case Departure::Turn::free:
             flight.spin =
                 rotates_uniformly(properties)
                     ? bodies.angular_velocity(slot)
-                    : mean_spin(departure.orientation,
+                    : mean_spin(departure.beginning.orientation,
                                 {bodies.angular_momentum.at(slot), properties.inverse_inertia},
                                 scales_.tick);
             break;
         }
     }
-    flight.centre = departure.position;
-    flight.orientation = departure.orientation;
+    flight.centre = departure.beginning.position;
+    flight.orientation = departure.beginning.orientation;
     return flight;
 }
 
@@ -247,6 +250,8 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
     flyer.is_kinematic = bodies.properties[slot].is_kinematic;
     flyer.bend = HUGE_VAL;
     flyer.flight = chord(bodies, slot);
+    if (flyer.is_movable && slot >= bodies.awake)
+        departures_[slot].beginning = {flyer.flight.centre, flyer.flight.orientation, {}, {}};
     return index;
 }
 
@@ -544,12 +549,12 @@ Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& fl
 }
 
 /// The impulse of a touch; whether there was one.
-bool ContinuousCollision::exchange_impulse(const Surroundings& around, const Meeting& meeting)
+bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& meeting)
 {
     Bodies& bodies = around.state.bodies;
     const double time = meeting.time;
-    const Flyer& first = flyers_[meeting.a];
-    const Flyer& second = flyers_[meeting.is_plane ? meeting.a : meeting.b];
+    Flyer& first = flyers_[meeting.a];
+    Flyer& second = flyers_[meeting.is_plane ? meeting.a : meeting.b];
     Toucher a;
     const Toucher b = toucher(around, second, time);
     Manifold manifold;
@@ -584,10 +589,14 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, const Mee
         if (slot < bodies.awake) return;
         if (std::find(woken_.begin(), woken_.end(), body) == woken_.end()) woken_.add(body);
     };
+    meeting.has_pushed = true;
     const Wrench on_b = wrench(block, impulse);
+    const Wrench on_a{-on_b.impulse, -on_b.angular};
     if (second.is_movable) push(second.body, on_b, block.arm_b);
-    if (!meeting.is_plane && first.is_movable)
-        push(first.body, {-on_b.impulse, -on_b.angular}, block.arm_a);
+    if (first.is_kinematic) second.energy_driven += work_of(on_b, block.arm_a, a.motion);
+    if (meeting.is_plane) return true;
+    if (first.is_movable) push(first.body, on_a, block.arm_a);
+    if (second.is_kinematic) first.energy_driven += work_of(on_a, block.arm_b, b.motion);
     return true;
 }
 

@@ -47,7 +47,43 @@ public:
     /// Looks at two bodies in a tick, at most; and in the last solve().
     [[nodiscard]] std::uint64_t looks_max() const { return steps_max_; }
     [[nodiscard]] std::uint64_t looks() const { return steps_max_ - steps_left_; }
+    /// Whether the last solve() changed a body's velocity or its way.
+    [[nodiscard]] bool has_changed_any() const { return has_changed_any_; }
     [[nodiscard]] std::span<const BodyId> woken() const { return woken_.all(); }
+
+    /// A body before the tick.
+    struct Beginning {
+        glm::dvec3 position{0.0};
+        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+        glm::dvec3 velocity{0.0};
+        glm::dvec3 angular_momentum{0.0};
+    };
+    /// Of an awake body since begin(), and of a sleeper that the last solve() changed.
+    [[nodiscard]] const Beginning& beginning(Slot slot) const
+    {
+        return departures_[slot].beginning;
+    }
+    /// Calls visit(slot, driven) for the movable bodies that the last solve() changed, in velocity
+    /// or in their way; `driven` is what the motion of kinematic bodies did to them in touches, J.
+    template <typename Visit>
+    void for_changed(const Bodies& bodies, Visit&& visit) const
+    {
+        for (const Flyer& flyer : flyers_.all()) {
+            if (flyer.is_movable && flyer.has_changed)
+                visit(bodies.slot_of[flyer.body], flyer.energy_driven);
+        }
+    }
+    /// Calls visit(slot, slot) for every two movable bodies that pushed each other in it.
+    template <typename Visit>
+    void for_pushes(const Bodies& bodies, Visit&& visit) const
+    {
+        for (const Meeting& meeting : meetings_.all()) {
+            if (!meeting.has_pushed || meeting.is_plane) continue;
+            const Flyer& a = flyers_[meeting.a];
+            const Flyer& b = flyers_[meeting.b];
+            if (a.is_movable && b.is_movable) visit(bodies.slot_of[a.body], bodies.slot_of[b.body]);
+        }
+    }
 
 private:
     using FlyerIndex = std::uint32_t;
@@ -57,8 +93,7 @@ private:
     /// Where a body was, and how it turned from there.
     struct Departure {
         enum class Turn : std::uint8_t { free, steady, by_hands };
-        glm::dvec3 position{0.0};
-        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+        Beginning beginning;
         Turn turn = Turn::free;
         glm::dvec3 spin{0.0}; // when it is steady
         BodyMotion start;
@@ -74,6 +109,7 @@ private:
         bool has_stopped = false; // for the rest of the tick
         bool has_changed = false; // it does not come to where it was put
         std::uint32_t touches = 0;
+        double energy_driven = 0.0; // J: what kinematic bodies did to it in touches
         MeetingIndex first = none;
         double bend = 0.0; // s: when it goes on with that velocity at the latest
         SteadyBox flight;  // time 0 is the start of the tick
@@ -84,6 +120,7 @@ private:
         FlyerIndex a = 0;
         std::uint32_t b = 0;
         bool is_plane = false;
+        bool has_pushed = false;
         bool is_over = false;  // they surely do not touch any more in this tick
         double time = 0.0;     // s: ... until then
         double gap = 0.0;      // m: at which they touch; an overlap
@@ -119,7 +156,7 @@ private:
     void touch(const Surroundings& around, Meeting& meeting);
     [[nodiscard]] Toucher toucher(const Surroundings& around, const Flyer& flyer,
                                   double time) const;
-    bool exchange_impulse(const Surroundings& around, const Meeting& meeting);
+    bool exchange_impulse(const Surroundings& around, Meeting& meeting);
 
     Scales scales_;
     Scratch<Departure> departures_; // by slot
@@ -127,6 +164,7 @@ private:
     Scratch<Meeting> meetings_;
     std::vector<FlyerIndex> flyer_of_; // by id; `none` between ticks
     Bounded<BodyId> woken_;
+    bool has_changed_any_ = false;
     std::uint32_t steps_max_ = 0; // looks at two bodies in a tick
     std::uint32_t steps_left_ = 0;
 };

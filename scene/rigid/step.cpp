@@ -86,7 +86,7 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       integrations_{state.bodies.moving + std::size_t{1}},
       solver_{state.bodies.moving, blocks_for(config, state.bodies)},
       restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
-      account_{state.bodies.moving},
+      account_{state.bodies},
       continuous_{config, state.bodies, scales_}
 {}
 
@@ -112,7 +112,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     store_contact_impulses(state);
     stop_sliding_contacts(state);
     correct_positions(state);
-    if (bounced || changed) settle_energy(config, state);
+    if (bounced || changed) account_.settle(energy_tick(config, state));
     if (has_kinematics && kinematics_.any_far()) any_far_ = true;
     integrate_positions(state);
     integrate_free_bodies(state);
@@ -543,12 +543,11 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
     keep();
 }
 
-/// Takes away what the impulses of the tick would gain out of nothing.
 template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
+EnergyAccount::Tick RigidStepper<broad_phase>::energy_tick(const WorldConfig& config,
+                                                           WorldState& state)
 {
-    account_.settle(
-        {config, state, scales_, active_.slots(), integrations_.all(), solver_, hand_contacts_});
+    return {config, state, scales_, active_, integrations_.all(), solver_, hand_contacts_};
 }
 
 template <BroadPhase broad_phase>
@@ -574,6 +573,8 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
     continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
+    if (continuous_.has_changed_any())
+        account_.settle_touches(energy_tick(config, state), continuous_);
     state.tick_cost.looks = continuous_.looks();
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
