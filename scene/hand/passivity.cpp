@@ -4,6 +4,7 @@
 
 #include "scene/hand/contact_phases.hpp"
 #include "scene/hand/surface.hpp"
+#include "scene/maths/energy_share.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
 
@@ -19,9 +20,6 @@ constexpr double energy_rounding = 1e-9;
 constexpr double second_order = 0.03;
 // Of the greatest force: the rounding of a sum of phases.
 constexpr double force_rounding = 1e-9;
-// A grip does at most so many times the work of its impulse at the fastest corner: within the tick
-// the body may be faster than at its ends.
-constexpr double within_tick = 2.0;
 // Radians in a tick beyond which the inertia at the start says little of the end.
 constexpr double far_turn = 0.25;
 
@@ -42,27 +40,6 @@ HandEnergy energy_of(std::span<const HandSpring> springs, std::span<const Spring
     }
     return energy;
 }
-
-/// The energy that a body gains by its hands when their impulses are scaled by a share, less the
-/// work of the hands' own motion: none + linear share + square share^2.
-struct EnergyOfShare {
-    double none = 0.0;
-    double linear = 0.0;
-    double square = 0.0;
-
-    [[nodiscard]] double at_whole() const { return none + linear + square; }
-    /// The largest share, at most 1, that gains no more; where there is none, that which gains
-    /// least.
-    [[nodiscard]] double share_within(double most) const
-    {
-        if (at_whole() <= most || !(square > 0.0)) return 1.0;
-        const double room = most - none;
-        const double root = std::sqrt(std::max(linear * linear + 4.0 * square * room, 0.0));
-        const double share =
-            linear > 0.0 ? 2.0 * room / (linear + root) : (root - linear) / (2.0 * square);
-        return std::clamp(share, 0.0, 1.0);
-    }
-};
 
 struct MomentsRatio {
     double spread = 0.0; // the largest moment of inertia over the smallest, less 1
@@ -112,17 +89,16 @@ public:
         const EnergyOfShare at_start = energy_with(light, light);
         double share = 1.0;
         // What is vague by turning shrinks with the share.
-        constexpr int rounds_max = 8;
-        for (int round = 0; round < rounds_max; ++round) {
-            const double before = share;
-            const double slack = rounding + turning_slack(before);
-            share = at_start.share_within(stored + slack);
+        for (int round = 0; round < share_rounds_max; ++round) {
+            const double slack = rounding + turning_slack(share);
+            double within = at_start.share_within(stored + slack);
             if (grips_.impulse > 0.0) {
                 EnergyOfShare gripped = at_start;
-                gripped.linear -= within_tick * grips_.impulse * fastest(before) - grips_.driven;
-                share = std::min(share, gripped.share_within(stored - grips_.stored + slack));
+                gripped.linear -= grips_.most(fastest(share)) - grips_.driven;
+                within = std::min(within, gripped.share_within(stored - grips_.stored + slack));
             }
-            if (share >= before) break;
+            if (within >= share) break;
+            share = next_share(share, within, round);
         }
         if (at_end == SpringsAtEnd::ignored) return share;
         // What is stored at the end belongs to how the body lies then, as does its inertia.
@@ -155,15 +131,7 @@ public:
         end = less;
     }
 
-    /// What a grip has stored it gives by its impulse alone: it becomes part of what is driven.
-    void count_grips(double share, HandEnergy& energy) const
-    {
-        if (grips_.impulse == 0.0) return;
-        const double most = within_tick * share * grips_.impulse * fastest(share);
-        const double driven = share * grips_.driven;
-        energy.stored -= grips_.stored;
-        energy.driven += std::min(grips_.stored, most - driven);
-    }
+    [[nodiscard]] const GripEnergy& grips() const { return grips_; }
 
 private:
     /// With the inverse inertia at the end, and the one that it has there without hands.
@@ -274,11 +242,7 @@ private:
     glm::dvec3 angular_momentum_{0.0}; // by the hands
     double before_ = 0.0;
     double after_ = 0.0;
-    struct {
-        double impulse = 0.0; // N s
-        double stored = 0.0;
-        double driven = 0.0;
-    } grips_; // of the springs that hold
+    GripEnergy grips_;
 };
 
 /// The share with which no spring gives more than it can.
@@ -309,7 +273,9 @@ HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> spring
         energy.driven *= share;
         energy.is_braked = true;
     }
-    check.count_grips(share, energy);
+    energy.grips = check.grips();
+    energy.grips.scale(share);
+    energy.stored -= energy.grips.stored;
     return energy;
 }
 

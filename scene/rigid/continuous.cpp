@@ -101,7 +101,7 @@ void ContinuousCollision::begin(const Bodies& bodies, std::span<const Slot> acti
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
         Departure& departure = departures_[slot];
         departure.beginning = {bodies.position.at(slot), bodies.orientation.at(slot),
-                               bodies.velocity.at(slot), bodies.angular_momentum.at(slot)};
+                               bodies.velocity.at(slot), bodies.angular_momentum.at(slot), 0.0};
         departure.turn = Departure::Turn::free;
         departure.first_touch.time = scales_.tick;
     }
@@ -251,7 +251,8 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
     flyer.bend = HUGE_VAL;
     flyer.flight = chord(bodies, slot);
     if (flyer.is_movable && slot >= bodies.awake)
-        departures_[slot].beginning = {flyer.flight.centre, flyer.flight.orientation, {}, {}};
+        departures_[slot].beginning = {flyer.flight.centre, flyer.flight.orientation,
+                                       glm::dvec3{0.0}, glm::dvec3{0.0}, 0.0};
     return index;
 }
 
@@ -553,8 +554,8 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
 {
     Bodies& bodies = around.state.bodies;
     const double time = meeting.time;
-    Flyer& first = flyers_[meeting.a];
-    Flyer& second = flyers_[meeting.is_plane ? meeting.a : meeting.b];
+    const Flyer& first = flyers_[meeting.a];
+    const Flyer& second = flyers_[meeting.is_plane ? meeting.a : meeting.b];
     Toucher a;
     const Toucher b = toucher(around, second, time);
     Manifold manifold;
@@ -589,14 +590,17 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
         if (slot < bodies.awake) return;
         if (std::find(woken_.begin(), woken_.end(), body) == woken_.end()) woken_.add(body);
     };
+    const auto drive = [&](BodyId body, double work) {
+        departures_[bodies.slot_of[body]].beginning.energy_driven += work;
+    };
     meeting.has_pushed = true;
     const Wrench on_b = wrench(block, impulse);
     const Wrench on_a{-on_b.impulse, -on_b.angular};
     if (second.is_movable) push(second.body, on_b, block.arm_b);
-    if (first.is_kinematic) second.energy_driven += work_of(on_b, block.arm_a, a.motion);
+    if (first.is_kinematic) drive(second.body, work_of(on_b, block.arm_a, a.motion));
     if (meeting.is_plane) return true;
     if (first.is_movable) push(first.body, on_a, block.arm_a);
-    if (second.is_kinematic) first.energy_driven += work_of(on_a, block.arm_b, b.motion);
+    if (second.is_kinematic) drive(first.body, work_of(on_a, block.arm_b, b.motion));
     return true;
 }
 

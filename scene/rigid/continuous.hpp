@@ -57,20 +57,20 @@ public:
         glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
         glm::dvec3 velocity{0.0};
         glm::dvec3 angular_momentum{0.0};
+        double energy_driven = 0.0; // J: what kinematic bodies did to it since then, in touches
     };
     /// Of an awake body since begin(), and of a sleeper that the last solve() changed.
     [[nodiscard]] const Beginning& beginning(Slot slot) const
     {
         return departures_[slot].beginning;
     }
-    /// Calls visit(slot, driven) for the movable bodies that the last solve() changed, in velocity
-    /// or in their way; `driven` is what the motion of kinematic bodies did to them in touches, J.
+    /// Calls visit(slot) for the movable bodies that the last solve() changed, in velocity or in
+    /// their way.
     template <typename Visit>
     void for_changed(const Bodies& bodies, Visit&& visit) const
     {
         for (const Flyer& flyer : flyers_.all()) {
-            if (flyer.is_movable && flyer.has_changed)
-                visit(bodies.slot_of[flyer.body], flyer.energy_driven);
+            if (flyer.is_movable && flyer.has_changed) visit(bodies.slot_of[flyer.body]);
         }
     }
     /// Calls visit(slot, slot) for every two movable bodies that pushed each other in it.
@@ -109,7 +109,6 @@ private:
         bool has_stopped = false; // for the rest of the tick
         bool has_changed = false; // it does not come to where it was put
         std::uint32_t touches = 0;
-        double energy_driven = 0.0; // J: what kinematic bodies did to it in touches
         MeetingIndex first = none;
         double bend = 0.0; // s: when it goes on with that velocity at the latest
         SteadyBox flight;  // time 0 is the start of the tick

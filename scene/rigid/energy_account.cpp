@@ -42,8 +42,8 @@ struct EnergyAccount::BodyTick {
     glm::dvec3 end_angular_momentum{0.0};
     glm::dvec3 mean_velocity{0.0}; // by which it goes
     glm::dvec3 mean_spin{0.0};
-    double stored = 0.0;
-    double driven = 0.0;
+    const BodyIntegration* integration = nullptr; // where something acted on it but gravity
+    double driven_in_touches = 0.0;
     bool has_moved = false;
 };
 
@@ -81,8 +81,7 @@ EnergyAccount::BodyTick EnergyAccount::tick_of(const Tick& tick, Slot slot)
                                              integration.bounce_angular_impulse),
             .mean_velocity = mean.velocity,
             .mean_spin = mean.spin,
-            .stored = integration.hand_energy_stored,
-            .driven = integration.energy_driven};
+            .integration = &integration};
 }
 
 EnergyAccount::BodyTick EnergyAccount::moved_tick_of(const Tick& tick, Slot slot,
@@ -98,11 +97,10 @@ EnergyAccount::BodyTick EnergyAccount::moved_tick_of(const Tick& tick, Slot slot
                   .end_angular_momentum = bodies.angular_momentum.at(slot),
                   .mean_velocity =
                       tick.scales.rate * (bodies.position.at(slot) - beginning.position),
+                  .driven_in_touches = beginning.energy_driven,
                   .has_moved = true};
     if (!tick.active.contains(slot)) return body;
-    const BodyIntegration& integration = tick.integrations[slot + 1];
-    body.stored = integration.hand_energy_stored;
-    body.driven = integration.energy_driven;
+    body.integration = &tick.integrations[slot + 1];
     body.mean_spin = tick.solver.mean_motion(slot + 1).spin;
     return body;
 }
@@ -133,7 +131,8 @@ EnergyAccount::Motion EnergyAccount::motion_of(const Tick& tick, const BodyTick&
 
 /// By how much the energy of a body that turns may be wrong: its spin changes while its angular
 /// momentum stays, and in the impulses of contacts that counts.
-double EnergyAccount::turning_slack(const Tick& tick, const BodyTick& body, const Motion& motion)
+double EnergyAccount::turning_slack(const Tick& tick, const BodyTick& body, const Motion& motion,
+                                    double share)
 {
     const BodyProperties& properties = tick.state.bodies.properties[body.slot];
     const glm::dvec3& inertia = properties.inertia;
@@ -142,75 +141,87 @@ double EnergyAccount::turning_slack(const Tick& tick, const BodyTick& body, cons
     const double least = std::min({inertia.x, inertia.y, inertia.z});
     const double wobble = most / least - 1.0;
     constexpr double certainly = 0.9;
-    const double given = length(motion.angular);
-    const double tick_s = tick.config.tick;
+    const double given = share * length(motion.angular);
+    const double before = length(motion.spin);
     if (!body.has_moved) {
-        const double spin = std::max(length(motion.spin),
-                                     length(motion.spin + motion.spin_forced + motion.spin_change));
-        return certainly * wobble * std::min(spin * tick_s, followed_turn) * spin * given;
+        const double spin =
+            std::max(before, length(motion.spin + motion.spin_forced + share * motion.spin_change));
+        return certainly * wobble * std::min(spin * tick.config.tick, followed_turn) * spin * given;
     }
     // Touches push at their moment, with the inertia that the body has then.
+    const glm::dvec3 momentum = body.angular_momentum + motion.twist + share * motion.angular;
     const double spin =
-        std::max(length(motion.spin), length(tick.state.bodies.angular_velocity(body.slot)));
-    const double angle = spin * tick_s;
+        std::max(before, length(Bodies::apply_inverse_inertia(
+                             properties, tick.state.bodies.orientation.at(body.slot), momentum)));
+    const double angle = spin * tick.config.tick;
     const double slack = wobble * angle * spin * given;
     if (angle <= far_turn) return certainly * slack;
     const double range = 0.5 * (1.0 / least - 1.0 / most);
-    return certainly *
-           (slack + range * (glm::dot(body.angular_momentum, body.angular_momentum) +
-                             glm::dot(body.end_angular_momentum, body.end_angular_momentum)));
+    return certainly * (slack + range * (glm::dot(body.angular_momentum, body.angular_momentum) +
+                                         glm::dot(momentum, momentum)));
+}
+
+double EnergyAccount::given_by_grips(const Tick& tick, const BodyTick& body, const Motion& motion,
+                                     double share)
+{
+    const double radius = length(tick.state.bodies.properties[body.slot].half);
+    const glm::dvec3 velocity = body.velocity + motion.forced + share * motion.change;
+    const glm::dvec3 spin = motion.spin + motion.spin_forced + share * motion.spin_change;
+    const double fastest = std::max(length(body.velocity) + radius * length(motion.spin),
+                                    length(velocity) + radius * length(spin));
+    return body.integration->grips.given(share, fastest);
 }
 
 void EnergyAccount::Balance::add(const Balance& other)
 {
-    gain += other.gain;
-    linear += other.linear;
-    square += other.square;
+    gain.linear += other.gain.linear;
+    gain.square += other.gain.square;
     stored += other.stored;
-    driven += other.driven;
+    given += other.given;
     detour += other.detour;
     is_settled = is_settled && other.is_settled;
 }
 
-/// The largest share of the impulses with which no more is gained than may be: at most what the
-/// springs held, rounding, and the share of the hands' work.
-double EnergyAccount::Balance::share() const
+double EnergyAccount::Balance::share_within() const
 {
-    const double slope = linear - driven;
-    const double root2 = slope * slope + 4.0 * square * stored;
-    const double found = (-slope + std::sqrt(root2)) / (2.0 * square);
-    return found > 0.0 && found < 1.0 ? found : 0.0;
+    const EnergyOfShare own{0.0, gain.linear - given / share, gain.square};
+    return std::min(share, own.share_within(stored));
 }
 
-EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTick& body)
+EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTick& body,
+                                                 double share)
 {
     const Motion motion = motion_of(tick, body);
     const double mass = tick.state.bodies.properties[body.slot].mass;
     Balance balance;
-    balance.linear = mass * glm::dot(motion.change, body.velocity + 0.5 * motion.forced) +
-                     glm::dot(motion.angular, motion.spin + 0.5 * motion.spin_forced);
-    balance.square = 0.5 * (mass * glm::dot(motion.change, motion.change) +
-                            glm::dot(motion.angular, motion.spin_change));
-    // Those that bore a sleeper do not lift it.
-    balance.linear -= 0.5 * mass * glm::dot(motion.change, motion.load - motion.forced);
-    balance.gain = balance.linear + balance.square;
-    const glm::dvec3 mean = body.velocity + 0.5 * (motion.forced + motion.change);
-    const glm::dvec3 mean_spin = motion.spin + 0.5 * (motion.spin_forced + motion.spin_change);
+    balance.share = share;
+    balance.gain.linear = mass * glm::dot(motion.change, body.velocity + 0.5 * motion.forced) +
+                          glm::dot(motion.angular, motion.spin + 0.5 * motion.spin_forced);
+    balance.gain.square = 0.5 * (mass * glm::dot(motion.change, motion.change) +
+                                 glm::dot(motion.angular, motion.spin_change));
+    const glm::dvec3 mean = body.velocity + 0.5 * (motion.forced + share * motion.change);
+    const glm::dvec3 mean_spin =
+        motion.spin + 0.5 * (motion.spin_forced + share * motion.spin_change);
     const double work = mass * glm::dot(motion.load, mean) + glm::dot(motion.twist, mean_spin);
     const double way =
         mass * glm::dot(motion.load, body.mean_velocity) + glm::dot(motion.twist, body.mean_spin);
     balance.detour = std::max(0.0, way - work);
-    balance.stored = body.stored;
-    balance.driven = body.driven;
+    // Those that bore a sleeper do not lift it.
+    balance.gain.linear -= 0.5 * mass * glm::dot(motion.change, motion.load - motion.forced);
     const double there = mass * glm::dot(body.velocity, body.velocity) +
                          glm::dot(body.angular_momentum, motion.spin) + std::abs(work);
     const double miss2 =
         speed_tolerance * speed_tolerance * glm::dot(motion.load, motion.load) +
         rest * rest * tick.scales.least * tick.scales.least * tick.scales.rate * tick.scales.rate;
     const double twisted = glm::dot(motion.twist, motion.spin_forced);
-    balance.stored +=
+    balance.stored =
         energy_tolerance * there + mass * miss2 + speed_tolerance * speed_tolerance * twisted;
-    balance.driven += turning_slack(tick, body, motion);
+    balance.given = turning_slack(tick, body, motion, share) + share * body.driven_in_touches;
+    if (body.integration == nullptr) return balance;
+    balance.stored += body.integration->hand_energy_stored;
+    balance.given += share * body.integration->energy_driven;
+    if (body.integration->grips.impulse > 0.0)
+        balance.given += given_by_grips(tick, body, motion, share);
     return balance;
 }
 
@@ -225,6 +236,7 @@ void EnergyAccount::settle(const Tick& tick)
     }
     if (!any) return;
     join_islands(tick, slots);
+    find_shares(tick, slots, [&](Slot slot) { return tick_of(tick, slot); });
     // Velocities alone: the way is what was found without overlaps.
     scale_islands(tick, slots, [&](Slot slot, double share) {
         const BodyTick body = tick_of(tick, slot);
@@ -244,7 +256,7 @@ void EnergyAccount::settle_touches(const Tick& tick, const ContinuousCollision& 
     Bodies& bodies = tick.state.bodies;
     moved_.clear();
     for (const Slot slot : tick.active.slots()) moved_.add(slot);
-    touches.for_changed(bodies, [&](Slot slot, double /*driven*/) {
+    touches.for_changed(bodies, [&](Slot slot) {
         if (!tick.active.contains(slot)) moved_.add(slot);
     });
     balances_.resize(bodies.movable + std::size_t{1});
@@ -253,15 +265,14 @@ void EnergyAccount::settle_touches(const Tick& tick, const ContinuousCollision& 
         balances_[slot + 1].is_settled = true;
     }
     bool any = false;
-    touches.for_changed(bodies, [&](Slot slot, double driven) {
-        Balance& balance = balances_[slot + 1];
-        balance.driven += driven;
-        balance.is_settled = false;
-        any = any || balance.is_exceeded();
+    touches.for_changed(bodies, [&](Slot slot) {
+        balances_[slot + 1].is_settled = false;
+        any = any || balances_[slot + 1].is_exceeded();
     });
     if (!any) return;
     join_islands(tick, moved_.all());
     touches.for_pushes(bodies, [&](Slot a, Slot b) { islands_.join(a + 1, b + 1); });
+    find_shares(tick, moved_.all(), [&](Slot slot) { return moved_tick_of(tick, slot, touches); });
     scale_islands(tick, moved_.all(), [&](Slot slot, double share) {
         const BodyTick body = moved_tick_of(tick, slot, touches);
         const Motion motion = motion_of(tick, body);
@@ -280,32 +291,58 @@ void EnergyAccount::join_islands(const Tick& tick, std::span<const Slot> slots)
     }
 }
 
-/// One body may gain what others of its island lose. Calls scale(slot, share) for those of islands
-/// that gain.
-template <typename Scale>
-void EnergyAccount::scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale)
+/// One body may gain what others of its island lose.
+template <typename TickOf>
+void EnergyAccount::find_shares(const Tick& tick, std::span<const Slot> slots,
+                                TickOf&& tick_of_slot)
 {
     for (const Slot slot : slots) {
         const SolverIndex root = islands_.root_of(slot + 1);
         if (root != slot + 1) balances_[root].add(balances_[slot + 1]);
     }
+    // What may be gained shrinks with the share: with that of hands, and of what turns.
+    for (int round = 0; round < share_rounds_max; ++round) {
+        bool any = false;
+        for (const Slot slot : slots) {
+            Balance& island = balances_[slot + 1];
+            if (islands_.root_of(slot + 1) != slot + 1) continue;
+            island.is_settled = !island.is_exceeded();
+            if (island.is_settled) continue;
+            const double share = next_share(island.share, island.share_within(), round);
+            island = {};
+            island.share = share;
+            any = true;
+        }
+        if (!any) return;
+        for (const Slot slot : slots) {
+            Balance& island = balances_[islands_.root_of(slot + 1)];
+            if (island.is_settled) continue;
+            island.add(balance_of(tick, tick_of_slot(slot), island.share));
+        }
+    }
+}
+
+/// Calls scale(slot, share) for the bodies of islands that gained.
+template <typename Scale>
+void EnergyAccount::scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale)
+{
     for (const Slot slot : slots) {
         const SolverIndex root = islands_.root_of(slot + 1);
-        const Balance& island = balances_[root];
-        if (!island.is_exceeded()) continue;
-        const double share = island.share();
+        const double share = balances_[root].share;
+        if (share == 1.0) continue;
         if (root == slot + 1) count(tick.state.interventions, share);
         scale(slot, share);
         if (!tick.active.contains(slot)) continue;
         BodyIntegration& integration = tick.integrations[slot + 1];
         integration.energy_driven *= share;
+        integration.grips.scale(share);
         if (integration.has_hands)
             tick.hands.scale_impulses(tick.state.bodies.properties[slot].id, share);
     }
     for (ContactBlock& block : tick.solver.blocks()) {
         const SolverIndex body = tick.solver.responds(block.a) ? block.a : block.b;
-        const Balance& island = balances_[islands_.root_of(body)];
-        if (island.is_exceeded()) scale_impulses(*block.memory, island.share());
+        const double share = balances_[islands_.root_of(body)].share;
+        if (share != 1.0) scale_impulses(*block.memory, share);
     }
 }
 

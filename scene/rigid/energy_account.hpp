@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/bounded.hpp"
+#include "scene/maths/energy_share.hpp"
 #include "scene/rigid/continuous.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
@@ -46,24 +47,24 @@ public:
 private:
     struct BodyTick;
     struct Motion;
-    /// Of a body, or the sum over an island, J.
+    /// Of a body, or the sum over an island, J, with a share of the impulses.
     struct Balance {
-        double gain = 0.0;   // with all impulses
-        double linear = 0.0; // of that the part that grows with the share of the impulses ...
-        double square = 0.0; // ... and that with its square
-        double stored = 0.0; // what may be gained without impulses: what springs held, rounding
-        double driven = 0.0; // with all impulses: the work of the motion of hands and kinematic
-                             // bodies, and what is not followed of a turning body's inertia
-        double detour =
-            0.0; // of gravity, pushes and torques where the way is not the mean velocity's
+        EnergyOfShare gain;      // less the work of gravity, pushes and torques
+        double stored = 0.0;     // what may be gained without impulses: what springs held, rounding
+        double given = 0.0;      // what by the impulses: by grips, by the motion of hands and of
+                                 // kinematic bodies, by what is not followed of a turning inertia
+        double detour = 0.0;     // of gravity, pushes and torques where the way is not the mean
+                                 // velocity's
+        double share = 1.0;      // of the impulses
         bool is_settled = false; // there is nothing to be looked at
 
         void add(const Balance& other);
         [[nodiscard]] bool is_exceeded() const
         {
-            return gain > stored + driven + detour && !is_settled;
+            return gain.at(share) > stored + given + detour && !is_settled;
         }
-        [[nodiscard]] double share() const;
+        /// The share with which it is not, were what is given so much for its share.
+        [[nodiscard]] double share_within() const;
     };
 
     [[nodiscard]] static BodyTick tick_of(const Tick& tick, Slot slot);
@@ -71,9 +72,14 @@ private:
                                                 const ContinuousCollision& touches);
     [[nodiscard]] static Motion motion_of(const Tick& tick, const BodyTick& body);
     [[nodiscard]] static double turning_slack(const Tick& tick, const BodyTick& body,
-                                              const Motion& motion);
-    [[nodiscard]] static Balance balance_of(const Tick& tick, const BodyTick& body);
+                                              const Motion& motion, double share);
+    [[nodiscard]] static double given_by_grips(const Tick& tick, const BodyTick& body,
+                                               const Motion& motion, double share);
+    [[nodiscard]] static Balance balance_of(const Tick& tick, const BodyTick& body,
+                                            double share = 1.0);
     void join_islands(const Tick& tick, std::span<const Slot> slots);
+    template <typename TickOf>
+    void find_shares(const Tick& tick, std::span<const Slot> slots, TickOf&& tick_of_slot);
     template <typename Scale>
     void scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale);
 

@@ -112,6 +112,7 @@ void reset(BodyIntegration& integration)
     integration.has_hands = false;
     integration.hand_energy_stored = 0.0;
     integration.energy_driven = 0.0;
+    integration.grips.impulse = 0.0;
     integration.first_touch.time = std::numeric_limits<double>::infinity();
 }
 
@@ -195,6 +196,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
         advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes);
     integration.hand_energy_stored = energy.stored;
     integration.energy_driven = energy.driven;
+    integration.grips = energy.grips;
     integration.hands_are_braked = energy.is_braked;
     integration.hand_rows = energy.rows;
     integration.has_hands = true;

@@ -43,6 +43,7 @@ struct BodyIntegration {
     bool hands_are_braked = false;
     std::size_t hand_rows = 0;       // see HandEnergy
     double hand_energy_stored = 0.0; // J: in their springs at the start of the tick
+    GripEnergy grips;                // of those that hold
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     BodyMotion mean_to_there; // the mean motion that goes there
