@@ -225,7 +225,7 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTic
     return balance;
 }
 
-void EnergyAccount::settle(const Tick& tick)
+bool EnergyAccount::settle(const Tick& tick)
 {
     const std::span<const Slot> slots = tick.active.slots();
     balances_.resize(tick.state.bodies.awake + std::size_t{1});
@@ -234,11 +234,11 @@ void EnergyAccount::settle(const Tick& tick)
         balances_[slot + 1] = balance_of(tick, tick_of(tick, slot));
         any = any || balances_[slot + 1].is_exceeded();
     }
-    if (!any) return;
+    if (!any) return false;
     join_islands(tick, slots);
     find_shares(tick, slots, [&](Slot slot) { return tick_of(tick, slot); });
     // Velocities alone: the way is what was found without overlaps.
-    scale_islands(tick, slots, [&](Slot slot, double share) {
+    const bool has_scaled = scale_islands(tick, slots, [&](Slot slot, double share) {
         const BodyTick body = tick_of(tick, slot);
         const Motion motion = motion_of(tick, body);
         BodyIntegration& integration = tick.integrations[slot + 1];
@@ -249,6 +249,7 @@ void EnergyAccount::settle(const Tick& tick)
         integration.angular_momentum =
             body.angular_momentum + motion.twist + share * motion.angular;
     });
+    return has_scaled;
 }
 
 void EnergyAccount::settle_touches(const Tick& tick, const ContinuousCollision& touches)
@@ -322,14 +323,16 @@ void EnergyAccount::find_shares(const Tick& tick, std::span<const Slot> slots,
     }
 }
 
-/// Calls scale(slot, share) for the bodies of islands that gained.
+/// Calls scale(slot, share) for the bodies of islands that gained; returns whether any did.
 template <typename Scale>
-void EnergyAccount::scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale)
+bool EnergyAccount::scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale)
 {
+    bool any = false;
     for (const Slot slot : slots) {
         const SolverIndex root = islands_.root_of(slot + 1);
         const double share = balances_[root].share;
         if (share == 1.0) continue;
+        any = true;
         if (root == slot + 1) count(tick.state.interventions, share);
         scale(slot, share);
         if (!tick.active.contains(slot)) continue;
@@ -344,6 +347,7 @@ void EnergyAccount::scale_islands(const Tick& tick, std::span<const Slot> slots,
         const double share = balances_[islands_.root_of(body)].share;
         if (share != 1.0) scale_impulses(*block.memory, share);
     }
+    return any;
 }
 
 } // namespace hapnet::scene

@@ -38,8 +38,8 @@ public:
     };
 
     /// Looks at all active bodies, before they move; changes the motions and impulses of the
-    /// islands that gain.
-    void settle(const Tick& tick);
+    /// islands that gain. Returns whether any did.
+    bool settle(const Tick& tick);
     /// The same when they have moved, of those that continuous collision changed: by the way that
     /// they went at last. Their touches are impulses of the tick like all others.
     void settle_touches(const Tick& tick, const ContinuousCollision& touches);
@@ -81,7 +81,7 @@ private:
     template <typename TickOf>
     void find_shares(const Tick& tick, std::span<const Slot> slots, TickOf&& tick_of_slot);
     template <typename Scale>
-    void scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale);
+    bool scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale);
 
     Scratch<Balance> balances_; // by solver index; then by the first body of an island
     Islands islands_;

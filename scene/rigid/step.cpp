@@ -112,7 +112,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     store_contact_impulses(state);
     stop_sliding_contacts(state);
     correct_positions(state);
-    if (bounced || changed) account_.settle(energy_tick(config, state));
+    if (bounced || changed) settle_energy(config, state);
     if (has_kinematics && kinematics_.any_far()) any_far_ = true;
     integrate_positions(state);
     integrate_free_bodies(state);
@@ -532,15 +532,28 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
     }
     state.tick_cost.visits += solver_.correct_positions(position_limits()).visits;
     // A body that is thrown off its path is held back; the others go as far as that lets them.
-    const auto keep = [&] {
-        const Ways ways =
-            keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
-        any_far_ = ways.any_far;
-        return ways.any_kept;
-    };
-    if (!keep()) return;
+    if (!hold_back(state)) return;
     state.tick_cost.visits += solver_.correct_positions_again(position_limits()).visits;
-    keep();
+    hold_back(state);
+}
+
+/// Returns whether any body was thrown off its path.
+template <BroadPhase broad_phase>
+bool RigidStepper<broad_phase>::hold_back(WorldState& state)
+{
+    const Ways ways =
+        keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
+    any_far_ = ways.any_far;
+    return ways.any_kept;
+}
+
+/// Takes away what the impulses of the tick would gain out of nothing. A body that loses most of
+/// its speed by that does not go where it would have taken it.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
+{
+    if (!account_.settle(energy_tick(config, state))) return;
+    if (hold_back(state)) account_.settle(energy_tick(config, state));
 }
 
 template <BroadPhase broad_phase>

@@ -73,6 +73,8 @@ private:
     void store_contact_impulses(const WorldState& state);
     void stop_sliding_contacts(const WorldState& state);
     void correct_positions(WorldState& state);
+    bool hold_back(WorldState& state);
+    void settle_energy(const WorldConfig& config, WorldState& state);
     EnergyAccount::Tick energy_tick(const WorldConfig& config, WorldState& state);
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);

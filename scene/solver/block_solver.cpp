@@ -300,7 +300,7 @@ void Trial::hold_points(const PointSet& set)
 bool Trial::stick(double tolerance)
 {
     PointSet set = pushing(tolerance);
-    for (std::uint32_t round = 0; round < manifold_points_max; ++round) {
+    for (;;) { // at most once for each point, and once without any
         hold_points<true>(set);
         // A contact that would have to pull to stick may still have to push to slip.
         if (set.count == 0) return opens(tolerance);
