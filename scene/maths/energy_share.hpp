@@ -17,15 +17,21 @@ struct EnergyOfShare {
 
     [[nodiscard]] double at(double share) const { return none + share * (linear + share * square); }
     /// The largest share, at most 1, that gains no more; where there is none, that which gains
-    /// least.
+    /// least. Nothing of what is not a number.
     [[nodiscard]] double share_within(double most) const
     {
-        if (none + linear + square <= most || !(square > 0.0)) return 1.0;
+        if (none + linear + square <= most) return 1.0;
         const double room = most - none;
         const double root = std::sqrt(std::max(linear * linear + 4.0 * square * room, 0.0));
         const double share =
             linear > 0.0 ? 2.0 * room / (linear + root) : (root - linear) / (2.0 * square);
-        return std::clamp(share, 0.0, 1.0);
+        return share > 0.0 ? std::min(share, 1.0) : 0.0;
+    }
+    /// The share, at most 1, that gains least.
+    [[nodiscard]] double share_of_least() const
+    {
+        const double share = -linear / (2.0 * square);
+        return share > 0.0 ? std::min(share, 1.0) : 0.0;
     }
 };
 

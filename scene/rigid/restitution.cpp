@@ -105,16 +105,9 @@ void add(const BounceTarget& target, const Wrench& push, double time, double tic
 double share_without_energy_gain(const ContactBlock& block, const ContactVector& velocity,
                                  const ContactVector& impulse)
 {
-    const ContactVector change = times(block.matrix, impulse);
-    double before = 0.0;
-    double change_twice = 0.0;
-    for (std::size_t i = 0; i < change.size(); ++i) {
-        before += impulse[i] * velocity[i];
-        change_twice += impulse[i] * change[i];
-    }
+    const EnergyOfShare energy = energy_of(block, impulse, velocity);
     constexpr double rounding = 1e-12;
-    if (before + 0.5 * change_twice <= rounding * std::abs(before)) return 1.0;
-    return before < 0.0 ? -2.0 * before / change_twice : 0.0;
+    return energy.share_within(rounding * std::abs(energy.linear));
 }
 
 Approach approach_of(const ContactBlock& block, std::span<const BodyIntegration> integrations)
