@@ -20,14 +20,16 @@ struct LawFigures {
 /// What has to hold for every tick of every world:
 /// - every number is finite, orientations are unit, locked axes and fixed bodies stay where they
 ///   are, what sleeps does not move and has no velocity; and, without hands, nobody goes farther in
-///   a tick than twice the way of the fastest, and his own size;
+///   a tick than twice the way of the fastest, and his own size; or, in a tick with several touches
+///   of continuous collision, than the energy that there is can make him;
 /// - a hand exerts no more than its greatest force (1e-6 of it tolerated);
 /// - kinetic energy grows by no more than the work of gravity, pushes and hands (tolerated: 1e-6 of
 ///   what is there, and for each body m v^2 with v twice what its forces add in a tick, and what
 ///   its energy of turning may differ by for the same angular momentum when it turns far);
 /// - where nothing is fixed, momentum changes by what gravity, pushes and hands give (1e-10 of the
-///   sum of all amounts tolerated); and angular momentum, without hands, by what gravity and pushes
-///   give (tolerated: what the bodies pass each other in a tick times the impulses).
+///   sum of all amounts tolerated, of what hands give together, and the digits of each); and
+///   angular momentum, without hands, by what gravity and pushes give (tolerated: what the bodies
+///   pass each other in a tick times the impulses).
 /// A body moves at the mean of its velocities before and after the tick, but where it bounces, so
 /// that the work of a steady force and of every impulse is known: with the inertia as it is before
 /// the tick.
@@ -55,6 +57,7 @@ private:
         double work = 0.0;
         double fastest = 0.0;  // m/s, of any corner
         double farthest = 0.0; // m that a body went beyond its own size
+        double fling = 0.0;    // J s^2: the most of 1/2 m of that squared
         double jolt = 0.0;     // N s: the sum of the changes of momentum
         double momentum = 0.0; // N s: the sum of the amounts
         double angular = 0.0;  // N m s, likewise
@@ -73,6 +76,9 @@ private:
     [[nodiscard]] static double turning_slack(const scene::BodyDescription& form, const Moment& was,
                                               const Moment& now, double angle);
     void add(Balance& balance, const scene::World& world, scene::BodyId id) const;
+    [[nodiscard]] double most_from_hand(const scene::World& world, std::uint32_t hand,
+                                        double fastest) const;
+    [[nodiscard]] double within_reach(const scene::World& world, std::uint32_t hand) const;
     [[nodiscard]] std::optional<std::string> check_energy(const scene::World& world,
                                                           const Balance& balance);
     [[nodiscard]] std::optional<std::string> check_ways(const scene::World& world,
@@ -83,8 +89,9 @@ private:
 
     const RandomPlay& play_;
     bool nothing_is_fixed_ = true;
-    double movable_ = 0.0;            // how many
-    double size_ = scene::size_max_m; // the smallest half edge, m
+    double movable_ = 0.0;             // how many
+    double size_ = scene::size_max_m;  // the smallest half edge, m
+    std::uint64_t touches_before_ = 0; // of continuous collision, up to the tick
     std::vector<Moment> moments_;
     LawFigures worst_;
 };
