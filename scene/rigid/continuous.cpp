@@ -8,7 +8,6 @@
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
 #include "scene/rigid/free_flight.hpp"
-#include "scene/rigid/touch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +100,7 @@ void ContinuousCollision::begin(const Bodies& bodies, std::span<const Slot> acti
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
         Departure& departure = departures_[slot];
         departure.beginning = {bodies.position.at(slot), bodies.orientation.at(slot),
-                               bodies.velocity.at(slot), bodies.angular_momentum.at(slot), 0.0};
+                               bodies.velocity.at(slot), bodies.angular_momentum.at(slot)};
         departure.turn = Departure::Turn::free;
         departure.first_touch.time = scales_.tick;
     }
@@ -121,35 +120,30 @@ template <BroadPhase search>
 void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot> active,
                                 const PairFinder<search>& pairs)
 {
-    WorldState& state = around.state;
+    Bodies& bodies = around.state.bodies;
     flyers_.clear();
     meetings_.clear();
     woken_.clear();
-    has_changed_any_ = false;
     steps_left_ = steps_max_;
-    for (const Slot slot : active) {
-        if (!goes_far(chord(state.bodies, slot), 0.0)) continue;
-        flyers_[add_flyer(around, state.bodies.properties[slot].id)].is_fast = true;
-    }
+    const auto add_fast = [&](Slot slot) {
+        if (goes_far(chord(bodies, slot), 0.0))
+            flyers_[add_flyer(around, bodies.properties[slot].id)].is_fast = true;
+    };
+    for (const Slot slot : active) add_fast(slot);
     const auto fast = static_cast<FlyerIndex>(flyers_.size());
-    for (Slot slot = state.bodies.movable; slot < state.bodies.moving; ++slot) {
-        if (!goes_far(chord(state.bodies, slot), 0.0)) continue;
-        flyers_[add_flyer(around, state.bodies.properties[slot].id)].is_fast = true;
-    }
+    for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) add_fast(slot);
     const auto all = static_cast<FlyerIndex>(flyers_.size());
     for (FlyerIndex i = 0; i < all; ++i) find_others(around, pairs, i, 0.0);
     for (FlyerIndex i = 0; i < fast; ++i) {
-        if (!has_to_bend(state.bodies, i)) continue;
+        if (!has_to_bend(bodies, i)) continue;
         bend(around, i);
         find_others(around, pairs, i, 0.0);
         advance_all(around, i, 0.0, none);
     }
     while (go_to_next_touch(around, pairs)) {}
-    Bodies& bodies = state.bodies;
     for (const Flyer& flyer : flyers_.all()) {
         flyer_of_[flyer.body] = none;
         if (!flyer.has_changed) continue;
-        has_changed_any_ = true;
         const Slot slot = bodies.slot_of[flyer.body];
         bodies.position.put(slot, flyer.flight.centre + scales_.tick * flyer.flight.velocity);
         bodies.orientation.put(slot, orientation_at(flyer.flight, scales_.tick));
@@ -248,11 +242,9 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
     flyer.body = body;
     flyer.is_movable = slot < bodies.movable;
     flyer.is_kinematic = bodies.properties[slot].is_kinematic;
-    flyer.bend = HUGE_VAL;
     flyer.flight = chord(bodies, slot);
     if (flyer.is_movable && slot >= bodies.awake)
-        departures_[slot].beginning = {flyer.flight.centre, flyer.flight.orientation,
-                                       glm::dvec3{0.0}, glm::dvec3{0.0}, 0.0};
+        departures_[slot].beginning = {flyer.flight.centre, flyer.flight.orientation};
     return index;
 }
 
@@ -336,8 +328,7 @@ void ContinuousCollision::stop(Flyer& flyer, double time)
     flyer.flight.centre += time * flyer.flight.velocity;
     flyer.flight.orientation = orientation_at(flyer.flight, time);
     flyer.flight.velocity = flyer.flight.spin = glm::dvec3{0.0};
-    flyer.has_stopped = true;
-    flyer.has_changed = true;
+    flyer.has_stopped = flyer.has_changed = true;
 }
 
 /// All that go far and may meet anything stay where they have come.
@@ -453,8 +444,7 @@ ContinuousCollision::MeetingIndex ContinuousCollision::earliest() const
     MeetingIndex found = none;
     for (MeetingIndex i = 0; i < meetings_.size(); ++i) {
         const Meeting& meeting = meetings_[i];
-        if (meeting.is_over) continue;
-        if (found == none || meeting.time < meetings_[found].time) found = i;
+        if (!meeting.is_over && (found == none || meeting.time < meetings_[found].time)) found = i;
     }
     return found;
 }
@@ -509,8 +499,7 @@ void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
     }
     const bool pushed = exchange_impulse(around, meeting);
     if (pushed) ++around.state.interventions.sweeps_continued;
-    const bool many = flyers_[both[0]].touches >= touches_many ||
-                      flyers_[meeting.is_plane ? both[0] : both[1]].touches >= touches_many;
+    const bool many = std::max(flyers_[both[0]].touches, flyers_[both[1]].touches) >= touches_many;
     meeting.gap -= (many ? many_times : 1.0) * next_overlap(meeting.gap, meeting.smallest);
     const bool one_has_stopped =
         count == 2 && (flyers_[both[0]].has_stopped || flyers_[both[1]].has_stopped);
@@ -584,23 +573,22 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
     const ContactVector impulse = touch_impulse(block, a, b, least_bounce * scales_.fall);
     if (std::all_of(impulse.begin(), impulse.end(), [](double part) { return part == 0.0; }))
         return false;
-    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm) {
+    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm, double driven) {
         const Slot slot = bodies.slot_of[body];
         apply_impulse(bodies, slot, by, arm);
+        departures_[slot].beginning.energy_driven += driven;
         if (slot < bodies.awake) return;
         if (std::find(woken_.begin(), woken_.end(), body) == woken_.end()) woken_.add(body);
-    };
-    const auto drive = [&](BodyId body, double work) {
-        departures_[bodies.slot_of[body]].beginning.energy_driven += work;
     };
     meeting.has_pushed = true;
     const Wrench on_b = wrench(block, impulse);
     const Wrench on_a{-on_b.impulse, -on_b.angular};
-    if (second.is_movable) push(second.body, on_b, block.arm_b);
-    if (first.is_kinematic) drive(second.body, work_of(on_b, block.arm_a, a.motion));
-    if (meeting.is_plane) return true;
-    if (first.is_movable) push(first.body, on_a, block.arm_a);
-    if (second.is_kinematic) drive(first.body, work_of(on_a, block.arm_b, b.motion));
+    if (second.is_movable)
+        push(second.body, on_b, block.arm_b,
+             first.is_kinematic ? work_of(on_b, block.arm_a, a.motion) : 0.0);
+    if (!meeting.is_plane && first.is_movable)
+        push(first.body, on_a, block.arm_a,
+             second.is_kinematic ? work_of(on_a, block.arm_b, b.motion) : 0.0);
     return true;
 }
 

@@ -10,6 +10,8 @@
 #include "scene/rigid/touch.hpp"
 #include "scene/state.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -48,7 +50,12 @@ public:
     [[nodiscard]] std::uint64_t looks_max() const { return steps_max_; }
     [[nodiscard]] std::uint64_t looks() const { return steps_max_ - steps_left_; }
     /// Whether the last solve() changed a body's velocity or its way.
-    [[nodiscard]] bool has_changed_any() const { return has_changed_any_; }
+    [[nodiscard]] bool has_changed_any() const
+    {
+        const auto flyers = flyers_.all();
+        return std::any_of(flyers.begin(), flyers.end(),
+                           [](const Flyer& flyer) { return flyer.has_changed; });
+    }
     [[nodiscard]] std::span<const BodyId> woken() const { return woken_.all(); }
 
     /// A body before the tick.
@@ -110,8 +117,8 @@ private:
         bool has_changed = false; // it does not come to where it was put
         std::uint32_t touches = 0;
         MeetingIndex first = none;
-        double bend = 0.0; // s: when it goes on with that velocity at the latest
-        SteadyBox flight;  // time 0 is the start of the tick
+        double bend = HUGE_VAL; // s: when it goes on with that velocity at the latest
+        SteadyBox flight;       // time 0 is the start of the tick
         Aabb searched{glm::dvec3{1.0}, glm::dvec3{-1.0}}; // for others in its way
     };
     /// Two that may touch: a flyer and another, or a plane.
@@ -163,7 +170,6 @@ private:
     Scratch<Meeting> meetings_;
     std::vector<FlyerIndex> flyer_of_; // by id; `none` between ticks
     Bounded<BodyId> woken_;
-    bool has_changed_any_ = false;
     std::uint32_t steps_max_ = 0; // looks at two bodies in a tick
     std::uint32_t steps_left_ = 0;
 };

@@ -128,7 +128,18 @@ bool is_driven(const BodyIntegration& body)
            body.contact_angular_impulse != glm::dvec3{0.0};
 }
 
+bool any_bounces(const WorldConfig& config, const Bodies& bodies)
+{
+    const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
+    return std::any_of(bodies.properties.begin(), bodies.properties.end(), bounces) ||
+           std::any_of(config.planes.begin(), config.planes.end(), bounces);
+}
+
 } // namespace
+
+Restitution::Restitution(const WorldConfig& config, const Bodies& bodies, std::size_t blocks)
+    : is_needed_{any_bounces(config, bodies)}, hits_{is_needed_ ? blocks : 0}
+{}
 
 bool Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
                         const Scales& scales, Interventions& interventions)

@@ -61,13 +61,6 @@ std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
     return bodies.movable * std::min(others, contacts_per_body_max);
 }
 
-bool any_bounces(const WorldConfig& config, const Bodies& bodies)
-{
-    const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
-    return std::any_of(bodies.properties.begin(), bodies.properties.end(), bounces) ||
-           std::any_of(config.planes.begin(), config.planes.end(), bounces);
-}
-
 } // namespace
 
 template <BroadPhase broad_phase>
@@ -85,7 +78,7 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.moving + std::size_t{1}},
       solver_{state.bodies.moving, blocks_for(config, state.bodies)},
-      restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
+      restitution_{config, state.bodies, blocks_for(config, state.bodies)},
       account_{state.bodies},
       continuous_{config, state.bodies, scales_}
 {}
@@ -554,13 +547,6 @@ void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldSt
 {
     if (!account_.settle(energy_tick(config, state))) return;
     if (hold_back(state)) account_.settle(energy_tick(config, state));
-}
-
-template <BroadPhase broad_phase>
-EnergyAccount::Tick RigidStepper<broad_phase>::energy_tick(const WorldConfig& config,
-                                                           WorldState& state)
-{
-    return {config, state, scales_, active_, integrations_.all(), solver_, hand_contacts_};
 }
 
 template <BroadPhase broad_phase>

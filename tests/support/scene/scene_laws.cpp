@@ -287,9 +287,9 @@ double SceneLaws::most_from_hand(const World& world, std::uint32_t hand, double 
 {
     if (!world.touch(hand).holding)
         return std::min(touched_max, movable_) * most_from_push(world, hand);
-    const double others = std::min(touched_max, within_reach(world, hand)) - 1.0;
-    return most_from_grip(world, hand, fastest) +
-           std::max(others, 0.0) * most_from_push(world, hand);
+    // The one that it holds may be far away.
+    const double others = std::min({touched_max, movable_ - 1.0, within_reach(world, hand)});
+    return most_from_grip(world, hand, fastest) + others * most_from_push(world, hand);
 }
 
 /// How many movable bodies can have touched a hand in the tick.

@@ -94,6 +94,8 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{300053771, "ThrownFartherThanItsSpeed"}, Scar{400077289, "ThrownBetweenTwoHeavyOnes"},
         Scar{400077724, "PushedByAHandThatHoldsAnother"},
         Scar{400080091, "PushedAtHighSpeedByAHandThatHoldsAnother"},
+        Scar{600121857, "PushedByAHandThatHoldsOneFarAway"},
+        Scar{600155233, "PushedHardByAHandThatHoldsOneFarAway"},
         Scar{7015132, "GrippedLightlyWhileItSpins"}, Scar{7029090, "GrippedHardWhileItSpins"},
         Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
     [](const auto& each) { return each.param.name; });
