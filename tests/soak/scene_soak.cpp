@@ -42,11 +42,11 @@ void report(const Tally& tally)
     const scene::Interventions& done = tally.interventions;
     fmt::print("  guards: {} islands limited, {} ways cut, {} budgets spent: {:.2g} of the ticks; "
                "mechanisms: {} impulses trimmed, {} hands braked, {} bounces limited, {} sweeps "
-               "continued\n",
+               "continued, {} clusters stuck\n",
                done.islands_limited, done.paths_cut, done.budgets_spent,
                static_cast<double>(done.guards()) / static_cast<double>(tally.ticks),
                done.impulses_trimmed, done.hands_braked, done.bounces_limited,
-               done.sweeps_continued);
+               done.sweeps_continued, done.clusters_stuck);
     std::fflush(stdout);
 }
 
