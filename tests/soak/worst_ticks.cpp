@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/soak/worst_ticks.hpp"
 
+#include "proto/net/clock.hpp"
 #include "tests/support/scene/random_play.hpp"
 
 #include <algorithm>
@@ -78,10 +79,9 @@ std::vector<Tick> timed(std::uint64_t seed)
         auto world = scene::World::freeze(play.description, play.options);
         for (std::size_t i = 0; i < ticks.size(); ++i) {
             test::feed(*world, play.ticks[i]);
-            const auto begin = std::chrono::steady_clock::now();
+            const auto begin = net::monotonic_now();
             world->tick();
-            const std::chrono::duration<double, std::micro> took =
-                std::chrono::steady_clock::now() - begin;
+            const std::chrono::duration<double, std::micro> took = net::monotonic_now() - begin;
             ticks[i].us = std::min(ticks[i].us, took.count());
             ticks[i].seed = seed;
             ticks[i].number = i;
