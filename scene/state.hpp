@@ -89,6 +89,7 @@ struct Interventions {
     std::uint64_t impulses_trimmed = 0; // an island lost less than a tenth of its impulses
     std::uint64_t bounces_limited = 0;  // a bounce was made weaker so that no energy is gained
     std::uint64_t sweeps_continued = 0; // a body went on after its first touch within the tick
+    std::uint64_t clusters_stuck = 0;   // two that touched too often in a tick had an inelastic hit
 
     [[nodiscard]] std::uint64_t guards() const
     {
@@ -103,6 +104,7 @@ struct Interventions {
         impulses_trimmed += other.impulses_trimmed;
         bounces_limited += other.bounces_limited;
         sweeps_continued += other.sweeps_continued;
+        clusters_stuck += other.clusters_stuck;
         return *this;
     }
 };

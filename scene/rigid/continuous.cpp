@@ -7,6 +7,7 @@
 #include "scene/collide/sweep.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
+#include "scene/rigid/allowed_overlap.hpp"
 #include "scene/rigid/free_flight.hpp"
 
 #include <algorithm>
@@ -18,59 +19,30 @@ namespace hapnet::scene {
 namespace {
 
 // Touches of one body in a tick. After some it does not bounce any more, and overlaps by more with
-// each: where many are wedged into each other, touches would have no end.
-constexpr std::uint32_t touches_max = 64, touches_many = 12;
+// each: where many are wedged into each other, touches would have no end. After more it sticks.
+constexpr std::uint32_t touches_max = 24, touches_many = 12;
 constexpr double many_times = 4.0;
-// Looks at two bodies in a tick: some, and so many more for each movable body.
-constexpr std::uint32_t steps_base = 512, steps_per_body = 32;
+// Looks at two bodies in a tick: some, and so many more for each movable body: more where there are
+// many, as each has more neighbours. When half of them are used up, all that touches sticks.
+constexpr std::uint32_t steps_base = 192, steps_per_body = 16, steps_per_pair = 2,
+                        steps_per_body_max = 96;
+// A touch costs about as much as so many looks.
+constexpr std::uint32_t steps_per_touch = 8;
 // Meetings for each movable body, on average.
 constexpr std::size_t meetings_per_body_max = 64;
 constexpr std::size_t meetings_max = 65'536;
 // A search through all meetings costs about as much as one look for every so many.
-constexpr std::size_t meetings_per_step = 64;
+constexpr std::size_t meetings_per_step = 256;
 
-// Overlaps, in shares of the smallest half edge of the two. With each touch in a tick they may
-// overlap by a little more, so that those that slide on each other or come to rest are not held up
-// and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
-constexpr double overlap_step = 0.01;
-constexpr double overlap_max = 0.5;
-constexpr double least_step = 0.05; // of the above
 // One that came so far behind the face that it touched is not there by right.
 constexpr double behind_max = 0.1;
-// How near to that counts.
-constexpr double near_share = 0.1;
-
 // As for bounces within a tick: what is slower than this, times what gravity adds in a tick, stays.
 constexpr double least_bounce = 2.0;
 
-/// By how much two that overlap so far may overlap more at the next touch.
-double next_overlap(double gap, double smallest)
+std::uint32_t steps_for(const Bodies& bodies)
 {
-    return overlap_step * smallest * std::max(least_step, 1.0 + gap / (overlap_max * smallest));
-}
-
-/// The same motion, but at `time` it is there and turned so.
-void set_place(SteadyBox& flight, const glm::dvec3& centre, const glm::dquat& orientation,
-               double time)
-{
-    flight.centre = centre - time * flight.velocity;
-    flight.orientation =
-        flight.spin == glm::dvec3{0.0} ? orientation : rotated(orientation, -time * flight.spin);
-}
-
-glm::dquat orientation_at(const SteadyBox& flight, double time)
-{
-    return flight.spin == glm::dvec3{0.0} ? flight.orientation
-                                          : rotated(flight.orientation, time * flight.spin);
-}
-
-/// Gravity and pushes: what acts on an awake body steadily through the tick, as an acceleration.
-glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state, Slot slot)
-{
-    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
-    const BodyProperties& properties = state.bodies.properties[slot];
-    return gravity_on(properties, config.gravity) +
-           properties.inverse_mass * state.pushes[properties.id];
+    return steps_base + bodies.movable * std::min(steps_per_body + steps_per_pair * bodies.movable,
+                                                  steps_per_body_max);
 }
 
 std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
@@ -87,10 +59,20 @@ ContinuousCollision::ContinuousCollision(const WorldConfig& config, const Bodies
       departures_{bodies.movable},
       flyers_{bodies.size()},
       meetings_{room_for_meetings(config, bodies)},
+      clusters_{2 * std::size_t{bodies.movable}},
       flyer_of_(bodies.size(), none),
       woken_{bodies.movable},
-      steps_max_{steps_base + steps_per_body * bodies.movable}
+      steps_max_{steps_for(bodies)},
+      steps_kept_{steps_max_ / 2}
 {}
+
+glm::dvec3 ContinuousCollision::Surroundings::steady_acceleration(Slot slot) const
+{
+    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
+    const BodyProperties& properties = state.bodies.properties[slot];
+    return gravity_on(properties, config.gravity) +
+           properties.inverse_mass * state.pushes[properties.id];
+}
 
 void ContinuousCollision::begin(const Bodies& bodies, std::span<const Slot> active,
                                 std::span<const BodyIntegration> integrations,
@@ -123,6 +105,7 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
     Bodies& bodies = around.state.bodies;
     flyers_.clear();
     meetings_.clear();
+    clusters_.clear();
     woken_.clear();
     steps_left_ = steps_max_;
     const auto add_fast = [&](Slot slot) {
@@ -135,7 +118,7 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
     const auto all = static_cast<FlyerIndex>(flyers_.size());
     for (FlyerIndex i = 0; i < all; ++i) find_others(around, pairs, i, 0.0);
     for (FlyerIndex i = 0; i < fast; ++i) {
-        if (!has_to_bend(bodies, i)) continue;
+        if (!has_to_bend(around, i)) continue;
         bend(around, i);
         find_others(around, pairs, i, 0.0);
         advance_all(around, i, 0.0, none);
@@ -146,8 +129,21 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
         if (!flyer.has_changed) continue;
         const Slot slot = bodies.slot_of[flyer.body];
         bodies.position.put(slot, flyer.flight.centre + scales_.tick * flyer.flight.velocity);
-        bodies.orientation.put(slot, orientation_at(flyer.flight, scales_.tick));
+        bodies.orientation.put(slot, flyer.flight.orientation_at(scales_.tick));
     }
+}
+
+/// From a moment on a flyer goes on otherwise: finds anew what is in its way, and when. All but
+/// one other, which is `done`.
+template <BroadPhase search>
+void ContinuousCollision::go_on(const Surroundings& around, const PairFinder<search>& pairs,
+                                FlyerIndex index, double time, FlyerIndex done)
+{
+    Flyer& flyer = flyers_[index];
+    if (flyer.is_movable && !flyer.has_stopped && !flyer.is_fast)
+        flyer.is_fast = goes_far(flyer.flight, time);
+    if (flyer.is_fast && !flyer.has_stopped) find_others(around, pairs, index, time);
+    advance_all(around, index, time, done);
 }
 
 /// One touch, or one body that goes on otherwise: what comes first. False when nothing comes.
@@ -155,33 +151,49 @@ template <BroadPhase search>
 bool ContinuousCollision::go_to_next_touch(const Surroundings& around,
                                            const PairFinder<search>& pairs)
 {
-    const auto go_on = [&](FlyerIndex index, double time, FlyerIndex done) {
-        Flyer& flyer = flyers_[index];
-        if (flyer.is_movable && !flyer.has_stopped && !flyer.is_fast)
-            flyer.is_fast = goes_far(flyer.flight, time);
-        if (flyer.is_fast && !flyer.has_stopped) find_others(around, pairs, index, time);
-        advance_all(around, index, time, done);
-    };
     const MeetingIndex next = earliest();
     const double time = next == none ? scales_.tick : meetings_[next].time;
     const FlyerIndex bent = next_bend(time);
     if (bent != none) {
         const double then = flyers_[bent].bend;
         release(around, flyers_[bent], then);
-        go_on(bent, then, none);
+        go_on(around, pairs, bent, then, none);
         return true;
     }
     if (next == none) return false;
-    const auto cost = static_cast<std::uint32_t>(meetings_.size() / meetings_per_step);
-    steps_left_ -= std::min(steps_left_, cost);
+    const auto spend = [&](std::size_t cost) {
+        steps_left_ -= std::min(steps_left_, static_cast<std::uint32_t>(cost));
+    };
+    spend(meetings_.size() / meetings_per_step);
     if (steps_left_ == 0) {
         stop_all(around, time);
         return false;
     }
+    if (!meetings_[next].is_sure) {
+        const bool is_last = looks_run_short();
+        advance(around, meetings_[next], time, is_last ? steps_many : steps_at_once);
+        if (!is_last || meetings_[next].is_sure || meetings_[next].is_over) return true;
+    }
+    if (is_too_much(meetings_[next])) {
+        const auto before = static_cast<ClusterIndex>(clusters_.size());
+        Meeting& met = meetings_[next];
+        met.gap = std::min(met.gap, gap_of(around, met, time).distance);
+        met.gap -= next_overlap(met.gap, met.smallest);
+        stick(around, met);
+        const FlyerIndex at_wall = flyers_[met.a].is_movable ? met.a : met.b;
+        const auto now = static_cast<FlyerIndex>(flyers_.size());
+        for (FlyerIndex i = 0; i < now; ++i) {
+            const ClusterIndex its = flyers_[i].cluster;
+            if (its == none || (its < before && its != flyers_[at_wall].cluster)) continue;
+            go_on(around, pairs, i, time, none);
+        }
+        return true;
+    }
+    spend(steps_per_touch);
     touch(around, meetings_[next]);
     const Meeting met = meetings_[next];
-    go_on(met.a, time, none);
-    if (!met.is_plane) go_on(met.b, time, met.a);
+    go_on(around, pairs, met.a, time, none);
+    if (!met.is_plane) go_on(around, pairs, met.b, time, met.a);
     return true;
 }
 
@@ -249,13 +261,18 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
 }
 
 /// Whether the straight way to where it was put is no way.
-bool ContinuousCollision::has_to_bend(const Bodies& bodies, FlyerIndex index)
+bool ContinuousCollision::has_to_bend(const Surroundings& around, FlyerIndex index)
 {
+    const Bodies& bodies = around.state.bodies;
     const Slot slot = bodies.slot_of[flyers_[index].body];
     const Departure& departure = departures_[slot];
     if (departure.first_touch.time >= scales_.tick) return false;
     bool meets = got_past(bodies, departure, slot);
-    for_meetings_of(index, [&](Meeting& meeting) { meets = meets || !meeting.is_over; });
+    for_meetings_of(index, [&](Meeting& meeting) {
+        if (!meeting.is_over && !meeting.is_sure)
+            advance(around, meeting, meeting.time, steps_many);
+        meets = meets || !meeting.is_over;
+    });
     return meets;
 }
 
@@ -308,16 +325,16 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
     const Slot slot = bodies.slot_of[flyer.body];
     const BodyProperties& properties = bodies.properties[slot];
     const glm::dvec3 centre = flyer.flight.centre + time * flyer.flight.velocity;
-    const glm::dquat orientation = orientation_at(flyer.flight, time);
+    const glm::dquat orientation = flyer.flight.orientation_at(time);
     const double left = scales_.tick - time;
     flyer.flight.velocity =
-        bodies.velocity.at(slot) - (0.5 * left) * steady_acceleration(around.config, state, slot);
+        bodies.velocity.at(slot) - (0.5 * left) * around.steady_acceleration(slot);
     // The spin that it has now, which is what a touch sees; with unequal moments of inertia it does
     // not stay: see touch().
     const OrientedBox box{centre, axes_of(orientation), properties.half};
     flyer.flight.spin =
         response_of(properties, box).inverse_inertia * bodies.angular_momentum.at(slot);
-    set_place(flyer.flight, centre, orientation, time);
+    flyer.flight.put(centre, orientation, time);
     flyer.is_released = true;
     flyer.has_changed = true;
 }
@@ -326,7 +343,7 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
 void ContinuousCollision::stop(Flyer& flyer, double time)
 {
     flyer.flight.centre += time * flyer.flight.velocity;
-    flyer.flight.orientation = orientation_at(flyer.flight, time);
+    flyer.flight.orientation = flyer.flight.orientation_at(time);
     flyer.flight.velocity = flyer.flight.spin = glm::dvec3{0.0};
     flyer.has_stopped = flyer.has_changed = true;
 }
@@ -381,107 +398,14 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     }
 }
 
-bool ContinuousCollision::are_to_meet(FlyerIndex a, std::uint32_t b, bool is_plane) const
+/// Whether two that touch have touched so often that they stick.
+bool ContinuousCollision::is_too_much(const Meeting& meeting) const
 {
-    for (MeetingIndex i = flyers_[a].first; i != none;) {
-        const Meeting& meeting = meetings_[i];
-        const bool is_a = meeting.a == a;
-        if (meeting.is_plane == is_plane && (is_a ? meeting.b : meeting.a) == b) return true;
-        i = is_a ? meeting.next_of_a : meeting.next_of_b;
-    }
-    return false;
-}
-
-void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting& wanted)
-{
-    if (meetings_.is_full()) {
-        Flyer& stopped = flyers_[flyers_[wanted.a].is_movable ? wanted.a : wanted.b];
-        if (!stopped.has_stopped) stop(stopped, wanted.time);
-        ++around.state.interventions.budgets_spent;
-        return;
-    }
-    const OrientedBox box = flyers_[wanted.a].flight.at(0.0);
-    double smallest = std::min(box.half.x, std::min(box.half.y, box.half.z));
-    Gap gap;
-    if (wanted.is_plane) {
-        const PlaneDescription& plane = around.config.planes[wanted.b];
-        gap = gap_between(PlaneSurface{plane.normal, plane.offset_m}, box);
-    } else {
-        const OrientedBox other = flyers_[wanted.b].flight.at(0.0);
-        smallest = smallest_half(box, other);
-        gap = gap_between(box, other);
-    }
-    // Those that began far in each other cannot pass each other any more.
-    if (gap.distance <= -overlap_max * smallest) return;
-    const auto index = static_cast<MeetingIndex>(meetings_.size());
-    Meeting& meeting = meetings_.add();
-    meeting = wanted;
-    meeting.smallest = smallest;
-    meeting.gap = std::min(gap.distance, 0.0);
-    meeting.gap -= next_overlap(meeting.gap, smallest);
-    meeting.next_of_a = flyers_[meeting.a].first;
-    flyers_[meeting.a].first = index;
-    if (!meeting.is_plane) {
-        meeting.next_of_b = flyers_[meeting.b].first;
-        flyers_[meeting.b].first = index;
-    }
-    advance(around, meeting, wanted.time);
-}
-
-template <typename Visit>
-void ContinuousCollision::for_meetings_of(FlyerIndex index, Visit visit)
-{
-    for (MeetingIndex i = flyers_[index].first; i != none;) {
-        Meeting& meeting = meetings_[i];
-        i = meeting.a == index ? meeting.next_of_a : meeting.next_of_b;
-        visit(meeting);
-    }
-}
-
-/// The next touch; of those at the same time the first.
-ContinuousCollision::MeetingIndex ContinuousCollision::earliest() const
-{
-    MeetingIndex found = none;
-    for (MeetingIndex i = 0; i < meetings_.size(); ++i) {
-        const Meeting& meeting = meetings_[i];
-        if (!meeting.is_over && (found == none || meeting.time < meetings_[found].time)) found = i;
-    }
-    return found;
-}
-
-/// Searches for their next touch while both go on as they do.
-void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, double from)
-{
-    const Flyer& a = flyers_[meeting.a];
-    const auto stays = [](const Flyer& flyer) { return flyer.has_stopped || !flyer.is_movable; };
-    meeting.is_over = stays(a) && (meeting.is_plane || stays(flyers_[meeting.b]));
-    if (meeting.is_over) return;
-    GapSearch asked{.gap = meeting.gap,
-                    .near = near_share * next_overlap(meeting.gap, meeting.smallest),
-                    .from = from,
-                    .to = a.is_released ? scales_.tick : std::min(scales_.tick, a.bend)};
-    Advanced advanced;
-    if (meeting.is_plane) {
-        const PlaneDescription& plane = around.config.planes[meeting.b];
-        advanced = advance_to_gap(PlaneSurface{plane.normal, plane.offset_m}, a.flight, asked,
-                                  steps_left_);
-    } else {
-        const Flyer& b = flyers_[meeting.b];
-        if (!b.is_released) asked.to = std::min(asked.to, b.bend);
-        advanced = advance_to_gap(a.flight, b.flight, asked, steps_left_);
-    }
-    meeting.time = advanced.time;
-    meeting.is_over = advanced.end == Advanced::End::clear;
-}
-
-/// The same for all of a flyer's meetings, but for those with another that is `done`.
-void ContinuousCollision::advance_all(const Surroundings& around, FlyerIndex index, double from,
-                                      FlyerIndex done)
-{
-    for_meetings_of(index, [&](Meeting& meeting) {
-        const FlyerIndex other = meeting.a == index ? meeting.b : meeting.a;
-        if (meeting.is_plane || other != done) advance(around, meeting, from);
-    });
+    if (looks_run_short()) return true;
+    const auto is_done = [&](const Flyer& flyer) {
+        return flyer.cluster != none || flyer.touches >= touches_max;
+    };
+    return is_done(flyers_[meeting.a]) || (!meeting.is_plane && is_done(flyers_[meeting.b]));
 }
 
 /// Two touch: if they come nearer, they push each other. After so many touches they stay.
@@ -532,8 +456,7 @@ Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& fl
     if (!flyer.is_movable) return its;
     its.response = response_of(bodies.properties[slot], box);
     its.motion.velocity =
-        bodies.velocity.at(slot) -
-        (scales_.tick - time) * steady_acceleration(around.config, around.state, slot);
+        bodies.velocity.at(slot) - (scales_.tick - time) * around.steady_acceleration(slot);
     its.motion.spin = its.response.inverse_inertia * bodies.angular_momentum.at(slot);
     return its;
 }
@@ -577,8 +500,7 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
         const Slot slot = bodies.slot_of[body];
         apply_impulse(bodies, slot, by, arm);
         departures_[slot].beginning.energy_driven += driven;
-        if (slot < bodies.awake) return;
-        if (std::find(woken_.begin(), woken_.end(), body) == woken_.end()) woken_.add(body);
+        note_push(bodies, body);
     };
     meeting.has_pushed = true;
     const Wrench on_b = wrench(block, impulse);

@@ -100,5 +100,21 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
     [](const auto& each) { return each.param.name; });
 
+/// Fast bodies that are packed, or that spin beside each other, and used up the looks of a tick.
+class Crowds : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Crowds, GoTheirWayWithoutAGuard)
+{
+    const std::uint64_t seed = GetParam();
+    const PlayOutcome outcome = judge(random_play(seed), seed);
+    EXPECT_FALSE(outcome.complaint) << *outcome.complaint;
+    EXPECT_EQ(outcome.interventions.paths_cut, 0U);
+    EXPECT_EQ(outcome.interventions.budgets_spent, 0U);
+    EXPECT_GT(outcome.interventions.clusters_stuck, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomPlay, Crowds,
+                         testing::Values(8585, 4586, 2963, 548, 9302, 5376, 821, 4181, 1339, 3418));
+
 } // namespace
 } // namespace hapnet::test
