@@ -261,15 +261,13 @@ void EnergyAccount::settle_touches(const Tick& tick, const ContinuousCollision& 
         if (!tick.active.contains(slot)) moved_.add(slot);
     });
     balances_.resize(bodies.movable + std::size_t{1});
+    bool any = false; // also one that did not change, where another of its island did
     for (const Slot slot : moved_) {
         balances_[slot + 1] = balance_of(tick, moved_tick_of(tick, slot, touches));
+        any = any || balances_[slot + 1].is_exceeded();
         balances_[slot + 1].is_settled = true;
     }
-    bool any = false;
-    touches.for_changed(bodies, [&](Slot slot) {
-        balances_[slot + 1].is_settled = false;
-        any = any || balances_[slot + 1].is_exceeded();
-    });
+    touches.for_changed(bodies, [&](Slot slot) { balances_[slot + 1].is_settled = false; });
     if (!any) return;
     join_islands(tick, moved_.all());
     touches.for_pushes(bodies, [&](Slot a, Slot b) { islands_.join(a + 1, b + 1); });

@@ -96,8 +96,8 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{400080091, "PushedAtHighSpeedByAHandThatHoldsAnother"},
         Scar{600121857, "PushedByAHandThatHoldsOneFarAway"},
         Scar{600155233, "PushedHardByAHandThatHoldsOneFarAway"},
-        Scar{7015132, "GrippedLightlyWhileItSpins"}, Scar{7029090, "GrippedHardWhileItSpins"},
-        Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
+        Scar{800098062, "NotHitItselfButANeighbour"}, Scar{7015132, "GrippedLightlyWhileItSpins"},
+        Scar{7029090, "GrippedHardWhileItSpins"}, Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
     [](const auto& each) { return each.param.name; });
 
 /// Fast bodies that are packed, or that spin beside each other, and used up the looks of a tick.
