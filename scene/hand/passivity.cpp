@@ -8,6 +8,7 @@
 #include "scene/maths/vector.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace hapnet::scene {
 
@@ -81,12 +82,18 @@ MomentsRatio moments_of(const BodyDynamics& dynamics)
     return {most / least - 1.0, 0.5 * trace / sum * (1.0 / least - 1.0 / most)};
 }
 
+struct Smooth {};
+
+template <bool rubs>
 class PassivityCheck {
 public:
+    using Frictions = std::conditional_t<rubs, std::span<const FrictionSpring>, Smooth>;
+
     PassivityCheck(const HandTick& body, std::span<const HandSpring> springs,
-                   std::span<const SpringImpulse> work, double driven)
+                   std::span<const SpringImpulse> work, double driven, Frictions frictions = {})
         : body_{body},
           springs_{springs},
+          frictions_{frictions},
           free_{body.start},
           mass_{mass_of(body.dynamics)},
           driven_{driven}
@@ -251,6 +258,7 @@ private:
         const glm::dmat3 axes = axes_of(body.orientation);
         const glm::dvec3 moved = body.position - body_.start.position;
         double sum = 0.0;
+        if constexpr (rubs) sum += stored_along(axes * glm::transpose(axes_before), moved);
         for (const HandSpring& spring : springs_) {
             const glm::dvec3 hand = body_.tick * spring.velocity - moved;
             if (spring.holds) {
@@ -265,8 +273,27 @@ private:
         return sum;
     }
 
+    /// Along the surfaces, of a body that has turned and moved.
+    [[nodiscard]] double stored_along(const glm::dmat3& turn,
+                                      const glm::dvec3& moved) const requires rubs
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < springs_.size(); ++i) {
+            const HandSpring& spring = springs_[i];
+            const FrictionSpring& friction = frictions_[i];
+            if (spring.holds || !friction.limits.is_rough()) continue;
+            const glm::dvec3 proxy = spring.arm - friction.stretch;
+            const glm::dvec3 stretch = friction.stretch + body_.tick * spring.velocity - moved -
+                                       (turn * proxy - proxy) - friction.slid;
+            const glm::dvec3 normal = turn * spring.normal;
+            sum += spring_energy(spring, length(stretch - glm::dot(stretch, normal) * normal));
+        }
+        return sum;
+    }
+
     HandTick body_;
     std::span<const HandSpring> springs_;
+    [[no_unique_address]] Frictions frictions_;
     MovingBody free_; // at the end, without hands
     glm::dvec3 mass_;
     double driven_;
@@ -294,22 +321,42 @@ double share_within_forces(std::span<const HandSpring> springs, std::span<const 
     return share;
 }
 
+template <bool rubs>
+void brake(PassivityCheck<rubs>& check, double share, std::span<SpringImpulse> work,
+           HandEnergy& energy)
+{
+    if (share < 1.0) {
+        check.scale(share);
+        for (SpringImpulse& each : work) each.impulse *= share;
+        energy.driven *= share;
+        energy.is_braked = true;
+    }
+    check.count_grips(share, energy);
+}
+
 } // namespace
 
 HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> springs,
                         std::span<SpringImpulse> work, SpringsAtEnd at_end)
 {
     HandEnergy energy = energy_of(springs, work);
-    PassivityCheck check{body, springs, work, energy.driven};
+    PassivityCheck<false> check{body, springs, work, energy.driven};
     const double share =
         std::min(check.share(energy.stored, at_end), share_within_forces(springs, work, body.tick));
-    if (share < 1.0) {
-        check.scale(share);
-        for (std::size_t i = 0; i < springs.size(); ++i) work[i].impulse *= share;
-        energy.driven *= share;
-        energy.is_braked = true;
-    }
-    check.count_grips(share, energy);
+    brake(check, share, work.first(springs.size()), energy);
+    return energy;
+}
+
+HandEnergy keep_passive(const HandTick& body, const FrictionContacts& contacts)
+{
+    const auto [springs, frictions, work] = contacts;
+    HandEnergy energy = energy_of(springs, work);
+    for (std::size_t i = 0; i < springs.size(); ++i)
+        energy.stored += spring_energy(springs[i], length(frictions[i].stretch));
+    PassivityCheck<true> check{body, springs, work, energy.driven, frictions};
+    const double share = std::min(check.share(energy.stored, SpringsAtEnd::counted),
+                                  share_within_forces(springs, work, body.tick));
+    brake(check, share, work.first(springs.size()), energy);
     return energy;
 }
 
