@@ -82,6 +82,14 @@ MomentsRatio moments_of(const BodyDynamics& dynamics)
     return {most / least - 1.0, 0.5 * trace / sum * (1.0 / least - 1.0 / most)};
 }
 
+/// What a pull along a surface stores that the push at a depth can hold: nothing where they are
+/// apart.
+double pull_energy(const HandSpring& spring, const FrictionSpring& friction, double stretch,
+                   double depth)
+{
+    return spring_energy(spring, std::min(stretch, friction.limits.sticking * depth));
+}
+
 struct Smooth {};
 
 template <bool rubs>
@@ -285,8 +293,12 @@ private:
             const glm::dvec3 proxy = spring.arm - friction.stretch;
             const glm::dvec3 stretch = friction.stretch + body_.tick * spring.velocity - moved -
                                        (turn * proxy - proxy) - friction.slid;
-            const glm::dvec3 normal = turn * spring.normal;
-            sum += spring_energy(spring, length(stretch - glm::dot(stretch, normal) * normal));
+            const BoxSurface surface{spring, body_.dynamics.half, axes_of(body_.start.orientation)};
+            const glm::dvec3 hand = spring.arm + (spring.radius + spring.gap) * spring.normal +
+                                    body_.tick * spring.velocity - moved;
+            const ContactGeometry now = surface.at(turn * axes_of(body_.start.orientation), hand);
+            const glm::dvec3 along = stretch - glm::dot(stretch, now.normal) * now.normal;
+            sum += pull_energy(spring, friction, length(along), now.depth);
         }
         return sum;
     }
@@ -352,7 +364,8 @@ HandEnergy keep_passive(const HandTick& body, const FrictionContacts& contacts)
     const auto [springs, frictions, work] = contacts;
     HandEnergy energy = energy_of(springs, work);
     for (std::size_t i = 0; i < springs.size(); ++i)
-        energy.stored += spring_energy(springs[i], length(frictions[i].stretch));
+        energy.stored +=
+            pull_energy(springs[i], frictions[i], length(frictions[i].stretch), -springs[i].gap);
     PassivityCheck<true> check{body, springs, work, energy.driven, frictions};
     const double share = std::min(check.share(energy.stored, SpringsAtEnd::counted),
                                   share_within_forces(springs, work, body.tick));
