@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/description.hpp"
 #include "scene/hand/advance.hpp"
 
 #include <cmath>

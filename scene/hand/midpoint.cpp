@@ -253,9 +253,12 @@ void MidpointRule<rubs>::limit_grip_force(std::size_t first)
 }
 
 template <bool rubs>
-bool MidpointRule<rubs>::is_rough(std::size_t spring) const requires rubs
+bool MidpointRule<rubs>::is_rough(std::size_t spring) const
 {
-    return !spring_[spring].form->holds && pull_[spring].form->limits.is_rough();
+    if constexpr (!rubs)
+        return false;
+    else
+        return !spring_[spring].form->holds && pull_[spring].form->limits.is_rough();
 }
 
 /// The pull along the surface, cut to the cone of the push.

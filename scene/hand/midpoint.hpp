@@ -112,7 +112,7 @@ private:
     Six update_forces(const Six& velocities, double substep);
     [[nodiscard]] Six newton_step(const Six& missed, double substep) const;
     void limit_grip_force(std::size_t first);
-    [[nodiscard]] bool is_rough(std::size_t spring) const requires rubs;
+    [[nodiscard]] bool is_rough(std::size_t spring) const;
     void update_pull(std::size_t push, double substep) requires rubs;
     void slide(std::size_t push, double substep) requires rubs;
     [[nodiscard]] Six newton_step_unsymmetric(const Six& missed,
