@@ -9,6 +9,7 @@
 #include "scene/maths/vector.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace hapnet::scene {
 
@@ -58,12 +59,26 @@ MomentsRatio moments_of(const BodyDynamics& dynamics)
     return {most / least - 1.0, 0.5 * trace / sum * (1.0 / least - 1.0 / most)};
 }
 
+/// What a pull along a surface stores that the push at a depth can hold: nothing where they are
+/// apart.
+double pull_energy(const HandSpring& spring, const FrictionSpring& friction, double stretch,
+                   double depth)
+{
+    return spring_energy(spring, std::min(stretch, friction.limits.sticking * depth));
+}
+
+struct Smooth {};
+
+template <bool rubs>
 class PassivityCheck {
 public:
+    using Frictions = std::conditional_t<rubs, std::span<const FrictionSpring>, Smooth>;
+
     PassivityCheck(const HandTick& body, std::span<const HandSpring> springs,
-                   std::span<const SpringImpulse> work, double driven)
+                   std::span<const SpringImpulse> work, double driven, Frictions frictions = {})
         : body_{body},
           springs_{springs},
+          frictions_{frictions},
           free_{body.start},
           mass_{mass_of(body.dynamics)},
           driven_{driven}
@@ -219,6 +234,7 @@ private:
         const glm::dmat3 axes = axes_of(body.orientation);
         const glm::dvec3 moved = body.position - body_.start.position;
         double sum = 0.0;
+        if constexpr (rubs) sum += stored_along(axes * glm::transpose(axes_before), moved);
         for (const HandSpring& spring : springs_) {
             const glm::dvec3 hand = body_.tick * spring.velocity - moved;
             if (spring.holds) {
@@ -233,8 +249,31 @@ private:
         return sum;
     }
 
+    /// Along the surfaces, of a body that has turned and moved.
+    [[nodiscard]] double stored_along(const glm::dmat3& turn,
+                                      const glm::dvec3& moved) const requires rubs
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < springs_.size(); ++i) {
+            const HandSpring& spring = springs_[i];
+            const FrictionSpring& friction = frictions_[i];
+            if (spring.holds || !friction.limits.is_rough()) continue;
+            const glm::dvec3 proxy = spring.arm - friction.stretch;
+            const glm::dvec3 stretch = friction.stretch + body_.tick * spring.velocity - moved -
+                                       (turn * proxy - proxy) - friction.slid;
+            const BoxSurface surface{spring, body_.dynamics.half, axes_of(body_.start.orientation)};
+            const glm::dvec3 hand = spring.arm + (spring.radius + spring.gap) * spring.normal +
+                                    body_.tick * spring.velocity - moved;
+            const ContactGeometry now = surface.at(turn * axes_of(body_.start.orientation), hand);
+            const glm::dvec3 along = stretch - glm::dot(stretch, now.normal) * now.normal;
+            sum += pull_energy(spring, friction, length(along), now.depth);
+        }
+        return sum;
+    }
+
     HandTick body_;
     std::span<const HandSpring> springs_;
+    [[no_unique_address]] Frictions frictions_;
     MovingBody free_; // at the end, without hands
     glm::dvec3 mass_;
     double driven_;
@@ -258,24 +297,45 @@ double share_within_forces(std::span<const HandSpring> springs, std::span<const 
     return share;
 }
 
-} // namespace
-
-HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> springs,
-                        std::span<SpringImpulse> work, SpringsAtEnd at_end)
+template <bool rubs>
+void brake(PassivityCheck<rubs>& check, double share, std::span<SpringImpulse> work,
+           HandEnergy& energy)
 {
-    HandEnergy energy = energy_of(springs, work);
-    PassivityCheck check{body, springs, work, energy.driven};
-    const double share =
-        std::min(check.share(energy.stored, at_end), share_within_forces(springs, work, body.tick));
     if (share < 1.0) {
         check.scale(share);
-        for (std::size_t i = 0; i < springs.size(); ++i) work[i].impulse *= share;
+        for (SpringImpulse& each : work) each.impulse *= share;
         energy.driven *= share;
         energy.is_braked = true;
     }
     energy.grips = check.grips();
     energy.grips.scale(share);
     energy.stored -= energy.grips.stored;
+}
+
+} // namespace
+
+HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> springs,
+                        std::span<SpringImpulse> work, SpringsAtEnd at_end)
+{
+    HandEnergy energy = energy_of(springs, work);
+    PassivityCheck<false> check{body, springs, work, energy.driven};
+    const double share =
+        std::min(check.share(energy.stored, at_end), share_within_forces(springs, work, body.tick));
+    brake(check, share, work.first(springs.size()), energy);
+    return energy;
+}
+
+HandEnergy keep_passive(const HandTick& body, const FrictionContacts& contacts)
+{
+    const auto [springs, frictions, work] = contacts;
+    HandEnergy energy = energy_of(springs, work);
+    for (std::size_t i = 0; i < springs.size(); ++i)
+        energy.stored +=
+            pull_energy(springs[i], frictions[i], length(frictions[i].stretch), -springs[i].gap);
+    PassivityCheck<true> check{body, springs, work, energy.driven, frictions};
+    const double share = std::min(check.share(energy.stored, SpringsAtEnd::counted),
+                                  share_within_forces(springs, work, body.tick));
+    brake(check, share, work.first(springs.size()), energy);
     return energy;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/hand/advance.hpp"
+#include "scene/hand/friction.hpp"
 
 #include <cstdint>
 #include <span>
@@ -45,5 +46,7 @@ enum class SpringsAtEnd : std::uint8_t { ignored, counted };
 /// the end. A rule of second order may gain 3 % there, as it holds directions that turn.
 HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> springs,
                         std::span<SpringImpulse> work, SpringsAtEnd at_end);
+/// The same with friction: what is stored along the surfaces counts, too.
+HandEnergy keep_passive(const HandTick& body, const FrictionContacts& contacts);
 
 } // namespace hapnet::scene

@@ -193,7 +193,10 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
                            integration.start.velocity, bodies.angular_momentum.at(slot)};
     MovingBody body = start;
     const HandEnergy energy =
-        advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes);
+        hands.frictions.empty()
+            ? advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes)
+            : advance_with_friction(body, dynamics, {hands.springs, hands.frictions, hands.work},
+                                    config.tick);
     integration.hand_energy_stored = energy.stored;
     integration.energy_driven = energy.driven;
     integration.grips = energy.grips;

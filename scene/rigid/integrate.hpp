@@ -4,6 +4,7 @@
 
 #include "scene/collide/manifold.hpp"
 #include "scene/hand/advance.hpp"
+#include "scene/hand/friction.hpp"
 #include "scene/solver/contact_solver.hpp"
 #include "scene/state.hpp"
 
@@ -63,6 +64,7 @@ struct HandForces {
     std::span<SpringImpulse> work;
     PressedModes& modes;
     const WorldConfig& config;
+    std::span<FrictionSpring> frictions{}; // empty: all are smooth
 };
 
 /// Gravity, pushes and last tick's contact impulses, without hands: a parabola.

@@ -174,27 +174,27 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
     Bodies& bodies = state.bodies;
     hand_contacts_.begin_step(config, state);
     modes_.resize(config.hands.count);
+    const auto target_of = [&](BodyId id) -> HandContacts::Target {
+        const Slot slot = bodies.slot_of[id];
+        return {id, slot < bodies.movable, boxes_.at(bodies, id), bodies.velocity.at(slot)};
+    };
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
         if (input.present) {
             const glm::dvec3& from = input.position.value;
             const double radius =
                 config.hands.radius_m + (input.gripping ? config.hands.grip_reach_m : 0.0);
-            for (const BodyId id : pairs_.near_hand(
-                     hand, {from, from + scales_.tick * input.velocity.value, radius})) {
-                const Slot slot = bodies.slot_of[id];
-                const SweptBox& now = boxes_.at(bodies, id);
-                hand_contacts_.collide(config, state, hand,
-                                       {id, slot < bodies.movable, now, bodies.velocity.at(slot)});
-            }
+            for (const BodyId id :
+                 pairs_.near_hand(hand, {from, from + scales_.tick * input.velocity.value, radius}))
+                hand_contacts_.collide(config, state, hand, target_of(id));
         }
         hand_contacts_.forget_departed(hand);
     }
     if (hand_contacts_.feels_planes()) hand_contacts_.feel_planes(config, state);
+    if (hand_contacts_.any_friction()) hand_contacts_.add_friction(config, state, target_of);
     if constexpr (sleeps) {
-        for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
+        for (const HandContacts::Spring& spring : hand_contacts_.springs())
             sleep_.wake(spring.body, bodies, pairs_);
-        }
     }
 }
 
@@ -434,9 +434,11 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
         BodyIntegration& integration = integrations_[slot + 1];
         if (integration.has_hands) continue;
         const auto [springs, work] = hand_contacts_.springs_on(spring.body);
+        const std::span<FrictionSpring> frictions = hand_contacts_.frictions_on(spring.body);
         integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
-                                      {springs, work, modes_[spring.hand], config});
+                                      {springs, work, modes_[spring.hand], config, frictions});
         hand_contacts_.store_impulses(spring.body);
+        if (!frictions.empty()) hand_contacts_.store_friction(state, spring.body);
         if (integration.hands_are_braked) ++state.interventions.hands_braked;
         state.tick_cost.spring_rows += integration.hand_rows;
     }
@@ -447,9 +449,8 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
 {
-    for (const Slot slot : active_.slots()) {
+    for (const Slot slot : active_.slots())
         solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
-    }
     for (ContactBlock& block : solver_.blocks()) {
         set_centripetal_velocity(block, integrations_[block.a].start.spin,
                                  integrations_[block.b].start.spin, scales_.tick);

@@ -26,6 +26,7 @@ struct LawFigures {
 /// - kinetic energy grows by no more than the work of gravity, pushes and hands (tolerated: 1e-6 of
 ///   what is there, and for each body m v^2 with v twice what its forces add in a tick, and what
 ///   its energy of turning may differ by for the same angular momentum when it turns far);
+/// - kinematic bodies give no more than what they pass on at the speed of their fastest corner;
 /// - where nothing is fixed, momentum changes by what gravity, pushes and hands give (1e-10 of the
 ///   sum of all amounts tolerated, of what hands give together, and the digits of each); and
 ///   angular momentum, without hands, by what gravity and pushes give (tolerated: what the bodies
@@ -49,6 +50,7 @@ private:
         scene::BodyState state;
         glm::dvec3 angular_momentum{0.0};
         bool is_awake = true;
+        glm::dvec3 field{0.0}; // N, of the fields on a body
     };
     /// Sums over all bodies for one tick.
     struct Balance {
@@ -63,6 +65,8 @@ private:
         double angular = 0.0;  // N m s, likewise
         double astray = 0.0;   // N m s: of moving apart
         double slack = 0.0;    // J
+        double driven = 0.0;   // m/s, of any corner of a kinematic body
+        double passed = 0.0;   // N s: what contacts and hands passed to the bodies, as linear ones
         glm::dvec3 linear_gain{0.0};
         glm::dvec3 angular_gain{0.0};
         bool any_fell_asleep = false;
@@ -73,12 +77,17 @@ private:
     [[nodiscard]] std::optional<std::string> check_hands(const scene::World& world);
     [[nodiscard]] glm::dvec3 steady_force(const scene::World& world, scene::BodyId id,
                                           bool sleeps) const;
+    [[nodiscard]] glm::dvec3 steady_torque(const scene::World& world, scene::BodyId id) const;
+    static void add_torque(Balance& balance, const scene::BodyDescription& form, const Moment& was,
+                           const Moment& now, const glm::dvec3& twist);
+    void add_driven(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] static double turning_slack(const scene::BodyDescription& form, const Moment& was,
                                               const Moment& now, double angle);
     void add(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] double most_from_hand(const scene::World& world, std::uint32_t hand,
                                         double fastest) const;
     [[nodiscard]] double within_reach(const scene::World& world, std::uint32_t hand) const;
+    [[nodiscard]] double driven_energy(const scene::World& world, const Balance& balance) const;
     [[nodiscard]] std::optional<std::string> check_energy(const scene::World& world,
                                                           const Balance& balance);
     [[nodiscard]] std::optional<std::string> check_ways(const scene::World& world,

@@ -17,6 +17,14 @@ TEST(RandomPlay, KeepsEveryLawAndItsFutureAfterASnapshot)
     }
 }
 
+TEST(RandomPlay, KeepsThemWithEveryElementOfAScene)
+{
+    for (std::uint64_t seed = elements_from; seed < elements_from + 300; ++seed) {
+        const PlayOutcome outcome = judge(random_play(seed), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+    }
+}
+
 TEST(RandomPlay, IsTheSameEveryTime)
 {
     for (std::uint64_t seed = 1000; seed < 1030; ++seed) {
@@ -38,6 +46,14 @@ TEST_P(Scars, StayHealed)
     const PlayOutcome outcome = judge(random_play(seed), seed);
     EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
 }
+
+INSTANTIATE_TEST_SUITE_P(RandomPlayOfElements, Scars,
+                         testing::Values(Scar{elements_from + 958, "DrivenAgainstALockedBody"},
+                                         Scar{elements_from + 657, "DrivenInAHeap"},
+                                         Scar{elements_from + 1028, "DrivenAmongSlow"},
+                                         Scar{elements_from + 1273, "ThrownOffARoughHand"},
+                                         Scar{elements_from + 1821, "ThrownOffAStiffRoughHand"}),
+                         [](const auto& each) { return std::string{each.param.name}; });
 
 INSTANTIATE_TEST_SUITE_P(
     RandomPlay, Scars,
