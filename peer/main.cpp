@@ -114,6 +114,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
         settings.stiffness_max_n_per_m =
             rig.device().capabilities().stiffness_max_n_per_m / (mount.scale * mount.scale);
     }
+    settings.mount_scale = mount.scale;
     settings.length = options.duration;
     return settings;
 }

@@ -102,6 +102,7 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     const auto& offset = written->mount.offset_m;
     recorded.mount.offset.value = {offset[0], offset[1], offset[2]};
     peer::Settings& settings = recorded.peer;
+    settings.mount_scale = written->mount.scale;
     settings.introduction.id = written->peer_id;
     settings.introduction.nonce = written->nonce;
     settings.introduction.seed = written->seed;

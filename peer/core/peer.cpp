@@ -410,6 +410,7 @@ void Peer::say_state(Tick& tick, base::TimePoint now, const Hand& hand)
     state.holding = tick.touched.holding;
     state.hip = hand.hip;
     state.hip_velocity = hand.velocity;
+    state.work_uj = static_cast<std::uint32_t>(std::llround(1e6 * hand.work_j));
     state.intention_velocity = hand.velocity; // no algorithm asks for more than the HIP yet
     state.contact_force = tick.touched.on_body;
     if (mentions_body(now)) {

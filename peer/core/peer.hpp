@@ -23,6 +23,7 @@ struct Hand {
     base::Velocity velocity;
     bool gripping = false;
     bool present = true; // a person holds the device, and its sample is valid
+    double work_j = 0.0; // of the hand on its device since the start
 };
 
 struct Settings {
@@ -37,6 +38,8 @@ struct Settings {
     double grip_damping_ns_per_m = 4.0;
     /// Stiffest contact that the device renders without buzzing, in the scene; 0: not known.
     double stiffness_max_n_per_m = 0.0;
+    /// Metres in the scene for each metre that the hand moves.
+    double mount_scale = 1.0;
     Staleness staleness;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration length{std::chrono::seconds{30}}; // of the session, from its start

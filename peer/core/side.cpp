@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "peer/core/side.hpp"
 
+#include <glm/geometric.hpp>
+
 namespace hapnet::peer {
 
 namespace {
@@ -30,6 +32,12 @@ device::Cue Side::take_cue()
     const Session& session = *peer_.session();
     cued_ = session.start;
     return {session.start, peer_.hands_on(), base::Seed{session.seed}, id_, session.is_left};
+}
+
+double Side::work_since(const device::Sample& before) const
+{
+    if (!is_in_hand(before) || !is_in_hand(sample_)) return 0.0;
+    return -glm::dot(told_.value, (sample_.hip - before.hip).value) / mount_scale_;
 }
 
 record::TickRow Side::row(std::uint64_t number, const TickTime& time) const

@@ -39,7 +39,9 @@ concept RigLike = requires(R rig, base::Force wanted, base::TimePoint now, devic
 class Side {
 public:
     /// The scene must be one that shared_body() and World::freeze() accept.
-    explicit Side(const Settings& settings) : peer_{settings}, id_{settings.introduction.id} {}
+    explicit Side(const Settings& settings)
+        : peer_{settings}, id_{settings.introduction.id}, mount_scale_{settings.mount_scale}
+    {}
 
     void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived)
     {
@@ -51,9 +53,11 @@ public:
     template <RigLike Rig>
     const Tick& step(base::TimePoint now, Rig& rig)
     {
+        const device::Sample before = sample_;
         sample_ = rig.read(now);
-        tick_ =
-            peer_.tick(now, {sample_.hip, sample_.velocity, sample_.gripping, is_in_hand(sample_)});
+        work_j_ += work_since(before);
+        tick_ = peer_.tick(
+            now, {sample_.hip, sample_.velocity, sample_.gripping, is_in_hand(sample_), work_j_});
         told_ = rig.apply(tick_.force, tick_.permitted, now);
         governor_state_ = rig.governor_state();
         if (is_cue_due()) rig.on_cue(take_cue());
@@ -82,9 +86,13 @@ private:
         return session && cued_ != session->start;
     }
     [[nodiscard]] device::Cue take_cue();
+    /// What the hand did against the force that it was told last, J.
+    [[nodiscard]] double work_since(const device::Sample& before) const;
 
     Peer peer_;
     std::uint16_t id_;
+    double mount_scale_;
+    double work_j_ = 0.0; // of the hand on its device since the start
     device::Sample sample_;
     Tick tick_;
     base::Force told_;

@@ -129,6 +129,29 @@ TEST(Side, WritesARowOfAllThatATickDid)
     EXPECT_EQ(row.governor, static_cast<std::uint8_t>(device::GovernorState::active));
 }
 
+TEST(Side, SaysTheWorkOfItsHandOnTheDevice)
+{
+    SidePair pair;
+    pair.run_until_pushing();
+    const auto said = [&pair] {
+        const auto datagram = pair.sides[0].poll();
+        const auto message = wire::decode(datagram->bytes());
+        return std::get<wire::State>(*message).work_uj;
+    };
+    pair.step();
+    const std::uint32_t before = said();
+    double work_j = 0.0;
+    for (int tick = 0; tick < 20; ++tick) { // the hand goes on against the force
+        const base::Force told = pair.sides[0].told();
+        pair.rigs[0].hand().sample.hip.value.x += 1e-4;
+        pair.step();
+        work_j -= told.x() * 1e-4;
+        if (tick < 19) std::ignore = said();
+    }
+    EXPECT_GT(work_j, 1e-4);
+    EXPECT_NEAR(static_cast<double>(said() - before), 1e6 * work_j, 2.0);
+}
+
 TEST(Side, CallsThePhaseAloneWhenTheOtherSideHasLeft)
 {
     SidePair pair;
