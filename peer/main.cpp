@@ -146,13 +146,29 @@ std::optional<record::Writer> writer_for(const Options& options, std::string_vie
     return record::Writer{*options.record, configuration};
 }
 
-/// Introduces a real device to its holder, and says which forces of the scene it cannot render.
+/// Introduces a real device to its holder, and says what of the forces asked for it cannot render.
 void introduce(const Options& options, const device::Rig& rig, Screen& screen)
 {
-    screen.say(introduction(rig.device(), rig.mount(), options.task));
-    const std::string softer = note_on_stiffness(rig.device().capabilities(), rig.mount(),
-                                                 options.scene.hands.stiffness_n_per_m);
-    if (!softer.empty()) screen.say(softer);
+    if (options.device.is_real()) {
+        screen.say(introduction(rig.device(), rig.mount(), options.task));
+        const std::string softer = note_on_stiffness(rig.device().capabilities(), rig.mount(),
+                                                     options.scene.hands.stiffness_n_per_m);
+        if (!softer.empty()) screen.say(softer);
+    }
+    if (options.force_max_n == Options{}.force_max_n) return;
+    const std::string lower =
+        note_on_force_limit(options.force_max_n, rig.governor().limits().force_max_n);
+    if (!lower.empty()) screen.say(lower);
+}
+
+/// Why a device may not be used in a session; "" when it may.
+std::string refusal_of_untested(const Options& options,
+                                const std::optional<device_state::KeptDevice>& kept)
+{
+    if (!kept || options.untested_device || kept->why_untested().empty()) return {};
+    return fmt::format("{}: {}: run 'hapnet-peer self-test --device {}', or allow it with "
+                       "--untested-device",
+                       options.device.name, kept->why_untested(), options.device.name);
 }
 
 loop::DeadMan dead_man_of(const Options& options)
@@ -231,21 +247,15 @@ base::Result<int> run(const Options& options)
     }
     const device::Mount mount = mount_of(options.device, (*opened)->capabilities());
     auto kept = kept_of(options.device, **opened);
-    if (kept && !options.untested_device && !kept->why_untested().empty()) {
-        screen.say(fmt::format("{}: {}: run 'hapnet-peer self-test --device {}', or allow it with "
-                               "--untested-device",
-                               options.device.name, kept->why_untested(), options.device.name));
+    if (const std::string why = refusal_of_untested(options, kept); !why.empty()) {
+        screen.say(why);
         return finish(net::exit_environment, screen, stop);
     }
     const device::GovernorLimits limits = limits_of(options, (*opened)->capabilities(), kept);
     if (kept) kept->on_use();
     device::Rig rig{*std::move(opened), limits, mount};
     const std::string device = device::description(rig.device());
-    if (options.device.is_real()) introduce(options, rig, screen);
-    const double allowed_n = rig.governor().limits().force_max_n;
-    const bool is_asked_for = options.force_max_n != Options{}.force_max_n;
-    const std::string lower = note_on_force_limit(options.force_max_n, allowed_n);
-    if (is_asked_for && !lower.empty()) screen.say(lower);
+    introduce(options, rig, screen);
     const Settings settings = settings_of(options, rig);
     loop::Journal journal;
     Side side{settings};
@@ -268,12 +278,9 @@ base::Result<int> run(const Options& options)
 
     if (kept) kept->on_rest(rig.governor().heat());
     const loop::ServoStatus status = servo.status();
-    const monitor::Run run{options,
-                           status,
-                           device,
-                           monitor.is_record_whole(),
-                           monitor.rows_lost(),
-                           screen.err.lost() + screen.out.lost()};
+    const std::uint64_t texts_lost = screen.err.lost() + screen.out.lost();
+    const monitor::Run run{
+        options, status, device, monitor.is_record_whole(), monitor.rows_lost(), texts_lost};
     write_statistics(run, file, screen);
     return finish(conclude(run, rig.governor(), screen), screen, stop);
 }

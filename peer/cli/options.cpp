@@ -160,6 +160,24 @@ void add_results(cli::Command& program, Options& options)
 
 } // namespace
 
+/// What bounds the force on the hand.
+void add_force_options(cli::Command& program, Options& options)
+{
+    program.option(
+        "--grip-damping", "DAMPING",
+        "The least damping of device and hand together. A contact that needs more than "
+        "this to be passive is rendered softer (default 4Ns/m, a nominal grip on a stylus)",
+        cli::into(options.grip_damping_ns_per_m, parse_grip_damping));
+    program.option("--force-limit", "FORCE",
+                   "Maximum force on the hand; 0N: no force (default 3.3N, an Omni's peak; never "
+                   "more than the device allows). See docs/design/governor.md",
+                   cli::into(options.force_max_n, parse_force_limit));
+    program.option("--dead-man", "button|evdev:DEVICE",
+                   "Force only while a button of the haptic device is held, or a key of an input "
+                   "device such as a foot switch (evdev:/dev/input/event5), which is grabbed",
+                   cli::into(options.dead_man, parse_dead_man));
+}
+
 void add_session_options(cli::Command& program, Options& options, std::string& printed_algorithm)
 {
     constexpr std::uint64_t id_max = 65535;
@@ -178,19 +196,7 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
                    "A scene in TOML, or a built-in one by name; it has one movable body that does "
                    "not turn (default: the task's; lift for T4, wall for T5, paper for the others)",
                    [&options](const std::string& text) { return take_scene(text, options); });
-    program.option(
-        "--grip-damping", "DAMPING",
-        "The least damping of device and hand together. A contact that needs more than "
-        "this to be passive is rendered softer (default 4Ns/m, a nominal grip on a stylus)",
-        cli::into(options.grip_damping_ns_per_m, parse_grip_damping));
-    program.option("--force-limit", "FORCE",
-                   "Maximum force on the hand; 0N: no force (default 3.3N, an Omni's peak; never "
-                   "more than the device allows). See docs/design/governor.md",
-                   cli::into(options.force_max_n, parse_force_limit));
-    program.option("--dead-man", "button|evdev:DEVICE",
-                   "Force only while a button of the haptic device is held, or a key of an input "
-                   "device such as a foot switch (evdev:/dev/input/event5), which is grabbed",
-                   cli::into(options.dead_man, parse_dead_man));
+    add_force_options(program, options);
     program.option("--task", "P1|T1|...|T6", "What the hands do, simulated or yours (default P1)",
                    cli::into(options.task, parse_task));
     program.option("--algorithm", "NAME|FILE",

@@ -94,12 +94,13 @@ struct StopSignal::State {
 
 namespace {
 
-/// The standard descriptors that are terminals; -1, which poll() passes over, for others.
+/// The standard descriptors that are terminals; -1, which poll() passes over, for others. One that
+/// has hung up already says EIO.
 std::array<int, 3> terminals()
 {
     std::array<int, 3> found{STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO};
     for (int& descriptor : found) {
-        if (isatty(descriptor) == 0) descriptor = -1;
+        if (isatty(descriptor) == 0 && errno != EIO) descriptor = -1;
     }
     return found;
 }
@@ -139,8 +140,9 @@ bool StopSignal::reload_requested() const
 
 void StopSignal::enforce(base::Duration patience, int code) const
 {
-    start_detached([state = state_, patience, code] {
-        const auto [in, out, error] = terminals();
+    // Before the thread begins: a terminal may go away at any time.
+    start_detached([state = state_, patience, code, found = terminals()] {
+        const auto [in, out, error] = found;
         // A terminal is asked for nothing: poll() tells of a hangup regardless.
         std::array<pollfd, 5> polled{{{state->wake, POLLIN, 0},
                                       {state->signals, POLLIN, 0},

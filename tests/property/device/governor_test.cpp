@@ -78,6 +78,8 @@ public:
         if (is_well || stream_.below(4, round / 125, 21) != 0) ++sequence_;
         sample.sequence = sequence_;
         sample.presses = static_cast<std::uint16_t>(round / 1700);
+        // A person who means it: after a second at rest, for 0.3 s and more.
+        if (is_well) sample.buttons = round % 1700 >= 1300 ? 1 : 0;
         return sample;
     }
 

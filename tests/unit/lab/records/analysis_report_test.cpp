@@ -125,9 +125,9 @@ TEST(Csv, ShowsAMessageAndLeavesCellsEmptyForWhatIsNone)
     recording.session(1s).message(9, epoch + 2s, start + 3ms);
     auto row = recording.content().messages.front();
     EXPECT_EQ(message_csv_header(), "time_s,tick,size_bytes,session,sequence,sent_s");
-    EXPECT_EQ(csv_line(row, start), "0.003000000,0,70,1,9,2.000000000");
+    EXPECT_EQ(csv_line(row, start), "0.003000000,0,86,1,9,2.000000000");
     row.bytes.fill(std::byte{0});
-    EXPECT_EQ(csv_line(row, start), "0.003000000,0,70,,,");
+    EXPECT_EQ(csv_line(row, start), "0.003000000,0,86,,,");
 }
 
 } // namespace
