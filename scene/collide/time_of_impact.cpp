@@ -3,6 +3,7 @@
 #include "scene/collide/time_of_impact.hpp"
 
 #include "scene/collide/manifold.hpp"
+#include "scene/collide/round.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
 
@@ -99,12 +100,14 @@ struct Reach {
 
 Reach reach_along(const glm::dvec3& normal, const OrientedBox& box, const SteadyBox& motion)
 {
-    Reach reach{.reach = box.half * (normal * box.axes)};
+    const glm::dvec3 half = box.half - box.rounding; // of a round body's core
+    const double radius = motion.radius - box.rounding;
+    Reach reach{.reach = half * (normal * box.axes)};
     reach.sphere = sum_of_sizes(reach.reach);
     if (motion.spin == glm::dvec3{0.0}) return reach;
-    reach.speed = box.half * (glm::cross(normal, motion.spin) * box.axes);
-    reach.bend = glm::dot(motion.spin, motion.spin) * motion.radius;
-    reach.sphere = motion.radius;
+    reach.speed = half * (glm::cross(normal, motion.spin) * box.axes);
+    reach.bend = glm::dot(motion.spin, motion.spin) * radius;
+    reach.sphere = radius;
     return reach;
 }
 
@@ -157,10 +160,12 @@ private:
     }
 };
 
-/// Calls visit(gap) for all 15 axes along which two boxes may be apart.
+/// Calls visit(gap) for all 15 axes along which two boxes may be apart; for round bodies, for the
+/// one along which they are.
 template <typename Visit>
 void for_axes(const OrientedBox& a, const OrientedBox& b, Visit visit)
 {
+    if (a.is_round() || b.is_round()) return visit(round_gap(a, b));
     const glm::dvec3 offset = b.centre - a.centre;
     const auto consider = [&](const glm::dvec3& normal) {
         const double place = glm::dot(normal, offset);
@@ -212,6 +217,8 @@ Advanced advance_by(const GapSearch& search, std::uint32_t& steps, Look look)
 std::optional<TimeOfImpact> time_of_impact(const OrientedBox& a, const OrientedBox& b,
                                            const glm::dvec3& relative_velocity, double time_max)
 {
+    if (a.is_round() || b.is_round())
+        return round_time_of_impact(a, b, relative_velocity, time_max);
     Sweep sweep{a, b, relative_velocity};
     for (const int i : {0, 1, 2})
         if (!sweep.consider(a.axes[i])) return std::nullopt;
@@ -229,6 +236,7 @@ std::optional<TimeOfImpact> time_of_impact(const OrientedBox& a, const OrientedB
 
 Gap gap_between(const OrientedBox& a, const OrientedBox& b)
 {
+    if (a.is_round() || b.is_round()) return round_gap(a, b);
     Gap widest{-HUGE_VAL, {}};
     for_axes(a, b, [&](const Gap& gap) {
         if (gap.distance > widest.distance) widest = gap;
@@ -238,7 +246,7 @@ Gap gap_between(const OrientedBox& a, const OrientedBox& b)
 
 Gap gap_between(const PlaneSurface& plane, const OrientedBox& box)
 {
-    return {glm::dot(plane.normal, box.centre) - plane.offset - half_projection(box, plane.normal),
+    return {glm::dot(plane.normal, box.centre) - plane.offset - half_extent(box, plane.normal),
             plane.normal};
 }
 
@@ -246,7 +254,7 @@ OrientedBox SteadyBox::at(double time) const
 {
     return {centre + time * velocity,
             axes_of(spin == glm::dvec3{0.0} ? orientation : rotated(orientation, time * spin)),
-            half};
+            half, rounding};
 }
 
 Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b, const GapSearch& search,

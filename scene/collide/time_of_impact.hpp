@@ -38,7 +38,8 @@ struct SteadyBox {
     glm::dvec3 velocity{0.0};
     glm::dvec3 spin{0.0};
     glm::dvec3 half{0.02};
-    double radius = 0.0; // of the corners
+    double radius = 0.0;   // of the corners
+    double rounding = 0.0; // see OrientedBox
 
     [[nodiscard]] OrientedBox at(double time) const;
 };

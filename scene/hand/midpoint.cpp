@@ -112,7 +112,7 @@ MidpointRule::MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
             spring.anchor = form.arm * axes;
             spring.hand = form.arm + form.stretch;
         } else {
-            spring.surface = BoxSurface{form, dynamics.half, axes};
+            spring.surface = BoxSurface{form, dynamics, axes};
             spring.hand = form.arm + (form.radius + form.gap) * form.normal;
         }
     }

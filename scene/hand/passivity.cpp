@@ -257,7 +257,7 @@ private:
                 const glm::dvec3 arm = axes * (spring.arm * axes_before);
                 sum += spring_energy(spring, length(hand + spring.stretch + spring.arm - arm));
             } else {
-                const BoxSurface surface{spring, body_.dynamics.half, axes_before};
+                const BoxSurface surface{spring, body_.dynamics, axes_before};
                 const glm::dvec3 from = spring.arm + (spring.radius + spring.gap) * spring.normal;
                 sum += spring_energy(spring, surface.at(axes, from + hand).depth);
             }

@@ -7,6 +7,7 @@
 #include "scene/collide/sweep.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
+#include "scene/rigid/flight.hpp"
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/touch.hpp"
 
@@ -30,12 +31,14 @@ constexpr std::size_t meetings_max = 65'536;
 // A search through all meetings costs about as much as one look for every so many.
 constexpr std::size_t meetings_per_step = 64;
 
-// Overlaps, in shares of the smallest half edge of the two. With each touch in a tick they may
-// overlap by a little more, so that those that slide on each other or come to rest are not held up
-// and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
+// Overlaps, in shares of the smallest half edge of the two; of round bodies, of how far their
+// surfaces are from their cores, as a thin plate may be deeper in those. With each touch in a tick
+// they may overlap by a little more, so that those that slide on each other or come to rest are not
+// held up and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
 constexpr double overlap_step = 0.01;
 constexpr double overlap_max = 0.5;
 constexpr double least_step = 0.05; // of the above
+constexpr double round_overlap_max = 0.9;
 // One that came so far behind the face that it touched is not there by right.
 constexpr double behind_max = 0.1;
 // How near to that counts.
@@ -48,30 +51,6 @@ constexpr double least_bounce = 2.0;
 double next_overlap(double gap, double smallest)
 {
     return overlap_step * smallest * std::max(least_step, 1.0 + gap / (overlap_max * smallest));
-}
-
-/// The same motion, but at `time` it is there and turned so.
-void set_place(SteadyBox& flight, const glm::dvec3& centre, const glm::dquat& orientation,
-               double time)
-{
-    flight.centre = centre - time * flight.velocity;
-    flight.orientation =
-        flight.spin == glm::dvec3{0.0} ? orientation : rotated(orientation, -time * flight.spin);
-}
-
-glm::dquat orientation_at(const SteadyBox& flight, double time)
-{
-    return flight.spin == glm::dvec3{0.0} ? flight.orientation
-                                          : rotated(flight.orientation, time * flight.spin);
-}
-
-/// Gravity and pushes: what acts on an awake body steadily through the tick, as an acceleration.
-glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state, Slot slot)
-{
-    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
-    const BodyProperties& properties = state.bodies.properties[slot];
-    return gravity_on(properties, config.gravity) +
-           properties.inverse_mass * state.pushes[properties.id];
 }
 
 std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
@@ -150,7 +129,9 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
         if (!flyer.has_changed) continue;
         const Slot slot = bodies.slot_of[flyer.body];
         bodies.position.put(slot, flyer.flight.centre + scales_.tick * flyer.flight.velocity);
-        bodies.orientation.put(slot, orientation_at(flyer.flight, scales_.tick));
+        const glm::dquat there = orientation_at(flyer.flight, scales_.tick);
+        bodies.orientation.put(slot,
+                               flyer.roll.turned(there, bodies.properties[slot], scales_.tick));
     }
 }
 
@@ -196,7 +177,8 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
     SteadyBox flight{.centre = bodies.position.at(slot),
                      .orientation = bodies.orientation.at(slot),
                      .half = properties.half,
-                     .radius = length(properties.half)};
+                     .radius = outer_radius(properties.half, properties.rounding),
+                     .rounding = properties.rounding};
     if (properties.is_kinematic) { // it has not moved yet
         flight.velocity = bodies.velocity.at(slot);
         flight.spin = bodies.angular_momentum.at(slot);
@@ -228,8 +210,8 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
 /// Whether it goes so far in the rest of the tick that it could pass something.
 bool ContinuousCollision::goes_far(const SteadyBox& flight, double time) const
 {
-    return (scales_.tick - time) * (length(flight.velocity) + flight.radius * length(flight.spin)) >
-           far_way * scales_.least;
+    const double turning = (flight.radius - flight.rounding) * length(flight.spin);
+    return (scales_.tick - time) * (length(flight.velocity) + turning) > far_way * scales_.least;
 }
 
 ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surroundings& around,
@@ -284,7 +266,7 @@ bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& depart
                                   ? chord(bodies, of_other).at(scales_.tick)
                                   : box_of(bodies, of_other);
     const double gap = glm::dot(first.normal, other.centre - own.centre) -
-                       half_projection(own, first.normal) - half_projection(other, first.normal);
+                       half_extent(own, first.normal) - half_extent(other, first.normal);
     return gap < -behind_max * smallest_half(own, other);
 }
 
@@ -308,17 +290,13 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
     const WorldState& state = around.state;
     const Bodies& bodies = state.bodies;
     const Slot slot = bodies.slot_of[flyer.body];
-    const BodyProperties& properties = bodies.properties[slot];
     const glm::dvec3 centre = flyer.flight.centre + time * flyer.flight.velocity;
     const glm::dquat orientation = orientation_at(flyer.flight, time);
     const double left = scales_.tick - time;
     flyer.flight.velocity =
         bodies.velocity.at(slot) - (0.5 * left) * steady_acceleration(around.config, state, slot);
-    // The spin that it has now, which is what a touch sees; with unequal moments of inertia it does
-    // not stay: see touch().
-    const OrientedBox box{centre, axes_of(orientation), properties.half};
-    flyer.flight.spin =
-        response_of(properties, box).inverse_inertia * bodies.angular_momentum.at(slot);
+    flyer.roll.advance(time);
+    flyer.flight.spin = spin_of(bodies, slot, orientation, flyer.roll);
     set_place(flyer.flight, centre, orientation, time);
     flyer.is_released = true;
     flyer.has_changed = true;
@@ -330,6 +308,8 @@ void ContinuousCollision::stop(Flyer& flyer, double time)
     flyer.flight.centre += time * flyer.flight.velocity;
     flyer.flight.orientation = orientation_at(flyer.flight, time);
     flyer.flight.velocity = flyer.flight.spin = glm::dvec3{0.0};
+    flyer.roll.advance(time);
+    flyer.roll.rate = 0.0;
     flyer.has_stopped = true;
     flyer.has_changed = true;
 }
@@ -405,17 +385,20 @@ void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting&
     }
     const OrientedBox box = flyers_[wanted.a].flight.at(0.0);
     double smallest = std::min(box.half.x, std::min(box.half.y, box.half.z));
+    bool is_round = box.is_round();
     Gap gap;
     if (wanted.is_plane) {
         const PlaneDescription& plane = around.config.planes[wanted.b];
         gap = gap_between(PlaneSurface{plane.normal, plane.offset_m}, box);
     } else {
         const OrientedBox other = flyers_[wanted.b].flight.at(0.0);
-        smallest = smallest_half(box, other);
+        is_round = is_round || other.is_round();
+        smallest = is_round ? box.rounding + other.rounding : smallest_half(box, other);
         gap = gap_between(box, other);
     }
-    // Those that began far in each other cannot pass each other any more.
-    if (gap.distance <= -overlap_max * smallest) return;
+    // Those that began far in each other cannot pass each other any more; but a round body until
+    // its core is in the other.
+    if (gap.distance <= -(is_round ? round_overlap_max : overlap_max) * smallest) return;
     const auto index = static_cast<MeetingIndex>(meetings_.size());
     Meeting& meeting = meetings_.add();
     meeting = wanted;

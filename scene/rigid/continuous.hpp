@@ -5,6 +5,7 @@
 #include "scene/bounded.hpp"
 #include "scene/collide/pair_finder.hpp"
 #include "scene/collide/time_of_impact.hpp"
+#include "scene/rigid/flight.hpp"
 #include "scene/rigid/integrate.hpp"
 #include "scene/rigid/kinematics.hpp"
 #include "scene/rigid/touch.hpp"
@@ -77,6 +78,7 @@ private:
         MeetingIndex first = none;
         double bend = 0.0; // s: when it goes on with that velocity at the latest
         SteadyBox flight;  // time 0 is the start of the tick
+        Roll roll;
         Aabb searched{glm::dvec3{1.0}, glm::dvec3{-1.0}}; // for others in its way
     };
     /// Two that may touch: a flyer and another, or a plane.

@@ -137,6 +137,13 @@ bool is_driven(const BodyIntegration& body)
 
 } // namespace
 
+bool any_bounces(const WorldConfig& config, const Bodies& bodies)
+{
+    const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
+    return std::any_of(bodies.properties.begin(), bodies.properties.end(), bounces) ||
+           std::any_of(config.planes.begin(), config.planes.end(), bounces);
+}
+
 bool Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
                         const Scales& scales, Interventions& interventions)
 {

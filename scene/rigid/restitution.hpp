@@ -43,4 +43,7 @@ private:
     Scratch<Hit> hits_;
 };
 
+/// Whether anything in a scene bounces.
+[[nodiscard]] bool any_bounces(const WorldConfig& config, const Bodies& bodies);
+
 } // namespace hapnet::scene

@@ -61,13 +61,6 @@ std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
     return bodies.movable * std::min(others, contacts_per_body_max);
 }
 
-bool any_bounces(const WorldConfig& config, const Bodies& bodies)
-{
-    const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
-    return std::any_of(bodies.properties.begin(), bodies.properties.end(), bounces) ||
-           std::any_of(config.planes.begin(), config.planes.end(), bounces);
-}
-
 } // namespace
 
 template <BroadPhase broad_phase>
@@ -87,7 +80,8 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       solver_{state.bodies.moving, blocks_for(config, state.bodies)},
       restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
       account_{state.bodies.moving},
-      continuous_{config, state.bodies, scales_}
+      continuous_{config, state.bodies, scales_},
+      any_round_{any_is_round(state.bodies.properties)}
 {}
 
 template <BroadPhase broad_phase>
@@ -317,8 +311,9 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldS
         const OrientedBox& box = now.box;
         PlaneContact& contact = plane_contacts_[i];
         const double height = glm::dot(plane.normal, box.centre) - plane.offset_m;
-        const std::uint32_t points = contact.find(
-            {pair.a, pair.b, plane.normal, height, now.reach, box.axes, now.orientation, box.half});
+        const std::uint32_t points =
+            contact.find({pair.a, pair.b, plane.normal, height, now.reach, box.axes,
+                          now.orientation, box.half, box.rounding});
         const BodyProperties& properties = bodies.properties[slot];
         const bool is_dragged =
             properties.drag > 0.0 &&
@@ -330,6 +325,7 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldS
         activate(bodies, slot);
         block->a = 0;
         block->b = slot + 1;
+        if (any_round_) block->set_roundings(0.0, properties.rounding);
         const Material material = combined(properties.material, plane.material);
         block->friction = material.friction;
         block->restitution = material.restitution;
@@ -380,6 +376,8 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
             combined(bodies.properties[a].material, bodies.properties[b].material);
         block->a = index_of_active(a);
         block->b = index_of_active(b);
+        if (any_round_)
+            block->set_roundings(bodies.properties[a].rounding, bodies.properties[b].rounding);
         block->friction = material.friction;
         block->restitution = material.restitution;
         const auto note = [&](SolverIndex body, const glm::dvec3& normal, BodyId other) {
@@ -502,9 +500,10 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 {
     const auto stop = [&](const ContactBlock& block, SolverIndex index, const glm::dvec3& ground) {
-        if (integrations_[index].friction_contacts != 1) return;
-        apply_stop(block, {integrations_[index], ground, index == block.b},
-                   state.bodies.properties[index - 1], scales_, solver_.mean_motion(index));
+        const BodyProperties& body = state.bodies.properties[index - 1];
+        if (integrations_[index].friction_contacts != 1 || rolls(body)) return;
+        apply_stop(block, {integrations_[index], ground, index == block.b}, body, scales_,
+                   solver_.mean_motion(index));
     };
     for (const ContactBlock& block : solver_.blocks()) {
         if (block.friction == 0.0) continue;

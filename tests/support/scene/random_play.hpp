@@ -31,6 +31,10 @@ struct RandomPlay {
     std::vector<TickInputs> ticks;
 };
 
+/// Seeds from here on: some of the bodies are spheres and capsules. All others play the same scenes
+/// as before there were any.
+inline constexpr std::uint64_t round_plays_from = 1'000'000'000;
+
 /// Boxes of one size or of many, alone, loose, in rows, stacked or inside each other; light, heavy,
 /// smooth, rough and bouncing; that turn or do not; fixed ones; planes level and tilted; at rest or
 /// as fast as 1000 m/s; hands that come near, push, grip, leave, and appear elsewhere; pushes, and

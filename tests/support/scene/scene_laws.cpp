@@ -80,7 +80,7 @@ glm::dvec3 free_part(const BodyDescription& form, glm::dvec3 v)
 double spinning_energy(const BodyDescription& form, const glm::dquat& orientation,
                        const glm::dvec3& momentum)
 {
-    const glm::dvec3 inertia = scene::box_inertia(form.mass_kg, form.half);
+    const glm::dvec3 inertia = scene::inertia_of(form);
     switch (form.turning) {
     case Turning::locked: return 0.0;
     case Turning::free: {
@@ -114,7 +114,7 @@ double most_from_hand(const World& world, std::uint32_t hand, double fastest)
 double spinning_range(const BodyDescription& form, const glm::dvec3& momentum)
 {
     if (form.turning != Turning::free) return 0.0;
-    const glm::dvec3 inertia = scene::box_inertia(form.mass_kg, form.half);
+    const glm::dvec3 inertia = scene::inertia_of(form);
     const double least = std::min({inertia.x, inertia.y, inertia.z});
     const double most = std::max({inertia.x, inertia.y, inertia.z});
     return 0.5 * glm::dot(momentum, momentum) * (1.0 / least - 1.0 / most);
@@ -209,7 +209,7 @@ double SceneLaws::turning_slack(const BodyDescription& form, const Moment& was, 
                                 double angle)
 {
     // The spin changes while the angular momentum stays: in the impulses of contacts it counts.
-    const glm::dvec3 inertia = scene::box_inertia(form.mass_kg, form.half);
+    const glm::dvec3 inertia = scene::inertia_of(form);
     const double wobble =
         std::max({inertia.x, inertia.y, inertia.z}) / std::min({inertia.x, inertia.y, inertia.z}) -
         1.0;

@@ -109,6 +109,9 @@ private:
         drawn.kinematic = !drawn.movable && below(2) == 0;
         drawn.half = glm::dvec3{between(size_min_m, size_max_m)};
         if (below(2) == 0) drawn.half.z = between(size_min_m, size_max_m);
+        drawn.shape = static_cast<Shape>(below(3));
+        if (drawn.shape == Shape::sphere) drawn.half.z = drawn.half.x;
+        if (drawn.shape == Shape::capsule) drawn.half.z = between(drawn.half.x, size_max_m);
         drawn.position.value = vector(reach_max_m);
         drawn.orientation = orientation();
         drawn.velocity.value = vector(speed_max_m_per_s);
