@@ -31,16 +31,14 @@ struct BodyDynamics {
     glm::dvec3 torque{0.0};       // of everything but the hands, N m
     double drag = 0.0;            // 1/s, of the centre's velocity along a plane
     glm::dvec3 drag_normal{0.0};  // of that plane, unit
-    double rounding =
-        0.0; // m, of a round body: its hands are larger by that, and slide on its core
+    double rounding = 0.0;        // m, of a round body: from its core to its surface
 };
 
 /// A hand's spring on a body: unilateral along its normal, or, when it holds, in all directions.
 struct HandSpring {
     glm::dvec3 normal{0.0};   // unit, from the body to the hand
     glm::dvec3 arm{0.0};      // from the body's centre to the point of its surface that is pushed
-    double radius = 0.0;      // of the hand's sphere, about whose centre the contact turns; on a
-                              // round body that of both, and what is pushed is the core
+    double radius = 0.0;      // of the hand's sphere, about whose centre the contact turns
     double gap = 0.0;         // along the normal at the start of the tick; < 0: overlap
     glm::dvec3 velocity{0.0}; // of the hand, held for the tick
     double stiffness = 0.0;

@@ -12,7 +12,7 @@ namespace hapnet::scene {
 
 BoxSurface::BoxSurface(const HandSpring& spring, const BodyDynamics& dynamics,
                        const glm::dmat3& axes)
-    : half_{dynamics.half - dynamics.rounding}, radius_{spring.radius}
+    : half_{dynamics.half - dynamics.rounding}, radius_{spring.radius + dynamics.rounding}
 {
     const glm::dvec3 normal = spring.normal * axes;
     const glm::dvec3 size = glm::abs(normal);

@@ -15,7 +15,8 @@ struct ContactGeometry {
     double depth = 0.0;     // > 0: overlap
 };
 
-/// A box, or the core of a round body, and a hand's sphere near it, in the box's frame: where they
+/// A box and a hand's sphere near it, in the box's frame; of a round body its core, and a sphere
+/// that is larger by the rounding: where they
 /// touch while the box turns and the hand moves on. The nearest point of the box; a sphere whose
 /// centre is within it stays at the face where it was at the start.
 class BoxSurface {

@@ -555,6 +555,7 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, const Mee
     block.a = a.moves ? 1 : 0;
     block.b = b.moves ? 2 : 0;
     prepare(block, manifold, {a.centre, b.centre}, {});
+    block.set_roundings(meeting.is_plane ? 0.0 : first.flight.rounding, second.flight.rounding);
     block.friction = material.friction;
     const bool many = first.touches >= touches_many || second.touches >= touches_many;
     block.restitution = many ? 0.0 : material.restitution;

@@ -159,18 +159,16 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
     return true;
 }
 
-/// On a sphere or a capsule: as a hand that is larger by the rounding on a point or a line. The
-/// force goes through both surfaces and the core alike.
+/// On a sphere or a capsule: by the nearest point of its core.
 bool HandContacts::find_round(const WorldConfig& config, const HandInput& input,
                               const Target& target, HandSpring& spring) const
 {
     const OrientedBox& body = target.now.box;
     const Separation apart = separation(input.position.value, core_of(body));
     const double turning = sum_of_sizes(target.now.spin) * sum_of_sizes(body.half);
-    spring.radius += body.rounding;
     spring.normal = apart.direction;
-    spring.arm = apart.on_second - body.centre;
-    spring.gap = apart.distance - spring.radius;
+    spring.arm = apart.on_second - body.centre + body.rounding * spring.normal;
+    spring.gap = apart.distance - body.rounding - spring.radius;
     spring.is_amid_face = false;
     const double ahead =
         config.tick * (sum_of_sizes(input.velocity.value - target.velocity) + turning) +

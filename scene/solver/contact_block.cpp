@@ -319,19 +319,19 @@ void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& resp
 void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b)
 {
     block.matrix = {};
-    const auto rows = [&](const glm::dvec3& arm, const BodyResponse& body) {
+    const auto rows = [&](const glm::dvec3& arm, double rounding, const BodyResponse& body) {
         std::array<Jacobian, 6> all = jacobian(block, arm);
         if (!is_nearly_locked_along(block.normal, body.inverse_mass)) return all;
         all[0].linear = glm::dvec3{0.0};
-        // Nor does a push through the centre turn it, as of a sphere: what is left is rounding.
-        constexpr double rounding = 1e-9;
+        // Nor does a push through its centre turn a sphere: what is left is rounding.
+        constexpr double hardly = 1e-9;
         glm::dvec3& lever = all[0].angular;
-        if (glm::dot(lever, lever) <= rounding * rounding * glm::dot(arm, arm))
+        if (rounding > 0.0 && glm::dot(lever, lever) <= hardly * hardly * glm::dot(arm, arm))
             lever = glm::dvec3{0.0};
         return all;
     };
-    if (block.a != 0) add_body(block.matrix, rows(block.arm_a, a), a);
-    if (block.b != 0) add_body(block.matrix, rows(block.arm_b, b), b);
+    if (block.a != 0) add_body(block.matrix, rows(block.arm_a, block.rounding_a, a), a);
+    if (block.b != 0) add_body(block.matrix, rows(block.arm_b, block.rounding_b, b), b);
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = i + 1; j < 6; ++j) block.matrix[i][j] = block.matrix[j][i];
     }

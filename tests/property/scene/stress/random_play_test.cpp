@@ -17,6 +17,14 @@ TEST(RandomPlay, KeepsEveryLawAndItsFutureAfterASnapshot)
     }
 }
 
+TEST(RandomPlay, OfRoundBodiesKeepsEveryLaw)
+{
+    for (std::uint64_t seed = round_plays_from; seed < round_plays_from + 300; ++seed) {
+        const PlayOutcome outcome = judge(random_play(seed), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+    }
+}
+
 TEST(RandomPlay, IsTheSameEveryTime)
 {
     for (std::uint64_t seed = 1000; seed < 1030; ++seed) {
@@ -81,7 +89,8 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{231289, "WokenBesideASmallerOne"}, Scar{540562, "HeldAmongOthers"},
         Scar{753380, "PushedWhileItSpinsFar"}, Scar{30011485, "GrippedWhileItSpins"},
         Scar{7015132, "GrippedLightlyWhileItSpins"}, Scar{7029090, "GrippedHardWhileItSpins"},
-        Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
+        Scar{7032676, "GrippedInLongTicksWhileItSpins"},
+        Scar{1000001991, "PushedThroughItsLockedCentre"}),
     [](const auto& each) { return each.param.name; });
 
 } // namespace
