@@ -86,6 +86,7 @@ WorldState initial_state(const Description& description)
     state.pushed = Bounded<BodyId>{description.bodies.size()};
     state.twisted = Bounded<BodyId>{description.bodies.size()};
     state.is_pushed.resize(description.bodies.size());
+    if (has_hand_friction(description)) state.slips.resize(description.hands.count);
     for (Slot slot = state.bodies.movable; slot < state.bodies.moving; ++slot) {
         const Sway& sway = description.bodies[state.bodies.properties[slot].id].sway;
         const bool sways = sway.period != base::Duration{};

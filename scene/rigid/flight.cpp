@@ -26,28 +26,6 @@ bool is_symmetric_top(const BodyProperties& properties)
 
 } // namespace
 
-void set_place(SteadyBox& flight, const glm::dvec3& centre, const glm::dquat& orientation,
-               double time)
-{
-    flight.centre = centre - time * flight.velocity;
-    flight.orientation =
-        flight.spin == glm::dvec3{0.0} ? orientation : rotated(orientation, -time * flight.spin);
-}
-
-glm::dquat orientation_at(const SteadyBox& flight, double time)
-{
-    return flight.spin == glm::dvec3{0.0} ? flight.orientation
-                                          : rotated(flight.orientation, time * flight.spin);
-}
-
-glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state, Slot slot)
-{
-    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
-    const BodyProperties& properties = state.bodies.properties[slot];
-    return gravity_on(properties, config.gravity) +
-           properties.inverse_mass * state.pushes[properties.id];
-}
-
 glm::dquat Roll::turned(const glm::dquat& orientation, const BodyProperties& body, double at) const
 {
     const double all = angle + rate * (at - time);

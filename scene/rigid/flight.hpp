@@ -2,23 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/collide/time_of_impact.hpp"
-#include "scene/state.hpp"
+#include "scene/bodies.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 
 namespace hapnet::scene {
 
-// How a body flies between two touches within a tick.
-
-/// The same motion, but at `time` it is there and turned so.
-void set_place(SteadyBox& flight, const glm::dvec3& centre, const glm::dquat& orientation,
-               double time);
-[[nodiscard]] glm::dquat orientation_at(const SteadyBox& flight, double time);
-
-/// Gravity and pushes: what acts on an awake body steadily through the tick, as an acceleration.
-[[nodiscard]] glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state,
-                                             Slot slot);
+// How a body turns between two touches within a tick.
 
 /// The turn of a capsule about its own axis, which nothing that it meets can tell.
 struct Roll {
@@ -30,6 +20,11 @@ struct Roll {
     {
         angle += rate * (to - time);
         time = to;
+    }
+    void stop(double at)
+    {
+        advance(at);
+        rate = 0.0;
     }
     [[nodiscard]] glm::dquat turned(const glm::dquat& orientation, const BodyProperties& body,
                                     double at) const;

@@ -78,8 +78,8 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.moving + std::size_t{1}},
       solver_{state.bodies.moving, blocks_for(config, state.bodies)},
-      restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
-      account_{state.bodies.moving},
+      restitution_{config, state.bodies, blocks_for(config, state.bodies)},
+      account_{state.bodies},
       continuous_{config, state.bodies, scales_},
       any_round_{any_is_round(state.bodies.properties)}
 {}
@@ -175,27 +175,27 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
     Bodies& bodies = state.bodies;
     hand_contacts_.begin_step(config, state);
     modes_.resize(config.hands.count);
+    const auto target_of = [&](BodyId id) -> HandContacts::Target {
+        const Slot slot = bodies.slot_of[id];
+        return {id, slot < bodies.movable, boxes_.at(bodies, id), bodies.velocity.at(slot)};
+    };
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
         if (input.present) {
             const glm::dvec3& from = input.position.value;
             const double radius =
                 config.hands.radius_m + (input.gripping ? config.hands.grip_reach_m : 0.0);
-            for (const BodyId id : pairs_.near_hand(
-                     hand, {from, from + scales_.tick * input.velocity.value, radius})) {
-                const Slot slot = bodies.slot_of[id];
-                const SweptBox& now = boxes_.at(bodies, id);
-                hand_contacts_.collide(config, state, hand,
-                                       {id, slot < bodies.movable, now, bodies.velocity.at(slot)});
-            }
+            for (const BodyId id :
+                 pairs_.near_hand(hand, {from, from + scales_.tick * input.velocity.value, radius}))
+                hand_contacts_.collide(config, state, hand, target_of(id));
         }
         hand_contacts_.forget_departed(hand);
     }
     if (hand_contacts_.feels_planes()) hand_contacts_.feel_planes(config, state);
+    if (hand_contacts_.any_friction()) hand_contacts_.add_friction(config, state, target_of);
     if constexpr (sleeps) {
-        for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
+        for (const HandContacts::Spring& spring : hand_contacts_.springs())
             sleep_.wake(spring.body, bodies, pairs_);
-        }
     }
 }
 
@@ -212,9 +212,8 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
         };
         if (bodies.moving != bodies.movable) wake_carried(state, are_touching);
         // One that is touched by what wakes now is found at once; so on, a few times.
-        for (std::uint32_t round = 0; round < wake_rounds_max; ++round) {
+        for (std::uint32_t round = 0; round < wake_rounds_max; ++round)
             if (!sleep_.wake_touched(bodies, pairs_, are_touching)) break;
-        }
     }
 }
 
@@ -291,9 +290,8 @@ ContactBlock* RigidStepper<broad_phase>::add_contact(std::uint32_t points, Conta
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::set_least_speeds(ContactBlock& block)
 {
-    for (std::uint32_t i = 0; i < block.count; ++i) {
+    for (std::uint32_t i = 0; i < block.count; ++i)
         block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
-    }
 }
 
 template <BroadPhase broad_phase>
@@ -363,11 +361,9 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
         const Slot a = bodies.slot_of[pair.a];
         const Slot b = bodies.slot_of[pair.b];
         const SweptContact swept = collide_pair(state, pair);
-        if (swept.may_pass) {
-            // Whatever becomes of them, ContinuousCollision looks at their ways.
-            for (const Slot slot : {a, b})
-                if (slot < bodies.awake) activate(bodies, slot);
-        }
+        // Whatever becomes of them, ContinuousCollision looks at their ways.
+        for (const Slot slot : {a, b})
+            if (swept.may_pass && slot < bodies.awake) activate(bodies, slot);
         ContactBlock* const block = add_contact(swept.manifold.count, pair.memory);
         if (block == nullptr) continue;
         prepare(*block, swept.manifold, swept.centres, pair.memory);
@@ -414,10 +410,9 @@ void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, 
 {
     for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
     // A torque is held for the tick, as last tick's contact forces are.
-    for (const BodyId body : state.twisted) {
+    for (const BodyId body : state.twisted)
         integrations_[state.bodies.slot_of[body] + 1].contact_angular_impulse +=
             scales_.tick * state.torques[body];
-    }
     integrate_hand_springs(config, state);
     for (const Slot slot : active_.slots()) {
         BodyIntegration& integration = integrations_[slot + 1];
@@ -439,9 +434,11 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
         BodyIntegration& integration = integrations_[slot + 1];
         if (integration.has_hands) continue;
         const auto [springs, work] = hand_contacts_.springs_on(spring.body);
+        const std::span<FrictionSpring> frictions = hand_contacts_.frictions_on(spring.body);
         integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
-                                      {springs, work, modes_[spring.hand], config});
+                                      {springs, work, modes_[spring.hand], config, frictions});
         hand_contacts_.store_impulses(spring.body);
+        if (!frictions.empty()) hand_contacts_.store_friction(state, spring.body);
         if (integration.hands_are_braked) ++state.interventions.hands_braked;
         state.tick_cost.spring_rows += integration.hand_rows;
     }
@@ -452,9 +449,8 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
 {
-    for (const Slot slot : active_.slots()) {
+    for (const Slot slot : active_.slots())
         solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
-    }
     for (ContactBlock& block : solver_.blocks()) {
         set_centripetal_velocity(block, integrations_[block.a].start.spin,
                                  integrations_[block.b].start.spin, scales_.tick);
@@ -523,40 +519,43 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::correct_positions(WorldState& state)
 {
     for (ContactBlock& block : solver_.blocks()) {
-        for (std::uint32_t i = 0; i < block.count; ++i) {
+        for (std::uint32_t i = 0; i < block.count; ++i)
             block.speed_min[i] = position_bias(block.separation[i], scales_);
-        }
         if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
     state.tick_cost.visits += solver_.correct_positions(position_limits()).visits;
     // A body that is thrown off its path is held back; the others go as far as that lets them.
-    const auto keep = [&] {
-        const Ways ways =
-            keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
-        any_far_ = ways.any_far;
-        return ways.any_kept;
-    };
-    if (!keep()) return;
+    if (!hold_back(state)) return;
     state.tick_cost.visits += solver_.correct_positions_again(position_limits()).visits;
-    keep();
+    hold_back(state);
 }
 
-/// Takes away what the impulses of the tick would gain out of nothing.
+/// Returns whether any body was thrown off its path.
+template <BroadPhase broad_phase>
+bool RigidStepper<broad_phase>::hold_back(WorldState& state)
+{
+    const Ways ways =
+        keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
+    any_far_ = ways.any_far;
+    return ways.any_kept;
+}
+
+/// Takes away what the impulses of the tick would gain out of nothing. A body that loses most of
+/// its speed by that does not go where it would have taken it.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
 {
-    account_.settle(
-        {config, state, scales_, active_.slots(), integrations_.all(), solver_, hand_contacts_});
+    if (!account_.settle(energy_tick(config, state))) return;
+    if (hold_back(state)) account_.settle(energy_tick(config, state));
 }
 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_positions(WorldState& state)
 {
     if (any_far_) continuous_.begin(state.bodies, active_.slots(), integrations_.all(), solver_);
-    for (const Slot slot : active_.slots()) {
+    for (const Slot slot : active_.slots())
         integrate_position(integrations_[slot + 1], state.bodies, slot, solver_, scales_);
-    }
 }
 
 /// Moves the bodies on which nothing acts but gravity.
@@ -573,6 +572,8 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
     continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
+    if (continuous_.has_changed_any())
+        account_.settle_touches(energy_tick(config, state), continuous_);
     state.tick_cost.looks = continuous_.looks();
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);

@@ -92,7 +92,6 @@ private:
     SolverOutcome run_island(const Task& task, Island island);
     void save(const Task& task, Island island);
     void restore(const Task& task, Island island);
-    void limit_energy(const Task& task, Island island);
     double sweep(const Task& task, Island island);
     void read_impulses(Island island, std::span<double> impulses) const;
     void take_mixture(const Task& task, Island island);
