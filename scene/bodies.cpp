@@ -30,7 +30,7 @@ double inertia_about(int axis, const glm::dvec3& inertia, const glm::dquat& orie
 
 BodyProperties properties_of(const BodyDescription& body, BodyId id)
 {
-    BodyProperties properties{.id = id, .half = body.half};
+    BodyProperties properties{.id = id, .half = body.half, .rounding = rounding_of(body)};
     properties.material = body.material;
     properties.drag = body.drag_ns_per_m;
     if (body.kinematic) {
@@ -45,7 +45,7 @@ BodyProperties properties_of(const BodyDescription& body, BodyId id)
     const double light = 1.0 / body.mass_kg;
     properties.inverse_mass = {body.locked.x ? 0.0 : light, body.locked.y ? 0.0 : light,
                                body.locked.z ? 0.0 : light};
-    properties.inertia = box_inertia(body.mass_kg, body.half);
+    properties.inertia = inertia_of(body);
     properties.is_isotropic = body.half.x == body.half.y && body.half.y == body.half.z;
     if (body.turning == Turning::free) {
         properties.inverse_inertia = 1.0 / properties.inertia;
@@ -66,6 +66,32 @@ void swap_lanes(Lanes& lanes, Slot a, Slot b)
 }
 
 } // namespace
+
+bool any_is_round(std::span<const BodyProperties> bodies)
+{
+    return std::any_of(bodies.begin(), bodies.end(),
+                       [](const BodyProperties& body) { return body.rounding > 0.0; });
+}
+
+glm::dvec3 inertia_of(const BodyDescription& body)
+{
+    const double mass_kg = body.mass_kg;
+    const double r = rounding_of(body);
+    if (r == 0.0) return box_inertia(mass_kg, body.half);
+    const glm::dvec3 core = body.half - r;
+    const double straight = core.x + core.y + core.z; // half the length between the ends
+    // As masses are volumes: pi r^2 times these lengths.
+    const double share = straight / (straight + 2.0 / 3.0 * r);
+    const double cylinder = share * mass_kg;
+    const double ends = mass_kg - cylinder;
+    const double square = r * r;
+    const double along = 0.5 * cylinder * square + 0.4 * ends * square;
+    const double across = cylinder * (0.25 * square + straight * straight / 3.0) +
+                          ends * (0.4 * square + straight * (straight + 0.75 * r));
+    if (straight == 0.0) return glm::dvec3{along};
+    return {core.x > 0.0 ? along : across, core.y > 0.0 ? along : across,
+            core.z > 0.0 ? along : across};
+}
 
 glm::dvec3 box_inertia(double mass_kg, const glm::dvec3& half)
 {

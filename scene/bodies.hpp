@@ -27,7 +27,8 @@ using Slot = std::uint32_t;
 /// What does not change of a body: the cold half.
 struct BodyProperties {
     BodyId id = 0;
-    glm::dvec3 half{0.02};
+    glm::dvec3 half{0.02};           // half the edges of the box, or of that around it, m
+    double rounding = 0.0;           // how far a round body's surface is from its core, m
     glm::dvec3 inverse_mass{0.0};    // 1/kg per axis of the world; 0 where locked or fixed
     glm::dvec3 inertia{1.0};         // kg m^2 about the body's own axes
     glm::dvec3 inverse_inertia{0.0}; // 0 where it cannot rotate; with one free axis see `turning`
@@ -48,6 +49,13 @@ struct BodyProperties {
             properties.inverse_inertia.y > 0.0 ? angular.y : 0.0,
             properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
+
+/// Whether what stops its slip sets it rolling.
+[[nodiscard]] inline bool rolls(const BodyProperties& body)
+{
+    return body.rounding > 0.0 && body.turning != Turning::locked;
+}
+[[nodiscard]] bool any_is_round(std::span<const BodyProperties> bodies);
 
 /// The state of all bodies. The hot half lies in lanes, one number of every body after the other,
 /// so that a loop over many bodies reads only what it needs and compilers can vectorise it. Slots
@@ -136,6 +144,10 @@ private:
                                                            const glm::dvec3& momentum);
 };
 
+/// The moments of inertia about its axes, kg m^2: as below; of a sphere 2/5 m r^2; of a capsule
+/// those of a cylinder and of two half spheres, whose middles are three eighths of the radius
+/// beyond it.
+[[nodiscard]] glm::dvec3 inertia_of(const BodyDescription& body);
 /// The moments of inertia of a solid box about its axes, kg m^2: m/3 (b^2 + c^2) with half edges.
 [[nodiscard]] glm::dvec3 box_inertia(double mass_kg, const glm::dvec3& half);
 

@@ -56,6 +56,8 @@ bool is_unit(double square)
 double square(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 double square(const glm::dquat& q) { return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z; }
 
+double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.y, half.z)); }
+
 void check_material(Check& check, const Material& material)
 {
     check.within("friction", material.friction, 0.0, friction_max);
@@ -91,10 +93,23 @@ void check_feel(Check& check, const Feel& feel)
     }
 }
 
+void check_shape(Check& check, const BodyDescription& body)
+{
+    const glm::dvec3& half = body.half;
+    const double least = shortest(half);
+    const int at_least = int{half.x == least} + int{half.y == least} + int{half.z == least};
+    if (body.shape == Shape::sphere)
+        check.holds(at_least == 3, "the three edges around a sphere are equal");
+    if (body.shape == Shape::capsule)
+        check.holds(at_least == 2, "two of the edges around a capsule are equal, and the third is "
+                                   "longer");
+}
+
 base::Result<void> check_body(const BodyDescription& body, std::size_t number)
 {
     Check check{fmt::format("body {} '{}'", number, body.name)};
     check.within("half an edge in m", body.half, size_min_m, size_max_m);
+    check_shape(check, body);
     check.within("position in m", body.position.value, -reach_max_m, reach_max_m);
     check.holds(is_unit(square(body.orientation)), "orientation is not a unit quaternion");
     check_material(check, body.material);
@@ -250,6 +265,19 @@ void add_hand_friction(Hash& hash, const Description& description)
 
 } // namespace
 
+double rounding_of(const BodyDescription& body)
+{
+    return body.shape == Shape::box ? 0.0 : shortest(body.half);
+}
+
+double mass_of(const BodyDescription& body, double density)
+{
+    const double radius = rounding_of(body);
+    if (radius == 0.0) return density * 8.0 * body.half.x * body.half.y * body.half.z;
+    const double straight = body.half.x + body.half.y + body.half.z - 3.0 * radius; // half of it
+    return density * base::two_pi * radius * radius * (straight + 2.0 / 3.0 * radius);
+}
+
 HandDescription hand_on(const HandDescription& hands, const Feel& own_hand, const Feel& body)
 {
     HandDescription hand = hands;
@@ -326,6 +354,12 @@ std::uint64_t hash(const Description& description)
         add_feel(description.bodies[i].feel);
     }
     for (const Feel& feel : description.own_hands) add_feel(feel);
+    constexpr std::uint64_t round_mark = 0x726f756e64;
+    for (std::size_t i = 0; i < description.bodies.size(); ++i) {
+        const Shape shape = description.bodies[i].shape;
+        if (shape == Shape::box) continue;
+        hash.add(round_mark + (std::uint64_t{i} << 1U) + (shape == Shape::capsule ? 1U : 0U));
+    }
     for (const FieldDescription& field : description.fields) {
         for (const glm::dvec3& v :
              {field.position.value, field.force.value, field.half.value_or(glm::dvec3{0.0}),

@@ -40,6 +40,12 @@ constexpr auto names_of(base::Tag<Turning>)
     return base::names("free", "locked", "about-x", "about-y", "about-z");
 }
 
+/// What a body looks like, within a box: a sphere has three edges that are equal, a capsule two,
+/// and one that is longer, along which it lies.
+enum class Shape : std::uint8_t { box, sphere, capsule };
+
+constexpr auto names_of(base::Tag<Shape>) { return base::names("box", "sphere", "capsule"); }
+
 /// The axes of the world along which a body's centre does not move.
 struct LockedAxes {
     bool x = false;
@@ -87,7 +93,7 @@ struct Feel {
     friend bool operator==(const Feel&, const Feel&) = default;
 };
 
-/// A solid box of even density.
+/// A solid of even density: a box, a sphere or a capsule.
 struct BodyDescription {
     std::string name;
     bool movable = true;
@@ -95,7 +101,8 @@ struct BodyDescription {
     /// until World::drive() or World::move() says otherwise. It pushes and is not pushed.
     bool kinematic = false;
     Sway sway{};
-    glm::dvec3 half{0.02}; // half the edges, metres
+    Shape shape = Shape::box;
+    glm::dvec3 half{0.02}; // half the edges of the box, or of that around it, metres
     base::Position position{};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // unit, from the body's frame to the world's
     base::Velocity velocity{};
@@ -195,6 +202,12 @@ inline constexpr double friction_max = 10.0;
 inline constexpr double gravity_max_m_per_s2 = 1e3;
 inline constexpr base::Duration period_min{std::chrono::milliseconds{10}};
 inline constexpr base::Duration period_max{std::chrono::hours{24}};
+
+/// How far the surface of a round body is from its core, m: of a sphere from its centre, of a
+/// capsule from a line. 0 for a box.
+[[nodiscard]] double rounding_of(const BodyDescription& body);
+/// Of a body with so many kg/m^3.
+[[nodiscard]] double mass_of(const BodyDescription& body, double density);
 
 /// What a hand's spring on a body is made of: the body's own feel, then the hand's, then that of
 /// all hands, as CHAI3D has it.

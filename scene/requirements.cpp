@@ -23,6 +23,7 @@ struct Census {
     std::size_t movable = 0;
     std::size_t fixed = 0;
     std::size_t kinematic = 0;   // of those
+    std::size_t round = 0;       // spheres and capsules
     std::size_t own_feel = 0;    // bodies and hands with a stiffness or damping of their own
     std::size_t felt_planes = 0; // that hands feel
     std::size_t turning = 0;     // movable
@@ -47,6 +48,7 @@ Census census_of(const Description& description)
     for (const BodyDescription& body : description.bodies) {
         ++(body.movable ? census.movable : census.fixed);
         if (body.kinematic) ++census.kinematic;
+        if (body.shape != Shape::box) ++census.round;
         if (body.feel.is_own()) ++census.own_feel;
         if (body.movable && body.turning != Turning::locked) ++census.turning;
         if (!is_parallel(body.orientation)) ++census.skew;
@@ -113,9 +115,9 @@ Requirement without_contact(Feature feature)
 std::string_view name_of(Feature feature)
 {
     constexpr std::array<std::string_view, features> names{
-        "contact",     "hips", "skew",        "rotation", "friction",
-        "restitution", "drag", "bodies",      "sleep",    "grid",
-        "kinematic",   "feel", "felt-planes", "fields",   "hand-friction"};
+        "contact",     "hips",   "skew",          "rotation", "friction",  "restitution",
+        "drag",        "bodies", "sleep",         "grid",     "kinematic", "feel",
+        "felt-planes", "fields", "hand-friction", "shapes"};
     return names.at(static_cast<std::size_t>(feature));
 }
 
@@ -132,11 +134,11 @@ FeatureSet abilities_of(StepperKind kind)
     FeatureSet set;
     const auto add = [&set](auto... those) { (set.add(those), ...); };
     switch (kind) {
-    case StepperKind::flight: add(rotation, skew, fields); break;
+    case StepperKind::flight: add(rotation, skew, fields, shapes); break;
     case StepperKind::many: add(grid); [[fallthrough]];
     case StepperKind::few: add(bodies, sleep); [[fallthrough]];
     case StepperKind::lone:
-        add(rotation, skew, kinematic, feel, felt_planes, hand_friction);
+        add(rotation, skew, kinematic, feel, felt_planes, hand_friction, shapes);
         [[fallthrough]];
     case StepperKind::sliding_coulomb: add(friction); [[fallthrough]];
     case StepperKind::sliding: add(contact, hands, restitution, drag, fields); break;
@@ -180,12 +182,15 @@ Requirements requirements_of(const Description& description, bool sleeping)
                             description.hands.count)),
         require(fields, !description.fields.empty(),
                 fmt::format("fields of force: {}", description.fields.size())),
-        require_hand_friction(description)};
+        require_hand_friction(description),
+        require(shapes, census.round > 0,
+                fmt::format("spheres and capsules: {} of {} bodies", census.round, total))};
     if (!needs[0].is_required) {
         for (Requirement& each : needs) {
             const bool is_own = each.feature == contact || each.feature == rotation ||
                                 each.feature == kinematic || each.feature == felt_planes ||
-                                each.feature == fields || each.feature == hand_friction;
+                                each.feature == fields || each.feature == hand_friction ||
+                                each.feature == shapes;
             if (!is_own) each = without_contact(each.feature);
         }
     }

@@ -28,8 +28,9 @@ enum class Feature : std::uint8_t {
     felt_planes,   // planes that hands feel
     fields,        // fields of force
     hand_friction, // hands that stick and slide
+    shapes,        // spheres and capsules
 };
-inline constexpr std::size_t features = 15;
+inline constexpr std::size_t features = 16;
 
 [[nodiscard]] std::string_view name_of(Feature feature);
 

@@ -120,11 +120,59 @@ Advanced advance_straight(const Mover& a, const Mover& b, const GapSearch& searc
     return {search.from + enter, Advanced::End::reached};
 }
 
+/// How fast the corners of one that turns are drawn towards the axis, at most: m/s^2.
+double bend_of(const Mover& mover)
+{
+    return mover.speed_of_turning * mover.speed_of_turning * mover.whirl.widest;
+}
+
+/// Adds how far one reaches along a normal that stays, and how that changes: the half edges of a
+/// box, the core of a round body.
+std::size_t add_parts(Forecast& forecast, std::size_t count, const Mover& mover,
+                      const glm::dvec3& normal)
+{
+    const glm::dvec3 half = mover.motion.core_half();
+    const PerAxis parts = per_axis(half * (normal * mover.box.axes));
+    const PerAxis speeds =
+        per_axis(half * (glm::cross(normal, mover.motion.spin) * mover.box.axes));
+    for (const std::size_t i : {0U, 1U, 2U}) {
+        if (half[static_cast<int>(i)] == 0.0) continue;
+        forecast.parts[count] = parts[i];
+        forecast.speeds[count] = speeds[i];
+        ++count;
+    }
+    return count;
+}
+
+/// Of two of which one is round: along the one normal along which they are apart. Without turns
+/// that is Newton's method, as their distance is convex then. A core has one edge at most, so the
+/// parts of both are four at most.
+Advanced advance_round(Mover& a, Mover& b, const GapSearch& search, std::uint32_t& steps)
+{
+    const bool whirl = a.whirl.is_known || b.whirl.is_known;
+    return advance_by(search, steps, [&](double time, double most) {
+        a.go_to(time);
+        b.go_to(time);
+        const Gap gap = gap_between(a.box, b.box);
+        const double room = gap.distance - search.gap;
+        if (room <= search.near) return 0.0;
+        Forecast now{.room = room,
+                     .approach = glm::dot(gap.normal, a.motion.velocity - b.motion.velocity),
+                     .bend = bend_of(a) + bend_of(b)};
+        add_parts(now, add_parts(now, 0, a, gap.normal), b, gap.normal);
+        double left = now.time_left(most);
+        if (whirl && left < most)
+            left = std::max({left, time_beside(a, b, gap.normal, search.gap),
+                             time_beside_any(a, b, search.gap)});
+        return std::min(left, most);
+    });
+}
+
 } // namespace
 
 OrientedBox SteadyBox::at(double time) const
 {
-    return {centre + time * velocity, axes_of(orientation_at(time)), half};
+    return {centre + time * velocity, axes_of(orientation_at(time)), half, rounding};
 }
 
 glm::dquat SteadyBox::orientation_at(double time) const
@@ -148,7 +196,9 @@ Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b, const GapSearch&
     Mover first{a, search.from, search.to};
     Mover second{b, search.from, search.to};
     Advanced advanced;
-    if (!first.turns && !second.turns) {
+    if (a.is_round() || b.is_round()) {
+        advanced = advance_round(first, second, search, steps);
+    } else if (!first.turns && !second.turns) {
         --steps;
         advanced = advance_straight(first, second, search);
     } else {
@@ -190,17 +240,13 @@ Advanced advance_to_gap(const PlaneSurface& plane, const SteadyBox& box, const G
         return {search.to, Advanced::End::clear};
     Mover mover{box, search.from, search.to};
     const double approach = -glm::dot(plane.normal, box.velocity);
-    const double bend = mover.speed_of_turning * mover.speed_of_turning * mover.whirl.widest;
+    const double bend = bend_of(mover);
     return advance_by(search, steps, [&](double time, double most) {
         mover.go_to(time);
         const double room = gap_between(plane, mover.box).distance - search.gap;
         if (room <= search.near) return 0.0;
-        const PerAxis parts = per_axis(box.half * (plane.normal * mover.box.axes));
-        const PerAxis speeds =
-            per_axis(box.half * (glm::cross(plane.normal, box.spin) * mover.box.axes));
         Forecast now{.room = room, .approach = approach, .bend = bend};
-        std::copy(parts.begin(), parts.end(), now.parts.begin());
-        std::copy(speeds.begin(), speeds.end(), now.speeds.begin());
+        add_parts(now, 0, mover, plane.normal);
         double left = now.time_left(most);
         if (mover.turns && left < most) {
             const double beside =

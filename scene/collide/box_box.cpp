@@ -4,6 +4,7 @@
 
 #include "scene/collide/clip.hpp"
 #include "scene/collide/manifold.hpp"
+#include "scene/collide/round.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -269,6 +270,7 @@ Manifold search(const OrientedBox& a, const OrientedBox& b, double margin, BoxBo
 
 Manifold collide(const OrientedBox& a, const OrientedBox& b, double margin, BoxBoxMemory& memory)
 {
+    if (a.is_round() || b.is_round()) return round_manifold(a, b, margin);
     const auto last = int{memory.axis};
     if (last >= first_edge_axis) {
         if (edges_separate(a, b, edges_of(last), margin)) return apart();

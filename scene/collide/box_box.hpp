@@ -19,7 +19,7 @@ struct BoxBoxMemory {
 /// relative to the smallest half edge of the two: an axis is kept, and a face taken before an edge,
 /// unless another is better by more than 1/128; edges of faces that lie flush count as one within
 /// 1/256. A feature is face, edge or corner of each box, see features.hpp. Mirrored boxes give the
-/// same points mirrored, to the bit.
+/// same points mirrored, to the bit. Round bodies: see round_manifold().
 [[nodiscard]] Manifold collide(const OrientedBox& a, const OrientedBox& b, double margin,
                                BoxBoxMemory& memory);
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace hapnet::scene {
 
@@ -55,12 +56,28 @@ deepest_corners(const glm::dvec3& normal, const glm::dmat3& axes, const glm::dve
     return corners;
 }
 
+std::array<PlaneCorner, manifold_points_max> lowest_points(const glm::dvec3& normal,
+                                                           const OrientedBox& round)
+{
+    const glm::dvec3 core = round.half - round.rounding;
+    const int axis = core.x > 0.0 ? 0 : core.y > 0.0 ? 1 : 2;
+    const glm::dvec3 end = core[axis] * round.axes[axis];
+    const double rise = glm::dot(normal, end);
+    std::array<PlaneCorner, manifold_points_max> points;
+    for (PlaneCorner& point : points) point.rise = std::numeric_limits<double>::max();
+    points[0] = {-end - round.rounding * normal, -rise - round.rounding, 0};
+    if (core[axis] > 0.0) points[1] = {end - round.rounding * normal, rise - round.rounding, 1};
+    return points;
+}
+
 Manifold collide(const PlaneSurface& plane, const OrientedBox& box, double margin)
 {
     const double height = glm::dot(plane.normal, box.centre) - plane.offset;
     Manifold manifold;
     manifold.normal = plane.normal;
-    for (const PlaneCorner& corner : deepest_corners(plane.normal, box.axes, box.half)) {
+    const auto corners = box.is_round() ? lowest_points(plane.normal, box)
+                                        : deepest_corners(plane.normal, box.axes, box.half);
+    for (const PlaneCorner& corner : corners) {
         const double separation = height + corner.rise;
         if (separation > margin) continue;
         manifold.points[manifold.count++] = {.position = box.centre + corner.place -

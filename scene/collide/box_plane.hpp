@@ -15,7 +15,7 @@ struct PlaneSurface {
     double offset = 0.0;
 };
 
-/// A corner of a box over a plane.
+/// A corner of a box over a plane, or an end of a round body.
 struct PlaneCorner {
     glm::dvec3 place{0.0};     // from the box's centre
     double rise = 0.0;         // along the plane's normal, likewise
@@ -27,6 +27,11 @@ struct PlaneCorner {
 /// and its three neighbours. How high the box is does not matter.
 [[nodiscard]] std::array<PlaneCorner, manifold_points_max>
 deepest_corners(const glm::dvec3& normal, const glm::dmat3& axes, const glm::dvec3& half);
+
+/// Of a sphere its lowest point, of a capsule that of each end; the others are higher than
+/// anything.
+[[nodiscard]] std::array<PlaneCorner, manifold_points_max> lowest_points(const glm::dvec3& normal,
+                                                                         const OrientedBox& round);
 
 /// Those of them below a plane or at most `margin` above it; the normal is the plane's (from the
 /// plane to the box).

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/collide/distance.hpp"
 
+#include "scene/collide/round.hpp"
 #include "scene/collide/sphere_box.hpp"
 #include "scene/maths/vector.hpp"
 
@@ -109,6 +110,7 @@ glm::dvec3 farthest(const OrientedBox& box, const glm::dvec3& direction)
 
 Separation separation(const glm::dvec3& point, const OrientedBox& box)
 {
+    if (box.is_round()) return round_separation(point, box);
     const glm::dvec3 place = to_local(box, point);
     const glm::dvec3 closest = glm::clamp(place, -box.half, box.half);
     const glm::dvec3 outward = place - closest;
@@ -130,6 +132,7 @@ Separation separation(const glm::dvec3& point, const OrientedBox& box)
 
 Separation separation(const OrientedBox& first, const OrientedBox& second)
 {
+    if (first.is_round() || second.is_round()) return round_separation(first, second);
     Separation found = along_best_axis(first, second);
     if (found.distance <= 0.0) {
         found.on_first = farthest(first, -found.direction);
@@ -167,6 +170,7 @@ Separation separation(const OrientedBox& first, const OrientedBox& second)
 std::optional<RayEntry> enter(const OrientedBox& box, const glm::dvec3& origin,
                               const glm::dvec3& direction, double length)
 {
+    if (box.is_round()) return enter_round(box, origin, direction, length);
     const glm::dvec3 from = to_local(box, origin);
     const glm::dvec3 along = direction * box.axes;
     double first = -std::numeric_limits<double>::infinity();

@@ -13,11 +13,15 @@
 
 namespace hapnet::scene {
 
-/// A box anywhere, its axes the columns of a rotation.
+/// A box anywhere, its axes the columns of a rotation; or the sphere or the capsule that fits into
+/// it.
 struct OrientedBox {
     glm::dvec3 centre{0.0};
     glm::dmat3 axes{1.0};
     glm::dvec3 half{0.02};
+    double rounding = 0.0; // of a sphere or a capsule, how far its surface is from its core, m
+
+    [[nodiscard]] bool is_round() const { return rounding > 0.0; }
 };
 
 /// A point where two bodies touch, or would within the margin.
@@ -81,12 +85,32 @@ inline constexpr std::uint32_t feature_bits_count = 6;
     return feature_pair(feature >> feature_bits_count, feature & mask);
 }
 
+/// Of the core of a round body: a point or a line.
+[[nodiscard]] inline OrientedBox core_of(const OrientedBox& shape)
+{
+    return {shape.centre, shape.axes, shape.half - shape.rounding};
+}
+
 /// Half the length of a box's shadow along a direction, times the direction's length.
 [[nodiscard]] inline double half_projection(const OrientedBox& box, const glm::dvec3& direction)
 {
     return box.half.x * std::abs(glm::dot(direction, box.axes[0])) +
            box.half.y * std::abs(glm::dot(direction, box.axes[1])) +
            box.half.z * std::abs(glm::dot(direction, box.axes[2]));
+}
+
+/// The same of any shape, along a unit normal.
+[[nodiscard]] inline double half_extent(const OrientedBox& shape, const glm::dvec3& normal)
+{
+    if (!shape.is_round()) return half_projection(shape, normal);
+    return half_projection(core_of(shape), normal) + shape.rounding;
+}
+
+/// How far a shape reaches from its centre.
+[[nodiscard]] inline double outer_radius(const glm::dvec3& half, double rounding)
+{
+    const glm::dvec3 core = half - rounding;
+    return std::sqrt(glm::dot(core, core)) + rounding;
 }
 
 /// What tolerances are relative to.

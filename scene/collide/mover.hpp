@@ -15,7 +15,7 @@
 namespace hapnet::scene {
 
 /// How far a box that turns steadily reaches from its centre in the course of all its turns: its
-/// corners go round in circles about the axis of its spin.
+/// corners go round in circles about the axis of its spin. Of a round body, its core.
 struct Whirl {
     // A turn, in radians, from which on it pays to ask how far a box reaches in all its turns.
     static constexpr double far_turn = 0.5;
@@ -30,18 +30,19 @@ struct Whirl {
     Whirl(const SteadyBox& box, double time)
     {
         const double square = glm::dot(box.spin, box.spin);
+        const double radius = box.core_radius();
         if (!(time * time * square > far_turn * far_turn)) {
-            widest = box.radius;
+            widest = radius;
             return;
         }
         is_known = true;
         axis = box.spin / std::sqrt(square);
-        const glm::dvec3 part = box.half * (axis * axes_of(box.orientation));
+        const glm::dvec3 part = box.core_half() * (axis * axes_of(box.orientation));
         along = {part.x + part.y + part.z, part.x + part.y - part.z, part.x - part.y + part.z,
                  part.y + part.z - part.x};
         for (std::size_t i = 0; i < along.size(); ++i) {
             along[i] = std::abs(along[i]);
-            across[i] = std::sqrt(std::max(0.0, box.radius * box.radius - along[i] * along[i]));
+            across[i] = std::sqrt(std::max(0.0, radius * radius - along[i] * along[i]));
             widest = std::max(widest, across[i]);
         }
     }
@@ -61,14 +62,14 @@ struct Whirl {
 /// What a look needs to know of one of the two.
 struct Mover {
     const SteadyBox& motion;
-    bool turns = false;
+    bool turns = false;            // a sphere looks the same, however it turns
     double speed_of_turning = 0.0; // rad/s
     Whirl whirl;
     OrientedBox box; // now
 
     Mover(const SteadyBox& its, double from, double to)
         : motion{its},
-          turns{its.spin != glm::dvec3{0.0}},
+          turns{its.spin != glm::dvec3{0.0} && its.core_radius() > 0.0},
           speed_of_turning{length(its.spin)},
           whirl{its, to - from},
           box{its.at(from)}
@@ -83,7 +84,8 @@ struct Mover {
     }
     [[nodiscard]] double reach_in_all_turns(const glm::dvec3& normal) const
     {
-        return turns ? whirl.reach(normal, motion.radius) : half_projection(box, normal);
+        if (!turns) return half_extent(box, normal);
+        return whirl.reach(normal, motion.core_radius()) + motion.rounding;
     }
 };
 

@@ -173,7 +173,8 @@ std::optional<SphereOverlap> SphereBoxMemory::find(const OrientedBox& box, const
 double distance(const OrientedBox& box, const glm::dvec3& point)
 {
     const glm::dvec3 place = to_local(box, point);
-    return length(place - closest_point(box.half, place));
+    const double apart = length(place - closest_point(box.half - box.rounding, place));
+    return std::max(apart - box.rounding, 0.0);
 }
 
 } // namespace hapnet::scene

@@ -103,7 +103,7 @@ private:
             glm::dot(box.axes[2], offset)};
 }
 
-/// The distance from a point to a box's surface; 0 inside.
+/// The distance from a point to the surface of a box or a round body; 0 inside.
 [[nodiscard]] double distance(const OrientedBox& box, const glm::dvec3& point);
 
 } // namespace hapnet::scene

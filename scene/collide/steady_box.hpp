@@ -8,14 +8,20 @@
 
 namespace hapnet::scene {
 
-/// A box that moves and turns steadily.
+/// A box, or a round body, that moves and turns steadily.
 struct SteadyBox {
     glm::dvec3 centre{0.0}; // at time 0
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 velocity{0.0};
     glm::dvec3 spin{0.0};
     glm::dvec3 half{0.02};
-    double radius = 0.0; // of the corners
+    double radius = 0.0;   // of the corners
+    double rounding = 0.0; // see OrientedBox
+
+    [[nodiscard]] bool is_round() const { return rounding > 0.0; }
+    /// Of the core of a round body; of a box itself.
+    [[nodiscard]] glm::dvec3 core_half() const { return half - rounding; }
+    [[nodiscard]] double core_radius() const { return radius - rounding; }
 
     [[nodiscard]] OrientedBox at(double time) const;
     [[nodiscard]] glm::dquat orientation_at(double time) const;

@@ -35,7 +35,7 @@ double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.
 OrientedBox box_of(const Bodies& bodies, Slot slot)
 {
     return {bodies.position.at(slot), axes_of(bodies.orientation.at(slot)),
-            bodies.properties[slot].half};
+            bodies.properties[slot].half, bodies.properties[slot].rounding};
 }
 
 SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, BoxBoxMemory& memory)
@@ -71,7 +71,7 @@ SweptBoxes::SweptBoxes(const Bodies& bodies, const Scales& scales)
         const BodyId id = bodies.properties[slot].id;
         Entry& entry = entries_[id];
         entry.now.box = box_of(bodies, slot);
-        entry.now.radius = length(entry.now.box.half);
+        entry.now.radius = outer_radius(entry.now.box.half, entry.now.box.rounding);
         entry.now.orientation = bodies.orientation.at(slot);
         renew(bodies, id, entry);
     }
@@ -84,7 +84,7 @@ void SweptBoxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
     entry.seen = now_;
     now.box.centre = bodies.position.at(slot);
     now.spin = bodies.angular_velocity(slot);
-    const double turning = length(now.spin) * now.radius;
+    const double turning = length(now.spin) * (now.radius - now.box.rounding);
     now.reach = scales_.tick * (length(bodies.velocity.at(slot)) + turning + scales_.fall) +
                 look_ahead * shortest(now.box.half);
     const glm::dquat orientation = bodies.orientation.at(slot);

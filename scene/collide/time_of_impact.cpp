@@ -4,6 +4,7 @@
 
 #include "scene/collide/manifold.hpp"
 #include "scene/collide/pose.hpp"
+#include "scene/collide/round.hpp"
 #include "scene/maths/vector.hpp"
 
 #include <algorithm>
@@ -109,6 +110,8 @@ void for_axes(const OrientedBox& a, const OrientedBox& b, Visit visit)
 std::optional<TimeOfImpact> time_of_impact(const OrientedBox& a, const OrientedBox& b,
                                            const glm::dvec3& relative_velocity, double time_max)
 {
+    if (a.is_round() || b.is_round())
+        return round_time_of_impact(a, b, relative_velocity, time_max);
     Sweep sweep{a, b, relative_velocity};
     for (const int i : {0, 1, 2})
         if (!sweep.consider(a.axes[i])) return std::nullopt;
@@ -126,6 +129,7 @@ std::optional<TimeOfImpact> time_of_impact(const OrientedBox& a, const OrientedB
 
 Gap gap_between(const OrientedBox& a, const OrientedBox& b)
 {
+    if (a.is_round() || b.is_round()) return round_gap(a, b);
     Gap widest{-HUGE_VAL, {}};
     for_axes(a, b, [&](const Gap& gap) {
         if (gap.distance > widest.distance) widest = gap;
@@ -135,7 +139,7 @@ Gap gap_between(const OrientedBox& a, const OrientedBox& b)
 
 Gap gap_between(const PlaneSurface& plane, const OrientedBox& box)
 {
-    return {glm::dot(plane.normal, box.centre) - plane.offset - half_projection(box, plane.normal),
+    return {glm::dot(plane.normal, box.centre) - plane.offset - half_extent(box, plane.normal),
             plane.normal};
 }
 

@@ -32,6 +32,7 @@ struct BodyDynamics {
     glm::dvec3 torque{0.0};       // of everything but the hands, N m
     double drag = 0.0;            // 1/s, of the centre's velocity along a plane
     glm::dvec3 drag_normal{0.0};  // of that plane, unit
+    double rounding = 0.0;        // m, of a round body: from its core to its surface
 };
 
 /// A hand's spring on a body: unilateral along its normal, or, when it holds, in all directions.

@@ -63,7 +63,7 @@ void ContactPhases<count>::set(std::size_t i, const HandSpring& spring, SpringIm
 {
     springs_[i] = &spring;
     works_[i] = &work;
-    surfaces_[i] = BoxSurface{spring, dynamics_.half, axes_};
+    surfaces_[i] = BoxSurface{spring, dynamics_, axes_};
     hand_positions_[i] = spring.arm + (spring.radius + spring.gap) * spring.normal;
     is_amid_face_[i] = surfaces_[i].is_amid_face(axes_, hand_positions_[i]);
     ContactGeometry& geometry = geometries_[i];

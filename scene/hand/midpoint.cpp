@@ -99,7 +99,7 @@ MidpointRule<rubs>::MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
             spring.anchor = form.arm * axes;
             spring.hand = form.arm + form.stretch;
         } else {
-            spring.surface = BoxSurface{form, dynamics.half, axes};
+            spring.surface = BoxSurface{form, dynamics, axes};
             spring.hand = form.arm + (form.radius + form.gap) * form.normal;
         }
     }

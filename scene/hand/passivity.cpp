@@ -241,7 +241,7 @@ private:
                 const glm::dvec3 arm = axes * (spring.arm * axes_before);
                 sum += spring_energy(spring, length(hand + spring.stretch + spring.arm - arm));
             } else {
-                const BoxSurface surface{spring, body_.dynamics.half, axes_before};
+                const BoxSurface surface{spring, body_.dynamics, axes_before};
                 const glm::dvec3 from = spring.arm + (spring.radius + spring.gap) * spring.normal;
                 sum += spring_energy(spring, surface.at(axes, from + hand).depth);
             }
@@ -261,7 +261,7 @@ private:
             const glm::dvec3 proxy = spring.arm - friction.stretch;
             const glm::dvec3 stretch = friction.stretch + body_.tick * spring.velocity - moved -
                                        (turn * proxy - proxy) - friction.slid;
-            const BoxSurface surface{spring, body_.dynamics.half, axes_of(body_.start.orientation)};
+            const BoxSurface surface{spring, body_.dynamics, axes_of(body_.start.orientation)};
             const glm::dvec3 hand = spring.arm + (spring.radius + spring.gap) * spring.normal +
                                     body_.tick * spring.velocity - moved;
             const ContactGeometry now = surface.at(turn * axes_of(body_.start.orientation), hand);

@@ -10,15 +10,16 @@
 
 namespace hapnet::scene {
 
-BoxSurface::BoxSurface(const HandSpring& spring, const glm::dvec3& half, const glm::dmat3& axes)
-    : half_{half}, radius_{spring.radius}
+BoxSurface::BoxSurface(const HandSpring& spring, const BodyDynamics& dynamics,
+                       const glm::dmat3& axes)
+    : half_{dynamics.half - dynamics.rounding}, radius_{spring.radius + dynamics.rounding}
 {
     const glm::dvec3 normal = spring.normal * axes;
     const glm::dvec3 size = glm::abs(normal);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     face_[axis] = normal[axis] < 0.0 ? -1.0 : 1.0;
     constexpr double rounding = 1e-9;
-    is_face_ = size.x + size.y + size.z - size[axis] <= rounding;
+    is_face_ = dynamics.rounding == 0.0 && size.x + size.y + size.z - size[axis] <= rounding;
 }
 
 bool BoxSurface::is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const

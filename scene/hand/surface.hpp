@@ -15,14 +15,15 @@ struct ContactGeometry {
     double depth = 0.0;     // > 0: overlap
 };
 
-/// A box and a hand's sphere near it, in the box's frame: where they touch while the box turns and
-/// the hand moves on. The nearest point of the box; a sphere whose centre is within it stays at the
-/// face where it was at the start.
+/// A box and a hand's sphere near it, in the box's frame; of a round body its core, and a sphere
+/// that is larger by the rounding: where they
+/// touch while the box turns and the hand moves on. The nearest point of the box; a sphere whose
+/// centre is within it stays at the face where it was at the start.
 class BoxSurface {
 public:
     BoxSurface() = default;
     /// `axes` are the box's, in the world.
-    BoxSurface(const HandSpring& spring, const glm::dvec3& half, const glm::dmat3& axes);
+    BoxSurface(const HandSpring& spring, const BodyDynamics& dynamics, const glm::dmat3& axes);
 
     /// Whether it was a face at the start.
     [[nodiscard]] bool is_face() const { return is_face_; }

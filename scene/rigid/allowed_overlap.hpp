@@ -6,12 +6,14 @@
 
 namespace hapnet::scene {
 
-// Overlaps, in shares of the smallest half edge of the two. With each touch in a tick they may
-// overlap by a little more, so that those that slide on each other or come to rest are not held up
-// and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
+// Overlaps, in shares of the smallest half edge of the two; of round bodies, of how far their
+// surfaces are from their cores, as a thin plate may be deeper in those. With each touch in a tick
+// they may overlap by a little more, so that those that slide on each other or come to rest are not
+// held up and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
 inline constexpr double overlap_step = 0.01;
 inline constexpr double overlap_max = 0.5;
 inline constexpr double least_step = 0.05; // of the above
+inline constexpr double round_overlap_max = 0.9;
 // How near to that counts.
 inline constexpr double near_share = 0.1;
 

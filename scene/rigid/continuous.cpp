@@ -129,7 +129,8 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
         if (!flyer.has_changed) continue;
         const Slot slot = bodies.slot_of[flyer.body];
         bodies.position.put(slot, flyer.flight.centre + scales_.tick * flyer.flight.velocity);
-        bodies.orientation.put(slot, flyer.flight.orientation_at(scales_.tick));
+        bodies.orientation.put(slot, flyer.roll.turned(flyer.flight.orientation_at(scales_.tick),
+                                                       bodies.properties[slot], scales_.tick));
     }
 }
 
@@ -204,7 +205,8 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
     SteadyBox flight{.centre = bodies.position.at(slot),
                      .orientation = bodies.orientation.at(slot),
                      .half = properties.half,
-                     .radius = length(properties.half)};
+                     .radius = outer_radius(properties.half, properties.rounding),
+                     .rounding = properties.rounding};
     if (properties.is_kinematic) { // it has not moved yet
         flight.velocity = bodies.velocity.at(slot);
         flight.spin = bodies.angular_momentum.at(slot);
@@ -237,8 +239,8 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
 /// Whether it goes so far in the rest of the tick that it could pass something.
 bool ContinuousCollision::goes_far(const SteadyBox& flight, double time) const
 {
-    return (scales_.tick - time) * (length(flight.velocity) + flight.radius * length(flight.spin)) >
-           far_way * scales_.least;
+    const double turning = flight.core_radius() * length(flight.spin);
+    return (scales_.tick - time) * (length(flight.velocity) + turning) > far_way * scales_.least;
 }
 
 ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surroundings& around,
@@ -299,7 +301,7 @@ bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& depart
                                   ? chord(bodies, of_other).at(scales_.tick)
                                   : box_of(bodies, of_other);
     const double gap = glm::dot(first.normal, other.centre - own.centre) -
-                       half_projection(own, first.normal) - half_projection(other, first.normal);
+                       half_extent(own, first.normal) - half_extent(other, first.normal);
     return gap < -behind_max * smallest_half(own, other);
 }
 
@@ -323,17 +325,14 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
     const WorldState& state = around.state;
     const Bodies& bodies = state.bodies;
     const Slot slot = bodies.slot_of[flyer.body];
-    const BodyProperties& properties = bodies.properties[slot];
     const glm::dvec3 centre = flyer.flight.centre + time * flyer.flight.velocity;
     const glm::dquat orientation = flyer.flight.orientation_at(time);
     const double left = scales_.tick - time;
     flyer.flight.velocity =
         bodies.velocity.at(slot) - (0.5 * left) * around.steady_acceleration(slot);
-    // The spin that it has now, which is what a touch sees; with unequal moments of inertia it does
-    // not stay: see touch().
-    const OrientedBox box{centre, axes_of(orientation), properties.half};
-    flyer.flight.spin =
-        response_of(properties, box).inverse_inertia * bodies.angular_momentum.at(slot);
+    // What a touch sees is the spin that it has now; it may not stay: see touch().
+    flyer.roll.advance(time);
+    flyer.flight.spin = spin_of(bodies, slot, orientation, flyer.roll);
     flyer.flight.put(centre, orientation, time);
     flyer.is_released = true;
     flyer.has_changed = true;
@@ -345,6 +344,7 @@ void ContinuousCollision::stop(Flyer& flyer, double time)
     flyer.flight.centre += time * flyer.flight.velocity;
     flyer.flight.orientation = flyer.flight.orientation_at(time);
     flyer.flight.velocity = flyer.flight.spin = glm::dvec3{0.0};
+    flyer.roll.stop(time);
     flyer.has_stopped = flyer.has_changed = true;
 }
 
@@ -490,27 +490,33 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
     block.a = a.moves ? 1 : 0;
     block.b = b.moves ? 2 : 0;
     prepare(block, manifold, {a.centre, b.centre}, {});
+    block.set_roundings(meeting.is_plane ? 0.0 : first.flight.rounding, second.flight.rounding);
     block.friction = material.friction;
     const bool many = first.touches >= touches_many || second.touches >= touches_many;
     block.restitution = many ? 0.0 : material.restitution;
     const ContactVector impulse = touch_impulse(block, a, b, least_bounce * scales_.fall);
     if (std::all_of(impulse.begin(), impulse.end(), [](double part) { return part == 0.0; }))
         return false;
-    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm, double driven) {
-        const Slot slot = bodies.slot_of[body];
-        apply_impulse(bodies, slot, by, arm);
-        departures_[slot].beginning.energy_driven += driven;
+    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm) {
+        apply_impulse(bodies, bodies.slot_of[body], by, arm);
         note_push(bodies, body);
+    };
+    const auto note_driven = [&](const Flyer& flyer, const Toucher& was, const Wrench& by,
+                                 const glm::dvec3& arm, double given) {
+        const BodyMotion now = toucher(around, flyer, time).motion;
+        const double taken = 0.5 * (work_of(by, arm, was.motion) + work_of(by, arm, now));
+        departures_[bodies.slot_of[flyer.body]].beginning.energy_driven +=
+            driven_energy(given, taken);
     };
     meeting.has_pushed = true;
     const Wrench on_b = wrench(block, impulse);
     const Wrench on_a{-on_b.impulse, -on_b.angular};
-    if (second.is_movable)
-        push(second.body, on_b, block.arm_b,
-             first.is_kinematic ? work_of(on_b, block.arm_a, a.motion) : 0.0);
-    if (!meeting.is_plane && first.is_movable)
-        push(first.body, on_a, block.arm_a,
-             second.is_kinematic ? work_of(on_a, block.arm_b, b.motion) : 0.0);
+    if (second.is_movable) push(second.body, on_b, block.arm_b);
+    if (!meeting.is_plane && first.is_movable) push(first.body, on_a, block.arm_a);
+    if (first.is_kinematic)
+        note_driven(second, b, on_b, block.arm_b, work_of(on_b, block.arm_a, a.motion));
+    else if (second.is_kinematic)
+        note_driven(first, a, on_a, block.arm_a, work_of(on_a, block.arm_b, b.motion));
     return true;
 }
 

@@ -6,6 +6,7 @@
 #include "scene/collide/advancement.hpp"
 #include "scene/collide/pair_finder.hpp"
 #include "scene/rigid/cluster.hpp"
+#include "scene/rigid/flight.hpp"
 #include "scene/rigid/integrate.hpp"
 #include "scene/rigid/kinematics.hpp"
 #include "scene/rigid/touch.hpp"
@@ -135,6 +136,7 @@ private:
         MeetingIndex first = none;
         double bend = HUGE_VAL; // s: when it goes on with that velocity at the latest
         SteadyBox flight;       // time 0 is the start of the tick
+        Roll roll;
         Aabb searched{glm::dvec3{1.0}, glm::dvec3{-1.0}}; // for others in its way
     };
     /// Two that may touch: a flyer and another, or a plane.
@@ -147,7 +149,7 @@ private:
         bool is_sure = false;  // they touch at `time`
         double time = 0.0;     // s: they surely do not touch until then
         double gap = 0.0;      // m: at which they touch; an overlap
-        double smallest = 0.0; // m: the smallest half edge of the two
+        double smallest = 0.0; // m: the smallest half edge of the two, or their roundings
         MeetingIndex next_of_a = none;
         MeetingIndex next_of_b = none;
     };

@@ -47,11 +47,19 @@ void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting&
         ++around.state.interventions.budgets_spent;
         return;
     }
-    double smallest = shortest_half(flyers_[wanted.a].flight);
-    if (!wanted.is_plane) smallest = std::min(smallest, shortest_half(flyers_[wanted.b].flight));
+    const SteadyBox& flight = flyers_[wanted.a].flight;
+    bool is_round = flight.is_round();
+    double smallest = shortest_half(flight);
+    if (!wanted.is_plane) {
+        const SteadyBox& other = flyers_[wanted.b].flight;
+        is_round = is_round || other.is_round();
+        smallest =
+            is_round ? flight.rounding + other.rounding : std::min(smallest, shortest_half(other));
+    }
     const Gap gap = gap_of(around, wanted, 0.0);
-    // Those that began far in each other cannot pass each other any more.
-    if (gap.distance <= -overlap_max * smallest) return;
+    // Those that began far in each other cannot pass each other any more; but a round body until
+    // its core is in the other.
+    if (gap.distance <= -(is_round ? round_overlap_max : overlap_max) * smallest) return;
     const auto index = static_cast<MeetingIndex>(meetings_.size());
     Meeting& meeting = meetings_.add();
     meeting = wanted;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/rigid/hand_contacts.hpp"
 
+#include "scene/collide/distance.hpp"
 #include "scene/hand/spring.hpp"
 #include "scene/maths/vector.hpp"
 
@@ -125,6 +126,7 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
                         NearBody& near_body, HandSpring& spring) const
 {
     const OrientedBox& box = target.now.box;
+    if (box.is_round()) return find_round(config, input, target, spring);
     const glm::dvec3 offset = input.position.value - box.centre;
     const glm::dvec3 before = near_body.offset * near_body.axes; // in the body's frame
     const glm::dvec3 here = offset * box.axes;
@@ -159,6 +161,23 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
             static_cast<double>(face.sign) * box.axes[face.axis], half[face.axis]};
     press(amid, offset, spring);
     return true;
+}
+
+/// On a sphere or a capsule: by the nearest point of its core.
+bool HandContacts::find_round(const WorldConfig& config, const HandInput& input,
+                              const Target& target, HandSpring& spring) const
+{
+    const OrientedBox& body = target.now.box;
+    const Separation apart = separation(input.position.value, core_of(body));
+    const double turning = sum_of_sizes(target.now.spin) * sum_of_sizes(body.half);
+    spring.normal = apart.direction;
+    spring.arm = apart.on_second - body.centre + body.rounding * spring.normal;
+    spring.gap = apart.distance - body.rounding - spring.radius;
+    spring.is_amid_face = false;
+    const double ahead =
+        config.tick * (sum_of_sizes(input.velocity.value - target.velocity) + turning) +
+        0.5 * gravity_reach_;
+    return spring.gap < ahead;
 }
 
 void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::uint32_t index,

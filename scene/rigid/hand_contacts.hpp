@@ -126,6 +126,8 @@ private:
                NearBody& near_body, HandSpring& spring) const;
     bool find(const WorldConfig& config, const HandInput& input, const Target& target,
               NearBody& near_body, HandSpring& spring) const;
+    bool find_round(const WorldConfig& config, const HandInput& input, const Target& target,
+                    HandSpring& spring) const;
     static void press(const AmidFace& face, const glm::dvec3& offset, HandSpring& spring);
     struct RubbedSpring {
         HandProxies::Touch touch;

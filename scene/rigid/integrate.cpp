@@ -188,7 +188,8 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
                                 rate,
                                 per_second * integration.contact_angular_impulse,
                                 integration.drag,
-                                integration.support_normal};
+                                integration.support_normal,
+                                bodies.properties[slot].rounding};
     const MovingBody start{bodies.position.at(slot), bodies.orientation.at(slot),
                            integration.start.velocity, bodies.angular_momentum.at(slot)};
     MovingBody body = start;

@@ -80,7 +80,8 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       solver_{state.bodies.moving, blocks_for(config, state.bodies)},
       restitution_{config, state.bodies, blocks_for(config, state.bodies)},
       account_{state.bodies},
-      continuous_{config, state.bodies, scales_}
+      continuous_{config, state.bodies, scales_},
+      any_round_{any_is_round(state.bodies.properties)}
 {}
 
 template <BroadPhase broad_phase>
@@ -211,9 +212,8 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
         };
         if (bodies.moving != bodies.movable) wake_carried(state, are_touching);
         // One that is touched by what wakes now is found at once; so on, a few times.
-        for (std::uint32_t round = 0; round < wake_rounds_max; ++round) {
+        for (std::uint32_t round = 0; round < wake_rounds_max; ++round)
             if (!sleep_.wake_touched(bodies, pairs_, are_touching)) break;
-        }
     }
 }
 
@@ -290,9 +290,8 @@ ContactBlock* RigidStepper<broad_phase>::add_contact(std::uint32_t points, Conta
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::set_least_speeds(ContactBlock& block)
 {
-    for (std::uint32_t i = 0; i < block.count; ++i) {
+    for (std::uint32_t i = 0; i < block.count; ++i)
         block.speed_min[i] = velocity_bias(block.separation[i], block.start_impulse[i], scales_);
-    }
 }
 
 template <BroadPhase broad_phase>
@@ -310,8 +309,9 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldS
         const OrientedBox& box = now.box;
         PlaneContact& contact = plane_contacts_[i];
         const double height = glm::dot(plane.normal, box.centre) - plane.offset_m;
-        const std::uint32_t points = contact.find(
-            {pair.a, pair.b, plane.normal, height, now.reach, box.axes, now.orientation, box.half});
+        const std::uint32_t points =
+            contact.find({pair.a, pair.b, plane.normal, height, now.reach, box.axes,
+                          now.orientation, box.half, box.rounding});
         const BodyProperties& properties = bodies.properties[slot];
         const bool is_dragged =
             properties.drag > 0.0 &&
@@ -323,6 +323,7 @@ void RigidStepper<broad_phase>::collide_planes(const WorldConfig& config, WorldS
         activate(bodies, slot);
         block->a = 0;
         block->b = slot + 1;
+        if (any_round_) block->set_roundings(0.0, properties.rounding);
         const Material material = combined(properties.material, plane.material);
         block->friction = material.friction;
         block->restitution = material.restitution;
@@ -360,11 +361,9 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
         const Slot a = bodies.slot_of[pair.a];
         const Slot b = bodies.slot_of[pair.b];
         const SweptContact swept = collide_pair(state, pair);
-        if (swept.may_pass) {
-            // Whatever becomes of them, ContinuousCollision looks at their ways.
-            for (const Slot slot : {a, b})
-                if (slot < bodies.awake) activate(bodies, slot);
-        }
+        // Whatever becomes of them, ContinuousCollision looks at their ways.
+        for (const Slot slot : {a, b})
+            if (swept.may_pass && slot < bodies.awake) activate(bodies, slot);
         ContactBlock* const block = add_contact(swept.manifold.count, pair.memory);
         if (block == nullptr) continue;
         prepare(*block, swept.manifold, swept.centres, pair.memory);
@@ -373,6 +372,8 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
             combined(bodies.properties[a].material, bodies.properties[b].material);
         block->a = index_of_active(a);
         block->b = index_of_active(b);
+        if (any_round_)
+            block->set_roundings(bodies.properties[a].rounding, bodies.properties[b].rounding);
         block->friction = material.friction;
         block->restitution = material.restitution;
         const auto note = [&](SolverIndex body, const glm::dvec3& normal, BodyId other) {
@@ -409,10 +410,9 @@ void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, 
 {
     for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
     // A torque is held for the tick, as last tick's contact forces are.
-    for (const BodyId body : state.twisted) {
+    for (const BodyId body : state.twisted)
         integrations_[state.bodies.slot_of[body] + 1].contact_angular_impulse +=
             scales_.tick * state.torques[body];
-    }
     integrate_hand_springs(config, state);
     for (const Slot slot : active_.slots()) {
         BodyIntegration& integration = integrations_[slot + 1];
@@ -496,9 +496,10 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
 {
     const auto stop = [&](const ContactBlock& block, SolverIndex index, const glm::dvec3& ground) {
-        if (integrations_[index].friction_contacts != 1) return;
-        apply_stop(block, {integrations_[index], ground, index == block.b},
-                   state.bodies.properties[index - 1], scales_, solver_.mean_motion(index));
+        const BodyProperties& body = state.bodies.properties[index - 1];
+        if (integrations_[index].friction_contacts != 1 || rolls(body)) return;
+        apply_stop(block, {integrations_[index], ground, index == block.b}, body, scales_,
+                   solver_.mean_motion(index));
     };
     for (const ContactBlock& block : solver_.blocks()) {
         if (block.friction == 0.0) continue;
@@ -518,9 +519,8 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::correct_positions(WorldState& state)
 {
     for (ContactBlock& block : solver_.blocks()) {
-        for (std::uint32_t i = 0; i < block.count; ++i) {
+        for (std::uint32_t i = 0; i < block.count; ++i)
             block.speed_min[i] = position_bias(block.separation[i], scales_);
-        }
         if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
@@ -554,9 +554,8 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_positions(WorldState& state)
 {
     if (any_far_) continuous_.begin(state.bodies, active_.slots(), integrations_.all(), solver_);
-    for (const Slot slot : active_.slots()) {
+    for (const Slot slot : active_.slots())
         integrate_position(integrations_[slot + 1], state.bodies, slot, solver_, scales_);
-    }
 }
 
 /// Moves the bodies on which nothing acts but gravity.

@@ -112,6 +112,7 @@ private:
     EnergyAccount account_;
     ContinuousCollision continuous_;
     bool any_far_ = false; // some body could pass another in this tick
+    bool any_round_;       // some body is a sphere or a capsule
     Counts counts_;
 };
 

@@ -98,7 +98,7 @@ bool is_nearly_locked_along(const glm::dvec3& normal, const glm::dvec3& inverse_
 {
     constexpr double hair = 1e-6; // along the normal, of what it does where it is not locked
     const double most = std::max(inverse_mass.x, std::max(inverse_mass.y, inverse_mass.z));
-    return glm::dot(normal, inverse_mass * normal) < hair * most;
+    return glm::dot(normal, inverse_mass * normal) <= hair * most;
 }
 
 } // namespace
@@ -269,8 +269,12 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
         block.centripetal_velocity[3] += anchor.y;
         block.centripetal_velocity[4] += anchor.z;
     };
-    if (block.b != 0) add(spin_b, block.arm_b, tick);
-    if (block.a != 0) add(spin_a, block.arm_a, -tick);
+    // What of a round body touches is always as far from its core, whichever way that turns.
+    const auto core_arm = [&](const glm::dvec3& arm, double rounding) {
+        return rounding != 0.0 ? arm + rounding * block.normal : arm;
+    };
+    if (block.b != 0) add(spin_b, core_arm(block.arm_b, block.rounding_b), tick);
+    if (block.a != 0) add(spin_a, core_arm(block.arm_a, -block.rounding_a), -tick);
     // A contact that stands still meets every limit: so impulses that contradict each other, as
     // where a body is squeezed while it turns, have an end.
     for (std::size_t i = 0; i < block.count; ++i) {
@@ -315,14 +319,19 @@ void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& resp
 void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b)
 {
     block.matrix = {};
-    const auto rows = [&](const glm::dvec3& arm, const BodyResponse& body) {
+    const auto rows = [&](const glm::dvec3& arm, double rounding, const BodyResponse& body) {
         std::array<Jacobian, 6> all = jacobian(block, arm);
-        if (is_nearly_locked_along(block.normal, body.inverse_mass))
-            all[0].linear = glm::dvec3{0.0};
+        if (!is_nearly_locked_along(block.normal, body.inverse_mass)) return all;
+        all[0].linear = glm::dvec3{0.0};
+        // Nor does a push through its centre turn a sphere: what is left is rounding.
+        constexpr double hardly = 1e-9;
+        glm::dvec3& lever = all[0].angular;
+        if (rounding > 0.0 && glm::dot(lever, lever) <= hardly * hardly * glm::dot(arm, arm))
+            lever = glm::dvec3{0.0};
         return all;
     };
-    if (block.a != 0) add_body(block.matrix, rows(block.arm_a, a), a);
-    if (block.b != 0) add_body(block.matrix, rows(block.arm_b, b), b);
+    if (block.a != 0) add_body(block.matrix, rows(block.arm_a, block.rounding_a, a), a);
+    if (block.b != 0) add_body(block.matrix, rows(block.arm_b, block.rounding_b, b), b);
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = i + 1; j < 6; ++j) block.matrix[i][j] = block.matrix[j][i];
     }

@@ -72,7 +72,8 @@ struct ContactBlock {
     double friction = 0.0;
     double torsion_arm = 0.0; // metres: the torsion's limit over the friction's
     glm::dvec3 normal{0.0}, tangent_1{0.0}, tangent_2{0.0};
-    glm::dvec3 arm_a{0.0}, arm_b{0.0};                            // from the centres to the anchor
+    glm::dvec3 arm_a{0.0}, arm_b{0.0};         // from the centres to the anchor
+    double rounding_a = 0.0, rounding_b = 0.0; // of round bodies: how far their cores are from it
     std::array<double, manifold_points_max> along_1{}, along_2{}; // the points from the anchor
     std::array<double, manifold_points_max> separation{};
     std::array<double, manifold_points_max> speed_min{}; // the least normal speed of each point
@@ -97,6 +98,11 @@ struct ContactBlock {
     [[nodiscard]] double normal_speed(const ContactVector& velocity, std::size_t point) const
     {
         return velocity[0] + along_2[point] * velocity[1] - along_1[point] * velocity[2];
+    }
+    void set_roundings(double of_a, double of_b)
+    {
+        rounding_a = of_a;
+        rounding_b = of_b;
     }
     [[nodiscard]] double normal_sum() const
     {

@@ -63,7 +63,10 @@ void PlaneContact::renew(const BoxOverPlane& box)
     corners_.plane = box.plane;
     corners_.orientation = box.orientation;
     corners_.tangents = tangents_of(box.normal);
-    const auto corners = deepest_corners(box.normal, box.axes, box.half);
+    const auto corners =
+        box.rounding > 0.0
+            ? lowest_points(box.normal, {glm::dvec3{0.0}, box.axes, box.half, box.rounding})
+            : deepest_corners(box.normal, box.axes, box.half);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         corners_.rise[i] = corners[i].rise;
         corners_.along_1[i] = glm::dot(corners[i].place, corners_.tangents.first);

@@ -20,6 +20,7 @@ struct BoxOverPlane {
     const glm::dmat3& axes;
     const glm::dquat& orientation; // that the axes are of
     const glm::dvec3& half;
+    double rounding = 0.0; // see OrientedBox
 };
 
 /// A box's contact with a plane, for the solver. Mostly only the height is new: the corners are

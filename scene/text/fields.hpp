@@ -140,7 +140,11 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
         base::field("kinematic", &BodyDescription::kinematic, base::Flag{},
                     "it moves with its velocities, or as it sways, whatever it pushes; it needs no "
                     "mass and counts as fixed"),
-        base::field("size", &BodyDescription::half, text::Edges{}, "the edges").required(),
+        base::field("shape", &BodyDescription::shape,
+                    "a sphere's edges are equal; two of a capsule's, which lies along the third"),
+        base::field("size", &BodyDescription::half, text::Edges{},
+                    "the edges, or those of the box around it")
+            .required(),
         base::field("position", &BodyDescription::position, place, "of the centre").always(),
         base::field("orientation", &BodyDescription::orientation, text::Orientation{},
                     "a quaternion may have any length"),

@@ -32,7 +32,7 @@ void read_density(TableReader& table, BodyDescription& body)
         return reading.complain(place,
                                 "mass and density exclude each other: leave out one of them");
     }
-    const double kg = *density.kg_per_m3 * 8.0 * body.half.x * body.half.y * body.half.z;
+    const double kg = mass_of(body, *density.kg_per_m3);
     if (!(kg >= mass_min_kg && kg <= mass_max_kg)) {
         return reading.complain(place,
                                 fmt::format("makes a mass of {:.3g} kg: {} to {} is possible", kg,

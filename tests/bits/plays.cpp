@@ -16,7 +16,7 @@ namespace {
 constexpr std::array all{
     Play{"paper"},     Play{"push-6dof"},       Play{"stack-10"}, Play{"mass-ratio-1000"},
     Play{"cubes-100"}, Play{"stack-10", false}, Play{"conveyor"}, Play{"soft-and-hard"},
-    Play{"guide"},     Play{"stick-slip"},
+    Play{"guide"},     Play{"stick-slip"},      Play{"rolling"},
 };
 
 scene::World world_of(const Play& play)

@@ -184,6 +184,28 @@ Description random_description(Dice& dice, const PlayLimits& limits, double tick
     return drawn;
 }
 
+/// Makes spheres and capsules of some bodies: such as have room within them.
+void make_round(std::uint64_t seed, Description& drawn)
+{
+    Dice dice{base::Seed{seed}.stream("round")};
+    const std::uint64_t how = dice.below(4); // mixed, all of them, spheres, capsules
+    for (BodyDescription& body : drawn.bodies) {
+        if (how == 0 && dice.one_in(2)) continue;
+        const bool is_sphere = how == 2 || (how != 3 && dice.one_in(2));
+        const double least = std::min({body.half.x, body.half.y, body.half.z});
+        if (is_sphere) {
+            body.shape = scene::Shape::sphere;
+            body.half = glm::dvec3{least};
+            continue;
+        }
+        const double longest = std::max({body.half.x, body.half.y, body.half.z});
+        const auto axis = static_cast<int>(dice.below(3));
+        body.shape = scene::Shape::capsule;
+        body.half = glm::dvec3{std::max(least * dice.between(0.2, 0.9), scene::size_min_m)};
+        body.half[axis] = dice.one_in(2) ? longest : least;
+    }
+}
+
 } // namespace
 
 RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
@@ -195,7 +217,10 @@ RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
     play.options.sleeping = !dice.one_in(4);
     play.description =
         random_description(dice, limits, base::to_seconds(play.options.tick), play.overlaps);
-    if (seed >= elements_from) add_elements(seed, play);
+    if (seed >= elements_from)
+        add_elements(seed, play);
+    else if (seed >= round_plays_from)
+        make_round(seed, play.description);
     const auto needed =
         scene::required_features(scene::requirements_of(play.description, play.options.sleeping));
     if (dice.one_in(3)) { // any profile that will do

@@ -40,6 +40,9 @@ struct TickInputs {
     std::vector<Drive> drives;
 };
 
+/// From this seed on, below `elements_from`, some of the bodies are spheres and capsules.
+inline constexpr std::uint64_t round_plays_from = 1'000'000'000;
+
 /// From this seed on scenes have more elements: kinematic bodies, felt planes, fields of force,
 /// springs and friction of their own; and pushes at points, torques, blows and drives.
 inline constexpr std::uint64_t elements_from = 1'000'000'000'000;

@@ -86,7 +86,7 @@ glm::dvec3 free_part(const BodyDescription& form, glm::dvec3 v)
 double spinning_energy(const BodyDescription& form, const glm::dquat& orientation,
                        const glm::dvec3& momentum)
 {
-    const glm::dvec3 inertia = scene::box_inertia(form.mass_kg, form.half);
+    const glm::dvec3 inertia = scene::inertia_of(form);
     switch (form.turning) {
     case Turning::locked: return 0.0;
     case Turning::free: {
@@ -132,7 +132,7 @@ double most_from_push(const World& world, std::uint32_t hand)
 double spinning_range(const BodyDescription& form, const glm::dvec3& momentum)
 {
     if (form.turning != Turning::free) return 0.0;
-    const glm::dvec3 inertia = scene::box_inertia(form.mass_kg, form.half);
+    const glm::dvec3 inertia = scene::inertia_of(form);
     const double least = std::min({inertia.x, inertia.y, inertia.z});
     const double most = std::max({inertia.x, inertia.y, inertia.z});
     return 0.5 * glm::dot(momentum, momentum) * (1.0 / least - 1.0 / most);
@@ -271,7 +271,7 @@ double SceneLaws::turning_slack(const BodyDescription& form, const Moment& was, 
                                 double angle)
 {
     // The spin changes while the angular momentum stays: in the impulses of contacts it counts.
-    const glm::dvec3 inertia = scene::box_inertia(form.mass_kg, form.half);
+    const glm::dvec3 inertia = scene::inertia_of(form);
     const double wobble =
         std::max({inertia.x, inertia.y, inertia.z}) / std::min({inertia.x, inertia.y, inertia.z}) -
         1.0;
@@ -290,7 +290,7 @@ void SceneLaws::add_torque(Balance& balance, const BodyDescription& form, const 
                            const Moment& now, const glm::dvec3& twist)
 {
     const auto spin_of = [&](const glm::dvec3& momentum) {
-        const glm::dvec3 inertia = scene::box_inertia(form.mass_kg, form.half);
+        const glm::dvec3 inertia = scene::inertia_of(form);
         if (form.turning != Turning::free) return momentum / inertia;
         return was.state.orientation *
                ((glm::conjugate(was.state.orientation) * momentum) / inertia);

@@ -36,6 +36,7 @@ struct Throw {
     Material material{};
     bool spins = false;
     double spin_max = 1e4; // rad/s
+    Shape shape = Shape::box;
 };
 
 std::ostream& operator<<(std::ostream& out, const Throw& thrown)
@@ -58,6 +59,7 @@ Description scene_of(const Throw& thrown, std::uint64_t seed)
     scene.gravity = glm::dvec3{0.0};
     scene.hands.count = 0;
     BodyDescription body;
+    body.shape = thrown.shape;
     body.half = thrown.half;
     body.mass_kg = 0.008;
     body.material = thrown.material;
@@ -210,6 +212,33 @@ TEST_P(FastCube, PassesNoWallWhateverItsSize)
     EXPECT_GT(interventions.sweeps_continued, 0U);
     EXPECT_LE(interventions.guards(), 8U);
 }
+
+class FastRoundBody : public testing::TestWithParam<double> {};
+
+TEST_P(FastRoundBody, PassesNoWallAndNoPlane)
+{
+    for (const Shape shape : {Shape::sphere, Shape::capsule}) {
+        Interventions interventions;
+        const glm::dvec3 half =
+            shape == Shape::sphere ? glm::dvec3{0.005} : glm::dvec3{0.004, 0.004, 0.012};
+        for (const double thickness : {2e-3, 20e-3}) {
+            throw_all({.half = half, .speed = GetParam(), .thickness = thickness, .shape = shape},
+                      32, interventions);
+        }
+        for (const Wall wall : {Wall::movable, Wall::plane, Wall::comes, Wall::meets}) {
+            throw_all({.wall = wall, .half = half, .speed = GetParam(), .shape = shape}, 16,
+                      interventions);
+        }
+        for (const auto tick : {250us, 4000us})
+            throw_all({.half = half, .speed = GetParam(), .tick = tick, .shape = shape}, 8,
+                      interventions);
+        // A ball's contact is where it first touches, and no turn takes it any farther.
+        EXPECT_EQ(interventions.sweeps_continued > 0U, shape == Shape::capsule);
+        EXPECT_EQ(interventions.guards(), 0U);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, FastRoundBody, testing::Values(10.0, 50.0, 100.0, 300.0, 1000.0));
 
 TEST_P(FastCube, PassesNoWallOnAnySpin)
 {

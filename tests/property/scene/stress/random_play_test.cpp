@@ -17,6 +17,14 @@ TEST(RandomPlay, KeepsEveryLawAndItsFutureAfterASnapshot)
     }
 }
 
+TEST(RandomPlay, OfRoundBodiesKeepsEveryLaw)
+{
+    for (std::uint64_t seed = round_plays_from; seed < round_plays_from + 300; ++seed) {
+        const PlayOutcome outcome = judge(random_play(seed), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+    }
+}
+
 TEST(RandomPlay, KeepsThemWithEveryElementOfAScene)
 {
     for (std::uint64_t seed = elements_from; seed < elements_from + 300; ++seed) {
@@ -113,7 +121,8 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{600121857, "PushedByAHandThatHoldsOneFarAway"},
         Scar{600155233, "PushedHardByAHandThatHoldsOneFarAway"},
         Scar{800098062, "NotHitItselfButANeighbour"}, Scar{7015132, "GrippedLightlyWhileItSpins"},
-        Scar{7029090, "GrippedHardWhileItSpins"}, Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
+        Scar{7029090, "GrippedHardWhileItSpins"}, Scar{7032676, "GrippedInLongTicksWhileItSpins"},
+        Scar{1000001991, "PushedThroughItsLockedCentre"}),
     [](const auto& each) { return each.param.name; });
 
 /// Fast bodies that are packed, or that spin beside each other, and used up the looks of a tick.

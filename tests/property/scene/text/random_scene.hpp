@@ -112,6 +112,13 @@ private:
         drawn.kinematic = !drawn.movable && below(2) == 0;
         drawn.half = glm::dvec3{between(size_min_m, size_max_m)};
         if (below(2) == 0) drawn.half.z = between(size_min_m, size_max_m);
+        drawn.shape = static_cast<Shape>(below(3));
+        if (drawn.shape == Shape::sphere) drawn.half.z = drawn.half.x;
+        if (drawn.shape == Shape::capsule) {
+            drawn.half.z = drawn.half.x; // the longest of the two
+            drawn.half.x = drawn.half.y = 0.5 * (size_min_m + drawn.half.z);
+            if (drawn.half.x == drawn.half.z) drawn.shape = Shape::sphere;
+        }
         drawn.position.value = vector(reach_max_m);
         drawn.orientation = orientation();
         drawn.velocity.value = vector(speed_max_m_per_s);

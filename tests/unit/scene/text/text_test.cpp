@@ -179,7 +179,7 @@ TEST(SceneText, EveryBuiltInSceneReadsUnderItsNameAndPrintsAsItself)
         {"cubes-100", 100}, {"cubes-1000", 1000},   {"cubes-10000", 10'000}, {"paper", 2},
         {"stack-10", 10},   {"mass-ratio-1000", 2}, {"push-6dof", 2},        {"lift", 1},
         {"wall", 2},        {"conveyor", 10},       {"soft-and-hard", 3},    {"guide", 2},
-        {"stick-slip", 3}};
+        {"stick-slip", 3},  {"rolling", 7}};
     for (const auto& [name, bodies] : expected) {
         const auto scene = load_scene(std::string{name}, {});
         ASSERT_TRUE(scene) << scene.error().message;
