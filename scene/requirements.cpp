@@ -104,8 +104,8 @@ Requirement without_contact(Feature feature)
 std::string_view name_of(Feature feature)
 {
     constexpr std::array<std::string_view, features> names{
-        "contact", "hips",  "skew", "rotation",  "friction", "restitution", "drag",
-        "bodies",  "sleep", "grid", "kinematic", "feel",     "felt-planes", "fields"};
+        "contact", "hips", "skew",      "rotation", "friction",    "restitution", "drag",  "bodies",
+        "sleep",   "grid", "kinematic", "feel",     "felt-planes", "fields",      "joints"};
     return names.at(static_cast<std::size_t>(feature));
 }
 
@@ -125,7 +125,9 @@ FeatureSet abilities_of(StepperKind kind)
     case StepperKind::flight: add(rotation, skew, fields); break;
     case StepperKind::many: add(grid); [[fallthrough]];
     case StepperKind::few: add(bodies, sleep); [[fallthrough]];
-    case StepperKind::lone: add(rotation, skew, kinematic, feel, felt_planes); [[fallthrough]];
+    case StepperKind::lone:
+        add(rotation, skew, kinematic, feel, felt_planes, joints);
+        [[fallthrough]];
     case StepperKind::sliding_coulomb: add(friction); [[fallthrough]];
     case StepperKind::sliding: add(contact, hands, restitution, drag, fields); break;
     }
@@ -167,12 +169,14 @@ Requirements requirements_of(const Description& description, bool sleeping)
                 fmt::format("planes that hands feel: {}; hands: {}", census.felt_planes,
                             description.hands.count)),
         require(fields, !description.fields.empty(),
-                fmt::format("fields of force: {}", description.fields.size()))};
+                fmt::format("fields of force: {}", description.fields.size())),
+        require(joints, !description.joints.empty(),
+                fmt::format("joints: {}", description.joints.size()))};
     if (!needs[0].is_required) {
         for (Requirement& each : needs) {
             const bool is_own = each.feature == contact || each.feature == rotation ||
                                 each.feature == kinematic || each.feature == felt_planes ||
-                                each.feature == fields;
+                                each.feature == fields || each.feature == joints;
             if (!is_own) each = without_contact(each.feature);
         }
     }

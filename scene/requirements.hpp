@@ -27,8 +27,9 @@ enum class Feature : std::uint8_t {
     feel,        // bodies or hands with a stiffness or damping of their own
     felt_planes, // planes that hands feel
     fields,      // fields of force
+    joints,      // joints between bodies, or a body and the world
 };
-inline constexpr std::size_t features = 14;
+inline constexpr std::size_t features = 15;
 
 [[nodiscard]] std::string_view name_of(Feature feature);
 

@@ -138,7 +138,7 @@ bool is_unit(std::string_view word)
     static constexpr std::array kinds{
         &length_kind,    &mass_kind,  &density_kind,    &stiffness_kind, &damping_kind,
         &force_kind,     &turn_kind,  &force_rate_kind, &speed_kind,     &acceleration_kind,
-        &frequency_kind, &angle_kind, &mobility_kind};
+        &frequency_kind, &angle_kind, &mobility_kind,   &torsion_kind,   &torsion_damping_kind};
     return std::any_of(kinds.begin(), kinds.end(), [&](const QuantityKind* kind) {
         return parse_quantity(one, *kind).has_value();
     });

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace hapnet::scene {
 
@@ -157,10 +158,12 @@ void EnergyAccount::settle_islands(const Tick& tick)
         if (tick.solver.responds(block.a) && tick.solver.responds(block.b))
             islands_.join(block.a, block.b);
     }
+    join_joined(tick.solver.joints(), islands_);
     for (const Slot slot : tick.active) {
         const SolverIndex root = islands_.root_of(slot + 1);
         if (root != slot + 1) balances_[root].add(balances_[slot + 1]);
     }
+    leave_joined(tick.solver.joints());
     for (const Slot slot : tick.active) {
         const SolverIndex root = islands_.root_of(slot + 1);
         const Balance& island = balances_[root];
@@ -173,6 +176,16 @@ void EnergyAccount::settle_islands(const Tick& tick)
         const SolverIndex body = tick.solver.responds(block.a) ? block.a : block.b;
         const Balance& island = balances_[islands_.root_of(body)];
         if (island.is_exceeded()) scale_impulses(*block.memory, island.share());
+    }
+}
+
+/// A share of a joint's impulse would not hold it: JointEnergy settles the islands with joints.
+void EnergyAccount::leave_joined(const JointSolver& joints)
+{
+    for (const JointSolver::Group& group : joints.groups()) {
+        if (group.is_awake)
+            balances_[islands_.root_of(joints.body_of(group))].stored =
+                std::numeric_limits<double>::infinity();
     }
 }
 

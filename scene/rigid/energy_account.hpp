@@ -58,6 +58,7 @@ private:
     [[nodiscard]] static Balance balance_of(const Tick& tick, Slot slot);
     static void scale(const Tick& tick, Slot slot, double share);
     void settle_islands(const Tick& tick);
+    void leave_joined(const JointSolver& joints);
 
     Scratch<Balance> balances_; // by solver index; then by the first body of an island
     Islands islands_;

@@ -36,6 +36,7 @@ struct BodyIntegration {
     double drag = 0.0;                           // 1/s, on the plane that supports it
     glm::dvec3 support_normal{0.0};              // its normal
     FirstTouch first_touch;                      // of those met on its way
+    bool is_joined = false;                      // a joint holds it: it goes where that lets it
     double energy_driven = 0.0; // J: work of the own motion of hands and of kinematic bodies
 
     // Where a body with hands on it would be at the end.
@@ -105,6 +106,14 @@ Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots
 /// one with hands on it.
 [[nodiscard]] glm::dvec3 spin_through_tick(const BodyIntegration& integration, const Bodies& bodies,
                                            Slot slot, const BodyMotion& mean, double tick);
+
+/// Where integrate_position() will move the body.
+struct Placement {
+    glm::dvec3 position{0.0};
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+};
+[[nodiscard]] Placement placement_at_end(const BodyIntegration& integration, const Bodies& bodies,
+                                         Slot slot, const BodyMotion& mean, double tick);
 
 /// Moves the body by the mean velocity that was solved for.
 void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace hapnet::scene {
 
@@ -61,6 +62,12 @@ std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
     return bodies.movable * std::min(others, contacts_per_body_max);
 }
 
+JointSolver solver_of(const Description& description)
+{
+    JointOrder order = joint_order(description);
+    return {std::move(order.groups), std::move(order.first)};
+}
+
 bool any_bounces(const WorldConfig& config, const Bodies& bodies)
 {
     const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
@@ -71,8 +78,8 @@ bool any_bounces(const WorldConfig& config, const Bodies& bodies)
 } // namespace
 
 template <BroadPhase broad_phase>
-RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
-                                        const WorldConfig& config, const WorldState& state)
+RigidStepper<broad_phase>::RigidStepper(const Description& description, const WorldConfig& config,
+                                        const WorldState& state)
     : scales_{scales_of(config, state.bodies)},
       pairs_{config, state.bodies},
       sleep_{config, state.bodies},
@@ -84,32 +91,45 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       kinematics_{state.bodies, scales_},
       plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.moving + std::size_t{1}},
-      solver_{state.bodies.moving, blocks_for(config, state.bodies)},
+      solver_{state.bodies.moving, blocks_for(config, state.bodies), solver_of(description)},
       restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
       account_{state.bodies.moving},
+      joints_{description, state.bodies, scales_},
+      joint_energy_{state.bodies, solver_.joints().groups().size()},
       continuous_{config, state.bodies, scales_}
-{}
+{
+    if constexpr (sleeps) {
+        for (std::size_t group = 0; group < solver_.joints().groups().size(); ++group)
+            sleep_.join(joints_.bodies_of(group));
+    }
+}
 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& state)
 {
     state.tick_cost = {};
     const bool has_kinematics = state.bodies.moving != state.bodies.movable;
+    const bool has_joints = !joints_.is_empty();
+    const std::uint64_t hits = state.interventions.sweeps_continued;
     if (has_kinematics) kinematics_.begin_tick(config, state);
     update_pairs(state);
     collide_hands(config, state);
     wake_disturbed(state);
     begin_contacts(state);
     if (has_kinematics) kinematics_.begin_contacts(state.bodies, solver_, integrations_.all());
+    if (has_joints) begin_joints(state);
     collide_planes(config, state);
     collide_bodies(state);
     warm_start();
+    if (has_joints) joints_.warm_start(solver_, integrations_.all());
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
     const bool bounced =
         restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
+    if (has_joints) joints_.stiffen(state.bodies, solver_, integrations_.all());
     const bool changed = solve_velocities(state.tick_cost);
     if (has_kinematics) add_driven_energy(solver_, integrations_.all());
     store_contact_impulses(state);
+    if (has_joints) joints_.store_impulses(state, solver_);
     stop_sliding_contacts(state);
     correct_positions(state);
     if (bounced || changed) settle_energy(config, state);
@@ -118,6 +138,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     integrate_free_bodies(state);
     if (any_far_) solve_continuous(config, state);
     if (has_kinematics) kinematics_.end_tick(state);
+    if (has_joints) settle_joints(config, state, hits);
     active_.clear();
     report_hand_forces(config, state);
     update_sleep(state);
@@ -273,6 +294,23 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
     const BodyProperties& properties = bodies.properties[slot];
     solver_.response(slot + 1) = response_of(properties, boxes_.at(bodies, properties.id).box);
     reset(integrations_[slot + 1]);
+}
+
+/// All bodies that joints hold take part in the tick.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::begin_joints(const WorldState& state)
+{
+    const Bodies& bodies = state.bodies;
+    joints_.begin_contacts(bodies, solver_);
+    for (std::size_t group = 0; group < solver_.joints().groups().size(); ++group) {
+        if (!solver_.joints().groups()[group].is_awake) continue;
+        for (const BodyId body : joints_.bodies_of(group)) {
+            activate(bodies, bodies.slot_of[body]);
+            integrations_[bodies.slot_of[body] + 1].is_joined = true;
+        }
+    }
+    joints_.begin_tick(state, solver_);
+    joint_energy_.begin_tick(state);
 }
 
 /// A block for the solver; null without a point or room.
@@ -467,6 +505,7 @@ bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
     counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
+    if (!joints_.is_empty()) joints_.soften(solver_);
     for (const Slot slot : active_.slots()) {
         const BodyIntegration& integration = integrations_[slot + 1];
         const BodyMotion& end = solver_.end_motion(slot + 1);
@@ -530,7 +569,9 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
         if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
+    if (!joints_.is_empty()) joints_.set_way_targets(state, solver_, integrations_.all());
     state.tick_cost.visits += solver_.correct_positions(position_limits()).visits;
+    if (!joints_.is_empty()) joints_.bound_ways(solver_);
     // A body that is thrown off its path is held back; the others go as far as that lets them.
     const auto keep = [&] {
         const Ways ways =
@@ -540,6 +581,7 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
     };
     if (!keep()) return;
     state.tick_cost.visits += solver_.correct_positions_again(position_limits()).visits;
+    if (!joints_.is_empty()) joints_.bound_ways(solver_);
     keep();
 }
 
@@ -578,6 +620,16 @@ void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, Worl
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
     }
+}
+
+/// Takes away what joints gained out of nothing, once everything is where it is.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::settle_joints(const WorldConfig& config, WorldState& state,
+                                              std::uint64_t hits_before)
+{
+    joints_.end_tick(state, solver_.joints());
+    joint_energy_.settle({config, state, active_.slots(), integrations_.all(), solver_, joints_,
+                          state.interventions.sweeps_continued != hits_before});
 }
 
 template <BroadPhase broad_phase>

@@ -9,6 +9,8 @@
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
+#include "scene/rigid/joint_energy.hpp"
+#include "scene/rigid/joints.hpp"
 #include "scene/rigid/kinematics.hpp"
 #include "scene/rigid/restitution.hpp"
 #include "scene/rigid/sleep.hpp"
@@ -65,6 +67,7 @@ private:
     void collide_hands(const WorldConfig& config, WorldState& state);
     void wake_disturbed(WorldState& state);
     void begin_contacts(const WorldState& state);
+    void begin_joints(const WorldState& state);
     void collide_planes(const WorldConfig& config, WorldState& state);
     void collide_bodies(WorldState& state);
     void warm_start();
@@ -77,6 +80,7 @@ private:
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
     void solve_continuous(const WorldConfig& config, WorldState& state);
+    void settle_joints(const WorldConfig& config, WorldState& state, std::uint64_t hits_before);
     void report_hand_forces(const WorldConfig& config, WorldState& state);
     void update_sleep(WorldState& state);
 
@@ -105,6 +109,8 @@ private:
     ContactSolver solver_;
     Restitution restitution_;
     EnergyAccount account_;
+    Joints joints_;
+    JointEnergy joint_energy_;
     ContinuousCollision continuous_;
     bool any_far_ = false; // some body could pass another in this tick
     Counts counts_;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// soak_scene FIRST COUNT: plays the random scenes of the seeds FIRST .. FIRST + COUNT - 1 under
-// the laws. Prints every seed that breaks one, and at the end the worst of each, and how often the
-// ticks had to step in. With HAPNET_SOAK_GUARDS set, also every seed in which a guard acted. Exits
-// 0 when none is broken.
+// soak_scene FIRST COUNT [joints]: plays the random scenes of the seeds FIRST .. FIRST + COUNT - 1
+// under the laws; with `joints`, each with joints between its bodies. Prints every seed that breaks
+// one, and at the end the worst of each, and how often the ticks had to step in. With
+// HAPNET_SOAK_GUARDS set, also every seed in which a guard acted. Exits 0 when none is broken.
 #include "tests/support/scene/scene_laws.hpp"
 
 #include <algorithm>
@@ -54,8 +54,9 @@ void report(const Tally& tally)
 
 int main(int argc, char** argv)
 {
-    if (argc != 3) {
-        fmt::print(stderr, "usage: soak_scene FIRST COUNT\n");
+    const bool joints = argc == 4 && std::string{argv[3]} == "joints";
+    if (argc != 3 && !joints) {
+        fmt::print(stderr, "usage: soak_scene FIRST COUNT [joints]\n");
         return 2;
     }
     const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
@@ -63,7 +64,7 @@ int main(int argc, char** argv)
     constexpr std::uint64_t often = 10'000;
     Tally tally;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
-        const auto play = hapnet::test::random_play(seed);
+        const auto play = hapnet::test::random_play(seed, {.joints = joints});
         const auto outcome = hapnet::test::judge(play, seed);
         ++tally.played;
         tally.ticks += play.ticks.size();
