@@ -11,10 +11,11 @@ also those that scripts/test.sh needs. Runs as root or with sudo, asks nothing, 
 when nothing is missing."
 
 packages=(g++ cmake jq ninja-build libboost-dev libcli11-dev libexpected-dev libglm-dev
-    libhidapi-dev librandom123-dev libreaderwriterqueue-dev libspdlog-dev libtomlplusplus-dev
-    libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
+    libhidapi-dev librandom123-dev libreaderwriterqueue-dev libsodium-dev libspdlog-dev
+    libtomlplusplus-dev libusb-1.0-0-dev nlohmann-json3-dev pkg-config)
 test_packages=(clang-14 clang-format-14 clang-tidy-14 libbenchmark-dev libbullet-dev
-    libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14 shellcheck
+    libclang-rt-14-dev libgtest-dev libmujoco-dev libode-dev libumockdev-dev lld-14
+    python3-dissononce python3-transitions shellcheck
     tshark umockdev valgrind)
 
 for argument in "$@"; do

@@ -22,6 +22,8 @@ const std::vector<Folder>& map()
         {"proto/base", true, {}},
         {"proto/cli", false, {"proto/base"}},
         {"proto/wire", true, {"proto/base"}},
+        {"proto/secure/keys", false, {"proto/secure"}},
+        {"proto/secure", true, {"proto/base"}},
         {"proto/record", false, {"proto/base"}},
         {"proto/net", false, {"proto/base"}},
         {"proto/control/core", true, {"proto/base"}},

@@ -1,0 +1,412 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "proto/secure/association.hpp"
+
+#include "proto/base/bytes.hpp"
+#include "proto/base/ensure.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace hapnet::secure {
+
+namespace {
+
+using base::ByteReader;
+using base::ByteWriter;
+
+/// What both sides of a handshake must mean alike.
+std::array<std::byte, 18> prologue_of(const Association::Config& config)
+{
+    constexpr std::string_view protocol = "hapnet 2";
+    std::array<std::byte, 18> prologue{};
+    ByteWriter out{prologue};
+    out.raw(std::as_bytes(std::span{protocol}));
+    out.raw(config.circle);
+    out.u8(std::min(config.own_id, config.other_id));
+    out.u8(std::max(config.own_id, config.other_id));
+    return prologue;
+}
+
+Mac mac_of(Bytes bytes)
+{
+    Mac mac{};
+    std::ranges::copy(bytes, mac.begin());
+    return mac;
+}
+
+constexpr std::size_t type_place = 3, session_place = 4;
+constexpr std::byte plain_hello{1}, plain_state_type{2};
+
+} // namespace
+
+Association::Responding::Responding(KeyIndex own_index, const Initiation& initiation,
+                                    const StaticKeys& keys, Bytes prologue, Secret ephemeral,
+                                    const Place& from)
+    : own{own_index},
+      other{initiation.sender},
+      noise{Role::responder, keys, prologue, std::move(ephemeral)},
+      cause{mac_of(initiation.mac1)},
+      to{from}
+{}
+
+Association::Association(const Config& config, StaticKeys keys, Secret seed)
+    : config_{config},
+      keys_{std::move(keys)},
+      entropy_{std::move(seed)},
+      prologue_{prologue_of(config)},
+      other_mac1_key_{key_of_mac1(keys_.pre_shared(), keys_.other())},
+      door_{key_of_mac1(keys_.pre_shared(), keys_.own_public()), entropy_.secret()},
+      cookies_{other_mac1_key_},
+      place_{config.place}
+{
+    base::ensure(config.own_id != config.other_id && config.run != 0);
+    base::ensure(config.session_of != nullptr);
+}
+
+std::uint32_t Association::session_with(std::uint32_t other_run) const
+{
+    return is_lower() ? config_.session_of(config_.run, other_run)
+                      : config_.session_of(other_run, config_.run);
+}
+
+/// An index that names nothing else of this side.
+KeyIndex Association::fresh_index()
+{
+    for (;;) {
+        const auto bytes = entropy_.bytes<4>();
+        const KeyIndex index = ByteReader{bytes}.u32();
+        const bool is_taken = epoch_of(index) != nullptr ||
+                              (initiating_ && initiating_->own == index) ||
+                              (responding_ && responding_->own == index);
+        if (index != 0 && !is_taken) return index;
+    }
+}
+
+Association::Epoch* Association::epoch_of(KeyIndex index)
+{
+    for (auto* epoch : {&current_, &next_, &previous_})
+        if (*epoch && (*epoch)->own == index) return &**epoch;
+    return nullptr;
+}
+
+// --- what comes ---
+
+std::optional<Association::Received> Association::on_datagram(std::span<std::byte> datagram,
+                                                              const Place& from, Moment moment)
+{
+    const auto type = frame_type_of(datagram);
+    if (!type) {
+        ++counts_.unsealed;
+        return std::nullopt;
+    }
+    switch (*type) {
+    case FrameType::initiation: on_initiation(datagram, from, moment.now); return std::nullopt;
+    case FrameType::response: on_response(datagram); return std::nullopt;
+    case FrameType::cookie: on_cookie_reply(datagram, moment.now); return std::nullopt;
+    case FrameType::hello:
+    case FrameType::state:
+    case FrameType::bye: break;
+    }
+    const auto index = key_of(datagram);
+    if (!index) {
+        ++counts_.unsealed;
+        return std::nullopt;
+    }
+    return on_message(datagram, *index, from, moment.now);
+}
+
+std::optional<Association::Received> Association::on_message(std::span<std::byte> datagram,
+                                                             KeyIndex index, const Place& from,
+                                                             base::TimePoint now)
+{
+    if (previous_ && now >= previous_until_) previous_.reset();
+    Epoch* epoch = epoch_of(index);
+    if (epoch == nullptr) {
+        ++counts_.unknown_key;
+        return std::nullopt;
+    }
+    const OpenedFrame opened = open_frame(datagram, epoch->opener);
+    if (opened.outcome == Opener::Outcome::forged) ++counts_.forged;
+    if (opened.outcome == Opener::Outcome::replayed) ++counts_.replayed;
+    if (opened.size == 0) return std::nullopt;
+    last_opened_ = now;
+    if (next_ && epoch == &*next_) { // the other side has it: use it, too
+        use(std::move(*std::exchange(next_, std::nullopt)), now);
+        epoch = &*current_;
+        answered_.reset(); // it has come
+    }
+    const bool is_newest = opened.is_state && opened.outcome == Opener::Outcome::opened_newest;
+    const bool has_moved = is_newest && epoch == &*current_ && config_.may_roam;
+    if (!place_) {
+        place_ = from;
+    } else if (has_moved && *place_ != from) {
+        ++counts_.roamed;
+        place_ = from;
+    }
+    if (datagram[type_place] != plain_hello)
+        ByteWriter{datagram.subspan(session_place, 4)}.u32(epoch->session);
+    return Received{opened.size, epoch->other_run};
+}
+
+void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoint now)
+{
+    const auto initiation = read_initiation(datagram);
+    const Ends expected{config_.other_id, config_.own_id};
+    if (!initiation || initiation->ends != expected ||
+        !door_.knows_us(initiation->covered_by_mac1, initiation->mac1)) {
+        ++counts_.other_circle;
+        return;
+    }
+    const Mac cause = mac_of(initiation->mac1);
+    if (answered_ && answered_->cause == cause) {
+        answered_->to = from;
+        return send_answer(now);
+    }
+    if (responding_) return; // with this one, or one at a time
+    if (!door_.lets_in(*initiation, from, now)) {
+        ++counts_.cookies;
+        return send(door_.cookie_reply(*initiation, from, now), from);
+    }
+    if (initiating_ && is_lower()) return; // the other side answers ours
+    responding_.emplace(fresh_index(), *initiation, keys_, prologue_, entropy_.secret(), from);
+    responding_->noise.read(initiation->noise);
+}
+
+void Association::on_response(Bytes datagram)
+{
+    const auto response = read_response(datagram);
+    if (!response || !door_.knows_us(response->covered_by_mac1, response->mac1)) {
+        ++counts_.other_circle;
+        return;
+    }
+    if (!initiating_ || !initiating_->frame || response->receiver != initiating_->own ||
+        initiating_->other)
+        return; // a repetition
+    initiating_->other = response->sender;
+    initiating_->noise.read(response->noise);
+}
+
+void Association::on_cookie_reply(Bytes datagram, base::TimePoint now)
+{
+    const auto reply = read_cookie_reply(datagram);
+    const bool is_for_us = reply && initiating_ && initiating_->frame &&
+                           reply->receiver == initiating_->own &&
+                           cookies_.take(*reply, initiating_->frame->mac1(), now);
+    if (!is_for_us) {
+        ++counts_.other_circle;
+        return;
+    }
+    initiating_->frame->set_macs(other_mac1_key_, cookies_.cookie(now));
+    initiating_->last_sent.reset(); // again, with it
+}
+
+// --- what is due ---
+
+void Association::tick(Moment moment)
+{
+    if (responding_) {
+        step_response(moment.now);
+    } else if (initiating_ && (!initiating_->frame || initiating_->other)) {
+        step_initiation(moment);
+    } else if (!initiating_ && needs_key(moment.now)) {
+        begin(moment);
+    }
+    repeat(moment.now);
+}
+
+bool Association::needs_key(base::TimePoint now) const
+{
+    if (now < listens_until_) return false;
+    if (next_ && now - next_->made < fresh_after) return false; // it is being confirmed
+    if (!current_) return true;
+    const base::Duration lasts = rekey_after + (is_lower() ? -rekey_spread : rekey_spread);
+    return now - current_->made >= lasts || now - last_opened_ >= silence;
+}
+
+void Association::begin(Moment moment)
+{
+    if (!place_) return;
+    if (!unanswered_since_) unanswered_since_ = moment.now;
+    initiating_.emplace(fresh_index(), keys_, prologue_, entropy_.secret(), moment.now);
+    std::array<std::byte, initiation_payload_bytes> payload{};
+    ByteWriter out{payload};
+    out.i64(moment.unix_ns);
+    out.u32(config_.run);
+    out.u32(0);
+    initiating_->noise.write(payload);
+}
+
+void Association::step_initiation(Moment moment)
+{
+    Initiating& own = *initiating_;
+    const auto progress = own.noise.step();
+    if (progress == NoiseKk::Progress::working) return;
+    if (progress == NoiseKk::Progress::refused) {
+        ++counts_.refused;
+        initiating_.reset();
+        return;
+    }
+    if (!own.frame) {
+        own.frame = HandshakeFrame::initiation(own.own, {config_.own_id, config_.other_id},
+                                               own.noise.message());
+        own.frame->set_macs(other_mac1_key_, cookies_.cookie(moment.now));
+        return;
+    }
+    const std::uint32_t other_run = ByteReader{own.noise.payload()}.u32();
+    if (other_run == 0) {
+        ++counts_.refused;
+        initiating_.reset();
+        return;
+    }
+    counts_.last_handshake = moment.now - unanswered_since_.value_or(own.began);
+    unanswered_since_.reset();
+    Epoch made{own.own,   *own.other, own.noise.split(), other_run, session_with(other_run),
+               moment.now};
+    initiating_.reset();
+    next_.reset();
+    last_opened_ = moment.now;
+    use(std::move(made), moment.now);
+}
+
+void Association::use(Epoch epoch, base::TimePoint now)
+{
+    ++counts_.handshakes;
+    if (current_ && current_->other_run == epoch.other_run) ++counts_.rekeys;
+    previous_.reset();
+    if (current_) previous_.emplace(std::move(*current_));
+    previous_until_ = now + previous_lasts;
+    current_.emplace(std::move(epoch));
+}
+
+void Association::step_response(base::TimePoint now)
+{
+    const auto progress = responding_->noise.step();
+    if (progress == NoiseKk::Progress::working) return;
+    const bool goes_on =
+        progress == NoiseKk::Progress::done && (responding_->is_writing || take_initiation());
+    if (!goes_on) {
+        responding_.reset();
+        return;
+    }
+    if (responding_->is_writing) return answer(now);
+    responding_->is_writing = true;
+    std::array<std::byte, response_payload_bytes> payload{};
+    ByteWriter{payload}.u32(config_.run);
+    responding_->noise.write(payload);
+}
+
+/// Whether an initiation that is proven to be the other side's is new, too.
+bool Association::take_initiation()
+{
+    ByteReader in{responding_->noise.payload()};
+    const std::int64_t timestamp = in.i64();
+    responding_->other_run = in.u32();
+    const bool is_canonical = in.u32() == 0 && in.complete() && responding_->other_run != 0;
+    if (!is_canonical) {
+        ++counts_.refused;
+        return false;
+    }
+    if (last_timestamp_ && timestamp <= *last_timestamp_) {
+        ++counts_.replayed;
+        return false;
+    }
+    last_timestamp_ = timestamp;
+    return true;
+}
+
+void Association::answer(base::TimePoint now)
+{
+    Responding& own = *responding_;
+    HandshakeFrame frame = HandshakeFrame::response(own.other, own.own, own.noise.message());
+    frame.set_macs(other_mac1_key_, cookies_.cookie(now));
+    next_.reset();
+    next_.emplace(own.own, own.other, own.noise.split(), own.other_run, session_with(own.other_run),
+                  now);
+    answered_ = Answer{.frame = frame, .cause = own.cause, .to = own.to};
+    send_answer(now);
+    responding_.reset();
+    initiating_.reset(); // what the other side began has come farther
+    unanswered_since_.reset();
+}
+
+/// Three of them are no more bytes than three times what asked for them.
+void Association::send_answer(base::TimePoint now)
+{
+    answered_->repeats_left = response_repeats;
+    answered_->repeat_at = now + repeat_every;
+    send(answered_->frame, answered_->to);
+}
+
+void Association::repeat(base::TimePoint now)
+{
+    if (answered_ && answered_->repeats_left > 0 && now >= answered_->repeat_at) {
+        --answered_->repeats_left;
+        answered_->repeat_at = now + repeat_every;
+        send(answered_->frame, answered_->to);
+    }
+    if (!initiating_ || !initiating_->frame || initiating_->other) return;
+    if (now - initiating_->began >= fresh_after) {
+        // The lower id listens for a while: perhaps the other side can reach us.
+        if (is_lower()) listens_until_ = now + listen_for;
+        initiating_.reset();
+        return;
+    }
+    const bool is_slow = now - unanswered_since_.value_or(now) >= repeat_slowly_after;
+    const base::Duration every = is_slow ? repeat_slowly_every : repeat_every;
+    if (initiating_->last_sent && now - *initiating_->last_sent < every) return;
+    initiating_->last_sent = now;
+    if (place_) send(*initiating_->frame, *place_);
+}
+
+// --- what goes ---
+
+void Association::send(const HandshakeFrame& frame, const Place& to)
+{
+    if (outgoing_count_ < outgoing_.size()) outgoing_[outgoing_count_++] = {frame, to};
+}
+
+std::optional<Association::Outgoing> Association::poll()
+{
+    if (outgoing_count_ == 0) return std::nullopt;
+    const Outgoing first = outgoing_.front();
+    std::copy(outgoing_.begin() + 1,
+              outgoing_.begin() + static_cast<std::ptrdiff_t>(outgoing_count_), outgoing_.begin());
+    --outgoing_count_;
+    return first;
+}
+
+bool Association::has_key(base::TimePoint now) const
+{
+    return current_ && now - current_->made < key_lasts;
+}
+
+std::optional<base::Duration> Association::key_age(base::TimePoint now) const
+{
+    if (!current_) return std::nullopt;
+    return now - current_->made;
+}
+
+std::optional<std::size_t> Association::seal(std::span<std::byte> room, std::size_t size,
+                                             base::TimePoint now)
+{
+    const auto sealed = [&]() -> std::optional<std::size_t> {
+        if (!has_key(now) || size < session_place + 4) return std::nullopt;
+        Epoch& epoch = *current_;
+        if (room[type_place] == plain_state_type) {
+            if (size < state_head_bytes) return std::nullopt;
+            ByteReader in{Bytes{room}.subspan(session_place)};
+            const bool is_of_session = in.u32() == epoch.session;
+            if (!is_of_session || !epoch.sealer.may_seal(Kind::state, in.u32()))
+                return std::nullopt;
+            return seal_frame(room, size, epoch.other, 0, epoch.sealer);
+        }
+        if (!epoch.sealer.may_seal(Kind::control, epoch.controls + 1)) return std::nullopt;
+        return seal_frame(room, size, epoch.other, ++epoch.controls, epoch.sealer);
+    }();
+    if (!sealed) ++counts_.not_sealed;
+    return sealed;
+}
+
+} // namespace hapnet::secure

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+#include "proto/secure/door.hpp"
+#include "proto/secure/entropy.hpp"
+#include "proto/secure/frames.hpp"
+#include "proto/secure/noise_kk.hpp"
+#include "proto/secure/transport.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace hapnet::secure {
+
+/// Both clocks of one moment: the one that only runs forward, and the date, which a handshake
+/// carries so that an old one is known for that.
+struct Moment {
+    base::TimePoint now;
+    std::int64_t unix_ns = 0;
+};
+
+/// What one peer and another seal their messages with: makes keys when the two meet, makes new ones
+/// every two minutes and after silence, opens what comes under them, and knows where the other side
+/// is. Does no I/O and reads no clock: feed with on_datagram() and tick(), drain with poll(). A
+/// call of tick() takes at most one multiplication on the curve. All memory is there from the
+/// beginning, whatever comes.
+///
+/// The lower id wins when both begin at the same time. The responder goes on with the old key until
+/// something opens under the new one. A key is for one run of each side, so it names their session.
+class Association {
+public:
+    static constexpr base::Duration silence{std::chrono::seconds{1}};
+    static constexpr base::Duration rekey_after{std::chrono::seconds{120}};
+    static constexpr base::Duration rekey_spread{std::chrono::seconds{10}};
+    static constexpr base::Duration key_lasts{std::chrono::seconds{3600}};
+    static constexpr base::Duration previous_lasts{std::chrono::seconds{10}};
+    static constexpr base::Duration repeat_every{std::chrono::milliseconds{20}};
+    static constexpr base::Duration repeat_slowly_every{std::chrono::milliseconds{200}};
+    static constexpr base::Duration repeat_slowly_after{std::chrono::seconds{10}};
+    static constexpr base::Duration fresh_after{std::chrono::seconds{5}};
+    static constexpr base::Duration listen_for{std::chrono::seconds{1}};
+    static constexpr int response_repeats = 2;
+
+    struct Config {
+        std::uint8_t own_id = 0, other_id = 0; // they differ
+        std::array<std::byte, 8> circle{};     // names the circle; both sides' are the same
+        std::uint32_t run = 0;                 // of this program, not 0
+        std::optional<Place> place;            // where the other side is said to be
+        bool may_roam = true;                  // it may be found elsewhere
+        std::uint32_t (*session_of)(std::uint32_t low_run, std::uint32_t high_run) = nullptr;
+    };
+    /// `seed` is drawn at random, and used for nothing else.
+    Association(const Config& config, StaticKeys keys, Secret seed);
+    Association(const Association&) = delete;
+    Association& operator=(const Association&) = delete;
+
+    /// A message that was opened: the first bytes of the datagram are the plain message.
+    struct Received {
+        std::size_t size = 0;
+        std::uint32_t other_run = 0;
+    };
+    /// Opens a message in place, or takes in a part of a handshake.
+    std::optional<Received> on_datagram(std::span<std::byte> datagram, const Place& from,
+                                        Moment moment);
+    /// Goes on with handshakes, and begins one when it is time.
+    void tick(Moment moment);
+
+    struct Outgoing {
+        HandshakeFrame frame;
+        Place to{};
+    };
+    /// What a handshake has to send.
+    [[nodiscard]] std::optional<Outgoing> poll();
+
+    /// Seals a plain message in place; its room has `control_overhead` bytes more. nullopt: there
+    /// is no key for it, so it is not to be sent.
+    [[nodiscard]] std::optional<std::size_t> seal(std::span<std::byte> room, std::size_t size,
+                                                  base::TimePoint now);
+    [[nodiscard]] bool has_key(base::TimePoint now) const;
+    /// Where to send; nullopt before the other side was heard, when nobody said it.
+    [[nodiscard]] const std::optional<Place>& place() const { return place_; }
+    [[nodiscard]] std::optional<base::Duration> key_age(base::TimePoint now) const;
+
+    struct Counts {
+        std::uint64_t handshakes = 0; // that were finished, rekeying included
+        std::uint64_t rekeys = 0;     // between the same runs
+        std::uint64_t forged = 0;     // not sealed with the key that they name
+        std::uint64_t replayed = 0;   // messages that had come already, and handshakes of old
+        std::uint64_t unsealed = 0;   // plain, or nothing of ours
+        std::uint64_t unknown_key = 0;
+        std::uint64_t other_circle = 0; // handshakes without the pre-shared key, or for others
+        std::uint64_t refused = 0;      // handshakes that failed later
+        std::uint64_t cookies = 0;      // asked for, as too many handshakes came
+        std::uint64_t roamed = 0;
+        std::uint64_t not_sealed = 0;    // own messages for which there was no key
+        base::Duration last_handshake{}; // how long the last one took that this side began
+    };
+    [[nodiscard]] const Counts& counts() const { return counts_; }
+
+private:
+    /// What one handshake made.
+    struct Epoch {
+        Epoch(KeyIndex own_index, KeyIndex other_index, NoiseKk::TransportKeys keys,
+              std::uint32_t run, std::uint32_t number, base::TimePoint now)
+            : own{own_index},
+              other{other_index},
+              sealer{std::move(keys.to_other)},
+              opener{std::move(keys.from_other)},
+              other_run{run},
+              session{number},
+              made{now}
+        {}
+
+        KeyIndex own, other;
+        Sealer sealer;
+        Opener opener;
+        std::uint32_t other_run;
+        std::uint32_t session;
+        base::TimePoint made;
+        std::uint32_t controls = 0; // sealed
+    };
+    struct Initiating {
+        Initiating(KeyIndex index, const StaticKeys& keys, Bytes prologue, Secret ephemeral,
+                   base::TimePoint now)
+            : own{index}, noise{Role::initiator, keys, prologue, std::move(ephemeral)}, began{now}
+        {}
+
+        KeyIndex own;
+        NoiseKk noise;
+        base::TimePoint began;
+        std::optional<HandshakeFrame> frame; // when it is written
+        std::optional<base::TimePoint> last_sent;
+        std::optional<KeyIndex> other; // while the response is read
+    };
+    struct Responding {
+        Responding(KeyIndex own_index, const Initiation& cause, const StaticKeys& keys,
+                   Bytes prologue, Secret ephemeral, const Place& from);
+
+        KeyIndex own, other;
+        NoiseKk noise;
+        Mac cause{}; // its first MAC
+        Place to{};
+        bool is_writing = false;
+        std::uint32_t other_run = 0;
+    };
+    struct Answer {
+        HandshakeFrame frame;
+        Mac cause{};
+        Place to{};
+        int repeats_left = 0;
+        base::TimePoint repeat_at{};
+    };
+
+    std::optional<Received> on_message(std::span<std::byte> datagram, KeyIndex index,
+                                       const Place& from, base::TimePoint now);
+    void on_initiation(Bytes datagram, const Place& from, base::TimePoint now);
+    void on_response(Bytes datagram);
+    void on_cookie_reply(Bytes datagram, base::TimePoint now);
+    void step_response(base::TimePoint now);
+    void step_initiation(Moment moment);
+    [[nodiscard]] bool take_initiation();
+    void answer(base::TimePoint now);
+    void send_answer(base::TimePoint now);
+    void begin(Moment moment);
+    void repeat(base::TimePoint now);
+    void use(Epoch epoch, base::TimePoint now);
+    void send(const HandshakeFrame& frame, const Place& to);
+    [[nodiscard]] bool needs_key(base::TimePoint now) const;
+    [[nodiscard]] bool is_lower() const { return config_.own_id < config_.other_id; }
+    [[nodiscard]] std::uint32_t session_with(std::uint32_t other_run) const;
+    [[nodiscard]] KeyIndex fresh_index();
+    [[nodiscard]] Epoch* epoch_of(KeyIndex index);
+
+    Config config_;
+    StaticKeys keys_;
+    Entropy entropy_;
+    std::array<std::byte, 18> prologue_{};
+    Hash other_mac1_key_;
+    Door door_;
+    CookieJar cookies_;
+    std::optional<Place> place_;
+
+    // Of at most three: in use, made but not confirmed by the other side, and on its way out.
+    std::optional<Epoch> current_, next_, previous_;
+    base::TimePoint previous_until_;
+    base::TimePoint last_opened_;
+
+    std::optional<Initiating> initiating_;
+    std::optional<base::TimePoint> unanswered_since_;
+    base::TimePoint listens_until_;
+    std::optional<Responding> responding_;
+    std::optional<Answer> answered_;
+    std::optional<std::int64_t> last_timestamp_; // of the other side's newest initiation
+
+    std::array<Outgoing, 4> outgoing_{};
+    std::size_t outgoing_count_ = 0;
+    Counts counts_;
+};
+
+} // namespace hapnet::secure

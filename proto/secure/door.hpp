@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/time.hpp"
+#include "proto/secure/entropy.hpp"
+#include "proto/secure/frames.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace hapnet::secure {
+
+/// An address and a port as bytes that a shell fills in; a core only compares them.
+using Place = std::array<std::byte, 18>;
+
+/// The key of a handshake message's first MAC: who knows the pre-shared key and whom it speaks to
+/// can make it. Checked before anything that costs more.
+[[nodiscard]] Hash key_of_mac1(const Secret& pre_shared, const PublicKey& receiver);
+
+/// Lets in what deserves a handshake's work: a forged initiation costs one hash. When more genuine
+/// ones come than a peer has reason to send, somebody repeats captured ones; then only a sender
+/// that can be reached where it says gets in, with a cookie (as WireGuard has it, section 5.3 of
+/// its paper). Holds nothing per sender.
+class Door {
+public:
+    /// More initiations in a second ask for a cookie.
+    static constexpr std::uint32_t handshakes_per_second_max = 20;
+    static constexpr base::Duration secret_lasts{std::chrono::seconds{120}};
+
+    Door(const Hash& own_mac1_key, Secret seed);
+
+    /// Whether a handshake message's first MAC is the one for us. Ask this first.
+    [[nodiscard]] bool knows_us(Bytes covered, Bytes mac1) const;
+    /// Whether a genuine initiation gets in without a cookie, or has brought one.
+    [[nodiscard]] bool lets_in(const Initiation& initiation, const Place& from,
+                               base::TimePoint now);
+    /// The answer when it does not.
+    [[nodiscard]] HandshakeFrame cookie_reply(const Initiation& initiation, const Place& from,
+                                              base::TimePoint now);
+
+private:
+    [[nodiscard]] bool is_busy(base::TimePoint now);
+    [[nodiscard]] Mac cookie_for(const Place& place, base::TimePoint now);
+
+    Hash mac1_key_;
+    Entropy entropy_;
+    Secret cookie_secret_;
+    std::optional<base::TimePoint> cookie_secret_since_;
+    base::TimePoint second_began_;
+    std::uint32_t in_this_second_ = 0;
+};
+
+/// The other end of that: the cookie that was sent for our last handshake message.
+class CookieJar {
+public:
+    static constexpr base::Duration cookie_lasts = Door::secret_lasts;
+
+    explicit CookieJar(const Hash& other_mac1_key);
+
+    /// Takes it when it answers the message with that MAC.
+    bool take(const CookieReply& reply, Bytes mac1_sent, base::TimePoint now);
+    [[nodiscard]] std::optional<Mac> cookie(base::TimePoint now) const;
+
+private:
+    Secret key_;
+    std::optional<Mac> cookie_;
+    base::TimePoint since_;
+};
+
+} // namespace hapnet::secure

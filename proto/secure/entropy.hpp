@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/secure/primitives.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace hapnet::secure {
+
+/// Secrets from one that was drawn at random: a core draws nothing itself, and a test repeats them.
+/// After each draw the state is hashed forward, so that memory that is read later does not tell
+/// what was drawn before.
+class Entropy {
+public:
+    explicit Entropy(Secret seed) : state_{std::move(seed)} {}
+
+    [[nodiscard]] Secret secret()
+    {
+        const SecretHash next = authenticate(state_.bytes(), purpose_state);
+        Secret drawn{authenticate(state_.bytes(), purpose_draw).bytes().first<key_bytes>()};
+        state_ = Secret{next.bytes().first<key_bytes>()};
+        return drawn;
+    }
+    /// For what is seen by everybody: an index, a nonce.
+    template <std::size_t count>
+    [[nodiscard]] std::array<std::byte, count> bytes()
+    {
+        static_assert(count <= key_bytes);
+        const Secret drawn = secret();
+        std::array<std::byte, count> result{};
+        for (std::size_t i = 0; i < count; ++i) result[i] = drawn.bytes()[i];
+        return result;
+    }
+
+private:
+    static constexpr std::array purpose_state{std::byte{1}};
+    static constexpr std::array purpose_draw{std::byte{2}};
+
+    Secret state_;
+};
+
+} // namespace hapnet::secure

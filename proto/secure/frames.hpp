@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/secure/primitives.hpp"
+#include "proto/secure/transport.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace hapnet::secure {
+
+// The bytes of sealed messages and of handshakes; docs/formats/sealed.md is the specification.
+// Numbers are in little-endian order. Each begins with the magic number and the version of the
+// plain messages, so that any version can tell that it is not its own.
+
+inline constexpr std::uint16_t magic = 0x4e48; // "HN"
+inline constexpr std::uint8_t version = 2;
+
+/// Byte 3 of a datagram. A plain message sealed has its own type with this bit.
+inline constexpr std::uint8_t sealed_bit = 0x80;
+enum class FrameType : std::uint8_t {
+    hello = 0x81,
+    state = 0x82,
+    bye = 0x83,
+    initiation = 0x88,
+    response = 0x89,
+    cookie = 0x8a,
+};
+/// The type of a sealed message or of a handshake; nullopt for anything else, plain messages too.
+[[nodiscard]] std::optional<FrameType> frame_type_of(Bytes datagram);
+
+/// An index names a key, or a handshake under way, to the side that chose it.
+using KeyIndex = std::uint32_t;
+
+// --- sealed messages ---
+
+/// The bytes that sealing adds: to a state the tag, as its sequence number is the number of the
+/// seal; to another message a number and the tag.
+inline constexpr std::size_t state_overhead = tag_bytes;
+inline constexpr std::size_t control_overhead = 4 + tag_bytes;
+/// What stays readable: magic, version, type, key, sequence, time of sending.
+inline constexpr std::size_t state_head_bytes = 20;
+inline constexpr std::size_t control_head_bytes = 12;
+
+/// A plain message in its room, which has `control_overhead` bytes more, is sealed in place.
+/// `number` is the seal's for hello and bye. Returns the size; nullopt for what is no message of
+/// ours.
+[[nodiscard]] std::optional<std::size_t> seal_frame(std::span<std::byte> room, std::size_t size,
+                                                    KeyIndex key, std::uint32_t number,
+                                                    Sealer& sealer);
+
+/// Which key a sealed message names; nullopt for other frames and what is too short.
+[[nodiscard]] std::optional<KeyIndex> key_of(Bytes datagram);
+
+/// A sealed message opened in place.
+struct OpenedFrame {
+    Opener::Outcome outcome = Opener::Outcome::forged;
+    bool is_state = false;
+    std::size_t size = 0; // of the plain message, if it was opened; its session number is 0
+};
+[[nodiscard]] OpenedFrame open_frame(std::span<std::byte> datagram, Opener& opener);
+
+// --- handshakes ---
+
+/// Who a handshake is between.
+struct Ends {
+    std::uint8_t from = 0, to = 0;
+
+    friend bool operator==(const Ends&, const Ends&) = default;
+};
+
+inline constexpr std::size_t initiation_payload_bytes = 16;
+inline constexpr std::size_t response_payload_bytes = 4;
+inline constexpr std::size_t initiation_bytes = 108;
+inline constexpr std::size_t response_bytes = 96;
+inline constexpr std::size_t cookie_bytes = 64;
+
+/// The handshake's first message, and what it needs to be answered.
+struct Initiation {
+    KeyIndex sender{};
+    Ends ends;
+    Bytes noise;
+    Bytes covered_by_mac1, mac1, covered_by_mac2, mac2;
+};
+[[nodiscard]] std::optional<Initiation> read_initiation(Bytes datagram);
+
+struct Response {
+    KeyIndex receiver{}, sender{};
+    Bytes noise;
+    Bytes covered_by_mac1, mac1, covered_by_mac2, mac2;
+};
+[[nodiscard]] std::optional<Response> read_response(Bytes datagram);
+
+struct CookieReply {
+    KeyIndex receiver{};
+    WideNonce nonce{};
+    Bytes sealed; // a cookie and its tag
+};
+[[nodiscard]] std::optional<CookieReply> read_cookie_reply(Bytes datagram);
+
+/// Bytes of one of the three, not more.
+class HandshakeFrame {
+public:
+    [[nodiscard]] Bytes bytes() const { return Bytes{bytes_}.first(size_); }
+
+    [[nodiscard]] static HandshakeFrame initiation(KeyIndex sender, Ends ends, Bytes noise);
+    [[nodiscard]] static HandshakeFrame response(KeyIndex receiver, KeyIndex sender, Bytes noise);
+    [[nodiscard]] static HandshakeFrame cookie(KeyIndex receiver, const WideNonce& nonce,
+                                               Bytes sealed);
+    /// Of an initiation or response: what proves that the sender knows whom it speaks to, and that
+    /// it can be reached where it says; zeros until they are set.
+    void set_macs(Bytes key_of_mac1, const std::optional<Mac>& cookie);
+    [[nodiscard]] Bytes mac1() const;
+
+private:
+    std::array<std::byte, initiation_bytes> bytes_{};
+    std::size_t size_ = 0;
+};
+
+} // namespace hapnet::secure

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/result.hpp"
+#include "proto/secure/entropy.hpp"
+#include "proto/secure/noise_kk.hpp"
+#include "proto/secure/primitives.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::secure {
+
+/// What a host has to have to play in a circle of peers: its own private key, everybody else's
+/// public one, and a key that all of them share. As text:
+///
+///     name = "lab"                 # of the circle
+///     id = 1
+///     secret = "BASE64"            # of this host alone
+///     psk = "BASE64"               # of the circle; without it all zeros
+///     [[peer]]
+///     id = 2
+///     public = "BASE64"
+///     endpoint = "10.0.0.2:7000"   # where to begin; may be missing
+struct KeyFile {
+    static constexpr std::uint8_t id_max = 31;
+    static constexpr std::size_t name_bytes_max = 64;
+
+    struct Member {
+        std::uint8_t id = 0;
+        PublicKey key{};
+        std::string endpoint; // empty: not said
+    };
+
+    std::string name;
+    std::uint8_t id = 1;
+    Secret own;
+    Secret pre_shared;
+    std::vector<Member> others; // by id
+
+    /// nullptr when no such peer is in the circle.
+    [[nodiscard]] const Member* find(std::uint8_t peer) const;
+    /// What an association with that peer needs; the peer is in the circle.
+    [[nodiscard]] StaticKeys keys_with(const Member& member) const;
+    /// The circle's name as handshakes carry it.
+    [[nodiscard]] std::array<std::byte, 8> circle() const;
+    /// Sixteen hexadecimal digits in groups of four, the same on every host of a circle whose hosts
+    /// hold the same keys: to be compared by telephone. Tells nothing of the keys.
+    [[nodiscard]] std::string fingerprint() const;
+};
+
+/// Reads the text of a key file; `source` names it in complaints, which never quote a secret.
+[[nodiscard]] base::Result<KeyFile> parse_key_file(std::string_view text,
+                                                   const std::string& source);
+/// Text that reads back as the same; it holds the secrets.
+[[nodiscard]] std::string print_key_file(const KeyFile& file);
+
+/// The files of a new circle with the ids 1 to `count` (at most KeyFile::id_max), each for its host
+/// alone.
+[[nodiscard]] std::vector<KeyFile> make_circle(const std::string& name, std::uint8_t count,
+                                               Entropy& entropy);
+
+} // namespace hapnet::secure

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/secure/primitives.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace hapnet::secure {
+
+/// What one side of a handshake has before it begins.
+class StaticKeys {
+public:
+    /// nullopt when nothing can be shared with that public key.
+    [[nodiscard]] static std::optional<StaticKeys> from(Secret own, const PublicKey& other,
+                                                        Secret shared);
+
+    [[nodiscard]] const Secret& own() const { return own_; }
+    [[nodiscard]] const PublicKey& own_public() const { return own_public_; }
+    [[nodiscard]] const PublicKey& other() const { return other_; }
+    [[nodiscard]] const Secret& pre_shared() const { return pre_shared_; }
+    /// Diffie and Hellman's secret of the two static keys: computed once, not in every handshake.
+    [[nodiscard]] const Secret& common() const { return common_; }
+
+private:
+    StaticKeys(Secret own, const PublicKey& other, Secret shared, Secret common)
+        : own_{std::move(own)},
+          own_public_{public_key_of(own_)},
+          other_{other},
+          pre_shared_{std::move(shared)},
+          common_{std::move(common)}
+    {}
+
+    Secret own_;
+    PublicKey own_public_;
+    PublicKey other_;
+    Secret pre_shared_;
+    Secret common_;
+};
+
+/// The initiator of a handshake sends its first message.
+enum class Role : std::uint8_t { initiator, responder };
+
+/// One side's part in a handshake by the Noise protocol Noise_KKpsk0_25519_ChaChaPoly_BLAKE2b
+/// (noiseprotocol.org, revision 34):
+///
+///     -> s   <- s   ...   -> psk, e, es, ss   <- e, ee, se
+///
+/// Two messages. Both sides prove that they hold their private key and the pre-shared key; what is
+/// sealed with the keys that come out stays secret when those become known later. Begin a message
+/// with write() or read(), then step() until it is done: a step takes one multiplication on the
+/// curve at most (some 50 us), so that nothing else has to wait for a handshake. Reads no clock and
+/// draws nothing at random.
+class NoiseKk {
+public:
+    static constexpr std::size_t payload_bytes_max = 32;
+    static constexpr std::size_t message_bytes_max = key_bytes + payload_bytes_max + tag_bytes;
+
+    /// `prologue` is what both sides must agree on. `keys` outlives this. `ephemeral` is drawn
+    /// afresh for every handshake.
+    NoiseKk(Role role, const StaticKeys& keys, Bytes prologue, Secret ephemeral);
+
+    /// Begins the message that is this side's to send.
+    void write(Bytes payload);
+    /// Begins to read the message that is the other side's to send.
+    void read(Bytes message);
+
+    enum class Progress : std::uint8_t { working, done, refused };
+    /// Goes on with the message; after `refused` the handshake is of no more use.
+    [[nodiscard]] Progress step();
+
+    /// The message, when write() is done.
+    [[nodiscard]] Bytes message() const { return Bytes{buffer_}.first(size_); }
+    /// What was in it, when read() is done.
+    [[nodiscard]] Bytes payload() const;
+
+    /// The keys for what follows, after both messages.
+    struct TransportKeys {
+        Secret to_other, from_other;
+        Hash handshake{}; // the same on both sides, and on no others
+    };
+    [[nodiscard]] TransportKeys split();
+
+private:
+    enum class Token : std::uint8_t { psk, e, es, ss, ee, se };
+    struct Tokens {
+        std::array<Token, 4> all{};
+        std::size_t count = 0;
+    };
+    static constexpr std::array<Tokens, 2> messages{
+        Tokens{{Token::psk, Token::e, Token::es, Token::ss}, 4},
+        Tokens{{Token::e, Token::ee, Token::se}, 3}};
+
+    void mix_hash(Bytes data);
+    void mix_key(Bytes input);
+    void mix_key_and_hash(Bytes input);
+    void begin(std::size_t size, bool writes);
+    void mix_ephemeral();
+    void mix_shared(const Secret& own, const PublicKey& other);
+    [[nodiscard]] bool multiplies(Token token) const;
+    void apply(Token token);
+    [[nodiscard]] Progress finish();
+
+    Role role_;
+    const StaticKeys& keys_;
+    Secret ephemeral_;
+    PublicKey ephemeral_public_{};
+    PublicKey other_ephemeral_{};
+    SecretHash chaining_key_;
+    Hash hash_;
+    Secret key_; // of the cipher
+    std::uint64_t number_ = 0;
+
+    std::size_t message_ = 0; // 0, 1; 2: all done
+    std::size_t token_ = 0;
+    bool writes_ = false;
+    bool is_under_way_ = false;
+    bool is_refused_ = false;
+    std::array<std::byte, message_bytes_max> buffer_{};
+    std::size_t size_ = 0;
+};
+
+} // namespace hapnet::secure

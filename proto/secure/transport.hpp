@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/secure/primitives.hpp"
+#include "proto/secure/replay_window.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hapnet::secure {
+
+/// Messages of one kind have numbers of their own, so that a lost hello leaves no gap among states.
+enum class Kind : std::uint8_t { state = 0, control = 1 };
+inline constexpr std::size_t kinds = 2;
+
+/// Seals messages with one key. A number that does not grow within its kind ends the program: no
+/// nonce is ever used twice.
+class Sealer {
+public:
+    /// A key seals no more messages of a kind than this.
+    static constexpr std::uint32_t number_max = 0x7fff'ffff;
+
+    explicit Sealer(Secret key) : key_{std::move(key)} {}
+
+    [[nodiscard]] bool may_seal(Kind kind, std::uint32_t number) const
+    {
+        return number >= next_[static_cast<std::size_t>(kind)] && number <= number_max;
+    }
+
+    /// `room` holds the text and after it `tag_bytes` free bytes.
+    void seal(Kind kind, std::uint32_t number, Bytes associated, std::span<std::byte> room);
+
+private:
+    Secret key_;
+    std::array<std::uint64_t, kinds> next_{}; // the least number that may come
+};
+
+/// Opens what the Sealer of the other side sealed, each message once.
+class Opener {
+public:
+    /// Of the states, so many behind the newest may still come: 8 s at 1 kHz.
+    static constexpr std::size_t state_window = 8192;
+    static constexpr std::size_t control_window = 64;
+
+    explicit Opener(Secret key) : key_{std::move(key)} {}
+
+    enum class Outcome : std::uint8_t {
+        opened,
+        opened_newest, // no message of its kind has a greater number
+        replayed,      // it has come already, or is too old to tell; not looked at
+        forged,        // not sealed with this key
+    };
+    /// Opens it in place. Only a genuine message moves the window.
+    [[nodiscard]] Outcome open(Kind kind, std::uint32_t number, Bytes associated,
+                               std::span<std::byte> room);
+
+private:
+    Secret key_;
+    ReplayWindow<state_window> states_;
+    ReplayWindow<control_window> controls_;
+};
+
+} // namespace hapnet::secure
