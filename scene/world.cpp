@@ -4,7 +4,7 @@
 
 #include "proto/base/ensure.hpp"
 #include "scene/fields.hpp"
-#include "scene/rigid/joints.hpp"
+#include "scene/rigid/joint_order.hpp"
 
 #include <array>
 #include <bit>

@@ -234,6 +234,41 @@ void apply_stop(const ContactBlock& block, const SlidingBody& body,
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
+void stop_sliding_contacts(const Bodies& bodies, const Scales& scales, ContactSolver& solver,
+                           std::span<const BodyIntegration> integrations)
+{
+    const auto stop = [&](const ContactBlock& block, SolverIndex index, const glm::dvec3& ground) {
+        if (integrations[index].friction_contacts != 1) return;
+        apply_stop(block, {integrations[index], ground, index == block.b},
+                   bodies.properties[index - 1], scales, solver.mean_motion(index));
+    };
+    for (const ContactBlock& block : solver.blocks()) {
+        if (block.friction == 0.0) continue;
+        if (block.a == 0 || block.b == 0) {
+            stop(block, block.a + block.b, glm::dvec3{0.0});
+        } else if (solver.responds(block.a) != solver.responds(block.b)) {
+            const SolverIndex index = solver.responds(block.a) ? block.a : block.b;
+            const BodyMotion& ground = integrations[block.a + block.b - index].start;
+            if (ground.spin == glm::dvec3{0.0}) stop(block, index, ground.velocity);
+        }
+    }
+}
+
+void warm_start(ContactSolver& solver, std::span<BodyIntegration> integrations)
+{
+    const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push,
+                         double sign) {
+        if (!solver.responds(index)) return;
+        BodyIntegration& body = integrations[index];
+        body.contact_impulse += sign * push.impulse;
+        body.contact_angular_impulse += sign * (glm::cross(arm, push.impulse) + push.angular);
+    };
+    for (const ContactBlock& block : solver.blocks()) {
+        add(block.b, block.arm_b, block.start_push, 1.0);
+        add(block.a, block.arm_a, block.start_push, -1.0);
+    }
+}
+
 Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots,
                             std::span<const BodyIntegration> integrations, ContactSolver& solver,
                             const Scales& scales)

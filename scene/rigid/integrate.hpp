@@ -85,6 +85,14 @@ struct SlidingBody {
 void apply_stop(const ContactBlock& block, const SlidingBody& body,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
+/// The same for all bodies with but one such contact, once the impulses are known.
+void stop_sliding_contacts(const Bodies& bodies, const Scales& scales, ContactSolver& solver,
+                           std::span<const BodyIntegration> integrations);
+
+/// Sums up last tick's contact impulses on each body. They count as constant forces, so that a body
+/// that rests or slides straight on is in balance before the solver looks at it.
+void warm_start(ContactSolver& solver, std::span<BodyIntegration> integrations);
+
 /// A body that goes farther than this in a tick, in half edges of the smallest body, could pass
 /// through something.
 inline constexpr double far_way = 0.5;

@@ -40,7 +40,7 @@ public:
         std::span<const BodyIntegration> integrations; // by solver index
         ContactSolver& solver;
         Joints& joints;
-        bool is_one_island = false; // something was hit on its way: by whom is not followed
+        bool is_one_island = false; // something was hit on its way: by what is not followed
     };
     void settle(const Tick& tick);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/rigid/integrate.hpp"
+#include "scene/rigid/joint_order.hpp"
 #include "scene/solver/joint_solver.hpp"
 #include "scene/state.hpp"
 
@@ -12,17 +13,6 @@
 #include <vector>
 
 namespace hapnet::scene {
-
-/// The joints of a scene by their groups: those that share movable bodies stand side by side.
-struct JointOrder {
-    std::vector<JointId> ids;
-    std::vector<JointSolver::Group> groups;
-    std::vector<std::uint32_t> first; // see JointSolver
-};
-[[nodiscard]] JointOrder joint_order(const Description& description);
-
-/// The pairs of bodies that joints keep from touching each other, sorted, the lower id first.
-[[nodiscard]] std::vector<BodyPair> joined_apart(const Description& description);
 
 /// What joints make of a tick: their rows for the solver, and what they did.
 ///

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <utility>
 
 namespace hapnet::scene {
 
@@ -62,12 +61,6 @@ std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
     return bodies.movable * std::min(others, contacts_per_body_max);
 }
 
-JointSolver solver_of(const Description& description)
-{
-    JointOrder order = joint_order(description);
-    return {std::move(order.groups), std::move(order.first)};
-}
-
 bool any_bounces(const WorldConfig& config, const Bodies& bodies)
 {
     const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
@@ -91,7 +84,7 @@ RigidStepper<broad_phase>::RigidStepper(const Description& description, const Wo
       kinematics_{state.bodies, scales_},
       plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.moving + std::size_t{1}},
-      solver_{state.bodies.moving, blocks_for(config, state.bodies), solver_of(description)},
+      solver_{state.bodies.moving, blocks_for(config, state.bodies), joint_solver_of(description)},
       restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
       account_{state.bodies.moving},
       joints_{description, state.bodies, scales_},
@@ -120,7 +113,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     if (has_joints) begin_joints(state);
     collide_planes(config, state);
     collide_bodies(state);
-    warm_start();
+    warm_start(solver_, integrations_.all());
     if (has_joints) joints_.warm_start(solver_, integrations_.all());
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
     const bool bounced =
@@ -130,7 +123,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     if (has_kinematics) add_driven_energy(solver_, integrations_.all());
     store_contact_impulses(state);
     if (has_joints) joints_.store_impulses(state, solver_);
-    stop_sliding_contacts(state);
+    stop_sliding_contacts(state.bodies, scales_, solver_, integrations_.all());
     correct_positions(state);
     if (bounced || changed) settle_energy(config, state);
     if (has_kinematics && kinematics_.any_far()) any_far_ = true;
@@ -138,7 +131,11 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     integrate_free_bodies(state);
     if (any_far_) solve_continuous(config, state);
     if (has_kinematics) kinematics_.end_tick(state);
-    if (has_joints) settle_joints(config, state, hits);
+    if (has_joints) {
+        joints_.end_tick(state, solver_.joints());
+        joint_energy_.settle({config, state, active_.slots(), integrations_.all(), solver_, joints_,
+                              state.interventions.sweeps_continued != hits});
+    }
     active_.clear();
     report_hand_forces(config, state);
     update_sleep(state);
@@ -429,24 +426,6 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
     }
 }
 
-/// Sums up last tick's contact impulses on each body. They count as constant forces, so that a body
-/// that rests or slides straight on is in balance before the solver looks at it.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::warm_start()
-{
-    const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push,
-                         double sign) {
-        if (!solver_.responds(index)) return;
-        BodyIntegration& body = integrations_[index];
-        body.contact_impulse += sign * push.impulse;
-        body.contact_angular_impulse += sign * (glm::cross(arm, push.impulse) + push.angular);
-    };
-    for (const ContactBlock& block : solver_.blocks()) {
-        add(block.b, block.arm_b, block.start_push, 1.0);
-        add(block.a, block.arm_a, block.start_push, -1.0);
-    }
-}
-
 /// Finds the velocities of the active bodies at the end of the tick, without what their contacts
 /// have to change.
 template <BroadPhase broad_phase>
@@ -536,27 +515,6 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
     }
 }
 
-/// Ends the slip of a body's only contact with friction at its moment within the tick.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
-{
-    const auto stop = [&](const ContactBlock& block, SolverIndex index, const glm::dvec3& ground) {
-        if (integrations_[index].friction_contacts != 1) return;
-        apply_stop(block, {integrations_[index], ground, index == block.b},
-                   state.bodies.properties[index - 1], scales_, solver_.mean_motion(index));
-    };
-    for (const ContactBlock& block : solver_.blocks()) {
-        if (block.friction == 0.0) continue;
-        if (block.a == 0 || block.b == 0) {
-            stop(block, block.a + block.b, glm::dvec3{0.0});
-        } else if (solver_.responds(block.a) != solver_.responds(block.b)) {
-            const SolverIndex index = solver_.responds(block.a) ? block.a : block.b;
-            const BodyMotion& ground = integrations_[block.a + block.b - index].start;
-            if (ground.spin == glm::dvec3{0.0}) stop(block, index, ground.velocity);
-        }
-    }
-}
-
 /// Changes the mean velocities so that nothing overlaps at the end of the tick. The velocities at
 /// the end stay as they are: nothing gains speed by being moved apart (nonlinear Gauss-Seidel).
 template <BroadPhase broad_phase>
@@ -620,16 +578,6 @@ void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, Worl
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
     }
-}
-
-/// Takes away what joints gained out of nothing, once everything is where it is.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::settle_joints(const WorldConfig& config, WorldState& state,
-                                              std::uint64_t hits_before)
-{
-    joints_.end_tick(state, solver_.joints());
-    joint_energy_.settle({config, state, active_.slots(), integrations_.all(), solver_, joints_,
-                          state.interventions.sweeps_continued != hits_before});
 }
 
 template <BroadPhase broad_phase>

@@ -70,17 +70,14 @@ private:
     void begin_joints(const WorldState& state);
     void collide_planes(const WorldConfig& config, WorldState& state);
     void collide_bodies(WorldState& state);
-    void warm_start();
     bool solve_velocities(TickCost& cost);
     void integrate_velocities(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
-    void stop_sliding_contacts(const WorldState& state);
     void correct_positions(WorldState& state);
     void settle_energy(const WorldConfig& config, WorldState& state);
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
     void solve_continuous(const WorldConfig& config, WorldState& state);
-    void settle_joints(const WorldConfig& config, WorldState& state, std::uint64_t hits_before);
     void report_hand_forces(const WorldConfig& config, WorldState& state);
     void update_sleep(WorldState& state);
 
