@@ -141,10 +141,11 @@ Slot Bodies::wake(Slot slot)
     return awake++;
 }
 
-glm::dvec3 Bodies::apply_rotated_inverse_inertia(Slot slot, const glm::dvec3& momentum) const
+glm::dvec3 Bodies::turned_inverse_inertia(const BodyProperties& body, const glm::dquat& orientation,
+                                          const glm::dvec3& momentum)
 {
-    const glm::dmat3 axes = glm::mat3_cast(orientation.at(slot));
-    return axes * (properties[slot].inverse_inertia * (momentum * axes));
+    const glm::dmat3 axes = glm::mat3_cast(orientation);
+    return axes * (body.inverse_inertia * (momentum * axes));
 }
 
 void Bodies::set_angular_velocity(Slot slot, const glm::dvec3& angular_velocity)

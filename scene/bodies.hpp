@@ -104,10 +104,16 @@ struct Bodies {
     [[nodiscard]] glm::dvec3 apply_inverse_inertia(Slot slot, const glm::dvec3& momentum) const
     {
         const BodyProperties& body = properties[slot];
-        // Alike about every axis, or about the world's own axes: no frame to turn into.
-        if (body.is_isotropic || body.turning != Turning::free)
-            return body.inverse_inertia * momentum;
-        return apply_rotated_inverse_inertia(slot, momentum);
+        return responds_alike(body) ? body.inverse_inertia * momentum
+                                    : turned_inverse_inertia(body, orientation.at(slot), momentum);
+    }
+    /// The same, were it oriented so.
+    [[nodiscard]] static glm::dvec3 apply_inverse_inertia(const BodyProperties& body,
+                                                          const glm::dquat& orientation,
+                                                          const glm::dvec3& momentum)
+    {
+        return responds_alike(body) ? body.inverse_inertia * momentum
+                                    : turned_inverse_inertia(body, orientation, momentum);
     }
     [[nodiscard]] glm::dvec3 angular_velocity(Slot slot) const
     {
@@ -120,8 +126,14 @@ struct Bodies {
     void put(Slot slot, const BodyState& state);
 
 private:
-    [[nodiscard]] glm::dvec3 apply_rotated_inverse_inertia(Slot slot,
-                                                           const glm::dvec3& momentum) const;
+    /// Alike about every axis, or about the world's own axes: no frame to turn into.
+    [[nodiscard]] static bool responds_alike(const BodyProperties& body)
+    {
+        return body.is_isotropic || body.turning != Turning::free;
+    }
+    [[nodiscard]] static glm::dvec3 turned_inverse_inertia(const BodyProperties& body,
+                                                           const glm::dquat& orientation,
+                                                           const glm::dvec3& momentum);
 };
 
 /// The moments of inertia of a solid box about its axes, kg m^2: m/3 (b^2 + c^2) with half edges.

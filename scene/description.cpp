@@ -83,6 +83,12 @@ void check_feel(Check& check, const Feel& feel)
                  stiffness_max_n_per_m);
     check.within("damping in N s/m", feel.damping_ns_per_m.value_or(0.0), 0.0,
                  damping_max_ns_per_m);
+    check.within("static_friction", feel.static_friction.value_or(0.0), 0.0, friction_max);
+    check.within("dynamic_friction", feel.dynamic_friction.value_or(0.0), 0.0, friction_max);
+    if (feel.static_friction && feel.dynamic_friction) {
+        check.holds(*feel.dynamic_friction <= *feel.static_friction,
+                    "dynamic_friction is above static_friction");
+    }
 }
 
 base::Result<void> check_body(const BodyDescription& body, std::size_t number)
@@ -203,6 +209,9 @@ base::Result<void> check_hands(const HandDescription& hands)
     check.within("damping in N s/m", hands.damping_ns_per_m, 0.0, damping_max_ns_per_m);
     check.within("grip reach in m", hands.grip_reach_m, 0.0, size_max_m);
     check.within("friction", hands.friction, 0.0, friction_max);
+    check.within("static_friction", hands.static_friction, 0.0, friction_max);
+    check.within("dynamic_friction", hands.dynamic_friction.value_or(0.0), 0.0,
+                 hands.static_friction);
     check.holds(std::isinf(hands.force_max_n) || hands.force_max_n <= force_max_n,
                 fmt::format("force_max is more than {} N; infinity: no limit", force_max_n));
     check.holds(hands.force_max_n >= 0.0, "force_max is below 0");
@@ -274,6 +283,28 @@ void add(Hash& hash, const JointDescription& joint)
     }
 }
 
+/// Scenes without it keep the hash that they had before there was any.
+void add_hand_friction(Hash& hash, const Description& description)
+{
+    constexpr double unset = -1.0;
+    const HandDescription& hands = description.hands;
+    if (hands.static_friction != 0.0) {
+        hash.add(hands.static_friction);
+        hash.add(hands.dynamic_friction.value_or(unset));
+    }
+    constexpr std::uint64_t hand_mark = 0x68616e64, body_mark = 0x626f6479;
+    const auto add_own = [&](std::uint64_t mark, const Feel& feel) {
+        if (!feel.has_own_friction()) return;
+        hash.add(mark);
+        hash.add(feel.static_friction.value_or(unset));
+        hash.add(feel.dynamic_friction.value_or(unset));
+    };
+    for (std::size_t i = 0; i < description.own_hands.size(); ++i)
+        add_own(hand_mark + i, description.own_hands[i]);
+    for (std::size_t i = 0; i < description.bodies.size(); ++i)
+        add_own(body_mark + i, description.bodies[i].feel);
+}
+
 } // namespace
 
 HandDescription hand_on(const HandDescription& hands, const Feel& own_hand, const Feel& body)
@@ -284,6 +315,20 @@ HandDescription hand_on(const HandDescription& hands, const Feel& own_hand, cons
         hand.damping_ns_per_m = feel->damping_ns_per_m.value_or(hand.damping_ns_per_m);
     }
     return hand;
+}
+
+HandFriction friction_of(const HandDescription& hands, const Feel& own_hand)
+{
+    const double sticking = own_hand.static_friction.value_or(hands.static_friction);
+    const std::optional<double> sliding =
+        own_hand.has_own_friction() ? own_hand.dynamic_friction : hands.dynamic_friction;
+    return {sticking, std::min(sliding.value_or(sticking), sticking)};
+}
+
+HandFriction friction_of(const Material& surface, const Feel& own)
+{
+    const double sticking = own.static_friction.value_or(surface.friction);
+    return {sticking, std::min(own.dynamic_friction.value_or(sticking), sticking)};
 }
 
 base::Result<void> check(const Description& description)
@@ -354,6 +399,7 @@ std::uint64_t hash(const Description& description)
         }
         hash.add(std::uint64_t{(field.on_hands ? 1U : 0U) | (field.on_bodies ? 2U : 0U)});
     }
+    add_hand_friction(hash, description);
     for (const JointDescription& joint : description.joints) add(hash, joint);
     return hash.value();
 }

@@ -58,13 +58,32 @@ struct Sway {
     friend bool operator==(const Sway&, const Sway&) = default;
 };
 
+/// Dry friction between a hand and what it presses: the hand sticks until the force along the
+/// surface is more than the first share of the force across it, then slides against the second.
+struct HandFriction {
+    double sticking = 0.0;
+    double sliding = 0.0; // at most the above
+
+    [[nodiscard]] bool is_rough() const { return sticking > 0.0; }
+    friend bool operator==(const HandFriction&, const HandFriction&) = default;
+};
+
+/// Of a hand on a surface: the geometric means, as with two bodies.
+[[nodiscard]] inline HandFriction combined(const HandFriction& a, const HandFriction& b)
+{
+    return {std::sqrt(a.sticking * b.sticking), std::sqrt(a.sliding * b.sliding)};
+}
+
 /// A stiffness and a damping of a hand's spring that replace those of all hands, where they are
-/// set.
+/// set; and coefficients of friction, likewise.
 struct Feel {
     std::optional<double> stiffness_n_per_m{};
     std::optional<double> damping_ns_per_m{};
+    std::optional<double> static_friction{};
+    std::optional<double> dynamic_friction{};
 
     [[nodiscard]] bool is_own() const { return stiffness_n_per_m || damping_ns_per_m; }
+    [[nodiscard]] bool has_own_friction() const { return static_friction || dynamic_friction; }
     friend bool operator==(const Feel&, const Feel&) = default;
 };
 
@@ -163,10 +182,13 @@ struct HandDescription {
     double damping_ns_per_m = 2.0;
     double force_max_n = 3.3;    // of one contact; infinity: not limited
     double grip_reach_m = 0.005; // how near the surface a hand must be to take hold
-    /// Coulomb's coefficient, 0..friction_max. The scene reads, hashes and prints it, but its hands
-    /// have no friction: a session's peer applies it from outside (peer::FingerFriction).
+    /// Coulomb's coefficient, 0..friction_max, of a session alone: the scene reads, hashes and
+    /// prints it, and the peer applies it from outside (peer::FingerFriction). The hands of the
+    /// scene itself have the two below.
     double friction = 0.0;
-    std::uint32_t count = 2; // 0..hips_max
+    std::uint32_t count = 2;                  // 0..hips_max
+    double static_friction = 0.0;             // while a hand sticks, 0..friction_max
+    std::optional<double> dynamic_friction{}; // while it slides; unset: the same
 
     friend bool operator==(const HandDescription&, const HandDescription&) = default;
 };
@@ -219,6 +241,12 @@ inline constexpr base::Duration period_max{std::chrono::hours{24}};
 /// all hands, as CHAI3D has it.
 [[nodiscard]] HandDescription hand_on(const HandDescription& hands, const Feel& own_hand,
                                       const Feel& body);
+
+/// The friction of a hand, before it meets a surface.
+[[nodiscard]] HandFriction friction_of(const HandDescription& hands, const Feel& own_hand);
+
+/// The friction of a surface to hands: its own to them, else that to bodies.
+[[nodiscard]] HandFriction friction_of(const Material& surface, const Feel& own = {});
 
 /// Says what is wrong with a description: the name of the part and what was expected.
 [[nodiscard]] base::Result<void> check(const Description& description);

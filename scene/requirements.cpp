@@ -3,6 +3,7 @@
 #include "scene/requirements.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "scene/state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,6 +81,14 @@ Requirement require_friction(const Census& census)
                    fmt::format("{} of {} movable bodies are rough", census.rough, census.movable));
 }
 
+Requirement require_hand_friction(const Description& description)
+{
+    if (has_hand_friction(description)) {
+        return require(Feature::hand_friction, true, "rough hands meet rough bodies or planes");
+    }
+    return require(Feature::hand_friction, false, "no hand has friction on anything");
+}
+
 Requirement require_contact(const Description& description, const Census& census)
 {
     if (census.movable == 0) return require(Feature::contact, false, "nothing is movable");
@@ -104,8 +113,10 @@ Requirement without_contact(Feature feature)
 std::string_view name_of(Feature feature)
 {
     constexpr std::array<std::string_view, features> names{
-        "contact", "hips", "skew",      "rotation", "friction",    "restitution", "drag",  "bodies",
-        "sleep",   "grid", "kinematic", "feel",     "felt-planes", "fields",      "joints"};
+        "contact",     "hips",   "skew",          "rotation", "friction",  "restitution",
+        "drag",        "bodies", "sleep",         "grid",     "kinematic", "feel",
+        "felt-planes", "fields", "hand-friction", "joints",
+    };
     return names.at(static_cast<std::size_t>(feature));
 }
 
@@ -126,7 +137,7 @@ FeatureSet abilities_of(StepperKind kind)
     case StepperKind::many: add(grid); [[fallthrough]];
     case StepperKind::few: add(bodies, sleep); [[fallthrough]];
     case StepperKind::lone:
-        add(rotation, skew, kinematic, feel, felt_planes, joints);
+        add(rotation, skew, kinematic, feel, felt_planes, hand_friction, joints);
         [[fallthrough]];
     case StepperKind::sliding_coulomb: add(friction); [[fallthrough]];
     case StepperKind::sliding: add(contact, hands, restitution, drag, fields); break;
@@ -170,13 +181,15 @@ Requirements requirements_of(const Description& description, bool sleeping)
                             description.hands.count)),
         require(fields, !description.fields.empty(),
                 fmt::format("fields of force: {}", description.fields.size())),
+        require_hand_friction(description),
         require(joints, !description.joints.empty(),
                 fmt::format("joints: {}", description.joints.size()))};
     if (!needs[0].is_required) {
         for (Requirement& each : needs) {
             const bool is_own = each.feature == contact || each.feature == rotation ||
                                 each.feature == kinematic || each.feature == felt_planes ||
-                                each.feature == fields || each.feature == joints;
+                                each.feature == fields || each.feature == hand_friction ||
+                                each.feature == joints;
             if (!is_own) each = without_contact(each.feature);
         }
     }

@@ -13,23 +13,24 @@ namespace hapnet::scene {
 
 /// What a scene may require of its stepper.
 enum class Feature : std::uint8_t {
-    contact,     // anything can touch anything at all
-    hands,       // hands
-    skew,        // a box or a plane that is not parallel to the axes
-    rotation,    // a movable body that can rotate
-    friction,    // Coulomb friction
-    restitution, // bounces
-    drag,        // viscous friction
-    bodies,      // movable bodies that can touch each other
-    sleep,       // bodies at rest cost nothing
-    grid,        // too many bodies to compare each with each
-    kinematic,   // bodies that move by themselves
-    feel,        // bodies or hands with a stiffness or damping of their own
-    felt_planes, // planes that hands feel
-    fields,      // fields of force
-    joints,      // joints between bodies, or a body and the world
+    contact,       // anything can touch anything at all
+    hands,         // hands
+    skew,          // a box or a plane that is not parallel to the axes
+    rotation,      // a movable body that can rotate
+    friction,      // Coulomb friction
+    restitution,   // bounces
+    drag,          // viscous friction
+    bodies,        // movable bodies that can touch each other
+    sleep,         // bodies at rest cost nothing
+    grid,          // too many bodies to compare each with each
+    kinematic,     // bodies that move by themselves
+    feel,          // bodies or hands with a stiffness or damping of their own
+    felt_planes,   // planes that hands feel
+    fields,        // fields of force
+    hand_friction, // hands that stick and slide
+    joints,        // joints between bodies, or a body and the world
 };
-inline constexpr std::size_t features = 15;
+inline constexpr std::size_t features = 16;
 
 [[nodiscard]] std::string_view name_of(Feature feature);
 

@@ -7,12 +7,51 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace hapnet::scene {
 
+namespace {
+
+HandFriction friction_of_hand(const Description& description, std::uint32_t hand)
+{
+    const bool is_own = hand < description.own_hands.size();
+    return friction_of(description.hands, is_own ? description.own_hands[hand] : Feel{});
+}
+
+} // namespace
+
+bool has_hand_friction(const Description& description)
+{
+    bool any_hand = false;
+    for (std::uint32_t hand = 0; hand < description.hands.count; ++hand)
+        any_hand = any_hand || friction_of_hand(description, hand).is_rough();
+    const auto is_rough_body = [](const BodyDescription& body) {
+        return friction_of(body.material, body.feel).is_rough();
+    };
+    const auto is_rough_plane = [](const PlaneDescription& plane) {
+        return plane.felt && friction_of(plane.material).is_rough();
+    };
+    const auto& [bodies, planes] = std::tie(description.bodies, description.planes);
+    return any_hand && (std::any_of(bodies.begin(), bodies.end(), is_rough_body) ||
+                        std::any_of(planes.begin(), planes.end(), is_rough_plane));
+}
+
+void HandFeels::set_friction(const Description& description)
+{
+    if (!has_hand_friction(description)) return;
+    for (std::uint32_t hand = 0; hand < description.hands.count; ++hand)
+        friction_of_hands_.push_back(friction_of_hand(description, hand));
+    for (const BodyDescription& body : description.bodies)
+        friction_of_bodies_.push_back(friction_of(body.material, body.feel));
+    for (const PlaneDescription& plane : description.planes)
+        friction_of_planes_.push_back(friction_of(plane.material));
+}
+
 HandFeels::HandFeels(const Description& description)
 {
+    set_friction(description);
     const auto is_own = [](const auto& each) { return each.feel.is_own(); };
     const std::vector<BodyDescription>& bodies = description.bodies;
     const bool any_hand = std::any_of(description.own_hands.begin(), description.own_hands.end(),

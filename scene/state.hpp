@@ -52,9 +52,37 @@ public:
         return kinds_.empty() ? alike : kinds_[hand];
     }
 
+    /// Whether any hand can stick to anything.
+    [[nodiscard]] bool any_friction() const { return !friction_of_hands_.empty(); }
+    /// Only where there is any: of a hand on a body, or on a plane.
+    [[nodiscard]] HandFriction friction_on_body(std::uint32_t hand, BodyId body) const
+    {
+        return combined(friction_of_hands_[hand], friction_of_bodies_[body]);
+    }
+    [[nodiscard]] HandFriction friction_on_plane(std::uint32_t hand, std::size_t plane) const
+    {
+        return combined(friction_of_hands_[hand], friction_of_planes_[plane]);
+    }
+
 private:
+    void set_friction(const Description& description);
+
     std::vector<std::uint32_t> kind_of_{}; // by body: where the hands on bodies like it begin
     std::vector<HandDescription> kinds_{};
+    std::vector<HandFriction> friction_of_hands_{}; // empty: no hand can stick to anything
+    std::vector<HandFriction> friction_of_bodies_{};
+    std::vector<HandFriction> friction_of_planes_{};
+};
+
+/// Whether a hand of the scene can stick to a body or a plane of it.
+[[nodiscard]] bool has_hand_friction(const Description& description);
+
+/// How a hand rubbed in the last tick, where hands have friction.
+struct HandSlip {
+    bool sticks = false;    // to something, at the end of the tick
+    bool slides = false;    // over something, likewise
+    double stretch_m = 0.0; // at the start: of the hand over the place where it sticks
+    double stored_j = 0.0;  // at the start, in the springs along the surfaces
 };
 
 /// A joint's index in its description.
@@ -112,6 +140,7 @@ struct Interventions {
     std::uint64_t impulses_trimmed = 0; // an island lost less than a tenth of its impulses
     std::uint64_t bounces_limited = 0;  // a bounce was made weaker so that no energy is gained
     std::uint64_t sweeps_continued = 0; // a body went on after its first touch within the tick
+    std::uint64_t clusters_stuck = 0;   // two that touched too often in a tick had an inelastic hit
 
     [[nodiscard]] std::uint64_t guards() const
     {
@@ -126,6 +155,7 @@ struct Interventions {
         impulses_trimmed += other.impulses_trimmed;
         bounces_limited += other.bounces_limited;
         sweeps_continued += other.sweeps_continued;
+        clusters_stuck += other.clusters_stuck;
         return *this;
     }
 };
@@ -144,6 +174,7 @@ struct WorldState {
     std::vector<std::uint8_t> is_pushed{};  // by id: 1 in `pushed`, 2 in `twisted`
     std::vector<JointState> joints{};       // by id
     std::vector<KinematicScript> scripts{}; // of the kinematic bodies, in the order of their slots
+    std::vector<HandSlip> slips{};          // by hand; empty where no hand has friction
     std::uint64_t ticks = 0;
     TickCost tick_cost{}; // of the last tick
     Interventions interventions{};

@@ -88,6 +88,7 @@ WorldState initial_state(const Description& description)
     state.pushed = Bounded<BodyId>{description.bodies.size()};
     state.twisted = Bounded<BodyId>{description.bodies.size()};
     state.is_pushed.resize(description.bodies.size());
+    if (has_hand_friction(description)) state.slips.resize(description.hands.count);
     state.joints.resize(description.joints.size());
     for (std::size_t i = 0; i < description.joints.size(); ++i) {
         const JointDescription& joint = description.joints[i];

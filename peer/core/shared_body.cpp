@@ -34,6 +34,10 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
             "a session has one stiffness and damping yet, those of [hips]: bodies and "
             "hands have none of their own");
     }
+    if (scene.hands.static_friction > 0.0) {
+        return base::fail("a session has the friction of [hips] alone yet: set friction instead of "
+                          "static_friction");
+    }
     if (!scene.fields.empty()) return base::fail("a session has no fields of force yet");
     if (!scene.joints.empty()) {
         return base::fail("a session has no joints yet: leave out hinges, sliders, balls and "

@@ -3,11 +3,10 @@
 #include "scene/collide/time_of_impact.hpp"
 
 #include "scene/collide/manifold.hpp"
-#include "scene/maths/rotation.hpp"
+#include "scene/collide/pose.hpp"
 #include "scene/maths/vector.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -83,80 +82,6 @@ private:
     glm::dvec3 normal_{0.0};
 };
 
-// Squared sine of the angle below which two edges count as parallel: the faces tell enough then.
-constexpr double parallel_sine2 = 1e-6;
-// The share of the rest of the time that one axis should clear, before others are asked.
-constexpr double worthwhile = 0.25;
-
-/// How far a turning box reaches along a normal from its centre, and how that changes: at most
-/// sum |reach + t speed| + t^2 bend / 2 after a time t.
-struct Reach {
-    glm::dvec3 reach{0.0}; // m, of the half edges
-    glm::dvec3 speed{0.0}; // m/s
-    double bend = 0.0;     // m/s^2
-    double sphere = 0.0;   // m: never more than this
-};
-
-Reach reach_along(const glm::dvec3& normal, const OrientedBox& box, const SteadyBox& motion)
-{
-    Reach reach{.reach = box.half * (normal * box.axes)};
-    reach.sphere = sum_of_sizes(reach.reach);
-    if (motion.spin == glm::dvec3{0.0}) return reach;
-    reach.speed = box.half * (glm::cross(normal, motion.spin) * box.axes);
-    reach.bend = glm::dot(motion.spin, motion.spin) * motion.radius;
-    reach.sphere = motion.radius;
-    return reach;
-}
-
-/// What is known of the gap along one normal from one moment on.
-struct Forecast {
-    double room = 0.0;     // m: how much the gap may shrink
-    double approach = 0.0; // m/s: how fast the centres come nearer
-    Reach a;
-    Reach b;
-
-    /// At least so much is left of the room.
-    [[nodiscard]] double room_after(double time) const
-    {
-        const auto farther = [&](const Reach& its) {
-            return sum_of_sizes(its.reach + time * its.speed) - sum_of_sizes(its.reach) +
-                   0.5 * time * time * its.bend;
-        };
-        return room - time * approach - farther(a) - farther(b);
-    }
-
-    /// For how long there surely is room.
-    [[nodiscard]] double time_left(double most) const
-    {
-        // What spins beside something comes no nearer than the sphere around it.
-        const double beside =
-            room + sum_of_sizes(a.reach) - a.sphere + sum_of_sizes(b.reach) - b.sphere;
-        double left = 0.0;
-        if (beside > 0.0) left = approach > 0.0 ? beside / approach : most;
-        if (left >= most || room_after(most) >= 0.0) return most;
-        // What is left of the room is concave in time: it is used up once, between these two.
-        double enough = 0.0;
-        double much = most;
-        constexpr int halvings = 12;
-        for (int i = 0; i < halvings && !(enough > 0.75 * much); ++i) {
-            // First where it would be used up at the speed of the beginning.
-            const double middle = i == 0 ? first_guess(most) : 0.5 * (enough + much);
-            (room_after(middle) >= 0.0 ? enough : much) = middle;
-        }
-        const double fastest = approach + sum_of_sizes(a.speed) + sum_of_sizes(b.speed) +
-                               0.5 * most * (a.bend + b.bend);
-        return std::max({left, enough, fastest > 0.0 ? room / fastest : most});
-    }
-
-private:
-    [[nodiscard]] double first_guess(double most) const
-    {
-        const double tiny = 1e-3 * most;
-        const double used = room - room_after(tiny);
-        return used > 0.0 ? std::min(0.5 * most, tiny * room / used) : 0.5 * most;
-    }
-};
-
 /// Calls visit(gap) for all 15 axes along which two boxes may be apart.
 template <typename Visit>
 void for_axes(const OrientedBox& a, const OrientedBox& b, Visit visit)
@@ -177,34 +102,6 @@ void for_axes(const OrientedBox& a, const OrientedBox& b, Visit visit)
             if (square >= parallel_sine2) consider(direction / std::sqrt(square));
         }
     }
-}
-
-/// Whether two spheres never come near each other: which most do not.
-bool spheres_miss(const SteadyBox& a, const SteadyBox& b, const GapSearch& search)
-{
-    const glm::dvec3 velocity = b.velocity - a.velocity;
-    const glm::dvec3 offset = b.centre - a.centre + search.from * velocity;
-    const double square = glm::dot(velocity, velocity);
-    const double along = -glm::dot(offset, velocity);
-    double time = search.to - search.from;
-    if (along < time * square) time = along > 0.0 ? along / square : 0.0;
-    const glm::dvec3 nearest = offset + time * velocity;
-    const double reach = a.radius + b.radius;
-    return glm::dot(nearest, nearest) > reach * reach;
-}
-
-template <typename Look>
-Advanced advance_by(const GapSearch& search, std::uint32_t& steps, Look look)
-{
-    double time = search.from;
-    while (time < search.to) {
-        if (steps == 0) return {time, Advanced::End::unfinished};
-        --steps;
-        const double left = look(time, search.to - time);
-        if (left <= 0.0) return {time, Advanced::End::reached};
-        time += left;
-    }
-    return {search.to, Advanced::End::clear};
 }
 
 } // namespace
@@ -240,61 +137,6 @@ Gap gap_between(const PlaneSurface& plane, const OrientedBox& box)
 {
     return {glm::dot(plane.normal, box.centre) - plane.offset - half_projection(box, plane.normal),
             plane.normal};
-}
-
-OrientedBox SteadyBox::at(double time) const
-{
-    return {centre + time * velocity,
-            axes_of(spin == glm::dvec3{0.0} ? orientation : rotated(orientation, time * spin)),
-            half};
-}
-
-Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b, const GapSearch& search,
-                        std::uint32_t& steps)
-{
-    if (spheres_miss(a, b, search)) return {search.to, Advanced::End::clear};
-    return advance_by(search, steps, [&](double time, double most) {
-        const OrientedBox box_a = a.at(time);
-        const OrientedBox box_b = b.at(time);
-        std::array<Gap, 15> open; // those that are wider than asked for
-        std::size_t count = 0;
-        std::size_t widest = 0;
-        for_axes(box_a, box_b, [&](const Gap& gap) {
-            if (gap.distance - search.gap <= search.near) return;
-            if (count == 0 || gap.distance > open[widest].distance) widest = count;
-            open[count++] = gap;
-        });
-        if (count == 0) return 0.0;
-        const auto time_left = [&](const Gap& gap) {
-            const Forecast now{
-                gap.distance - search.gap, glm::dot(gap.normal, a.velocity - b.velocity),
-                reach_along(gap.normal, box_a, a), reach_along(gap.normal, box_b, b)};
-            return now.time_left(most);
-        };
-        double left = time_left(open[widest]);
-        // Any axis that stays open is as good. It pays to ask the others when it was not far.
-        for (std::size_t i = 0; i < count && left < worthwhile * most; ++i)
-            if (i != widest) left = std::max(left, time_left(open[i]));
-        return left;
-    });
-}
-
-Advanced advance_to_gap(const PlaneSurface& plane, const SteadyBox& box, const GapSearch& search,
-                        std::uint32_t& steps)
-{
-    const auto height = [&](double time) {
-        return glm::dot(plane.normal, box.centre + time * box.velocity) - plane.offset;
-    };
-    if (std::min(height(search.from), height(search.to)) > box.radius)
-        return {search.to, Advanced::End::clear};
-    return advance_by(search, steps, [&](double time, double most) {
-        const OrientedBox there = box.at(time);
-        const double room = gap_between(plane, there).distance - search.gap;
-        if (room <= search.near) return 0.0;
-        const Forecast now{
-            room, -glm::dot(plane.normal, box.velocity), {}, reach_along(plane.normal, there, box)};
-        return now.time_left(most);
-    });
 }
 
 } // namespace hapnet::scene

@@ -4,6 +4,7 @@
 
 #include "scene/hand/pressed_modes.hpp"
 
+#include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -55,11 +56,38 @@ struct SpringImpulse {
     glm::dvec3 impulse{0.0}; // on the body, N s
 };
 
+/// What the springs that hold a body can give it. They also pull, and so take and give far more in
+/// a tick than passes at last.
+struct GripEnergy {
+    double impulse = 0.0; // N s: the sum of their sizes
+    double stored = 0.0;  // J, at the start
+    double driven = 0.0;  // J: the work of the hands' own motion on them
+
+    /// What such impulses can do where the body's fastest corner is so fast at the start or the end
+    /// of the tick: within it, it may be faster.
+    [[nodiscard]] double most(double fastest) const
+    {
+        constexpr double within_tick = 2.0;
+        return within_tick * impulse * fastest;
+    }
+    /// What they give beside what is driven, with a share of their impulses.
+    [[nodiscard]] double given(double share, double fastest) const
+    {
+        return std::min(stored, share * (most(fastest) - driven));
+    }
+    void scale(double share)
+    {
+        impulse *= share;
+        driven *= share;
+    }
+};
+
 /// What passed between a body and its hands in a tick.
 struct HandEnergy {
     std::size_t rows = 0;   // that the midpoint rule solved for it
-    double stored = 0.0;    // J, in the springs on the body at the start
+    double stored = 0.0;    // J, in the springs on the body at the start, but for those that hold
     double driven = 0.0;    // J: the work of the hands' own motion on the springs
+    GripEnergy grips;       // of the springs that hold
     bool is_braked = false; // the springs' impulses were scaled down
 };
 

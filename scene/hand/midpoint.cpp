@@ -3,7 +3,10 @@
 #include "scene/hand/midpoint.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "scene/maths/matrix6.hpp"
+#include "scene/maths/root_of_half.hpp"
 #include "scene/maths/rotation.hpp"
+#include "scene/maths/vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,37 +67,21 @@ Mean mean_force(const HandSpring& spring, double depth, double closing, double s
     return mean;
 }
 
-/// G with G G^T = m / 2 for an inverse inertia, lower triangular; taken of a vector as G^T v. Rows
-/// of axes about which the body does not turn are zero.
-class RootOfHalf {
-public:
-    explicit RootOfHalf(const glm::dmat3& m)
-    {
-        for (int j = 0; j < 3; ++j) {
-            double square = 0.5 * m[j][j];
-            for (int k = 0; k < j; ++k) square -= lower_[k][j] * lower_[k][j];
-            if (!(square > 0.0)) continue;
-            lower_[j][j] = std::sqrt(square);
-            for (int i = j + 1; i < 3; ++i) {
-                double sum = 0.5 * m[j][i];
-                for (int k = 0; k < j; ++k) sum -= lower_[k][i] * lower_[k][j];
-                lower_[j][i] = sum / lower_[j][j];
-            }
-        }
-    }
-    [[nodiscard]] glm::dvec3 of(const glm::dvec3& v) const
-    {
-        return {glm::dot(lower_[0], v), glm::dot(lower_[1], v), glm::dot(lower_[2], v)};
-    }
-
-private:
-    glm::dmat3 lower_{0.0}; // by columns
-};
+glm::dvec3 any_tangent(const glm::dvec3& normal)
+{
+    const glm::dvec3 size = glm::abs(normal);
+    const bool is_x_least = size.x <= size.y && size.x <= size.z;
+    const glm::dvec3 axis = is_x_least         ? glm::dvec3{1.0, 0.0, 0.0}
+                            : size.y <= size.z ? glm::dvec3{0.0, 1.0, 0.0}
+                                               : glm::dvec3{0.0, 0.0, 1.0};
+    return glm::normalize(glm::cross(normal, axis));
+}
 
 } // namespace
 
-MidpointRule::MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
-                           std::span<const HandSpring> springs, std::span<SpringImpulse> work)
+template <bool rubs>
+MidpointRule<rubs>::MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
+                                 std::span<const HandSpring> springs, std::span<SpringImpulse> work)
     : body_{body},
       dynamics_{dynamics},
       work_{work},
@@ -118,7 +105,18 @@ MidpointRule::MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
     }
 }
 
-int MidpointRule::substeps(double time)
+template <bool rubs>
+void MidpointRule<rubs>::set_friction(std::span<FrictionSpring> frictions) requires rubs
+{
+    for (std::size_t i = 0; i < springs_; ++i) {
+        frictions[i].slid = glm::dvec3{0.0};
+        pull_[i].form = &frictions[i];
+        pull_[i].stretch = frictions[i].stretch;
+    }
+}
+
+template <bool rubs>
+int MidpointRule<rubs>::substeps(double time)
 {
     set_rows(time);
     double square = 0.0;
@@ -134,7 +132,8 @@ int MidpointRule::substeps(double time)
     return most < substeps_max ? std::min(1 + static_cast<int>(most), substeps_max) : substeps_max;
 }
 
-std::size_t MidpointRule::advance(double time)
+template <bool rubs>
+std::size_t MidpointRule<rubs>::advance(double time)
 {
     const int count = substeps(time);
     const double substep = time / count;
@@ -147,7 +146,8 @@ std::size_t MidpointRule::advance(double time)
     return rows_solved_;
 }
 
-void MidpointRule::set_rows(double substep)
+template <bool rubs>
+void MidpointRule<rubs>::set_rows(double substep)
 {
     const PlaneDrag drag{dynamics_, substep};
     const double half = 0.5 * substep;
@@ -189,10 +189,22 @@ void MidpointRule::set_rows(double substep)
         if (spring.depth <= 0.0) spring.depth = spring.surface.at(now, spring.hand).depth;
         const ContactGeometry geometry = spring.surface.at(axes, hand);
         add(i, geometry.normal, hand, spring.depth);
+        if constexpr (rubs) {
+            if (!is_rough(i)) continue;
+            const glm::dvec3& normal = geometry.normal;
+            const glm::dvec3 arm = hand - (spring.form->radius - geometry.depth) * normal;
+            glm::dvec3& stretch = pull_[i].stretch;
+            stretch -= glm::dot(stretch, normal) * normal;
+            const glm::dvec3 tangent = any_tangent(normal);
+            for (const glm::dvec3& along : {tangent, glm::cross(normal, tangent)})
+                add(i, along, arm, -glm::dot(stretch, along));
+        }
     }
 }
 
-MidpointRule::Six MidpointRule::update_forces(const Six& velocities, double substep)
+template <bool rubs>
+typename MidpointRule<rubs>::Six MidpointRule<rubs>::update_forces(const Six& velocities,
+                                                                   double substep)
 {
     Six missed = velocities;
     for (std::size_t i = 0; i < rows_; ++i) {
@@ -207,6 +219,14 @@ MidpointRule::Six MidpointRule::update_forces(const Six& velocities, double subs
             const Mean mean = mean_force(spring, row.depth, row.mean, substep);
             row.force = mean.force;
             row.slope = mean.slope;
+            if constexpr (rubs) {
+                if (!is_rough(row.spring)) continue;
+                for (std::size_t along : {i + 1, i + 2})
+                    row_[along].mean =
+                        row_[along].closing - substep * dot(row_[along].response, velocities);
+                update_pull(i, substep);
+                i += 2;
+            }
         }
     }
     for (std::size_t i = 0; i < rows_; ++i) missed.add(-row_[i].force, row_[i].response);
@@ -214,7 +234,8 @@ MidpointRule::Six MidpointRule::update_forces(const Six& velocities, double subs
 }
 
 /// The three rows of a spring that holds pull no more together than it can.
-void MidpointRule::limit_grip_force(std::size_t first)
+template <bool rubs>
+void MidpointRule<rubs>::limit_grip_force(std::size_t first)
 {
     Row* const rows = &row_[first];
     Spring& spring = spring_[rows[0].spring];
@@ -231,10 +252,66 @@ void MidpointRule::limit_grip_force(std::size_t first)
     }
 }
 
+template <bool rubs>
+bool MidpointRule<rubs>::is_rough(std::size_t spring) const
+{
+    if constexpr (!rubs)
+        return false;
+    else
+        return !spring_[spring].form->holds && pull_[spring].form->limits.is_rough();
+}
+
+/// The pull along the surface, cut to the cone of the push.
+template <bool rubs>
+void MidpointRule<rubs>::update_pull(std::size_t push, double substep) requires rubs
+{
+    Row& first = row_[push + 1];
+    Row& second = row_[push + 2];
+    const HandSpring& spring = *spring_[first.spring].form;
+    Pull& pull = pull_[first.spring];
+    for (Row* const row : {&first, &second}) {
+        row->slope = 0.5 * spring.stiffness * substep + spring.damping;
+        row->force = spring.stiffness * row->depth + row->slope * row->mean;
+    }
+    const double square = first.force * first.force + second.force * second.force;
+    const double most = pull.form->limit() * row_[push].force;
+    pull.is_cut = square > most * most;
+    if (!pull.is_cut) return;
+    const double size = std::sqrt(square);
+    pull.along_1 = first.force / size;
+    pull.along_2 = second.force / size;
+    for (Row* const row : {&first, &second}) {
+        row->force *= most / size;
+        row->slope *= most / size;
+    }
+}
+
+/// Moves the proxy at the end of a substep, if it slides.
+template <bool rubs>
+void MidpointRule<rubs>::slide(std::size_t push, double substep) requires rubs
+{
+    const Row& first = row_[push + 1];
+    const Row& second = row_[push + 2];
+    Pull& pull = pull_[first.spring];
+    const glm::dvec3 wanted = -(first.depth + substep * first.mean) * first.normal -
+                              (second.depth + substep * second.mean) * second.normal;
+    pull.stretch = wanted;
+    if (pull.is_cut) {
+        const double most = pull.form->limit() * row_[push].force;
+        const double pulls = spring_[first.spring].form->stiffness * length(wanted);
+        if (pulls > most || pulls == 0.0) pull.stretch *= pulls > 0.0 ? most / pulls : 0.0;
+        pull.form->slid += wanted - pull.stretch;
+    }
+    pull.form->slides = pull.is_cut;
+}
+
 /// One of Newton's steps: each force is taken to follow its slope. In the scaled velocities the
 /// matrix is 1 + symmetric: Cholesky.
-MidpointRule::Six MidpointRule::newton_step(const Six& missed, double substep) const
+template <bool rubs>
+typename MidpointRule<rubs>::Six MidpointRule<rubs>::newton_step(const Six& missed,
+                                                                 double substep) const
 {
+    if constexpr (rubs) return newton_step_unsymmetric(missed, substep);
     std::array<std::array<double, 6>, 6> lower{};
     for (std::size_t i = 0; i < 6; ++i) lower[i][i] = 1.0;
     const auto add = [&](const Six& direction, double scale) {
@@ -276,10 +353,47 @@ MidpointRule::Six MidpointRule::newton_step(const Six& missed, double substep) c
     return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
 }
 
+/// The same where a cut pull follows its push: then the matrix is not symmetric.
+template <bool rubs>
+typename MidpointRule<rubs>::Six
+MidpointRule<rubs>::newton_step_unsymmetric(const Six& missed, double substep) const requires rubs
+{
+    Matrix6 matrix;
+    const auto add = [&](const Six& to, const Six& from, double scale) {
+        matrix.add(to.all(), from.all(), substep * scale);
+    };
+    for (std::size_t i = 0; i < rows_; ++i) {
+        const Row& row = row_[i];
+        add(row.response, row.response, row.slope);
+        const Spring& spring = spring_[row.spring];
+        const bool is_last = i + 1 == rows_ || row_[i + 1].spring != row.spring;
+        if (!is_last) continue;
+        Six pull;
+        if (spring.form->holds) {
+            if (!spring.is_limited) continue;
+            for (int axis : {0, 1, 2})
+                pull.add(spring.pull[axis], row_[i - 2 + static_cast<std::size_t>(axis)].response);
+            add(pull, pull, -row.slope);
+        } else if (is_rough(row.spring) && pull_[row.spring].is_cut) {
+            const Pull& cut = pull_[row.spring];
+            pull.add(cut.along_1, row_[i - 1].response);
+            pull.add(cut.along_2, row.response);
+            add(pull, pull, -row.slope);
+            const Row& push = row_[i - 2];
+            add(pull, push.response, cut.form->limit() * push.slope);
+        }
+    }
+    std::array<double, 6> x = missed.all();
+    for (double& each : x) each = -each;
+    matrix.solve(x);
+    return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+}
+
 /// The velocities at which the springs' forces are what brings them about: the lowest point of a
 /// convex function, since no force falls with its depth. Where a step goes beyond the lowest point
 /// of its line, what it has overshot is taken back.
-void MidpointRule::solve(double substep)
+template <bool rubs>
+void MidpointRule<rubs>::solve(double substep)
 {
     constexpr double converged = 1e-13;
     constexpr double overshot = 0.5;
@@ -312,7 +426,8 @@ void MidpointRule::solve(double substep)
     }
 }
 
-void MidpointRule::apply(const PlaneDrag& drag, double substep)
+template <bool rubs>
+void MidpointRule<rubs>::apply(const PlaneDrag& drag, double substep)
 {
     glm::dvec3 force{0.0};
     glm::dvec3 torque = dynamics_.torque;
@@ -344,9 +459,20 @@ void MidpointRule::apply(const PlaneDrag& drag, double substep)
         if (spring.form->holds) continue;
         const double closing = row.closing - substep * dot(row.response, velocities);
         spring.depth = row.depth + substep * closing;
+        if constexpr (rubs) {
+            if (!is_rough(row.spring)) continue;
+            for (std::size_t along : {i + 1, i + 2})
+                row_[along].mean =
+                    row_[along].closing - substep * dot(row_[along].response, velocities);
+            slide(i, substep);
+            i += 2;
+        }
     }
     for (std::size_t i = 0; i < springs_; ++i)
         spring_[i].hand += substep * spring_[i].form->velocity - moved;
 }
+
+template class MidpointRule<false>;
+template class MidpointRule<true>;
 
 } // namespace hapnet::scene

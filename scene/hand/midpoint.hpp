@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/hand/friction.hpp"
 #include "scene/hand/plane_drag.hpp"
 #include "scene/hand/surface.hpp"
 
@@ -13,8 +14,8 @@
 namespace hapnet::scene {
 
 /// The most that a tick of the midpoint rule may cost: substeps times steps of Newton's method
-/// times rows (a spring that pushes has one, one that holds three). With few rows there are more
-/// substeps.
+/// times rows (a spring that pushes has one, one that holds or has friction three). With few rows
+/// there are more substeps.
 struct MidpointBudget {
     static constexpr std::size_t springs_max = 8;
     static constexpr std::size_t rows_max = 3 * springs_max;
@@ -36,10 +37,19 @@ struct MidpointBudget {
 ///
 /// All springs act on one body, so Newton's method goes on in its six velocities. Where its steps
 /// end before it has converged, momentum is kept all the same; energy is the caller's to check.
+///
+/// Where springs may have friction (`rubs`), a push has two more rows, along the surface. With the
+/// stretch e at the start of a substep and e* = e + h v at its end if nothing slid, the pull is
+/// k (e + e*)/2 + c v, cut to the cone of the push, and the stretch then e*, cut to what stores
+/// that pull. So k |e|^2 / 2 takes in no more than the pull's work, whether it sticks or slides.
+template <bool rubs = false>
 class MidpointRule {
 public:
     MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
                  std::span<const HandSpring> springs, std::span<SpringImpulse> work);
+
+    /// The friction of each spring; has to be set before the tick where springs may have any.
+    void set_friction(std::span<FrictionSpring> frictions) requires rubs;
 
     /// Returns how many rows it has solved: of each substep, once for each step of Newton's method.
     std::size_t advance(double time);
@@ -60,6 +70,10 @@ private:
         {
             linear += scale * other.linear;
             angular += scale * other.angular;
+        }
+        [[nodiscard]] std::array<double, 6> all() const
+        {
+            return {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z};
         }
     };
     /// One direction of one spring.
@@ -83,6 +97,13 @@ private:
         bool is_limited = false; // it holds with all its force, along `pull`
         glm::dvec3 pull{0.0};    // unit
     };
+    /// The pull of a spring along the surface; its rows are the two after that of the push.
+    struct Pull {
+        FrictionSpring* form = nullptr;
+        glm::dvec3 stretch{0.0};
+        bool is_cut = false;
+        double along_1 = 0.0, along_2 = 0.0; // of the cut pull: unit
+    };
 
     [[nodiscard]] int substeps(double time);
     void set_rows(double substep);
@@ -91,6 +112,11 @@ private:
     Six update_forces(const Six& velocities, double substep);
     [[nodiscard]] Six newton_step(const Six& missed, double substep) const;
     void limit_grip_force(std::size_t first);
+    [[nodiscard]] bool is_rough(std::size_t spring) const;
+    void update_pull(std::size_t push, double substep) requires rubs;
+    void slide(std::size_t push, double substep) requires rubs;
+    [[nodiscard]] Six newton_step_unsymmetric(const Six& missed,
+                                              double substep) const requires rubs;
     void apply(const PlaneDrag& drag, double substep);
 
     MovingBody& body_;
@@ -104,6 +130,10 @@ private:
     std::size_t rows_solved_ = 0;
     std::array<Spring, springs_max> spring_;
     std::array<Row, rows_max> row_;
+    std::array<Pull, rubs ? springs_max : 0> pull_;
 };
+
+extern template class MidpointRule<false>;
+extern template class MidpointRule<true>;
 
 } // namespace hapnet::scene

@@ -4,10 +4,12 @@
 
 #include "scene/hand/contact_phases.hpp"
 #include "scene/hand/surface.hpp"
+#include "scene/maths/energy_share.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace hapnet::scene {
 
@@ -19,9 +21,6 @@ constexpr double energy_rounding = 1e-9;
 constexpr double second_order = 0.03;
 // Of the greatest force: the rounding of a sum of phases.
 constexpr double force_rounding = 1e-9;
-// A grip does at most so many times the work of its impulse at the fastest corner: within the tick
-// the body may be faster than at its ends.
-constexpr double within_tick = 2.0;
 // Radians in a tick beyond which the inertia at the start says little of the end.
 constexpr double far_turn = 0.25;
 
@@ -43,27 +42,6 @@ HandEnergy energy_of(std::span<const HandSpring> springs, std::span<const Spring
     return energy;
 }
 
-/// The energy that a body gains by its hands when their impulses are scaled by a share, less the
-/// work of the hands' own motion: none + linear share + square share^2.
-struct EnergyOfShare {
-    double none = 0.0;
-    double linear = 0.0;
-    double square = 0.0;
-
-    [[nodiscard]] double at_whole() const { return none + linear + square; }
-    /// The largest share, at most 1, that gains no more; where there is none, that which gains
-    /// least.
-    [[nodiscard]] double share_within(double most) const
-    {
-        if (at_whole() <= most || !(square > 0.0)) return 1.0;
-        const double room = most - none;
-        const double root = std::sqrt(std::max(linear * linear + 4.0 * square * room, 0.0));
-        const double share =
-            linear > 0.0 ? 2.0 * room / (linear + root) : (root - linear) / (2.0 * square);
-        return std::clamp(share, 0.0, 1.0);
-    }
-};
-
 struct MomentsRatio {
     double spread = 0.0; // the largest moment of inertia over the smallest, less 1
     double range = 0.0;  // of 1/2 L I^-1 L for |L| = 1
@@ -81,12 +59,26 @@ MomentsRatio moments_of(const BodyDynamics& dynamics)
     return {most / least - 1.0, 0.5 * trace / sum * (1.0 / least - 1.0 / most)};
 }
 
+/// What a pull along a surface stores that the push at a depth can hold: nothing where they are
+/// apart.
+double pull_energy(const HandSpring& spring, const FrictionSpring& friction, double stretch,
+                   double depth)
+{
+    return spring_energy(spring, std::min(stretch, friction.limits.sticking * depth));
+}
+
+struct Smooth {};
+
+template <bool rubs>
 class PassivityCheck {
 public:
+    using Frictions = std::conditional_t<rubs, std::span<const FrictionSpring>, Smooth>;
+
     PassivityCheck(const HandTick& body, std::span<const HandSpring> springs,
-                   std::span<const SpringImpulse> work, double driven)
+                   std::span<const SpringImpulse> work, double driven, Frictions frictions = {})
         : body_{body},
           springs_{springs},
+          frictions_{frictions},
           free_{body.start},
           mass_{mass_of(body.dynamics)},
           driven_{driven}
@@ -112,17 +104,16 @@ public:
         const EnergyOfShare at_start = energy_with(light, light);
         double share = 1.0;
         // What is vague by turning shrinks with the share.
-        constexpr int rounds_max = 8;
-        for (int round = 0; round < rounds_max; ++round) {
-            const double before = share;
-            const double slack = rounding + turning_slack(before);
-            share = at_start.share_within(stored + slack);
+        for (int round = 0; round < share_rounds_max; ++round) {
+            const double slack = rounding + turning_slack(share);
+            double within = at_start.share_within(stored + slack);
             if (grips_.impulse > 0.0) {
                 EnergyOfShare gripped = at_start;
-                gripped.linear -= within_tick * grips_.impulse * fastest(before) - grips_.driven;
-                share = std::min(share, gripped.share_within(stored - grips_.stored + slack));
+                gripped.linear -= grips_.most(fastest(share)) - grips_.driven;
+                within = std::min(within, gripped.share_within(stored - grips_.stored + slack));
             }
-            if (share >= before) break;
+            if (within >= share) break;
+            share = next_share(share, within, round);
         }
         if (at_end == SpringsAtEnd::ignored) return share;
         // What is stored at the end belongs to how the body lies then, as does its inertia.
@@ -155,15 +146,7 @@ public:
         end = less;
     }
 
-    /// What a grip has stored it gives by its impulse alone: it becomes part of what is driven.
-    void count_grips(double share, HandEnergy& energy) const
-    {
-        if (grips_.impulse == 0.0) return;
-        const double most = within_tick * share * grips_.impulse * fastest(share);
-        const double driven = share * grips_.driven;
-        energy.stored -= grips_.stored;
-        energy.driven += std::min(grips_.stored, most - driven);
-    }
+    [[nodiscard]] const GripEnergy& grips() const { return grips_; }
 
 private:
     /// With the inverse inertia at the end, and the one that it has there without hands.
@@ -251,6 +234,7 @@ private:
         const glm::dmat3 axes = axes_of(body.orientation);
         const glm::dvec3 moved = body.position - body_.start.position;
         double sum = 0.0;
+        if constexpr (rubs) sum += stored_along(axes * glm::transpose(axes_before), moved);
         for (const HandSpring& spring : springs_) {
             const glm::dvec3 hand = body_.tick * spring.velocity - moved;
             if (spring.holds) {
@@ -265,8 +249,31 @@ private:
         return sum;
     }
 
+    /// Along the surfaces, of a body that has turned and moved.
+    [[nodiscard]] double stored_along(const glm::dmat3& turn,
+                                      const glm::dvec3& moved) const requires rubs
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < springs_.size(); ++i) {
+            const HandSpring& spring = springs_[i];
+            const FrictionSpring& friction = frictions_[i];
+            if (spring.holds || !friction.limits.is_rough()) continue;
+            const glm::dvec3 proxy = spring.arm - friction.stretch;
+            const glm::dvec3 stretch = friction.stretch + body_.tick * spring.velocity - moved -
+                                       (turn * proxy - proxy) - friction.slid;
+            const BoxSurface surface{spring, body_.dynamics.half, axes_of(body_.start.orientation)};
+            const glm::dvec3 hand = spring.arm + (spring.radius + spring.gap) * spring.normal +
+                                    body_.tick * spring.velocity - moved;
+            const ContactGeometry now = surface.at(turn * axes_of(body_.start.orientation), hand);
+            const glm::dvec3 along = stretch - glm::dot(stretch, now.normal) * now.normal;
+            sum += pull_energy(spring, friction, length(along), now.depth);
+        }
+        return sum;
+    }
+
     HandTick body_;
     std::span<const HandSpring> springs_;
+    [[no_unique_address]] Frictions frictions_;
     MovingBody free_; // at the end, without hands
     glm::dvec3 mass_;
     double driven_;
@@ -274,11 +281,7 @@ private:
     glm::dvec3 angular_momentum_{0.0}; // by the hands
     double before_ = 0.0;
     double after_ = 0.0;
-    struct {
-        double impulse = 0.0; // N s
-        double stored = 0.0;
-        double driven = 0.0;
-    } grips_; // of the springs that hold
+    GripEnergy grips_;
 };
 
 /// The share with which no spring gives more than it can.
@@ -294,22 +297,45 @@ double share_within_forces(std::span<const HandSpring> springs, std::span<const 
     return share;
 }
 
+template <bool rubs>
+void brake(PassivityCheck<rubs>& check, double share, std::span<SpringImpulse> work,
+           HandEnergy& energy)
+{
+    if (share < 1.0) {
+        check.scale(share);
+        for (SpringImpulse& each : work) each.impulse *= share;
+        energy.driven *= share;
+        energy.is_braked = true;
+    }
+    energy.grips = check.grips();
+    energy.grips.scale(share);
+    energy.stored -= energy.grips.stored;
+}
+
 } // namespace
 
 HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> springs,
                         std::span<SpringImpulse> work, SpringsAtEnd at_end)
 {
     HandEnergy energy = energy_of(springs, work);
-    PassivityCheck check{body, springs, work, energy.driven};
+    PassivityCheck<false> check{body, springs, work, energy.driven};
     const double share =
         std::min(check.share(energy.stored, at_end), share_within_forces(springs, work, body.tick));
-    if (share < 1.0) {
-        check.scale(share);
-        for (std::size_t i = 0; i < springs.size(); ++i) work[i].impulse *= share;
-        energy.driven *= share;
-        energy.is_braked = true;
-    }
-    check.count_grips(share, energy);
+    brake(check, share, work.first(springs.size()), energy);
+    return energy;
+}
+
+HandEnergy keep_passive(const HandTick& body, const FrictionContacts& contacts)
+{
+    const auto [springs, frictions, work] = contacts;
+    HandEnergy energy = energy_of(springs, work);
+    for (std::size_t i = 0; i < springs.size(); ++i)
+        energy.stored +=
+            pull_energy(springs[i], frictions[i], length(frictions[i].stretch), -springs[i].gap);
+    PassivityCheck<true> check{body, springs, work, energy.driven, frictions};
+    const double share = std::min(check.share(energy.stored, SpringsAtEnd::counted),
+                                  share_within_forces(springs, work, body.tick));
+    brake(check, share, work.first(springs.size()), energy);
     return energy;
 }
 

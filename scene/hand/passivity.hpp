@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/hand/advance.hpp"
+#include "scene/hand/friction.hpp"
 
 #include <cstdint>
 #include <span>
@@ -38,12 +39,14 @@ enum class SpringsAtEnd : std::uint8_t { ignored, counted };
 /// Kinetic energy is 1/2 m v^2 + 1/2 L I^-1 L, with the inertia at the start of the tick. It is a
 /// parabola in the share, so the largest passive share has a formula, and share 0 is passive. When
 /// the moments of inertia differ, this energy is vague by what the body turns in the tick; as much
-/// is tolerated by half: the spin at the end may be the smaller one. A grip gives at most twice
-/// the work of its impulse at the fastest corner, whatever it had stored.
+/// is tolerated by half: the spin at the end may be the smaller one. A grip gives at most what
+/// GripEnergy says, whatever it had stored.
 ///
 /// When the springs at the end are counted, what they store then is given, too, by the inertia at
 /// the end. A rule of second order may gain 3 % there, as it holds directions that turn.
 HandEnergy keep_passive(const HandTick& body, std::span<const HandSpring> springs,
                         std::span<SpringImpulse> work, SpringsAtEnd at_end);
+/// The same with friction: what is stored along the surfaces counts, too.
+HandEnergy keep_passive(const HandTick& body, const FrictionContacts& contacts);
 
 } // namespace hapnet::scene

@@ -7,8 +7,8 @@
 #include "scene/collide/sweep.hpp"
 #include "scene/maths/rotation.hpp"
 #include "scene/maths/vector.hpp"
+#include "scene/rigid/allowed_overlap.hpp"
 #include "scene/rigid/free_flight.hpp"
-#include "scene/rigid/touch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,59 +19,30 @@ namespace hapnet::scene {
 namespace {
 
 // Touches of one body in a tick. After some it does not bounce any more, and overlaps by more with
-// each: where many are wedged into each other, touches would have no end.
-constexpr std::uint32_t touches_max = 64, touches_many = 12;
+// each: where many are wedged into each other, touches would have no end. After more it sticks.
+constexpr std::uint32_t touches_max = 24, touches_many = 12;
 constexpr double many_times = 4.0;
-// Looks at two bodies in a tick: some, and so many more for each movable body.
-constexpr std::uint32_t steps_base = 512, steps_per_body = 32;
+// Looks at two bodies in a tick: some, and so many more for each movable body: more where there are
+// many, as each has more neighbours. When half of them are used up, all that touches sticks.
+constexpr std::uint32_t steps_base = 192, steps_per_body = 16, steps_per_pair = 2,
+                        steps_per_body_max = 96;
+// A touch costs about as much as so many looks.
+constexpr std::uint32_t steps_per_touch = 8;
 // Meetings for each movable body, on average.
 constexpr std::size_t meetings_per_body_max = 64;
 constexpr std::size_t meetings_max = 65'536;
 // A search through all meetings costs about as much as one look for every so many.
-constexpr std::size_t meetings_per_step = 64;
+constexpr std::size_t meetings_per_step = 256;
 
-// Overlaps, in shares of the smallest half edge of the two. With each touch in a tick they may
-// overlap by a little more, so that those that slide on each other or come to rest are not held up
-// and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
-constexpr double overlap_step = 0.01;
-constexpr double overlap_max = 0.5;
-constexpr double least_step = 0.05; // of the above
 // One that came so far behind the face that it touched is not there by right.
 constexpr double behind_max = 0.1;
-// How near to that counts.
-constexpr double near_share = 0.1;
-
 // As for bounces within a tick: what is slower than this, times what gravity adds in a tick, stays.
 constexpr double least_bounce = 2.0;
 
-/// By how much two that overlap so far may overlap more at the next touch.
-double next_overlap(double gap, double smallest)
+std::uint32_t steps_for(const Bodies& bodies)
 {
-    return overlap_step * smallest * std::max(least_step, 1.0 + gap / (overlap_max * smallest));
-}
-
-/// The same motion, but at `time` it is there and turned so.
-void set_place(SteadyBox& flight, const glm::dvec3& centre, const glm::dquat& orientation,
-               double time)
-{
-    flight.centre = centre - time * flight.velocity;
-    flight.orientation =
-        flight.spin == glm::dvec3{0.0} ? orientation : rotated(orientation, -time * flight.spin);
-}
-
-glm::dquat orientation_at(const SteadyBox& flight, double time)
-{
-    return flight.spin == glm::dvec3{0.0} ? flight.orientation
-                                          : rotated(flight.orientation, time * flight.spin);
-}
-
-/// Gravity and pushes: what acts on an awake body steadily through the tick, as an acceleration.
-glm::dvec3 steady_acceleration(const WorldConfig& config, const WorldState& state, Slot slot)
-{
-    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
-    const BodyProperties& properties = state.bodies.properties[slot];
-    return gravity_on(properties, config.gravity) +
-           properties.inverse_mass * state.pushes[properties.id];
+    return steps_base + bodies.movable * std::min(steps_per_body + steps_per_pair * bodies.movable,
+                                                  steps_per_body_max);
 }
 
 std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
@@ -88,20 +59,30 @@ ContinuousCollision::ContinuousCollision(const WorldConfig& config, const Bodies
       departures_{bodies.movable},
       flyers_{bodies.size()},
       meetings_{room_for_meetings(config, bodies)},
+      clusters_{2 * std::size_t{bodies.movable}},
       flyer_of_(bodies.size(), none),
       woken_{bodies.movable},
-      steps_max_{steps_base + steps_per_body * bodies.movable}
+      steps_max_{steps_for(bodies)},
+      steps_kept_{steps_max_ / 2}
 {}
+
+glm::dvec3 ContinuousCollision::Surroundings::steady_acceleration(Slot slot) const
+{
+    if (slot >= state.bodies.awake) return glm::dvec3{0.0};
+    const BodyProperties& properties = state.bodies.properties[slot];
+    return gravity_on(properties, config.gravity) +
+           properties.inverse_mass * state.pushes[properties.id];
+}
 
 void ContinuousCollision::begin(const Bodies& bodies, std::span<const Slot> active,
                                 std::span<const BodyIntegration> integrations,
                                 ContactSolver& solver)
 {
-    departures_.resize(bodies.awake);
+    departures_.resize(bodies.movable);
     for (Slot slot = 0; slot < bodies.awake; ++slot) {
         Departure& departure = departures_[slot];
-        departure.position = bodies.position.at(slot);
-        departure.orientation = bodies.orientation.at(slot);
+        departure.beginning = {bodies.position.at(slot), bodies.orientation.at(slot),
+                               bodies.velocity.at(slot), bodies.angular_momentum.at(slot)};
         departure.turn = Departure::Turn::free;
         departure.first_touch.time = scales_.tick;
     }
@@ -121,37 +102,48 @@ template <BroadPhase search>
 void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot> active,
                                 const PairFinder<search>& pairs)
 {
-    WorldState& state = around.state;
+    Bodies& bodies = around.state.bodies;
     flyers_.clear();
     meetings_.clear();
+    clusters_.clear();
     woken_.clear();
     steps_left_ = steps_max_;
-    for (const Slot slot : active) {
-        if (!goes_far(chord(state.bodies, slot), 0.0)) continue;
-        flyers_[add_flyer(around, state.bodies.properties[slot].id)].is_fast = true;
-    }
+    const auto add_fast = [&](Slot slot) {
+        if (goes_far(chord(bodies, slot), 0.0))
+            flyers_[add_flyer(around, bodies.properties[slot].id)].is_fast = true;
+    };
+    for (const Slot slot : active) add_fast(slot);
     const auto fast = static_cast<FlyerIndex>(flyers_.size());
-    for (Slot slot = state.bodies.movable; slot < state.bodies.moving; ++slot) {
-        if (!goes_far(chord(state.bodies, slot), 0.0)) continue;
-        flyers_[add_flyer(around, state.bodies.properties[slot].id)].is_fast = true;
-    }
+    for (Slot slot = bodies.movable; slot < bodies.moving; ++slot) add_fast(slot);
     const auto all = static_cast<FlyerIndex>(flyers_.size());
     for (FlyerIndex i = 0; i < all; ++i) find_others(around, pairs, i, 0.0);
     for (FlyerIndex i = 0; i < fast; ++i) {
-        if (!has_to_bend(state.bodies, i)) continue;
+        if (!has_to_bend(around, i)) continue;
         bend(around, i);
         find_others(around, pairs, i, 0.0);
         advance_all(around, i, 0.0, none);
     }
     while (go_to_next_touch(around, pairs)) {}
-    Bodies& bodies = state.bodies;
     for (const Flyer& flyer : flyers_.all()) {
         flyer_of_[flyer.body] = none;
         if (!flyer.has_changed) continue;
         const Slot slot = bodies.slot_of[flyer.body];
         bodies.position.put(slot, flyer.flight.centre + scales_.tick * flyer.flight.velocity);
-        bodies.orientation.put(slot, orientation_at(flyer.flight, scales_.tick));
+        bodies.orientation.put(slot, flyer.flight.orientation_at(scales_.tick));
     }
+}
+
+/// From a moment on a flyer goes on otherwise: finds anew what is in its way, and when. All but
+/// one other, which is `done`.
+template <BroadPhase search>
+void ContinuousCollision::go_on(const Surroundings& around, const PairFinder<search>& pairs,
+                                FlyerIndex index, double time, FlyerIndex done)
+{
+    Flyer& flyer = flyers_[index];
+    if (flyer.is_movable && !flyer.has_stopped && !flyer.is_fast)
+        flyer.is_fast = goes_far(flyer.flight, time);
+    if (flyer.is_fast && !flyer.has_stopped) find_others(around, pairs, index, time);
+    advance_all(around, index, time, done);
 }
 
 /// One touch, or one body that goes on otherwise: what comes first. False when nothing comes.
@@ -159,33 +151,49 @@ template <BroadPhase search>
 bool ContinuousCollision::go_to_next_touch(const Surroundings& around,
                                            const PairFinder<search>& pairs)
 {
-    const auto go_on = [&](FlyerIndex index, double time, FlyerIndex done) {
-        Flyer& flyer = flyers_[index];
-        if (flyer.is_movable && !flyer.has_stopped && !flyer.is_fast)
-            flyer.is_fast = goes_far(flyer.flight, time);
-        if (flyer.is_fast && !flyer.has_stopped) find_others(around, pairs, index, time);
-        advance_all(around, index, time, done);
-    };
     const MeetingIndex next = earliest();
     const double time = next == none ? scales_.tick : meetings_[next].time;
     const FlyerIndex bent = next_bend(time);
     if (bent != none) {
         const double then = flyers_[bent].bend;
         release(around, flyers_[bent], then);
-        go_on(bent, then, none);
+        go_on(around, pairs, bent, then, none);
         return true;
     }
     if (next == none) return false;
-    const auto cost = static_cast<std::uint32_t>(meetings_.size() / meetings_per_step);
-    steps_left_ -= std::min(steps_left_, cost);
+    const auto spend = [&](std::size_t cost) {
+        steps_left_ -= std::min(steps_left_, static_cast<std::uint32_t>(cost));
+    };
+    spend(meetings_.size() / meetings_per_step);
     if (steps_left_ == 0) {
         stop_all(around, time);
         return false;
     }
+    if (!meetings_[next].is_sure) {
+        const bool is_last = looks_run_short();
+        advance(around, meetings_[next], time, is_last ? steps_many : steps_at_once);
+        if (!is_last || meetings_[next].is_sure || meetings_[next].is_over) return true;
+    }
+    if (is_too_much(meetings_[next])) {
+        const auto before = static_cast<ClusterIndex>(clusters_.size());
+        Meeting& met = meetings_[next];
+        met.gap = std::min(met.gap, gap_of(around, met, time).distance);
+        met.gap -= next_overlap(met.gap, met.smallest);
+        stick(around, met);
+        const FlyerIndex at_wall = flyers_[met.a].is_movable ? met.a : met.b;
+        const auto now = static_cast<FlyerIndex>(flyers_.size());
+        for (FlyerIndex i = 0; i < now; ++i) {
+            const ClusterIndex its = flyers_[i].cluster;
+            if (its == none || (its < before && its != flyers_[at_wall].cluster)) continue;
+            go_on(around, pairs, i, time, none);
+        }
+        return true;
+    }
+    spend(steps_per_touch);
     touch(around, meetings_[next]);
     const Meeting met = meetings_[next];
-    go_on(met.a, time, none);
-    if (!met.is_plane) go_on(met.b, time, met.a);
+    go_on(around, pairs, met.a, time, none);
+    if (!met.is_plane) go_on(around, pairs, met.b, time, met.a);
     return true;
 }
 
@@ -201,27 +209,28 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
         flight.velocity = bodies.velocity.at(slot);
         flight.spin = bodies.angular_momentum.at(slot);
     }
-    if (slot >= departures_.size()) return flight; // fixed or asleep
+    if (slot >= bodies.awake) return flight; // asleep, or it is not moved
     const Departure& departure = departures_[slot];
-    flight.velocity = scales_.rate * (flight.centre - departure.position);
+    flight.velocity = scales_.rate * (flight.centre - departure.beginning.position);
     if (properties.turning != Turning::locked) {
         switch (departure.turn) {
         case Departure::Turn::steady: flight.spin = departure.spin; break;
         case Departure::Turn::by_hands:
-            flight.spin = scales_.rate * turn_between(departure.orientation, flight.orientation);
+            flight.spin =
+                scales_.rate * turn_between(departure.beginning.orientation, flight.orientation);
             break;
         case Departure::Turn::free:
             flight.spin =
                 rotates_uniformly(properties)
                     ? bodies.angular_velocity(slot)
-                    : mean_spin(departure.orientation,
+                    : mean_spin(departure.beginning.orientation,
                                 {bodies.angular_momentum.at(slot), properties.inverse_inertia},
                                 scales_.tick);
             break;
         }
     }
-    flight.centre = departure.position;
-    flight.orientation = departure.orientation;
+    flight.centre = departure.beginning.position;
+    flight.orientation = departure.beginning.orientation;
     return flight;
 }
 
@@ -245,19 +254,25 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
     flyer.body = body;
     flyer.is_movable = slot < bodies.movable;
     flyer.is_kinematic = bodies.properties[slot].is_kinematic;
-    flyer.bend = HUGE_VAL;
     flyer.flight = chord(bodies, slot);
+    if (flyer.is_movable && slot >= bodies.awake)
+        departures_[slot].beginning = {flyer.flight.centre, flyer.flight.orientation};
     return index;
 }
 
 /// Whether the straight way to where it was put is no way.
-bool ContinuousCollision::has_to_bend(const Bodies& bodies, FlyerIndex index)
+bool ContinuousCollision::has_to_bend(const Surroundings& around, FlyerIndex index)
 {
+    const Bodies& bodies = around.state.bodies;
     const Slot slot = bodies.slot_of[flyers_[index].body];
     const Departure& departure = departures_[slot];
     if (departure.first_touch.time >= scales_.tick) return false;
     bool meets = got_past(bodies, departure, slot);
-    for_meetings_of(index, [&](Meeting& meeting) { meets = meets || !meeting.is_over; });
+    for_meetings_of(index, [&](Meeting& meeting) {
+        if (!meeting.is_over && !meeting.is_sure)
+            advance(around, meeting, meeting.time, steps_many);
+        meets = meets || !meeting.is_over;
+    });
     return meets;
 }
 
@@ -310,16 +325,16 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
     const Slot slot = bodies.slot_of[flyer.body];
     const BodyProperties& properties = bodies.properties[slot];
     const glm::dvec3 centre = flyer.flight.centre + time * flyer.flight.velocity;
-    const glm::dquat orientation = orientation_at(flyer.flight, time);
+    const glm::dquat orientation = flyer.flight.orientation_at(time);
     const double left = scales_.tick - time;
     flyer.flight.velocity =
-        bodies.velocity.at(slot) - (0.5 * left) * steady_acceleration(around.config, state, slot);
+        bodies.velocity.at(slot) - (0.5 * left) * around.steady_acceleration(slot);
     // The spin that it has now, which is what a touch sees; with unequal moments of inertia it does
     // not stay: see touch().
     const OrientedBox box{centre, axes_of(orientation), properties.half};
     flyer.flight.spin =
         response_of(properties, box).inverse_inertia * bodies.angular_momentum.at(slot);
-    set_place(flyer.flight, centre, orientation, time);
+    flyer.flight.put(centre, orientation, time);
     flyer.is_released = true;
     flyer.has_changed = true;
 }
@@ -328,10 +343,9 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
 void ContinuousCollision::stop(Flyer& flyer, double time)
 {
     flyer.flight.centre += time * flyer.flight.velocity;
-    flyer.flight.orientation = orientation_at(flyer.flight, time);
+    flyer.flight.orientation = flyer.flight.orientation_at(time);
     flyer.flight.velocity = flyer.flight.spin = glm::dvec3{0.0};
-    flyer.has_stopped = true;
-    flyer.has_changed = true;
+    flyer.has_stopped = flyer.has_changed = true;
 }
 
 /// All that go far and may meet anything stay where they have come.
@@ -385,108 +399,14 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     }
 }
 
-bool ContinuousCollision::are_to_meet(FlyerIndex a, std::uint32_t b, bool is_plane) const
+/// Whether two that touch have touched so often that they stick.
+bool ContinuousCollision::is_too_much(const Meeting& meeting) const
 {
-    for (MeetingIndex i = flyers_[a].first; i != none;) {
-        const Meeting& meeting = meetings_[i];
-        const bool is_a = meeting.a == a;
-        if (meeting.is_plane == is_plane && (is_a ? meeting.b : meeting.a) == b) return true;
-        i = is_a ? meeting.next_of_a : meeting.next_of_b;
-    }
-    return false;
-}
-
-void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting& wanted)
-{
-    if (meetings_.is_full()) {
-        Flyer& stopped = flyers_[flyers_[wanted.a].is_movable ? wanted.a : wanted.b];
-        if (!stopped.has_stopped) stop(stopped, wanted.time);
-        ++around.state.interventions.budgets_spent;
-        return;
-    }
-    const OrientedBox box = flyers_[wanted.a].flight.at(0.0);
-    double smallest = std::min(box.half.x, std::min(box.half.y, box.half.z));
-    Gap gap;
-    if (wanted.is_plane) {
-        const PlaneDescription& plane = around.config.planes[wanted.b];
-        gap = gap_between(PlaneSurface{plane.normal, plane.offset_m}, box);
-    } else {
-        const OrientedBox other = flyers_[wanted.b].flight.at(0.0);
-        smallest = smallest_half(box, other);
-        gap = gap_between(box, other);
-    }
-    // Those that began far in each other cannot pass each other any more.
-    if (gap.distance <= -overlap_max * smallest) return;
-    const auto index = static_cast<MeetingIndex>(meetings_.size());
-    Meeting& meeting = meetings_.add();
-    meeting = wanted;
-    meeting.smallest = smallest;
-    meeting.gap = std::min(gap.distance, 0.0);
-    meeting.gap -= next_overlap(meeting.gap, smallest);
-    meeting.next_of_a = flyers_[meeting.a].first;
-    flyers_[meeting.a].first = index;
-    if (!meeting.is_plane) {
-        meeting.next_of_b = flyers_[meeting.b].first;
-        flyers_[meeting.b].first = index;
-    }
-    advance(around, meeting, wanted.time);
-}
-
-template <typename Visit>
-void ContinuousCollision::for_meetings_of(FlyerIndex index, Visit visit)
-{
-    for (MeetingIndex i = flyers_[index].first; i != none;) {
-        Meeting& meeting = meetings_[i];
-        i = meeting.a == index ? meeting.next_of_a : meeting.next_of_b;
-        visit(meeting);
-    }
-}
-
-/// The next touch; of those at the same time the first.
-ContinuousCollision::MeetingIndex ContinuousCollision::earliest() const
-{
-    MeetingIndex found = none;
-    for (MeetingIndex i = 0; i < meetings_.size(); ++i) {
-        const Meeting& meeting = meetings_[i];
-        if (meeting.is_over) continue;
-        if (found == none || meeting.time < meetings_[found].time) found = i;
-    }
-    return found;
-}
-
-/// Searches for their next touch while both go on as they do.
-void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, double from)
-{
-    const Flyer& a = flyers_[meeting.a];
-    const auto stays = [](const Flyer& flyer) { return flyer.has_stopped || !flyer.is_movable; };
-    meeting.is_over = stays(a) && (meeting.is_plane || stays(flyers_[meeting.b]));
-    if (meeting.is_over) return;
-    GapSearch asked{.gap = meeting.gap,
-                    .near = near_share * next_overlap(meeting.gap, meeting.smallest),
-                    .from = from,
-                    .to = a.is_released ? scales_.tick : std::min(scales_.tick, a.bend)};
-    Advanced advanced;
-    if (meeting.is_plane) {
-        const PlaneDescription& plane = around.config.planes[meeting.b];
-        advanced = advance_to_gap(PlaneSurface{plane.normal, plane.offset_m}, a.flight, asked,
-                                  steps_left_);
-    } else {
-        const Flyer& b = flyers_[meeting.b];
-        if (!b.is_released) asked.to = std::min(asked.to, b.bend);
-        advanced = advance_to_gap(a.flight, b.flight, asked, steps_left_);
-    }
-    meeting.time = advanced.time;
-    meeting.is_over = advanced.end == Advanced::End::clear;
-}
-
-/// The same for all of a flyer's meetings, but for those with another that is `done`.
-void ContinuousCollision::advance_all(const Surroundings& around, FlyerIndex index, double from,
-                                      FlyerIndex done)
-{
-    for_meetings_of(index, [&](Meeting& meeting) {
-        const FlyerIndex other = meeting.a == index ? meeting.b : meeting.a;
-        if (meeting.is_plane || other != done) advance(around, meeting, from);
-    });
+    if (looks_run_short()) return true;
+    const auto is_done = [&](const Flyer& flyer) {
+        return flyer.cluster != none || flyer.touches >= touches_max;
+    };
+    return is_done(flyers_[meeting.a]) || (!meeting.is_plane && is_done(flyers_[meeting.b]));
 }
 
 /// Two touch: if they come nearer, they push each other. After so many touches they stay.
@@ -504,8 +424,7 @@ void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
     }
     const bool pushed = exchange_impulse(around, meeting);
     if (pushed) ++around.state.interventions.sweeps_continued;
-    const bool many = flyers_[both[0]].touches >= touches_many ||
-                      flyers_[meeting.is_plane ? both[0] : both[1]].touches >= touches_many;
+    const bool many = std::max(flyers_[both[0]].touches, flyers_[both[1]].touches) >= touches_many;
     meeting.gap -= (many ? many_times : 1.0) * next_overlap(meeting.gap, meeting.smallest);
     const bool one_has_stopped =
         count == 2 && (flyers_[both[0]].has_stopped || flyers_[both[1]].has_stopped);
@@ -538,14 +457,13 @@ Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& fl
     if (!flyer.is_movable) return its;
     its.response = response_of(bodies.properties[slot], box);
     its.motion.velocity =
-        bodies.velocity.at(slot) -
-        (scales_.tick - time) * steady_acceleration(around.config, around.state, slot);
+        bodies.velocity.at(slot) - (scales_.tick - time) * around.steady_acceleration(slot);
     its.motion.spin = its.response.inverse_inertia * bodies.angular_momentum.at(slot);
     return its;
 }
 
 /// The impulse of a touch; whether there was one.
-bool ContinuousCollision::exchange_impulse(const Surroundings& around, const Meeting& meeting)
+bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& meeting)
 {
     Bodies& bodies = around.state.bodies;
     const double time = meeting.time;
@@ -579,16 +497,21 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, const Mee
     const ContactVector impulse = touch_impulse(block, a, b, least_bounce * scales_.fall);
     if (std::all_of(impulse.begin(), impulse.end(), [](double part) { return part == 0.0; }))
         return false;
-    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm) {
+    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm, double driven) {
         const Slot slot = bodies.slot_of[body];
         apply_impulse(bodies, slot, by, arm);
-        if (slot < bodies.awake) return;
-        if (std::find(woken_.begin(), woken_.end(), body) == woken_.end()) woken_.add(body);
+        departures_[slot].beginning.energy_driven += driven;
+        note_push(bodies, body);
     };
+    meeting.has_pushed = true;
     const Wrench on_b = wrench(block, impulse);
-    if (second.is_movable) push(second.body, on_b, block.arm_b);
+    const Wrench on_a{-on_b.impulse, -on_b.angular};
+    if (second.is_movable)
+        push(second.body, on_b, block.arm_b,
+             first.is_kinematic ? work_of(on_b, block.arm_a, a.motion) : 0.0);
     if (!meeting.is_plane && first.is_movable)
-        push(first.body, {-on_b.impulse, -on_b.angular}, block.arm_a);
+        push(first.body, on_a, block.arm_a,
+             second.is_kinematic ? work_of(on_a, block.arm_b, b.motion) : 0.0);
     return true;
 }
 

@@ -3,13 +3,16 @@
 #pragma once
 
 #include "scene/bounded.hpp"
+#include "scene/collide/advancement.hpp"
 #include "scene/collide/pair_finder.hpp"
-#include "scene/collide/time_of_impact.hpp"
+#include "scene/rigid/cluster.hpp"
 #include "scene/rigid/integrate.hpp"
 #include "scene/rigid/kinematics.hpp"
 #include "scene/rigid/touch.hpp"
 #include "scene/state.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -22,8 +25,12 @@ namespace hapnet::scene {
 /// the wall, on a spin: a cube that hits with a corner. So the way of every body that went farther
 /// than it could without passing something, turning included, is searched by conservative
 /// advancement. At a touch that is still approaching, both bodies get an impulse at that moment,
-/// with restitution and friction, and go on; in the order of time, for all of them. A body that
-/// touches too often in one tick stays where it is for the rest of it and keeps its velocity.
+/// with restitution and friction, and go on; in the order of time, for all of them.
+///
+/// Where many fast bodies are packed, touches would have no end. Those that touch too often in one
+/// tick stick together (Cluster): they have one motion from then on, as after an inelastic impact,
+/// and lose what they had against a wall that they touch. Each such step takes away one body or
+/// one direction, so there are few, and bodies of one motion take a single look.
 ///
 /// In a tick: begin() before bodies move, solve() after. Neither when no body goes far.
 class ContinuousCollision {
@@ -38,6 +45,9 @@ public:
         const WorldConfig& config;
         WorldState& state;
         const Kinematics& kinematics; // still where they began, with their mean velocities
+
+        /// Gravity and pushes: what acts on an awake body through the tick.
+        [[nodiscard]] glm::dvec3 steady_acceleration(Slot slot) const;
     };
     /// Corrects what went through something. Sleepers that are hit move on at once; woken() says
     /// which, to be woken.
@@ -47,18 +57,63 @@ public:
     /// Looks at two bodies in a tick, at most; and in the last solve().
     [[nodiscard]] std::uint64_t looks_max() const { return steps_max_; }
     [[nodiscard]] std::uint64_t looks() const { return steps_max_ - steps_left_; }
+    /// Whether the last solve() changed a body's velocity or its way.
+    [[nodiscard]] bool has_changed_any() const
+    {
+        const auto flyers = flyers_.all();
+        return std::any_of(flyers.begin(), flyers.end(),
+                           [](const Flyer& flyer) { return flyer.has_changed; });
+    }
     [[nodiscard]] std::span<const BodyId> woken() const { return woken_.all(); }
+
+    /// A body before the tick.
+    struct Beginning {
+        glm::dvec3 position{0.0};
+        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+        glm::dvec3 velocity{0.0};
+        glm::dvec3 angular_momentum{0.0};
+        double energy_driven = 0.0; // J: what kinematic bodies did to it since then, in touches
+    };
+    /// Of an awake body since begin(), and of a sleeper that the last solve() changed.
+    [[nodiscard]] const Beginning& beginning(Slot slot) const
+    {
+        return departures_[slot].beginning;
+    }
+    /// Calls visit(slot) for the movable bodies that the last solve() changed, in velocity or in
+    /// their way.
+    template <typename Visit>
+    void for_changed(const Bodies& bodies, Visit&& visit) const
+    {
+        for (const Flyer& flyer : flyers_.all()) {
+            if (flyer.is_movable && flyer.has_changed) visit(bodies.slot_of[flyer.body]);
+        }
+    }
+    /// Calls visit(slot, slot) for every two movable bodies that pushed each other in it.
+    template <typename Visit>
+    void for_pushes(const Bodies& bodies, Visit&& visit) const
+    {
+        for (const Meeting& meeting : meetings_.all()) {
+            if (!meeting.has_pushed || meeting.is_plane) continue;
+            const Flyer& a = flyers_[meeting.a];
+            const Flyer& b = flyers_[meeting.b];
+            if (a.is_movable && b.is_movable) visit(bodies.slot_of[a.body], bodies.slot_of[b.body]);
+        }
+    }
 
 private:
     using FlyerIndex = std::uint32_t;
     using MeetingIndex = std::uint32_t;
+    using ClusterIndex = std::uint32_t;
     static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    // At two of which others may touch first: so many at once. When half of all are used up, two at
+    // which many do not suffice stick before they touch: they spin beside each other.
+    static constexpr std::uint32_t steps_at_once = 4, steps_many = 32;
 
     /// Where a body was, and how it turned from there.
     struct Departure {
         enum class Turn : std::uint8_t { free, steady, by_hands };
-        glm::dvec3 position{0.0};
-        glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+        Beginning beginning;
         Turn turn = Turn::free;
         glm::dvec3 spin{0.0}; // when it is steady
         BodyMotion start;
@@ -69,14 +124,17 @@ private:
         BodyId body = 0;
         bool is_movable = false;
         bool is_kinematic = false;
-        bool is_fast = false;     // others in its way are looked for
-        bool is_released = false; // it goes on with its velocity at the end of the tick
-        bool has_stopped = false; // for the rest of the tick
-        bool has_changed = false; // it does not come to where it was put
+        bool is_fast = false;         // others in its way are looked for
+        bool is_released = false;     // it goes on with its velocity at the end of the tick
+        bool has_stopped = false;     // for the rest of the tick
+        bool has_changed = false;     // it does not come to where it was put
+        FlyerIndex next_stuck = none; // of those that it is stuck to, in a ring; `none`: free
+        ClusterIndex cluster = none;  // with whose motion it goes on
+        bool is_newly_stuck = false;  // ... not yet
         std::uint32_t touches = 0;
         MeetingIndex first = none;
-        double bend = 0.0; // s: when it goes on with that velocity at the latest
-        SteadyBox flight;  // time 0 is the start of the tick
+        double bend = HUGE_VAL; // s: when it goes on with that velocity at the latest
+        SteadyBox flight;       // time 0 is the start of the tick
         Aabb searched{glm::dvec3{1.0}, glm::dvec3{-1.0}}; // for others in its way
     };
     /// Two that may touch: a flyer and another, or a plane.
@@ -84,8 +142,10 @@ private:
         FlyerIndex a = 0;
         std::uint32_t b = 0;
         bool is_plane = false;
+        bool has_pushed = false;
         bool is_over = false;  // they surely do not touch any more in this tick
-        double time = 0.0;     // s: ... until then
+        bool is_sure = false;  // they touch at `time`
+        double time = 0.0;     // s: they surely do not touch until then
         double gap = 0.0;      // m: at which they touch; an overlap
         double smallest = 0.0; // m: the smallest half edge of the two
         MeetingIndex next_of_a = none;
@@ -93,12 +153,15 @@ private:
     };
     template <BroadPhase search>
     bool go_to_next_touch(const Surroundings& around, const PairFinder<search>& pairs);
+    template <BroadPhase search>
+    void go_on(const Surroundings& around, const PairFinder<search>& pairs, FlyerIndex index,
+               double time, FlyerIndex done);
 
     FlyerIndex add_flyer(const Surroundings& around, BodyId body);
     [[nodiscard]] SteadyBox chord(const Bodies& bodies, Slot slot) const;
     [[nodiscard]] bool goes_far(const SteadyBox& flight, double time) const;
     [[nodiscard]] bool got_past(const Bodies& bodies, const Departure& departure, Slot slot) const;
-    [[nodiscard]] bool has_to_bend(const Bodies& bodies, FlyerIndex index);
+    [[nodiscard]] bool has_to_bend(const Surroundings& around, FlyerIndex index);
     [[nodiscard]] FlyerIndex next_bend(double time) const;
     void bend(const Surroundings& around, FlyerIndex index);
     void release(const Surroundings& around, Flyer& flyer, double time);
@@ -109,26 +172,50 @@ private:
     void find_others(const Surroundings& around, const PairFinder<search>& pairs, FlyerIndex index,
                      double time);
     [[nodiscard]] bool are_to_meet(FlyerIndex a, std::uint32_t b, bool is_plane) const;
+    [[nodiscard]] Gap gap_of(const Surroundings& around, const Meeting& meeting, double time) const;
     void add_meeting(const Surroundings& around, const Meeting& meeting);
     template <typename Visit>
     void for_meetings_of(FlyerIndex index, Visit visit);
     [[nodiscard]] MeetingIndex earliest() const;
 
-    void advance(const Surroundings& around, Meeting& meeting, double from);
+    void advance(const Surroundings& around, Meeting& meeting, double from,
+                 std::uint32_t looks_max);
     void advance_all(const Surroundings& around, FlyerIndex index, double from, FlyerIndex done);
+    [[nodiscard]] bool looks_run_short() const { return steps_left_ <= steps_kept_; }
+    [[nodiscard]] bool is_too_much(const Meeting& meeting) const;
     void touch(const Surroundings& around, Meeting& meeting);
+
+    void stick(const Surroundings& around, Meeting& meeting);
+    void link(const Surroundings& around, FlyerIndex a, FlyerIndex b);
+    void go_together(const Surroundings& around, FlyerIndex index, double time);
+    void stick_to_wall(const Surroundings& around, FlyerIndex index, const Meeting& meeting);
+    template <typename Visit>
+    void for_stuck(FlyerIndex index, Visit visit);
+    void note_push(const Bodies& bodies, BodyId body);
     [[nodiscard]] Toucher toucher(const Surroundings& around, const Flyer& flyer,
                                   double time) const;
-    bool exchange_impulse(const Surroundings& around, const Meeting& meeting);
+    bool exchange_impulse(const Surroundings& around, Meeting& meeting);
 
     Scales scales_;
     Scratch<Departure> departures_; // by slot
     Scratch<Flyer> flyers_;
     Scratch<Meeting> meetings_;
+    Scratch<Cluster> clusters_;
     std::vector<FlyerIndex> flyer_of_; // by id; `none` between ticks
     Bounded<BodyId> woken_;
     std::uint32_t steps_max_ = 0; // looks at two bodies in a tick
     std::uint32_t steps_left_ = 0;
+    std::uint32_t steps_kept_ = 0; // of them for what sticks together
 };
+
+template <typename Visit>
+void ContinuousCollision::for_meetings_of(FlyerIndex index, Visit visit)
+{
+    for (MeetingIndex i = flyers_[index].first; i != none;) {
+        Meeting& meeting = meetings_[i];
+        i = meeting.a == index ? meeting.next_of_a : meeting.next_of_b;
+        visit(meeting);
+    }
+}
 
 } // namespace hapnet::scene

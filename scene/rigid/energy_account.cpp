@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace hapnet::scene {
 
@@ -22,59 +21,8 @@ constexpr double speed_tolerance = 1.9;
 constexpr double rest = 0.95e-6;
 // Radians in a tick beyond which the change of a body's inertia is not followed.
 constexpr double followed_turn = 0.3;
-
-/// A body's motion over the tick, in sums that any impulses on it enter linearly.
-struct Motion {
-    glm::dvec3 start{0.0};       // velocity, m/s
-    glm::dvec3 forced{0.0};      // m/s, what gravity and pushes add
-    glm::dvec3 twist{0.0};       // N m s, what torques add to the angular momentum
-    glm::dvec3 spin_forced{0.0}; // that of it, with the inertia of the start
-    glm::dvec3 change{0.0};      // m/s, of all impulses
-    glm::dvec3 spin{0.0};        // at the start, rad/s
-    glm::dvec3 momentum{0.0};
-    glm::dvec3 angular{0.0};     // N m s, of all impulses
-    glm::dvec3 spin_change{0.0}; // that of it, with the inertia of the start
-};
-
-Motion motion_of(const EnergyAccount::Tick& tick, Slot slot)
-{
-    const Bodies& bodies = tick.state.bodies;
-    const BodyProperties& properties = bodies.properties[slot];
-    const BodyIntegration& integration = tick.integrations[slot + 1];
-    const BodyMotion& end = tick.solver.end_motion(slot + 1);
-    Motion motion;
-    motion.start = integration.start.velocity;
-    motion.forced = tick.config.tick * (gravity_on(properties, tick.config.gravity) +
-                                        properties.inverse_mass * tick.state.pushes[properties.id]);
-    motion.change = end.velocity - motion.start - motion.forced;
-    motion.spin = integration.start.spin;
-    motion.momentum = bodies.angular_momentum.at(slot);
-    if (!tick.state.twisted.is_empty()) {
-        motion.twist =
-            tick.config.tick * about_unlocked_axes(properties, tick.state.torques[properties.id]);
-        motion.spin_forced = bodies.apply_inverse_inertia(slot, motion.twist);
-    }
-    motion.angular =
-        about_unlocked_axes(properties, integration.angular_momentum + end.angular_impulse +
-                                            integration.bounce_angular_impulse) -
-        motion.momentum - motion.twist;
-    motion.spin_change = bodies.apply_inverse_inertia(slot, motion.angular);
-    return motion;
-}
-
-/// By how much the energy of a body that turns may be wrong: its spin changes while its angular
-/// momentum stays, and in the impulses of contacts that counts.
-double turning_slack(const BodyProperties& properties, const Motion& motion, double tick)
-{
-    const glm::dvec3& inertia = properties.inertia;
-    if (properties.turning != Turning::free || properties.is_isotropic) return 0.0;
-    const double wobble =
-        std::max({inertia.x, inertia.y, inertia.z}) / std::min({inertia.x, inertia.y, inertia.z}) -
-        1.0;
-    const double spin = std::max(length(motion.spin),
-                                 length(motion.spin + motion.spin_forced + motion.spin_change));
-    return 0.9 * wobble * std::min(spin * tick, followed_turn) * spin * length(motion.angular);
-}
+// Radians in a tick beyond which the inertia at the start says little of a touch.
+constexpr double far_turn = 0.25;
 
 void count(Interventions& interventions, double share)
 {
@@ -84,123 +32,330 @@ void count(Interventions& interventions, double share)
 
 } // namespace
 
-EnergyAccount::EnergyAccount(std::size_t bodies) : balances_{bodies + 1}, islands_{bodies + 1} {}
+/// What a body's tick began with and what it has come to.
+struct EnergyAccount::BodyTick {
+    Slot slot = 0;
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // at the start
+    glm::dvec3 velocity{0.0};                   // at the start
+    glm::dvec3 angular_momentum{0.0};           // at the start
+    glm::dvec3 end_velocity{0.0};
+    glm::dvec3 end_angular_momentum{0.0};
+    glm::dvec3 mean_velocity{0.0}; // by which it goes
+    glm::dvec3 mean_spin{0.0};
+    const BodyIntegration* integration = nullptr; // where something acted on it but gravity
+    double driven_in_touches = 0.0;
+    bool has_moved = false;
+};
+
+/// A body's motion over the tick, in sums that any impulses on it enter linearly.
+struct EnergyAccount::Motion {
+    glm::dvec3 forced{0.0};      // m/s, what gravity and pushes add
+    glm::dvec3 load{0.0};        // m/s, the same of a sleeper, which others bear
+    glm::dvec3 twist{0.0};       // N m s, what torques add to the angular momentum
+    glm::dvec3 spin_forced{0.0}; // that of it, with the inertia of the start
+    glm::dvec3 change{0.0};      // m/s, of all impulses
+    glm::dvec3 spin{0.0};        // at the start, rad/s
+    glm::dvec3 angular{0.0};     // N m s, of all impulses
+    glm::dvec3 spin_change{0.0}; // that of it, with the inertia of the start
+};
+
+EnergyAccount::EnergyAccount(const Bodies& bodies)
+    : balances_{bodies.movable + std::size_t{1}},
+      islands_{bodies.moving + std::size_t{1}},
+      moved_{bodies.movable}
+{}
+
+EnergyAccount::BodyTick EnergyAccount::tick_of(const Tick& tick, Slot slot)
+{
+    const Bodies& bodies = tick.state.bodies;
+    const BodyIntegration& integration = tick.integrations[slot + 1];
+    const BodyMotion& end = tick.solver.end_motion(slot + 1);
+    const BodyMotion& mean = tick.solver.mean_motion(slot + 1);
+    return {.slot = slot,
+            .orientation = bodies.orientation.at(slot),
+            .velocity = integration.start.velocity,
+            .angular_momentum = bodies.angular_momentum.at(slot),
+            .end_velocity = end.velocity,
+            .end_angular_momentum = about_unlocked_axes(
+                bodies.properties[slot], integration.angular_momentum + end.angular_impulse +
+                                             integration.bounce_angular_impulse),
+            .mean_velocity = mean.velocity,
+            .mean_spin = mean.spin,
+            .integration = &integration};
+}
+
+EnergyAccount::BodyTick EnergyAccount::moved_tick_of(const Tick& tick, Slot slot,
+                                                     const ContinuousCollision& touches)
+{
+    const Bodies& bodies = tick.state.bodies;
+    const ContinuousCollision::Beginning& beginning = touches.beginning(slot);
+    BodyTick body{.slot = slot,
+                  .orientation = beginning.orientation,
+                  .velocity = beginning.velocity,
+                  .angular_momentum = beginning.angular_momentum,
+                  .end_velocity = bodies.velocity.at(slot),
+                  .end_angular_momentum = bodies.angular_momentum.at(slot),
+                  .mean_velocity =
+                      tick.scales.rate * (bodies.position.at(slot) - beginning.position),
+                  .driven_in_touches = beginning.energy_driven,
+                  .has_moved = true};
+    if (!tick.active.contains(slot)) return body;
+    body.integration = &tick.integrations[slot + 1];
+    body.mean_spin = tick.solver.mean_motion(slot + 1).spin;
+    return body;
+}
+
+EnergyAccount::Motion EnergyAccount::motion_of(const Tick& tick, const BodyTick& body)
+{
+    const Bodies& bodies = tick.state.bodies;
+    const BodyProperties& properties = bodies.properties[body.slot];
+    const auto spin_of = [&](const glm::dvec3& momentum) {
+        return Bodies::apply_inverse_inertia(properties, body.orientation, momentum);
+    };
+    Motion motion;
+    motion.load = tick.config.tick * (gravity_on(properties, tick.config.gravity) +
+                                      properties.inverse_mass * tick.state.pushes[properties.id]);
+    if (body.slot < bodies.awake) motion.forced = motion.load;
+    motion.change = body.end_velocity - body.velocity - motion.forced;
+    motion.spin = spin_of(body.angular_momentum);
+    motion.angular = body.end_angular_momentum - body.angular_momentum;
+    if (!tick.state.twisted.is_empty()) {
+        motion.twist =
+            tick.config.tick * about_unlocked_axes(properties, tick.state.torques[properties.id]);
+        motion.spin_forced = spin_of(motion.twist);
+        motion.angular -= motion.twist;
+    }
+    motion.spin_change = spin_of(motion.angular);
+    return motion;
+}
+
+/// By how much the energy of a body that turns may be wrong: its spin changes while its angular
+/// momentum stays, and in the impulses of contacts that counts.
+double EnergyAccount::turning_slack(const Tick& tick, const BodyTick& body, const Motion& motion,
+                                    double share)
+{
+    const BodyProperties& properties = tick.state.bodies.properties[body.slot];
+    const glm::dvec3& inertia = properties.inertia;
+    if (properties.turning != Turning::free || properties.is_isotropic) return 0.0;
+    const double most = std::max({inertia.x, inertia.y, inertia.z});
+    const double least = std::min({inertia.x, inertia.y, inertia.z});
+    const double wobble = most / least - 1.0;
+    constexpr double certainly = 0.9;
+    const double given = share * length(motion.angular);
+    const double before = length(motion.spin);
+    if (!body.has_moved) {
+        const double spin =
+            std::max(before, length(motion.spin + motion.spin_forced + share * motion.spin_change));
+        return certainly * wobble * std::min(spin * tick.config.tick, followed_turn) * spin * given;
+    }
+    // Touches push at their moment, with the inertia that the body has then.
+    const glm::dvec3 momentum = body.angular_momentum + motion.twist + share * motion.angular;
+    const double spin =
+        std::max(before, length(Bodies::apply_inverse_inertia(
+                             properties, tick.state.bodies.orientation.at(body.slot), momentum)));
+    const double angle = spin * tick.config.tick;
+    const double slack = wobble * angle * spin * given;
+    if (angle <= far_turn) return certainly * slack;
+    const double range = 0.5 * (1.0 / least - 1.0 / most);
+    return certainly * (slack + range * (glm::dot(body.angular_momentum, body.angular_momentum) +
+                                         glm::dot(momentum, momentum)));
+}
+
+double EnergyAccount::given_by_grips(const Tick& tick, const BodyTick& body, const Motion& motion,
+                                     double share)
+{
+    const double radius = length(tick.state.bodies.properties[body.slot].half);
+    const glm::dvec3 velocity = body.velocity + motion.forced + share * motion.change;
+    const glm::dvec3 spin = motion.spin + motion.spin_forced + share * motion.spin_change;
+    const double fastest = std::max(length(body.velocity) + radius * length(motion.spin),
+                                    length(velocity) + radius * length(spin));
+    return body.integration->grips.given(share, fastest);
+}
 
 void EnergyAccount::Balance::add(const Balance& other)
 {
-    gain += other.gain;
-    linear += other.linear;
-    square += other.square;
+    gain.linear += other.gain.linear;
+    gain.square += other.gain.square;
     stored += other.stored;
-    driven += other.driven;
+    given += other.given;
     detour += other.detour;
+    is_settled = is_settled && other.is_settled;
 }
 
-/// The largest share of the impulses with which no more is gained than may be: at most what the
-/// springs held, rounding, and the share of the hands' work.
-double EnergyAccount::Balance::share() const
+double EnergyAccount::Balance::share_within() const
 {
-    const double slope = linear - driven;
-    const double root2 = slope * slope + 4.0 * square * stored;
-    const double found = (-slope + std::sqrt(root2)) / (2.0 * square);
-    return found > 0.0 && found < 1.0 ? found : 0.0;
+    const EnergyOfShare own{0.0, gain.linear - given / share, gain.square};
+    return std::min(share, own.share_within(stored));
 }
 
-EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, Slot slot)
+EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTick& body,
+                                                 double share)
 {
-    const BodyProperties& properties = tick.state.bodies.properties[slot];
-    const BodyIntegration& integration = tick.integrations[slot + 1];
-    const Motion motion = motion_of(tick, slot);
-    const double mass = properties.mass;
+    const Motion motion = motion_of(tick, body);
+    const double mass = tick.state.bodies.properties[body.slot].mass;
     Balance balance;
-    balance.linear = mass * glm::dot(motion.change, motion.start + 0.5 * motion.forced) +
-                     glm::dot(motion.angular, motion.spin + 0.5 * motion.spin_forced);
-    balance.square = 0.5 * (mass * glm::dot(motion.change, motion.change) +
-                            glm::dot(motion.angular, motion.spin_change));
-    balance.gain = balance.linear + balance.square;
-    const glm::dvec3 mean = motion.start + 0.5 * (motion.forced + motion.change);
-    const glm::dvec3 mean_spin = motion.spin + 0.5 * (motion.spin_forced + motion.spin_change);
-    const double work = mass * glm::dot(motion.forced, mean) + glm::dot(motion.twist, mean_spin);
-    const BodyMotion& went = tick.solver.mean_motion(slot + 1);
+    balance.share = share;
+    balance.gain.linear = mass * glm::dot(motion.change, body.velocity + 0.5 * motion.forced) +
+                          glm::dot(motion.angular, motion.spin + 0.5 * motion.spin_forced);
+    balance.gain.square = 0.5 * (mass * glm::dot(motion.change, motion.change) +
+                                 glm::dot(motion.angular, motion.spin_change));
+    const glm::dvec3 mean = body.velocity + 0.5 * (motion.forced + share * motion.change);
+    const glm::dvec3 mean_spin =
+        motion.spin + 0.5 * (motion.spin_forced + share * motion.spin_change);
+    const double work = mass * glm::dot(motion.load, mean) + glm::dot(motion.twist, mean_spin);
     const double way =
-        mass * glm::dot(motion.forced, went.velocity) + glm::dot(motion.twist, went.spin);
+        mass * glm::dot(motion.load, body.mean_velocity) + glm::dot(motion.twist, body.mean_spin);
     balance.detour = std::max(0.0, way - work);
-    balance.stored = integration.hand_energy_stored;
-    balance.driven = integration.energy_driven;
-    const double there = mass * glm::dot(motion.start, motion.start) +
-                         glm::dot(motion.momentum, motion.spin) + std::abs(work);
+    // Those that bore a sleeper do not lift it.
+    balance.gain.linear -= 0.5 * mass * glm::dot(motion.change, motion.load - motion.forced);
+    const double there = mass * glm::dot(body.velocity, body.velocity) +
+                         glm::dot(body.angular_momentum, motion.spin) + std::abs(work);
     const double miss2 =
-        speed_tolerance * speed_tolerance * glm::dot(motion.forced, motion.forced) +
+        speed_tolerance * speed_tolerance * glm::dot(motion.load, motion.load) +
         rest * rest * tick.scales.least * tick.scales.least * tick.scales.rate * tick.scales.rate;
     const double twisted = glm::dot(motion.twist, motion.spin_forced);
-    balance.stored +=
+    balance.stored =
         energy_tolerance * there + mass * miss2 + speed_tolerance * speed_tolerance * twisted;
-    balance.driven += turning_slack(properties, motion, tick.config.tick);
+    balance.given = turning_slack(tick, body, motion, share) + share * body.driven_in_touches;
+    if (body.integration == nullptr) return balance;
+    balance.stored += body.integration->hand_energy_stored;
+    balance.given += share * body.integration->energy_driven;
+    if (body.integration->grips.impulse > 0.0)
+        balance.given += given_by_grips(tick, body, motion, share);
     return balance;
 }
 
-void EnergyAccount::settle(const Tick& tick)
+bool EnergyAccount::settle(const Tick& tick)
 {
+    const std::span<const Slot> slots = tick.active.slots();
     balances_.resize(tick.state.bodies.awake + std::size_t{1});
     bool any = false;
-    for (const Slot slot : tick.active) {
-        balances_[slot + 1] = balance_of(tick, slot);
+    for (const Slot slot : slots) {
+        balances_[slot + 1] = balance_of(tick, tick_of(tick, slot));
         any = any || balances_[slot + 1].is_exceeded();
     }
-    if (any) settle_islands(tick);
+    if (!any) return false;
+    join_islands(tick, slots);
+    find_shares(tick, slots, [&](Slot slot) { return tick_of(tick, slot); });
+    // Velocities alone: the way is what was found without overlaps.
+    const bool has_scaled = scale_islands(tick, slots, [&](Slot slot, double share) {
+        const BodyTick body = tick_of(tick, slot);
+        const Motion motion = motion_of(tick, body);
+        BodyIntegration& integration = tick.integrations[slot + 1];
+        BodyMotion& end = tick.solver.end_motion(slot + 1);
+        end.velocity = body.velocity + motion.forced + share * motion.change;
+        end.angular_impulse = glm::dvec3{0.0};
+        integration.bounce_angular_impulse = glm::dvec3{0.0};
+        integration.angular_momentum =
+            body.angular_momentum + motion.twist + share * motion.angular;
+    });
+    return has_scaled;
 }
 
-/// One body may gain what others of its island lose.
-void EnergyAccount::settle_islands(const Tick& tick)
+void EnergyAccount::settle_touches(const Tick& tick, const ContinuousCollision& touches)
 {
-    for (const Slot slot : tick.active) islands_.reset(slot + 1);
+    Bodies& bodies = tick.state.bodies;
+    moved_.clear();
+    for (const Slot slot : tick.active.slots()) moved_.add(slot);
+    touches.for_changed(bodies, [&](Slot slot) {
+        if (!tick.active.contains(slot)) moved_.add(slot);
+    });
+    balances_.resize(bodies.movable + std::size_t{1});
+    bool any = false; // also one that did not change, where another of its island did
+    for (const Slot slot : moved_) {
+        balances_[slot + 1] = balance_of(tick, moved_tick_of(tick, slot, touches));
+        any = any || balances_[slot + 1].is_exceeded();
+        balances_[slot + 1].is_settled = true;
+    }
+    touches.for_changed(bodies, [&](Slot slot) { balances_[slot + 1].is_settled = false; });
+    if (!any) return;
+    join_islands(tick, moved_.all());
+    touches.for_pushes(bodies, [&](Slot a, Slot b) { islands_.join(a + 1, b + 1); });
+    find_shares(tick, moved_.all(), [&](Slot slot) { return moved_tick_of(tick, slot, touches); });
+    scale_islands(tick, moved_.all(), [&](Slot slot, double share) {
+        const BodyTick body = moved_tick_of(tick, slot, touches);
+        const Motion motion = motion_of(tick, body);
+        bodies.velocity.put(slot, body.velocity + motion.forced + share * motion.change);
+        bodies.angular_momentum.put(slot,
+                                    body.angular_momentum + motion.twist + share * motion.angular);
+    });
+}
+
+void EnergyAccount::join_islands(const Tick& tick, std::span<const Slot> slots)
+{
+    for (const Slot slot : slots) islands_.reset(slot + 1);
     for (const ContactBlock& block : tick.solver.blocks()) {
         if (tick.solver.responds(block.a) && tick.solver.responds(block.b))
             islands_.join(block.a, block.b);
     }
     join_joined(tick.solver.joints(), islands_);
-    for (const Slot slot : tick.active) {
-        const SolverIndex root = islands_.root_of(slot + 1);
-        if (root != slot + 1) balances_[root].add(balances_[slot + 1]);
-    }
-    leave_joined(tick.solver.joints());
-    for (const Slot slot : tick.active) {
-        const SolverIndex root = islands_.root_of(slot + 1);
-        const Balance& island = balances_[root];
-        if (!island.is_exceeded()) continue;
-        const double share = island.share();
-        if (root == slot + 1) count(tick.state.interventions, share);
-        scale(tick, slot, share);
-    }
-    for (ContactBlock& block : tick.solver.blocks()) {
-        const SolverIndex body = tick.solver.responds(block.a) ? block.a : block.b;
-        const Balance& island = balances_[islands_.root_of(body)];
-        if (island.is_exceeded()) scale_impulses(*block.memory, island.share());
-    }
 }
 
 /// A share of a joint's impulse would not hold it: JointEnergy settles the islands with joints.
 void EnergyAccount::leave_joined(const JointSolver& joints)
 {
     for (const JointSolver::Group& group : joints.groups()) {
-        if (group.is_awake)
-            balances_[islands_.root_of(joints.body_of(group))].stored =
-                std::numeric_limits<double>::infinity();
+        if (group.is_awake) balances_[islands_.root_of(joints.body_of(group))].is_settled = true;
     }
 }
 
-/// Velocities alone: the way is what was found without overlaps.
-void EnergyAccount::scale(const Tick& tick, Slot slot, double share)
+/// One body may gain what others of its island lose.
+template <typename TickOf>
+void EnergyAccount::find_shares(const Tick& tick, std::span<const Slot> slots,
+                                TickOf&& tick_of_slot)
 {
-    BodyIntegration& integration = tick.integrations[slot + 1];
-    BodyMotion& end = tick.solver.end_motion(slot + 1);
-    const Motion motion = motion_of(tick, slot);
-    end.velocity = motion.start + motion.forced + share * motion.change;
-    end.angular_impulse = glm::dvec3{0.0};
-    integration.bounce_angular_impulse = glm::dvec3{0.0};
-    integration.angular_momentum = motion.momentum + motion.twist + share * motion.angular;
-    if (integration.has_hands)
-        tick.hands.scale_impulses(tick.state.bodies.properties[slot].id, share);
+    for (const Slot slot : slots) {
+        const SolverIndex root = islands_.root_of(slot + 1);
+        if (root != slot + 1) balances_[root].add(balances_[slot + 1]);
+    }
+    leave_joined(tick.solver.joints());
+    // What may be gained shrinks with the share: with that of hands, and of what turns.
+    for (int round = 0; round < share_rounds_max; ++round) {
+        bool any = false;
+        for (const Slot slot : slots) {
+            Balance& island = balances_[slot + 1];
+            if (islands_.root_of(slot + 1) != slot + 1) continue;
+            island.is_settled = !island.is_exceeded();
+            if (island.is_settled) continue;
+            const double share = next_share(island.share, island.share_within(), round);
+            island = {};
+            island.share = share;
+            any = true;
+        }
+        if (!any) return;
+        for (const Slot slot : slots) {
+            Balance& island = balances_[islands_.root_of(slot + 1)];
+            if (island.is_settled) continue;
+            island.add(balance_of(tick, tick_of_slot(slot), island.share));
+        }
+    }
+}
+
+/// Calls scale(slot, share) for the bodies of islands that gained; returns whether any did.
+template <typename Scale>
+bool EnergyAccount::scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale)
+{
+    bool any = false;
+    for (const Slot slot : slots) {
+        const SolverIndex root = islands_.root_of(slot + 1);
+        const double share = balances_[root].share;
+        if (share == 1.0) continue;
+        any = true;
+        if (root == slot + 1) count(tick.state.interventions, share);
+        scale(slot, share);
+        if (!tick.active.contains(slot)) continue;
+        BodyIntegration& integration = tick.integrations[slot + 1];
+        integration.energy_driven *= share;
+        integration.grips.scale(share);
+        if (integration.has_hands)
+            tick.hands.scale_impulses(tick.state.bodies.properties[slot].id, share);
+    }
+    for (ContactBlock& block : tick.solver.blocks()) {
+        const SolverIndex body = tick.solver.responds(block.a) ? block.a : block.b;
+        const double share = balances_[islands_.root_of(body)].share;
+        if (share != 1.0) scale_impulses(*block.memory, share);
+    }
+    return any;
 }
 
 } // namespace hapnet::scene

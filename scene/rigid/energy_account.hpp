@@ -3,13 +3,15 @@
 #pragma once
 
 #include "scene/bounded.hpp"
+#include "scene/maths/energy_share.hpp"
+#include "scene/rigid/continuous.hpp"
+#include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
 #include "scene/solver/contact_solver.hpp"
 #include "scene/solver/islands.hpp"
 #include "scene/state.hpp"
 
-#include <cstdint>
 #include <span>
 
 namespace hapnet::scene {
@@ -22,46 +24,69 @@ namespace hapnet::scene {
 /// parabola over the share: there always is one. Momentum stays, and no force grows.
 class EnergyAccount {
 public:
-    explicit EnergyAccount(std::size_t bodies);
+    explicit EnergyAccount(const Bodies& bodies);
 
     /// What a tick has come to.
     struct Tick {
         const WorldConfig& config;
         WorldState& state;
         const Scales& scales;
-        std::span<const Slot> active;
+        const ActiveBodies& active;
         std::span<BodyIntegration> integrations; // by solver index
         ContactSolver& solver;
         HandContacts& hands;
     };
 
-    /// Looks at all active bodies; changes the motions and impulses of the islands that gain.
-    void settle(const Tick& tick);
+    /// Looks at all active bodies, before they move; changes the motions and impulses of the
+    /// islands that gain. Returns whether any did.
+    bool settle(const Tick& tick);
+    /// The same when they have moved, of those that continuous collision changed: by the way that
+    /// they went at last. Their touches are impulses of the tick like all others.
+    void settle_touches(const Tick& tick, const ContinuousCollision& touches);
 
 private:
-    /// Of a body, or the sum over an island, J.
+    struct BodyTick;
+    struct Motion;
+    /// Of a body, or the sum over an island, J, with a share of the impulses.
     struct Balance {
-        double gain = 0.0;   // with all impulses
-        double linear = 0.0; // of that the part that grows with the share of the impulses ...
-        double square = 0.0; // ... and that with its square
-        double stored = 0.0; // what may be gained without impulses: what springs held, rounding
-        double driven = 0.0; // with all impulses: the work of the motion of hands and kinematic
-                             // bodies, and what is not followed of a turning body's inertia
-        double detour =
-            0.0; // of gravity, pushes and torques where the way is not the mean velocity's
+        EnergyOfShare gain;      // less the work of gravity, pushes and torques
+        double stored = 0.0;     // what may be gained without impulses: what springs held, rounding
+        double given = 0.0;      // what by the impulses: by grips, by the motion of hands and of
+                                 // kinematic bodies, by what is not followed of a turning inertia
+        double detour = 0.0;     // of gravity, pushes and torques where the way is not the mean
+                                 // velocity's
+        double share = 1.0;      // of the impulses
+        bool is_settled = false; // there is nothing to be looked at
 
         void add(const Balance& other);
-        [[nodiscard]] bool is_exceeded() const { return gain > stored + driven + detour; }
-        [[nodiscard]] double share() const;
+        [[nodiscard]] bool is_exceeded() const
+        {
+            return gain.at(share) > stored + given + detour && !is_settled;
+        }
+        /// The share with which it is not, were what is given so much for its share.
+        [[nodiscard]] double share_within() const;
     };
 
-    [[nodiscard]] static Balance balance_of(const Tick& tick, Slot slot);
-    static void scale(const Tick& tick, Slot slot, double share);
-    void settle_islands(const Tick& tick);
+    [[nodiscard]] static BodyTick tick_of(const Tick& tick, Slot slot);
+    [[nodiscard]] static BodyTick moved_tick_of(const Tick& tick, Slot slot,
+                                                const ContinuousCollision& touches);
+    [[nodiscard]] static Motion motion_of(const Tick& tick, const BodyTick& body);
+    [[nodiscard]] static double turning_slack(const Tick& tick, const BodyTick& body,
+                                              const Motion& motion, double share);
+    [[nodiscard]] static double given_by_grips(const Tick& tick, const BodyTick& body,
+                                               const Motion& motion, double share);
+    [[nodiscard]] static Balance balance_of(const Tick& tick, const BodyTick& body,
+                                            double share = 1.0);
+    void join_islands(const Tick& tick, std::span<const Slot> slots);
     void leave_joined(const JointSolver& joints);
+    template <typename TickOf>
+    void find_shares(const Tick& tick, std::span<const Slot> slots, TickOf&& tick_of_slot);
+    template <typename Scale>
+    bool scale_islands(const Tick& tick, std::span<const Slot> slots, Scale&& scale);
 
     Scratch<Balance> balances_; // by solver index; then by the first body of an island
     Islands islands_;
+    Bounded<Slot> moved_;
 };
 
 } // namespace hapnet::scene

@@ -94,6 +94,8 @@ public:
         slots_.clear();
     }
 
+    [[nodiscard]] bool contains(Slot slot) const { return marks_[slot] != 0; }
+
     /// In the order in which they came.
     [[nodiscard]] std::span<const Slot> slots() const { return slots_.all(); }
 

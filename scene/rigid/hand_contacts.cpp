@@ -17,12 +17,16 @@ HandContacts::HandContacts(const WorldConfig& config)
     : hands_(config.hands.count),
       any_felt_plane_{std::any_of(config.planes.begin(), config.planes.end(),
                                   [](const PlaneDescription& plane) { return plane.felt; })},
+      any_friction_{config.feels.any_friction()},
       gravity_reach_{config.tick * config.tick *
                      std::sqrt(glm::dot(config.gravity, config.gravity))},
       springs_{config.hands.count * touched_per_hand_max},
       forces_{config.hands.count * touched_per_hand_max},
       own_{config.hands.count * touched_per_hand_max},
-      work_{config.hands.count * touched_per_hand_max}
+      work_{config.hands.count * touched_per_hand_max},
+      proxies_{config},
+      rubbed_{any_friction_ ? config.hands.count * touched_per_hand_max : 0},
+      frictions_{any_friction_ ? config.hands.count * touched_per_hand_max : 0}
 {}
 
 void HandContacts::begin_step(const WorldConfig& config, WorldState& state)
@@ -219,6 +223,139 @@ void HandContacts::feel_planes_with(const WorldConfig& config, WorldState& state
     }
 }
 
+/// What the hand feels at the start of the tick; and of that push no more than friction leaves.
+void HandContacts::note_friction(WorldState& state, const HandProxies::Touch& touch,
+                                 const FrictionSpring& friction, const Press& press)
+{
+    const HandDescription& hands = press.hands;
+    const double before = force_at(hands, press.depth, press.closing);
+    const double push = std::min(before, push_max(hands.force_max_n, friction.limits));
+    const glm::dvec3 pull =
+        hands.stiffness_n_per_m * friction.stretch + hands.damping_ns_per_m * press.velocity;
+    const double size = length(pull);
+    const double most = friction.limit() * push;
+    const glm::dvec3 cut = size > most ? (most / size) * pull : pull;
+    state.touches[touch.hand].on_hand_at_start.value += (push - before) * touch.normal - cut;
+    HandSlip& slip = state.slips[touch.hand];
+    const double stretch = length(friction.stretch);
+    slip.stretch_m = std::max(slip.stretch_m, stretch);
+    slip.stored_j += 0.5 * hands.stiffness_n_per_m * stretch * stretch;
+}
+
+void HandContacts::note_slip(HandSlip& slip, const FrictionSpring& friction)
+{
+    slip.sticks = slip.sticks || !friction.slides;
+    slip.slides = slip.slides || friction.slides;
+}
+
+void HandContacts::rub_movable(const WorldConfig& config, WorldState& state, std::size_t spring,
+                               const Target& target)
+{
+    const auto [hand, body, impulse] = springs_[spring];
+    const HandSpring& form = forces_[spring];
+    const HandInput& input = state.hands[hand];
+    RubbedSpring& rubbed = rubbed_.add();
+    const OrientedBox& box = target.now.box;
+    rubbed.touch = {hand,     body,        box.axes,      input.position.value - box.centre,
+                    form.arm, form.normal, form.gap < 0.0};
+    rubbed.friction = form.holds
+                          ? FrictionSpring{}
+                          : proxies_.begin(rubbed.touch, config.feels.friction_on_body(hand, body));
+    if (!rubbed.friction.limits.is_rough()) return;
+    const glm::dvec3 over =
+        input.velocity.value - target.velocity - glm::cross(target.now.spin, form.arm);
+    const double closing = -glm::dot(over, form.normal);
+    note_friction(state, rubbed.touch, rubbed.friction,
+                  {config.feels.of(hand, body, config.hands), over + closing * form.normal,
+                   -form.gap, closing});
+}
+
+void HandContacts::rub_fixed(const WorldConfig& config, WorldState& state, std::uint32_t hand,
+                             const Target& target)
+{
+    const HandFriction limits = config.feels.friction_on_body(hand, target.body);
+    NearBody* const near_body = find_near(hands_[hand], target.body);
+    if (!limits.is_rough() || near_body == nullptr) return;
+    const HandDescription& hands = config.feels.of(hand, target.body, config.hands);
+    const HandInput& input = state.hands[hand];
+    HandSpring spring{.radius = hands.radius_m};
+    if (!touch(config, input, target, *near_body, spring)) return;
+    const OrientedBox& box = target.now.box;
+    const glm::dvec3 over =
+        input.velocity.value - target.velocity - glm::cross(target.now.spin, spring.arm);
+    const double closing = -glm::dot(over, spring.normal);
+    rub_unmoved(config, state,
+                {hand, target.body, box.axes, input.position.value - box.centre, spring.arm,
+                 spring.normal, spring.gap < 0.0},
+                limits, {hands, over + closing * spring.normal, -spring.gap, closing});
+}
+
+void HandContacts::rub_planes(const WorldConfig& config, WorldState& state, std::uint32_t hand)
+{
+    const HandInput& input = state.hands[hand];
+    const HandDescription& feel = config.feels.of(hand, config.hands);
+    const glm::dvec3& centre = input.position.value;
+    for (std::uint32_t i = 0; i < config.planes.size(); ++i) {
+        const PlaneDescription& plane = config.planes[i];
+        const HandFriction limits = config.feels.friction_on_plane(hand, i);
+        if (!plane.felt || !limits.is_rough()) continue;
+        const double height = glm::dot(plane.normal, centre) - plane.offset_m;
+        const double depth = feel.radius_m - height;
+        const double closing = -glm::dot(plane.normal, input.velocity.value);
+        if (depth <= 0.0 && depth + config.tick * closing <= 0.0) continue;
+        rub_unmoved(config, state,
+                    {hand, HandProxies::planes_from + i, glm::dmat3{1.0}, centre,
+                     centre - height * plane.normal, plane.normal, depth > 0.0},
+                    limits, {feel, input.velocity.value + closing * plane.normal, depth, closing});
+    }
+}
+
+/// On what goes its way whatever hands do.
+void HandContacts::rub_unmoved(const WorldConfig& config, WorldState& state,
+                               const HandProxies::Touch& touch, const HandFriction& limits,
+                               const Press& press)
+{
+    FrictionSpring friction = proxies_.begin(touch, limits);
+    if (!friction.limits.is_rough()) return;
+    note_friction(state, touch, friction, press);
+    HandDescription hands = press.hands;
+    const double tick = config.tick;
+    const double before = impulse_at_constant_velocity(hands, press.depth, press.closing, tick);
+    hands.force_max_n = push_max(hands.force_max_n, limits);
+    const double push = impulse_at_constant_velocity(hands, press.depth, press.closing, tick);
+    const glm::dvec3 pull = rub_evenly(
+        {hands.stiffness_n_per_m, hands.damping_ns_per_m, press.velocity, push, tick}, friction);
+    state.touches[touch.hand].on_hand.value +=
+        (1.0 / tick) * ((push - before) * touch.normal + pull);
+    proxies_.end(touch, friction);
+    note_slip(state.slips[touch.hand], friction);
+}
+
+std::span<FrictionSpring> HandContacts::frictions_on(BodyId body)
+{
+    if (!any_friction_) return {};
+    frictions_.clear();
+    bool any = false;
+    for (std::size_t i = 0; i < springs_.size(); ++i) {
+        if (springs_[i].body != body) continue;
+        frictions_.add() = rubbed_[i].friction;
+        any = any || rubbed_[i].friction.limits.is_rough();
+    }
+    return any ? frictions_.all() : std::span<FrictionSpring>{};
+}
+
+void HandContacts::store_friction(WorldState& state, BodyId body)
+{
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < springs_.size(); ++i) {
+        if (springs_[i].body != body) continue;
+        const FrictionSpring& friction = frictions_[next++];
+        if (!friction.limits.is_rough()) continue;
+        proxies_.end(rubbed_[i].touch, friction);
+        note_slip(state.slips[springs_[i].hand], friction);
+    }
+}
+
 HandSpring& HandContacts::add(std::uint32_t hand, BodyId body)
 {
     springs_.add() = {hand, body, glm::dvec3{0.0}};
@@ -286,6 +423,7 @@ void HandContacts::report_forces(const WorldConfig& config, WorldState& state)
 
 void HandContacts::forget(BodyId body)
 {
+    proxies_.forget(body);
     for (Hand& hand : hands_) {
         if (hand.holding && hand.holding->body == body) hand.holding.reset();
         for (std::size_t i = 0; i < hand.count; ++i) {

@@ -6,6 +6,8 @@
 #include "scene/collide/sphere_box.hpp"
 #include "scene/collide/sweep.hpp"
 #include "scene/hand/advance.hpp"
+#include "scene/hand/friction.hpp"
+#include "scene/rigid/hand_proxies.hpp"
 #include "scene/state.hpp"
 
 #include <array>
@@ -46,6 +48,26 @@ public:
     [[nodiscard]] bool feels_planes() const { return any_felt_plane_; }
     /// Adds what the hands feel of planes.
     static void feel_planes(const WorldConfig& config, WorldState& state);
+    [[nodiscard]] bool any_friction() const { return any_friction_; }
+    /// Adds the friction of what was found: of the springs, and what the hands feel of fixed bodies
+    /// and planes. `target_of` says where a body is.
+    template <typename TargetOf>
+    void add_friction(const WorldConfig& config, WorldState& state, const TargetOf& target_of)
+    {
+        proxies_.begin_step();
+        rubbed_.clear();
+        state.slips.assign(state.slips.size(), {});
+        for (std::size_t i = 0; i < springs_.size(); ++i)
+            rub_movable(config, state, i, target_of(springs_[i].body));
+        for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
+            if (!state.hands[hand].present) continue;
+            for (std::size_t k = 0; k < hands_[hand].count; ++k) {
+                const Target target = target_of(hands_[hand].nearby[k].body);
+                if (!target.is_movable) rub_fixed(config, state, hand, target);
+            }
+            rub_planes(config, state, hand);
+        }
+    }
     /// Forgets the bodies that the hand has left.
     void forget_departed(std::uint32_t index);
 
@@ -56,6 +78,10 @@ public:
         std::span<SpringImpulse> work;
     };
     [[nodiscard]] BodySprings springs_on(BodyId body);
+    /// The friction of those; empty where they are smooth.
+    [[nodiscard]] std::span<FrictionSpring> frictions_on(BodyId body);
+    /// Keeps what has become of it.
+    void store_friction(WorldState& state, BodyId body);
     /// Keeps the impulses that were found for them.
     void store_impulses(BodyId body);
     /// Takes but a share of what the springs did to a body.
@@ -101,6 +127,27 @@ private:
     bool find(const WorldConfig& config, const HandInput& input, const Target& target,
               NearBody& near_body, HandSpring& spring) const;
     static void press(const AmidFace& face, const glm::dvec3& offset, HandSpring& spring);
+    struct RubbedSpring {
+        HandProxies::Touch touch;
+        FrictionSpring friction;
+    };
+    /// What a hand does across a surface at the start of a tick.
+    struct Press {
+        const HandDescription& hands;
+        glm::dvec3 velocity{0.0}; // of the hand over the surface where it touches
+        double depth = 0.0;
+        double closing = 0.0;
+    };
+    void rub_movable(const WorldConfig& config, WorldState& state, std::size_t spring,
+                     const Target& target);
+    void rub_fixed(const WorldConfig& config, WorldState& state, std::uint32_t hand,
+                   const Target& target);
+    void rub_planes(const WorldConfig& config, WorldState& state, std::uint32_t hand);
+    void rub_unmoved(const WorldConfig& config, WorldState& state, const HandProxies::Touch& touch,
+                     const HandFriction& limits, const Press& press);
+    static void note_friction(WorldState& state, const HandProxies::Touch& touch,
+                              const FrictionSpring& friction, const Press& press);
+    static void note_slip(HandSlip& slip, const FrictionSpring& friction);
     HandSpring& add(std::uint32_t hand, BodyId body);
     bool add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
                   const Target& target);
@@ -111,11 +158,15 @@ private:
 
     std::vector<Hand> hands_;
     bool any_felt_plane_;
+    bool any_friction_;
     double gravity_reach_; // twice the distance that a body falls in a tick from rest, metres
     Scratch<Spring> springs_;
     Scratch<HandSpring> forces_;  // in the order of springs_
     Scratch<HandSpring> own_;     // of one body
     Scratch<SpringImpulse> work_; // of one body
+    HandProxies proxies_;
+    Scratch<RubbedSpring> rubbed_;      // in the order of springs_, where there is friction
+    Scratch<FrictionSpring> frictions_; // of one body
 };
 
 } // namespace hapnet::scene

@@ -108,6 +108,7 @@ void reset(BodyIntegration& integration)
     integration.is_joined = false;
     integration.hand_energy_stored = 0.0;
     integration.energy_driven = 0.0;
+    integration.grips.impulse = 0.0;
     integration.first_touch.time = std::numeric_limits<double>::infinity();
 }
 
@@ -188,9 +189,13 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
                            integration.start.velocity, bodies.angular_momentum.at(slot)};
     MovingBody body = start;
     const HandEnergy energy =
-        advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes);
+        hands.frictions.empty()
+            ? advance(body, dynamics, hands.springs, hands.work, config.tick, hands.modes)
+            : advance_with_friction(body, dynamics, {hands.springs, hands.frictions, hands.work},
+                                    config.tick);
     integration.hand_energy_stored = energy.stored;
     integration.energy_driven = energy.driven;
+    integration.grips = energy.grips;
     integration.hands_are_braked = energy.is_braked;
     integration.hand_rows = energy.rows;
     integration.has_hands = true;

@@ -4,6 +4,7 @@
 
 #include "scene/collide/manifold.hpp"
 #include "scene/hand/advance.hpp"
+#include "scene/hand/friction.hpp"
 #include "scene/solver/contact_solver.hpp"
 #include "scene/state.hpp"
 
@@ -44,6 +45,7 @@ struct BodyIntegration {
     bool hands_are_braked = false;
     std::size_t hand_rows = 0;       // see HandEnergy
     double hand_energy_stored = 0.0; // J: in their springs at the start of the tick
+    GripEnergy grips;                // of those that hold
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     BodyMotion mean_to_there; // the mean motion that goes there
@@ -63,6 +65,7 @@ struct HandForces {
     std::span<SpringImpulse> work;
     PressedModes& modes;
     const WorldConfig& config;
+    std::span<FrictionSpring> frictions{}; // empty: all are smooth
 };
 
 /// Gravity, pushes and last tick's contact impulses, without hands: a parabola.

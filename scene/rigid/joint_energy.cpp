@@ -31,6 +31,17 @@ double kinetic_energy(const Bodies& bodies, Slot slot)
                   glm::dot(bodies.angular_momentum.at(slot), bodies.angular_velocity(slot)));
 }
 
+double given_by_grips(const BodyIntegration& integration, const Bodies& bodies, Slot slot)
+{
+    if (!(integration.grips.impulse > 0.0)) return 0.0;
+    const double radius = length(bodies.properties[slot].half);
+    const BodyMotion& start = integration.start;
+    const double fastest =
+        std::max(length(start.velocity) + radius * length(start.spin),
+                 length(bodies.velocity.at(slot)) + radius * length(bodies.angular_velocity(slot)));
+    return integration.grips.given(1.0, fastest);
+}
+
 /// The moments of inertia of one body about another point: its own in the world's frame, and its
 /// mass at `from` there.
 glm::dmat3 inertia_about(const BodyProperties& properties, const glm::dquat& orientation,
@@ -119,7 +130,8 @@ void JointEnergy::add(const Tick& tick, Slot slot)
             work += tick.config.tick *
                     glm::dot(about_unlocked_axes(properties, tick.state.torques[properties.id]),
                              tick.solver.mean_motion(slot + 1).spin);
-        given = integration.hand_energy_stored + integration.energy_driven;
+        given = integration.hand_energy_stored + integration.energy_driven +
+                given_by_grips(integration, bodies, slot);
     }
     island.gain += now - from.energy - work - given;
     island.there += now + from.energy + std::abs(work) + std::abs(given);

@@ -95,22 +95,35 @@ void Kinematics::begin_contacts(const Bodies& bodies, ContactSolver& solver,
     }
 }
 
+namespace {
+
+/// From the centres of two that touch to where they do.
+struct Arms {
+    const glm::dvec3& of_body;
+    const glm::dvec3& of_surface;
+};
+
+} // namespace
+
 void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integrations)
 {
-    const auto add = [&](SolverIndex body, SolverIndex by, const glm::dvec3& arm,
-                         const Wrench& push) {
-        integrations[body].energy_driven +=
-            std::max(work_of(push, arm, integrations[by].mean),
-                     work_of(push, arm, integrations[by].predicted));
+    const auto add = [&](SolverIndex body, SolverIndex by, const Arms& arms, const Wrench& push) {
+        const BodyMotion& start = integrations[body].start;
+        const BodyMotion& end = solver.end_motion(body);
+        const double taken =
+            0.5 * (work_of(push, arms.of_body, start) + work_of(push, arms.of_body, end));
+        const double given = std::max(work_of(push, arms.of_surface, integrations[by].mean),
+                                      work_of(push, arms.of_surface, integrations[by].predicted));
+        integrations[body].energy_driven += std::min(given, taken);
     };
     for (const ContactBlock& block : solver.blocks()) {
         const bool a_drives = solver.is_kinematic(block.a);
         if (!a_drives && !solver.is_kinematic(block.b)) continue;
         const Wrench on_b = wrench(block, contact_vector(block, block.impulse));
         if (a_drives)
-            add(block.b, block.a, block.arm_a, on_b);
+            add(block.b, block.a, {block.arm_b, block.arm_a}, on_b);
         else
-            add(block.a, block.b, block.arm_b, {-on_b.impulse, -on_b.angular});
+            add(block.a, block.b, {block.arm_a, block.arm_b}, {-on_b.impulse, -on_b.angular});
     }
 }
 

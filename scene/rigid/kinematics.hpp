@@ -54,7 +54,9 @@ private:
 };
 
 /// Adds what kinematic bodies do to those that they push and carry. The force of a contact counts
-/// as constant over the tick, or as a blow at its end: whichever is more.
+/// as constant over the tick, or as a blow at its end: whichever is more. Of that a body gets no
+/// more than it takes: what cannot follow, because it is locked or wedged, gets no energy, and its
+/// impulse may be any.
 void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integrations);
 
 } // namespace hapnet::scene

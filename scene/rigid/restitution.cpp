@@ -105,16 +105,9 @@ void add(const BounceTarget& target, const Wrench& push, double time, double tic
 double share_without_energy_gain(const ContactBlock& block, const ContactVector& velocity,
                                  const ContactVector& impulse)
 {
-    const ContactVector change = times(block.matrix, impulse);
-    double before = 0.0;
-    double change_twice = 0.0;
-    for (std::size_t i = 0; i < change.size(); ++i) {
-        before += impulse[i] * velocity[i];
-        change_twice += impulse[i] * change[i];
-    }
+    const EnergyOfShare energy = energy_of(block, impulse, velocity);
     constexpr double rounding = 1e-12;
-    if (before + 0.5 * change_twice <= rounding * std::abs(before)) return 1.0;
-    return before < 0.0 ? -2.0 * before / change_twice : 0.0;
+    return energy.share_within(rounding * std::abs(energy.linear));
 }
 
 Approach approach_of(const ContactBlock& block, std::span<const BodyIntegration> integrations)
@@ -135,7 +128,18 @@ bool is_driven(const BodyIntegration& body)
            body.contact_angular_impulse != glm::dvec3{0.0};
 }
 
+bool any_bounces(const WorldConfig& config, const Bodies& bodies)
+{
+    const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
+    return std::any_of(bodies.properties.begin(), bodies.properties.end(), bounces) ||
+           std::any_of(config.planes.begin(), config.planes.end(), bounces);
+}
+
 } // namespace
+
+Restitution::Restitution(const WorldConfig& config, const Bodies& bodies, std::size_t blocks)
+    : is_needed_{any_bounces(config, bodies)}, hits_{is_needed_ ? blocks : 0}
+{}
 
 bool Restitution::apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
                         const Scales& scales, Interventions& interventions)

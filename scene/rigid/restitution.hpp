@@ -17,10 +17,8 @@ namespace hapnet::scene {
 /// what those before it have changed. No bounce gains energy.
 class Restitution {
 public:
-    /// `blocks`: how many contacts there may be; none when nothing bounces.
-    Restitution(bool is_needed, std::size_t blocks)
-        : is_needed_{is_needed}, hits_{is_needed ? blocks : 0}
-    {}
+    /// `blocks`: how many contacts there may be.
+    Restitution(const WorldConfig& config, const Bodies& bodies, std::size_t blocks);
 
     [[nodiscard]] bool is_needed() const { return is_needed_; }
 

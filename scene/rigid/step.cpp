@@ -61,13 +61,6 @@ std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
     return bodies.movable * std::min(others, contacts_per_body_max);
 }
 
-bool any_bounces(const WorldConfig& config, const Bodies& bodies)
-{
-    const auto bounces = [](const auto& part) { return part.material.restitution > 0.0; };
-    return std::any_of(bodies.properties.begin(), bodies.properties.end(), bounces) ||
-           std::any_of(config.planes.begin(), config.planes.end(), bounces);
-}
-
 } // namespace
 
 template <BroadPhase broad_phase>
@@ -85,8 +78,8 @@ RigidStepper<broad_phase>::RigidStepper(const Description& description, const Wo
       plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.moving + std::size_t{1}},
       solver_{state.bodies.moving, blocks_for(config, state.bodies), joint_solver_of(description)},
-      restitution_{any_bounces(config, state.bodies), blocks_for(config, state.bodies)},
-      account_{state.bodies.moving},
+      restitution_{config, state.bodies, blocks_for(config, state.bodies)},
+      account_{state.bodies},
       joints_{description, state.bodies, scales_},
       joint_energy_{state.bodies, solver_.joints().groups().size()},
       continuous_{config, state.bodies, scales_}
@@ -199,27 +192,27 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
     Bodies& bodies = state.bodies;
     hand_contacts_.begin_step(config, state);
     modes_.resize(config.hands.count);
+    const auto target_of = [&](BodyId id) -> HandContacts::Target {
+        const Slot slot = bodies.slot_of[id];
+        return {id, slot < bodies.movable, boxes_.at(bodies, id), bodies.velocity.at(slot)};
+    };
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand) {
         const HandInput& input = state.hands[hand];
         if (input.present) {
             const glm::dvec3& from = input.position.value;
             const double radius =
                 config.hands.radius_m + (input.gripping ? config.hands.grip_reach_m : 0.0);
-            for (const BodyId id : pairs_.near_hand(
-                     hand, {from, from + scales_.tick * input.velocity.value, radius})) {
-                const Slot slot = bodies.slot_of[id];
-                const SweptBox& now = boxes_.at(bodies, id);
-                hand_contacts_.collide(config, state, hand,
-                                       {id, slot < bodies.movable, now, bodies.velocity.at(slot)});
-            }
+            for (const BodyId id :
+                 pairs_.near_hand(hand, {from, from + scales_.tick * input.velocity.value, radius}))
+                hand_contacts_.collide(config, state, hand, target_of(id));
         }
         hand_contacts_.forget_departed(hand);
     }
     if (hand_contacts_.feels_planes()) hand_contacts_.feel_planes(config, state);
+    if (hand_contacts_.any_friction()) hand_contacts_.add_friction(config, state, target_of);
     if constexpr (sleeps) {
-        for (const HandContacts::Spring& spring : hand_contacts_.springs()) {
+        for (const HandContacts::Spring& spring : hand_contacts_.springs())
             sleep_.wake(spring.body, bodies, pairs_);
-        }
     }
 }
 
@@ -458,9 +451,11 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
         BodyIntegration& integration = integrations_[slot + 1];
         if (integration.has_hands) continue;
         const auto [springs, work] = hand_contacts_.springs_on(spring.body);
+        const std::span<FrictionSpring> frictions = hand_contacts_.frictions_on(spring.body);
         integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
-                                      {springs, work, modes_[spring.hand], config});
+                                      {springs, work, modes_[spring.hand], config, frictions});
         hand_contacts_.store_impulses(spring.body);
+        if (!frictions.empty()) hand_contacts_.store_friction(state, spring.body);
         if (integration.hands_are_braked) ++state.interventions.hands_braked;
         state.tick_cost.spring_rows += integration.hand_rows;
     }
@@ -471,9 +466,8 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
 {
-    for (const Slot slot : active_.slots()) {
+    for (const Slot slot : active_.slots())
         solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
-    }
     for (ContactBlock& block : solver_.blocks()) {
         set_centripetal_velocity(block, integrations_[block.a].start.spin,
                                  integrations_[block.b].start.spin, scales_.tick);
@@ -531,24 +525,29 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
     state.tick_cost.visits += solver_.correct_positions(position_limits()).visits;
     if (!joints_.is_empty()) joints_.bound_ways(solver_);
     // A body that is thrown off its path is held back; the others go as far as that lets them.
-    const auto keep = [&] {
-        const Ways ways =
-            keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
-        any_far_ = ways.any_far;
-        return ways.any_kept;
-    };
-    if (!keep()) return;
+    if (!hold_back(state)) return;
     state.tick_cost.visits += solver_.correct_positions_again(position_limits()).visits;
     if (!joints_.is_empty()) joints_.bound_ways(solver_);
-    keep();
+    hold_back(state);
 }
 
-/// Takes away what the impulses of the tick would gain out of nothing.
+/// Returns whether any body was thrown off its path.
+template <BroadPhase broad_phase>
+bool RigidStepper<broad_phase>::hold_back(WorldState& state)
+{
+    const Ways ways =
+        keep_within_swept_path(state, active_.slots(), integrations_.all(), solver_, scales_);
+    any_far_ = ways.any_far;
+    return ways.any_kept;
+}
+
+/// Takes away what the impulses of the tick would gain out of nothing. A body that loses most of
+/// its speed by that does not go where it would have taken it.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::settle_energy(const WorldConfig& config, WorldState& state)
 {
-    account_.settle(
-        {config, state, scales_, active_.slots(), integrations_.all(), solver_, hand_contacts_});
+    if (!account_.settle(energy_tick(config, state))) return;
+    if (hold_back(state)) account_.settle(energy_tick(config, state));
 }
 
 template <BroadPhase broad_phase>
@@ -574,6 +573,8 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
     continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
+    if (continuous_.has_changed_any())
+        account_.settle_touches(energy_tick(config, state), continuous_);
     state.tick_cost.looks = continuous_.looks();
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);

@@ -74,7 +74,12 @@ private:
     void integrate_velocities(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
     void correct_positions(WorldState& state);
+    bool hold_back(WorldState& state);
     void settle_energy(const WorldConfig& config, WorldState& state);
+    EnergyAccount::Tick energy_tick(const WorldConfig& config, WorldState& state)
+    {
+        return {config, state, scales_, active_, integrations_.all(), solver_, hand_contacts_};
+    }
     void integrate_positions(WorldState& state);
     void integrate_free_bodies(WorldState& state);
     void solve_continuous(const WorldConfig& config, WorldState& state);

@@ -18,26 +18,13 @@ struct Answer {
     bool parts = false; // no point approaches any more
 };
 
-Answer answer_of(ContactBlock& block, const Toucher& a, const Toucher& b)
+Answer answer_of(ContactBlock& block, const ContactVector& before)
 {
-    const ContactVector before = velocity_at(block, a.motion, b.motion);
     block.impulse = {};
     Answer answer{.impulse = solve(block, before, 0.0)};
-    BodyMotion after_a = a.motion;
-    BodyMotion after_b = b.motion;
-    Wrench push = wrench(block, answer.impulse);
-    if (b.moves) apply(push, block.arm_b, b.response, after_b);
-    push = {-push.impulse, -push.angular};
-    if (a.moves) apply(push, block.arm_a, a.response, after_a);
-    const ContactVector after = velocity_at(block, after_a, after_b);
-    double work = 0.0;  // at the velocities before
-    double twice = 0.0; // and by what it changes in them, twice
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        work += answer.impulse[i] * before[i];
-        twice += answer.impulse[i] * (after[i] - before[i]);
-    }
-    if (!(work + 0.5 * twice <= 0.0))
-        answer.share = work < 0.0 && twice > 0.0 ? std::min(1.0, -2.0 * work / twice) : 0.0;
+    ContactVector after = times(block.matrix, answer.impulse);
+    for (std::size_t i = 0; i < after.size(); ++i) after[i] += before[i];
+    answer.share = energy_of(block, answer.impulse, before).share_within(0.0);
     double slowest = 0.0;
     double fastest = 0.0; // that approached
     for (std::size_t i = 0; i < block.count; ++i) {
@@ -63,12 +50,12 @@ ContactVector touch_impulse(ContactBlock& block, const Toucher& a, const Toucher
     }
     if (!any) return {};
     build_matrix(block, a.response, b.response);
-    Answer answer = answer_of(block, a, b);
+    Answer answer = answer_of(block, before);
     // A bounce with friction may ask for more energy than there is (Kane and Levinson, 1985), and
     // a slip may have no answer. The touch is smooth then, which always has one.
     if (block.friction != 0.0 && !(answer.parts && answer.share == 1.0)) {
         block.friction = 0.0;
-        answer = answer_of(block, a, b);
+        answer = answer_of(block, before);
     }
     for (double& part : answer.impulse) part *= answer.share;
     return answer.impulse;

@@ -300,7 +300,7 @@ void Trial::hold_points(const PointSet& set)
 bool Trial::stick(double tolerance)
 {
     PointSet set = pushing(tolerance);
-    for (std::uint32_t round = 0; round < manifold_points_max; ++round) {
+    for (;;) { // at most once for each point, and once without any
         hold_points<true>(set);
         // A contact that would have to pull to stick may still have to push to slip.
         if (set.count == 0) return opens(tolerance);
@@ -397,19 +397,11 @@ double rounding_of(const ContactBlock& block, const ContactVector& velocity)
 /// share that leaves least.
 double dissipative_share(const ContactBlock& block, const Trial& trial)
 {
-    const ContactVector& impulse = trial.impulse();
-    const ContactVector change = times(block.matrix, impulse);
-    double work = 0.0; // of the impulse, against velocities without it
-    double answer = 0.0;
-    for (std::size_t i = 0; i < impulse.size(); ++i) {
-        work += impulse[i] * trial.free()[i];
-        answer += impulse[i] * change[i];
-    }
+    EnergyOfShare energy = energy_of(block, trial.impulse(), trial.free());
     for (std::size_t i = 0; i < block.count; ++i)
-        work -= trial.answer().normal[i] * block.speed_min[i];
-    constexpr double rounding = 1e-9;
-    if (work + 0.5 * answer <= rounding * answer) return 1.0;
-    return work < 0.0 && std::isfinite(answer) ? -work / answer : 0.0;
+        energy.linear -= trial.answer().normal[i] * block.speed_min[i];
+    constexpr double rounding = 2e-9;
+    return energy.at(1.0) <= rounding * energy.square ? 1.0 : energy.share_of_least();
 }
 
 ContactVector finish(ContactBlock& block, Trial& trial, const Trial& start)

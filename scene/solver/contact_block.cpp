@@ -331,4 +331,18 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
     block.factors.sets = {};
 }
 
+EnergyOfShare energy_of(const ContactBlock& block, const ContactVector& impulse,
+                        const ContactVector& velocity)
+{
+    const ContactVector change = times(block.matrix, impulse);
+    EnergyOfShare energy;
+    double twice = 0.0;
+    for (std::size_t i = 0; i < impulse.size(); ++i) {
+        energy.linear += impulse[i] * velocity[i];
+        twice += impulse[i] * change[i];
+    }
+    energy.square = 0.5 * twice;
+    return energy;
+}
+
 } // namespace hapnet::scene

@@ -4,6 +4,7 @@
 
 #include "scene/collide/manifold.hpp"
 #include "scene/collide/pairs.hpp"
+#include "scene/maths/energy_share.hpp"
 #include "scene/solver/ldl.hpp"
 #include "scene/solver/plane_fit.hpp"
 
@@ -166,6 +167,11 @@ void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& resp
            BodyMotion& motion);
 
 void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b);
+
+/// What an impulse of the contact does to the energy of its two bodies, with which they have these
+/// velocities without it. Needs the matrix.
+[[nodiscard]] EnergyOfShare energy_of(const ContactBlock& block, const ContactVector& impulse,
+                                      const ContactVector& velocity);
 
 [[nodiscard]] inline ContactVector times(const Square<6>& matrix, const ContactVector& impulse)
 {

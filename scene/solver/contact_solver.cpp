@@ -169,11 +169,7 @@ SolverOutcome ContactSolver::run(const Task& task)
     outcome.change = 0.0;
     for_moving_islands(task, [&](Island island) {
         const SolverOutcome one = run_island(its, island);
-        const bool is_done = one.change <= task.limits.converged;
         const Island contacts = contacts_of(island);
-        // Joints cannot be scaled: see JointEnergy.
-        if (task.mode == Mode::contacts && !is_done && contacts.size() == island.size())
-            limit_energy(task, island);
         outcome.sweeps = std::max(outcome.sweeps, one.sweeps);
         outcome.visits += (one.sweeps - 1) * contacts.size();
         for (const std::uint32_t i : island.subspan(contacts.size())) {
@@ -290,42 +286,6 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
         if (has_jumped) take_mixture(task, whole);
     }
     return outcome;
-}
-
-/// The impulses of an unfinished solve may leave more energy than no impulses would. Then they
-/// are scaled to what leaves least.
-void ContactSolver::limit_energy(const Task& task, Island island)
-{
-    const auto scale_all = [&](double by) {
-        for (const std::uint32_t i : island) {
-            ContactVector change = contact_vector(blocks_[i], blocks_[i].impulse);
-            for (double& part : change) part *= by;
-            apply(blocks_[i], change, task.motions);
-        }
-    };
-    const auto product = [&] { // of the impulses and the velocities there now
-        double sum = 0.0;
-        for (const std::uint32_t i : island) {
-            const ContactBlock& block = blocks_[i];
-            const ContactVector impulse = contact_vector(block, block.impulse);
-            const ContactVector speed =
-                velocity_at(block, task.motions[block.a], task.motions[block.b]);
-            for (std::size_t k = 0; k < impulse.size(); ++k) sum += impulse[k] * speed[k];
-        }
-        return sum;
-    };
-    const double with = product();
-    save(task, island);
-    scale_all(-1.0);
-    const double without = product();
-    const double answer = with - without;
-    if (with + without <= 0.0) {
-        restore(task, island);
-        return;
-    }
-    const double share = without < 0.0 ? -without / answer : 0.0;
-    scale_all(share);
-    for (const std::uint32_t i : island) scale_impulses(blocks_[i], share);
 }
 
 /// To and fro. Joints come last: nothing is left of what they miss.

@@ -95,7 +95,6 @@ private:
     SolverOutcome run_island(const Task& task, Island island);
     void save(const Task& task, Island island);
     void restore(const Task& task, Island island);
-    void limit_energy(const Task& task, Island island);
     double sweep(const Task& task, Island island);
     double sweep_joints(const Task& task, Island groups);
     double solve_joints(const JointSolver::Group& group, const Task& task);

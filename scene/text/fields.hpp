@@ -48,7 +48,14 @@ constexpr auto fields_of(base::Tag<HandDescription>)
                     "distance from the surface within which a hand takes hold")
             .always(),
         base::field("friction", &HandDescription::friction, base::Number{0.0, friction_max},
-                    "Coulomb's coefficient between finger and body, in a session"));
+                    "Coulomb's coefficient between finger and body, in a session"),
+        base::field("static_friction", &HandDescription::static_friction,
+                    base::Number{0.0, friction_max},
+                    "Coulomb's coefficient of a hand that sticks; with a surface the geometric "
+                    "mean"),
+        base::field("dynamic_friction", &HandDescription::dynamic_friction,
+                    base::Number{0.0, friction_max},
+                    "of a hand that slides, at most the above; unset: the same"));
 }
 
 constexpr auto fields_of(base::Tag<FieldDescription>)
@@ -102,7 +109,12 @@ constexpr auto fields_of(base::Tag<Feel>)
                     "of the spring of a hand, instead of that of `[hips]`"),
         base::field("damping", &Feel::damping_ns_per_m,
                     base::Quantity{base::damping_kind, 0.0, damping_max_ns_per_m},
-                    "of the damper of a hand, instead of that of `[hips]`"));
+                    "of the damper of a hand, instead of that of `[hips]`"),
+        base::field("static_friction", &Feel::static_friction, base::Number{0.0, friction_max},
+                    "of a hand that sticks, instead of that of `[hips]`, or of a body to hands, "
+                    "instead of its `friction`"),
+        base::field("dynamic_friction", &Feel::dynamic_friction, base::Number{0.0, friction_max},
+                    "of a hand that slides, likewise; at most the above"));
 }
 
 constexpr auto fields_of(base::Tag<Sway>)

@@ -5,12 +5,17 @@
 // under the laws; with `joints`, each with joints between its bodies. Prints every seed that breaks
 // one, and at the end the worst of each, and how often the ticks had to step in. With
 // HAPNET_SOAK_GUARDS set, also every seed in which a guard acted. Exits 0 when none is broken.
+//
+// soak_scene --worst FIRST COUNT [BODIES]: of the same scenes with at most so many movable bodies
+// (8) prints the ticks that take longest.
+#include "tests/soak/worst_ticks.hpp"
 #include "tests/support/scene/scene_laws.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <spdlog/fmt/fmt.h>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -40,13 +45,13 @@ void report(const Tally& tally)
                tally.played, tally.ticks, tally.broken, tally.worst.energy, tally.worst.momentum,
                tally.worst.angular_momentum, tally.worst.force);
     const scene::Interventions& done = tally.interventions;
-    fmt::print("  guards: {} islands limited, {} ways cut, {} budgets spent: {:.2g} of the ticks; "
-               "mechanisms: {} impulses trimmed, {} hands braked, {} bounces limited, {} sweeps "
-               "continued\n",
-               done.islands_limited, done.paths_cut, done.budgets_spent,
-               static_cast<double>(done.guards()) / static_cast<double>(tally.ticks),
-               done.impulses_trimmed, done.hands_braked, done.bounces_limited,
-               done.sweeps_continued);
+    fmt::print(
+        "  guards: {} in {:.2g} of the ticks: {} islands limited, {} ways cut, {} budgets "
+        "spent; mechanisms: {} impulses trimmed, {} hands braked, {} bounces limited, {} sweeps "
+        "continued, {} clusters stuck\n",
+        done.guards(), static_cast<double>(done.guards()) / static_cast<double>(tally.ticks),
+        done.islands_limited, done.paths_cut, done.budgets_spent, done.impulses_trimmed,
+        done.hands_braked, done.bounces_limited, done.sweeps_continued, done.clusters_stuck);
     std::fflush(stdout);
 }
 
@@ -54,13 +59,24 @@ void report(const Tally& tally)
 
 int main(int argc, char** argv)
 {
-    const bool joints = argc == 4 && std::string{argv[3]} == "joints";
-    if (argc != 3 && !joints) {
-        fmt::print(stderr, "usage: soak_scene FIRST COUNT [joints]\n");
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    const auto number = [&](std::size_t index) {
+        return std::strtoull(arguments[index].c_str(), nullptr, 10);
+    };
+    if (arguments.size() >= 3 && arguments.size() <= 4 && arguments[0] == "--worst") {
+        hapnet::soak::WorstTicks asked{.first = number(1), .count = number(2)};
+        if (arguments.size() == 4) asked.bodies_max = number(3);
+        hapnet::soak::print_worst_ticks(asked);
+        return 0;
+    }
+    const bool joints = arguments.size() == 3 && arguments[2] == "joints";
+    if (arguments.size() != 2 && !joints) {
+        fmt::print(stderr, "usage: soak_scene FIRST COUNT [joints]\n"
+                           "       soak_scene --worst FIRST COUNT [BODIES]\n");
         return 2;
     }
-    const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
-    const std::uint64_t count = std::strtoull(argv[2], nullptr, 10);
+    const std::uint64_t first = number(0);
+    const std::uint64_t count = number(1);
     constexpr std::uint64_t often = 10'000;
     Tally tally;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {

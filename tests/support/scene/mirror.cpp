@@ -29,6 +29,12 @@ RandomPlay mirrored(RandomPlay play)
         body.orientation = flipped(body.orientation);
         body.velocity.value = flipped(body.velocity.value);
         body.angular_velocity = flipped_turn(body.angular_velocity);
+        body.sway.by = flipped(body.sway.by);
+    }
+    for (scene::FieldDescription& field : play.description.fields) {
+        field.position.value = flipped(field.position.value);
+        field.force.value = flipped(field.force.value);
+        if (field.line) field.line = flipped(*field.line);
     }
     for (scene::PlaneDescription& plane : play.description.planes)
         plane.normal = flipped(plane.normal);
@@ -40,6 +46,19 @@ RandomPlay mirrored(RandomPlay play)
         }
         for (auto& [body, force] : inputs.pushes) force.value = flipped(force.value);
         for (auto& [body, state] : inputs.places) state = mirrored(state);
+        for (Twist& twist : inputs.twists) {
+            twist.force = flipped(twist.force);
+            twist.at = flipped(twist.at);
+            twist.torque = flipped_turn(twist.torque);
+        }
+        for (Blow& blow : inputs.blows) {
+            blow.impulse = flipped(blow.impulse);
+            blow.at = flipped(blow.at);
+        }
+        for (Drive& drive : inputs.drives) {
+            drive.velocity = flipped(drive.velocity);
+            drive.spin = flipped_turn(drive.spin);
+        }
     }
     return play;
 }

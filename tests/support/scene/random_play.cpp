@@ -6,11 +6,13 @@
 #include "proto/base/math.hpp"
 #include "proto/base/random.hpp"
 #include "tests/support/scene/dice.hpp"
+#include "tests/support/scene/random_elements.hpp"
 #include "tests/support/scene/random_hands.hpp"
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <tuple>
 
 namespace hapnet::test {
 
@@ -223,9 +225,10 @@ void add_joints(Dice& dice, Description& drawn)
         const auto body = static_cast<std::uint32_t>(dice.below(drawn.bodies.size()));
         scene::JointDescription joint = random_joint(dice, drawn, body);
         if (is_chain && body > 0) joint.to = body - 1;
-        const bool moves =
-            drawn.bodies[body].movable || (joint.to && drawn.bodies[*joint.to].movable);
-        if (moves) drawn.joints.push_back(joint);
+        const BodyDescription& one = drawn.bodies[body];
+        const BodyDescription& other = drawn.bodies[joint.to.value_or(body)];
+        if (one.kinematic || other.kinematic) continue;
+        if (one.movable || other.movable) drawn.joints.push_back(joint);
     }
 }
 
@@ -240,6 +243,7 @@ RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
     play.options.sleeping = !dice.one_in(4);
     play.description =
         random_description(dice, limits, base::to_seconds(play.options.tick), play.overlaps);
+    if (seed >= elements_from) add_elements(seed, play);
     if (limits.joints) {
         Dice own{base::Seed{seed}.stream("joints")};
         add_joints(own, play.description);
@@ -253,6 +257,7 @@ RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
     const auto length = static_cast<std::uint32_t>(
         limits.ticks_min + dice.below(limits.ticks_max - limits.ticks_min + 1));
     play.ticks = random_inputs(seed, play, length);
+    if (seed >= elements_from) add_actions(seed, play);
     return play;
 }
 
@@ -262,6 +267,30 @@ void feed(scene::World& world, const TickInputs& inputs)
         base::ensure(!world.set_hand(i, inputs.hands[i]));
     for (const auto& [body, force] : inputs.pushes) base::ensure(!world.push(body, force));
     for (const auto& [body, state] : inputs.places) base::ensure(!world.place(body, state));
+    for (const Twist& twist : inputs.twists) {
+        const base::Position at{world.position(twist.body).value + twist.at};
+        base::ensure(!world.push(twist.body, base::Force{twist.force}, at));
+        base::ensure(!world.push_torque(twist.body, twist.torque));
+    }
+    for (const Blow& blow : inputs.blows) {
+        const base::Position at{world.position(blow.body).value + blow.at};
+        std::ignore = world.apply_impulse(blow.body, blow.impulse, at);
+    }
+    for (const Drive& drive : inputs.drives) {
+        if (!drive.is_way) {
+            base::ensure(!world.drive(drive.body, base::Velocity{drive.velocity}, drive.spin));
+            continue;
+        }
+        const double tick = world.frozen().tick;
+        scene::BodyState target = world.body(drive.body);
+        target.position.value += tick * drive.velocity;
+        const glm::dvec3 half_turn = (0.5 * tick) * drive.spin;
+        target.orientation = base::normalized(
+            glm::dquat{1.0, half_turn.x, half_turn.y, half_turn.z} * target.orientation);
+        target.velocity.value = drive.velocity;
+        target.angular_velocity = drive.spin;
+        base::ensure(!world.move(drive.body, target));
+    }
 }
 
 } // namespace hapnet::test

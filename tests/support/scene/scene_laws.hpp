@@ -20,15 +20,18 @@ struct LawFigures {
 /// What has to hold for every tick of every world:
 /// - every number is finite, orientations are unit, locked axes and fixed bodies stay where they
 ///   are, what sleeps does not move and has no velocity; and, without hands, nobody goes farther in
-///   a tick than twice the way of the fastest, and his own size;
+///   a tick than twice the way of the fastest, and his own size; or, in a tick with several touches
+///   of continuous collision, than the energy that there is can make him;
 /// - a hand exerts no more than its greatest force (1e-6 of it tolerated);
 /// - kinetic energy, with that of the springs of joints, grows by no more than the work of gravity,
 ///   pushes and hands (tolerated: 1e-6 of
 ///   what is there, and for each body m v^2 with v twice what its forces add in a tick, and what
 ///   its energy of turning may differ by for the same angular momentum when it turns far);
+/// - kinematic bodies give no more than what they pass on at the speed of their fastest corner;
 /// - where nothing is fixed, momentum changes by what gravity, pushes and hands give (1e-10 of the
-///   sum of all amounts tolerated); and angular momentum, without hands, by what gravity and pushes
-///   give (tolerated: what the bodies pass each other in a tick times the impulses).
+///   sum of all amounts tolerated, of what hands give together, and the digits of each); and
+///   angular momentum, without hands, by what gravity and pushes give (tolerated: what the bodies
+///   pass each other in a tick times the impulses).
 /// A body moves at the mean of its velocities before and after the tick, but where it bounces, so
 /// that the work of a steady force and of every impulse is known: with the inertia as it is before
 /// the tick.
@@ -48,6 +51,7 @@ private:
         scene::BodyState state;
         glm::dvec3 angular_momentum{0.0};
         bool is_awake = true;
+        glm::dvec3 field{0.0}; // N, of the fields on a body
     };
     /// Sums over all bodies for one tick.
     struct Balance {
@@ -56,11 +60,14 @@ private:
         double work = 0.0;
         double fastest = 0.0;  // m/s, of any corner
         double farthest = 0.0; // m that a body went beyond its own size
+        double fling = 0.0;    // J s^2: the most of 1/2 m of that squared
         double jolt = 0.0;     // N s: the sum of the changes of momentum
         double momentum = 0.0; // N s: the sum of the amounts
         double angular = 0.0;  // N m s, likewise
         double astray = 0.0;   // N m s: of moving apart
         double slack = 0.0;    // J
+        double driven = 0.0;   // m/s, of any corner of a kinematic body
+        double passed = 0.0;   // N s: what contacts and hands passed to the bodies, as linear ones
         glm::dvec3 linear_gain{0.0};
         glm::dvec3 angular_gain{0.0};
         bool any_fell_asleep = false;
@@ -71,9 +78,17 @@ private:
     [[nodiscard]] std::optional<std::string> check_hands(const scene::World& world);
     [[nodiscard]] glm::dvec3 steady_force(const scene::World& world, scene::BodyId id,
                                           bool sleeps) const;
+    [[nodiscard]] glm::dvec3 steady_torque(const scene::World& world, scene::BodyId id) const;
+    static void add_torque(Balance& balance, const scene::BodyDescription& form, const Moment& was,
+                           const Moment& now, const glm::dvec3& twist);
+    void add_driven(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] static double turning_slack(const scene::BodyDescription& form, const Moment& was,
                                               const Moment& now, double angle);
     void add(Balance& balance, const scene::World& world, scene::BodyId id) const;
+    [[nodiscard]] double most_from_hand(const scene::World& world, std::uint32_t hand,
+                                        double fastest) const;
+    [[nodiscard]] double within_reach(const scene::World& world, std::uint32_t hand) const;
+    [[nodiscard]] double driven_energy(const scene::World& world, const Balance& balance) const;
     [[nodiscard]] std::optional<std::string> check_energy(const scene::World& world,
                                                           const Balance& balance);
     [[nodiscard]] std::optional<std::string> check_ways(const scene::World& world,
@@ -86,8 +101,9 @@ private:
 
     const RandomPlay& play_;
     bool nothing_is_fixed_ = true;
-    double movable_ = 0.0;            // how many
-    double size_ = scene::size_max_m; // the smallest half edge, m
+    double movable_ = 0.0;             // how many
+    double size_ = scene::size_max_m;  // the smallest half edge, m
+    std::uint64_t touches_before_ = 0; // of continuous collision, up to the tick
     std::vector<Moment> moments_;
     double stored_ = 0.0; // J, by the springs of joints before the tick
     LawFigures worst_;

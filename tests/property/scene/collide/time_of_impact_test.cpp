@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "scene/collide/time_of_impact.hpp"
+#include "scene/collide/advancement.hpp"
 #include "tests/property/scene/collide/boxes.hpp"
 
 #include <glm/geometric.hpp>

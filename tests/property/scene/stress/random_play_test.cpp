@@ -18,6 +18,14 @@ TEST(RandomPlay, KeepsEveryLawAndItsFutureAfterASnapshot)
     }
 }
 
+TEST(RandomPlay, KeepsThemWithEveryElementOfAScene)
+{
+    for (std::uint64_t seed = elements_from; seed < elements_from + 300; ++seed) {
+        const PlayOutcome outcome = judge(random_play(seed), seed);
+        EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
+    }
+}
+
 TEST(RandomPlay, IsTheSameEveryTime)
 {
     for (std::uint64_t seed = 1000; seed < 1030; ++seed) {
@@ -71,6 +79,14 @@ TEST_P(Scars, StayHealed)
     EXPECT_FALSE(outcome.complaint) << "seed " << seed << ": " << *outcome.complaint;
 }
 
+INSTANTIATE_TEST_SUITE_P(RandomPlayOfElements, Scars,
+                         testing::Values(Scar{elements_from + 958, "DrivenAgainstALockedBody"},
+                                         Scar{elements_from + 657, "DrivenInAHeap"},
+                                         Scar{elements_from + 1028, "DrivenAmongSlow"},
+                                         Scar{elements_from + 1273, "ThrownOffARoughHand"},
+                                         Scar{elements_from + 1821, "ThrownOffAStiffRoughHand"}),
+                         [](const auto& each) { return std::string{each.param.name}; });
+
 INSTANTIATE_TEST_SUITE_P(
     RandomPlay, Scars,
     testing::Values(
@@ -112,9 +128,41 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{153192, "SqueezedByStiffHands"}, Scar{532650, "SqueezedByStifferHands"},
         Scar{231289, "WokenBesideASmallerOne"}, Scar{540562, "HeldAmongOthers"},
         Scar{753380, "PushedWhileItSpinsFar"}, Scar{30011485, "GrippedWhileItSpins"},
-        Scar{7015132, "GrippedLightlyWhileItSpins"}, Scar{7029090, "GrippedHardWhileItSpins"},
-        Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
+        Scar{124570, "HitInItsFlight"}, Scar{167424, "HitInItsFall"},
+        Scar{205825, "HitOneOfTwoInItsFall"}, Scar{582020, "HitInALongTick"},
+        Scar{693524, "HitBesideStiffHands"}, Scar{261314, "HitAmongMany"},
+        Scar{309198, "HitAmongManyInItsFall"}, Scar{352579, "HitAloneInItsFall"},
+        Scar{634054, "HitAmongSome"}, Scar{799157, "HitAloneInALongTick"},
+        Scar{842282, "HitAmongSomeInItsFall"}, Scar{100198959, "HitHardlyInItsFall"},
+        Scar{845635, "HeldFarOff"}, Scar{100114597, "HeldAndPushedInALongTick"},
+        Scar{200086098, "HeldFasterThanBefore"}, Scar{240166, "TurnedTooFastAtFirst"},
+        Scar{100122549, "TurnedTooFastAmongMany"}, Scar{100158455, "TurnedTooFastByStiffHands"},
+        Scar{200079695, "TurnedTooFastBesideAnother"}, Scar{142923, "SqueezedByHandsThatCancel"},
+        Scar{200079611, "HeldByThreeThatCancel"}, Scar{200074436, "StuckOnAPointThatPulls"},
+        Scar{300053771, "ThrownFartherThanItsSpeed"}, Scar{400077289, "ThrownBetweenTwoHeavyOnes"},
+        Scar{400077724, "PushedByAHandThatHoldsAnother"},
+        Scar{400080091, "PushedAtHighSpeedByAHandThatHoldsAnother"},
+        Scar{600121857, "PushedByAHandThatHoldsOneFarAway"},
+        Scar{600155233, "PushedHardByAHandThatHoldsOneFarAway"},
+        Scar{800098062, "NotHitItselfButANeighbour"}, Scar{7015132, "GrippedLightlyWhileItSpins"},
+        Scar{7029090, "GrippedHardWhileItSpins"}, Scar{7032676, "GrippedInLongTicksWhileItSpins"}),
     [](const auto& each) { return each.param.name; });
+
+/// Fast bodies that are packed, or that spin beside each other, and used up the looks of a tick.
+class Crowds : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Crowds, GoTheirWayWithoutAGuard)
+{
+    const std::uint64_t seed = GetParam();
+    const PlayOutcome outcome = judge(random_play(seed), seed);
+    EXPECT_FALSE(outcome.complaint) << *outcome.complaint;
+    EXPECT_EQ(outcome.interventions.paths_cut, 0U);
+    EXPECT_EQ(outcome.interventions.budgets_spent, 0U);
+    EXPECT_GT(outcome.interventions.clusters_stuck, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomPlay, Crowds,
+                         testing::Values(8585, 4586, 2963, 548, 9302, 5376, 821, 4181, 1339, 3418));
 
 } // namespace
 } // namespace hapnet::test

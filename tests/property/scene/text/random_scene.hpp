@@ -130,6 +130,9 @@ private:
         Feel drawn;
         if (below(2) == 0) drawn.stiffness_n_per_m = std::abs(within(stiffness_max_n_per_m));
         if (below(2) == 0) drawn.damping_ns_per_m = std::abs(within(damping_max_ns_per_m));
+        if (below(2) == 0) drawn.static_friction = std::abs(within(friction_max));
+        if (below(2) == 0)
+            drawn.dynamic_friction = std::abs(within(drawn.static_friction.value_or(friction_max)));
         return drawn;
     }
 
@@ -171,6 +174,8 @@ private:
             below(3) == 0 ? std::numeric_limits<double>::infinity() : std::abs(within(force_max_n));
         drawn.grip_reach_m = std::abs(within(size_max_m));
         drawn.count = static_cast<std::uint32_t>(below(hands_max + 1));
+        if (below(2) == 0) drawn.static_friction = std::abs(within(friction_max));
+        if (below(2) == 0) drawn.dynamic_friction = std::abs(within(drawn.static_friction));
         return drawn;
     }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace hapnet::scene {
 
@@ -92,6 +93,44 @@ TEST(ContactBlock, NothingPullsAndAnImpulseOnOneSideTipsTheCube)
     // The corners at -x go down and are held: the cube's spin about z lifts it.
     EXPECT_NEAR(after.velocity.y - half * after.spin.z, 0.0, 1e-15);
     EXPECT_GT(after.spin.z, 0.0);
+}
+
+TEST(ContactBlock, AContactThatOpensFastDoesNotStickOnItsLastPoint)
+{
+    // Taken from a cube that spins far above a plane. One point after the other would pull, and
+    // with the last one friction seems to hold.
+    ContactBlock block;
+    block.count = 4;
+    block.friction = 0.50267320756031642;
+    block.torsion_arm = 0.014666776882874015;
+    block.along_1 = {-0.0085303661684259062, -0.031588127842053212, 0.016837470551028216,
+                     -0.029141345931098957};
+    block.along_2 = {-0.0049690793084131235, -0.026334906269198634, 0.0024212980163552103,
+                     0.028029159451849826};
+    block.speed_min = {-37.813387647152346, -43.997242962022547, -45.321113597684345,
+                       -40.135882963931287};
+    block.impulse = {{0.0021515401892122283, 0.0, 0.0015225552872247961, 0.00024990452356297559},
+                     -0.0014803400756115818,
+                     0.0012500752137037515,
+                     5.6296342679901173e-06};
+    block.matrix = {{{22.496648936629455, -170.33682201411608, -663.03069475683844,
+                      67.319459611267831, -17.294799321615773, 0.0},
+                     {-170.33682201411608, 37500.0, 0.0, 0.0, 3807.4854684493571, 0.0},
+                     {-663.03069475683844, 0.0, 37500.0, -3807.4854684493571, 0.0, 0.0},
+                     {67.319459611267831, 0.0, -3807.4854684493571, 397.35893934365038,
+                      3.0116944384717685, 170.33682201411608},
+                     {-17.294799321615773, 3807.4854684493571, 0.0, 3.0116944384717685,
+                      408.30814119047346, 663.03069475683844},
+                     {0.0, 0.0, 0.0, 170.33682201411608, 663.03069475683844, 37500.0}}};
+    block.has_matrix = true;
+    const ContactVector free{125.75447676959843, 1564.932752676187,  -4175.4523997031847,
+                             570.16078308800127, -51.75921744039838, -1581.853710580431};
+    ContactVector velocity = times(block.matrix, contact_vector(block, block.impulse));
+    for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] += free[i];
+    std::ignore = solve(block, velocity, 0.0);
+    for (const double impulse : block.impulse.normal) EXPECT_GE(impulse, 0.0);
+    EXPECT_LE(std::hypot(block.impulse.tangent_1, block.impulse.tangent_2),
+              block.friction * block.normal_sum() * (1.0 + 1e-12));
 }
 
 TEST(ContactBlock, ALockedBodyIsNoTroubleForTheSolution)

@@ -180,7 +180,8 @@ TEST(SceneText, EveryBuiltInSceneReadsUnderItsNameAndPrintsAsItself)
         {"paper", 2},       {"stack-10", 10},     {"mass-ratio-1000", 2},
         {"push-6dof", 2},   {"lift", 1},          {"wall", 2},
         {"conveyor", 10},   {"soft-and-hard", 3}, {"guide", 2},
-        {"door", 2},        {"drawer", 3},        {"button", 2}};
+        {"stick-slip", 3},  {"door", 2},          {"drawer", 3},
+        {"button", 2}};
     for (const auto& [name, bodies] : expected) {
         const auto scene = load_scene(std::string{name}, {});
         ASSERT_TRUE(scene) << scene.error().message;

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#include "scene/collide/advancement.hpp"
+
+#include "scene/collide/pose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace hapnet::scene {
+
+namespace {
+
+// The share of the rest of the time that one axis should clear, before others are asked.
+constexpr double worthwhile = 0.25;
+
+/// The widest gap that counts, if it is one.
+double widest(const GapSearch& search) { return std::max(0.0, search.gap + search.near); }
+
+/// While the spheres around two are near each other, within the time that is searched: for most
+/// that is never.
+bool narrow_to_spheres(const SteadyBox& a, const SteadyBox& b, GapSearch& search)
+{
+    const glm::dvec3 velocity = b.velocity - a.velocity;
+    const glm::dvec3 offset = b.centre - a.centre + search.from * velocity;
+    const double reach = a.radius + b.radius + widest(search);
+    const double outside = glm::dot(offset, offset) - reach * reach;
+    const double along = -glm::dot(offset, velocity);
+    if (outside > 0.0 && along <= 0.0) return false;
+    const double square = glm::dot(velocity, velocity);
+    const double root = along * along - square * outside;
+    if (root < 0.0) return false;
+    const double time = search.to - search.from;
+    const double half = std::sqrt(root);
+    // Rounding: a little earlier, and a little later.
+    constexpr double more = 1e-9;
+    const double enter = outside > 0.0 ? (1.0 - more) * outside / (along + half) : 0.0;
+    if (enter >= time) return false;
+    search.from += enter;
+    const double leave = (1.0 + more) * (along + half);
+    if (leave < time * square)
+        search.to = std::min(search.to, search.from - enter + leave / square);
+    return true;
+}
+
+template <typename Look>
+Advanced advance_by(const GapSearch& search, std::uint32_t& steps, Look look)
+{
+    double time = search.from;
+    while (time < search.to) {
+        if (steps == 0) return {time, Advanced::End::unfinished};
+        --steps;
+        const double left = look(time, search.to - time);
+        if (left <= 0.0) return {time, Advanced::End::reached};
+        time += left;
+    }
+    return {search.to, Advanced::End::clear};
+}
+
+/// For how long two whose corners go round come not near each other along a normal, whatever they
+/// turn.
+double time_beside(const Mover& a, const Mover& b, const glm::dvec3& normal, double gap)
+{
+    const double room = glm::dot(normal, b.box.centre - a.box.centre) - gap -
+                        a.reach_in_all_turns(normal) - b.reach_in_all_turns(normal);
+    if (!(room > 0.0)) return 0.0;
+    const double approach = glm::dot(normal, a.motion.velocity - b.motion.velocity);
+    return approach > 0.0 ? room / approach : HUGE_VAL;
+}
+
+/// The same along the normals that belong to the way they turn, and not to how they stand now.
+double time_beside_any(const Mover& a, const Mover& b, double gap)
+{
+    const glm::dvec3 offset = b.box.centre - a.box.centre;
+    const auto along = [&](const glm::dvec3& axis) {
+        const double square = glm::dot(axis, axis);
+        if (!(square > 0.0)) return 0.0;
+        const double side = glm::dot(axis, offset) < 0.0 ? -1.0 : 1.0;
+        return time_beside(a, b, side / std::sqrt(square) * axis, gap);
+    };
+    return std::max({along(offset), along(a.motion.spin), along(b.motion.spin)});
+}
+
+/// Of two that do not turn: exact.
+Advanced advance_straight(const Mover& a, const Mover& b, const GapSearch& search)
+{
+    const glm::dvec3 offset = b.box.centre - a.box.centre;
+    const glm::dvec3 velocity = b.motion.velocity - a.motion.velocity;
+    const double gap = search.gap + search.near;
+    double enter = 0.0; // after `from`
+    double leave = search.to - search.from;
+    const auto consider = [&](const glm::dvec3& direction, double length) {
+        const double reach =
+            half_projection(a.box, direction) + half_projection(b.box, direction) + gap * length;
+        const double place = glm::dot(direction, offset);
+        const double speed = glm::dot(direction, velocity);
+        // |place + t speed| <= reach
+        if (std::abs(place) > reach) {
+            const double approach = place < 0.0 ? speed : -speed;
+            if (!(approach > 0.0)) return false;
+            enter = std::max(enter, (std::abs(place) - reach) / approach);
+        }
+        if (speed != 0.0)
+            leave = std::min(leave, (reach + (speed < 0.0 ? place : -place)) / std::abs(speed));
+        return enter <= leave;
+    };
+    const Advanced clear{search.to, Advanced::End::clear};
+    for (const int i : {0, 1, 2})
+        if (!consider(a.box.axes[i], 1.0)) return clear;
+    for (const int j : {0, 1, 2})
+        if (!consider(b.box.axes[j], 1.0)) return clear;
+    for (const int i : {0, 1, 2}) {
+        for (const int j : {0, 1, 2}) {
+            const glm::dvec3 direction = glm::cross(a.box.axes[i], b.box.axes[j]);
+            const double square = glm::dot(direction, direction);
+            if (square >= parallel_sine2 && !consider(direction, std::sqrt(square))) return clear;
+        }
+    }
+    return {search.from + enter, Advanced::End::reached};
+}
+
+} // namespace
+
+OrientedBox SteadyBox::at(double time) const
+{
+    return {centre + time * velocity, axes_of(orientation_at(time)), half};
+}
+
+glm::dquat SteadyBox::orientation_at(double time) const
+{
+    return spin == glm::dvec3{0.0} ? orientation : rotated(orientation, time * spin);
+}
+
+void SteadyBox::put(const glm::dvec3& place, const glm::dquat& turned, double time)
+{
+    centre = place - time * velocity;
+    orientation = spin == glm::dvec3{0.0} ? turned : rotated(turned, -time * spin);
+}
+
+Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b, const GapSearch& asked,
+                        std::uint32_t& steps)
+{
+    const Advanced clear{asked.to, Advanced::End::clear};
+    GapSearch search = asked;
+    if (!narrow_to_spheres(a, b, search)) return clear;
+    if (steps == 0) return {search.from, Advanced::End::unfinished};
+    Mover first{a, search.from, search.to};
+    Mover second{b, search.from, search.to};
+    Advanced advanced;
+    if (!first.turns && !second.turns) {
+        --steps;
+        advanced = advance_straight(first, second, search);
+    } else {
+        const bool whirl = first.whirl.is_known || second.whirl.is_known;
+        const double apart = a.radius + b.radius + widest(search);
+        advanced = advance_by(search, steps, [&](double time, double most) {
+            first.go_to(time);
+            second.go_to(time);
+            const Pose pose{first, second};
+            Pose::OpenAxes open;
+            pose.find_open(search.gap + search.near, open);
+            if (open.count == 0) return 0.0;
+            const auto time_left = [&](const Pose::Open& axis) {
+                double left = pose.forecast(axis, search.gap, apart).time_left(most);
+                if (whirl && left < most)
+                    left =
+                        std::max(left, time_beside(first, second, pose.normal(axis), search.gap));
+                return std::min(left, most);
+            };
+            double left = time_left(open.axes[open.widest]);
+            // Any axis that stays open is as good. It pays to ask the others when it was not far.
+            for (std::size_t i = 0; i < open.count && left < worthwhile * most; ++i)
+                if (i != open.widest) left = std::max(left, time_left(open.axes[i]));
+            if (whirl && left < worthwhile * most)
+                left = std::max(left, time_beside_any(first, second, search.gap));
+            return std::min(left, most);
+        });
+    }
+    return advanced.end == Advanced::End::clear ? clear : advanced;
+}
+
+Advanced advance_to_gap(const PlaneSurface& plane, const SteadyBox& box, const GapSearch& search,
+                        std::uint32_t& steps)
+{
+    const auto height = [&](double time) {
+        return glm::dot(plane.normal, box.centre + time * box.velocity) - plane.offset;
+    };
+    if (std::min(height(search.from), height(search.to)) > box.radius + widest(search))
+        return {search.to, Advanced::End::clear};
+    Mover mover{box, search.from, search.to};
+    const double approach = -glm::dot(plane.normal, box.velocity);
+    const double bend = mover.speed_of_turning * mover.speed_of_turning * mover.whirl.widest;
+    return advance_by(search, steps, [&](double time, double most) {
+        mover.go_to(time);
+        const double room = gap_between(plane, mover.box).distance - search.gap;
+        if (room <= search.near) return 0.0;
+        const PerAxis parts = per_axis(box.half * (plane.normal * mover.box.axes));
+        const PerAxis speeds =
+            per_axis(box.half * (glm::cross(plane.normal, box.spin) * mover.box.axes));
+        Forecast now{.room = room, .approach = approach, .bend = bend};
+        std::copy(parts.begin(), parts.end(), now.parts.begin());
+        std::copy(speeds.begin(), speeds.end(), now.speeds.begin());
+        double left = now.time_left(most);
+        if (mover.turns && left < most) {
+            const double beside =
+                height(time) - search.gap - mover.reach_in_all_turns(plane.normal);
+            if (beside > 0.0) left = approach > 0.0 ? std::max(left, beside / approach) : most;
+        }
+        return std::min(left, most);
+    });
+}
+
+} // namespace hapnet::scene

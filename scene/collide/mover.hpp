@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/collide/steady_box.hpp"
+#include "scene/maths/rotation.hpp"
+#include "scene/maths/vector.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+
+namespace hapnet::scene {
+
+/// How far a box that turns steadily reaches from its centre in the course of all its turns: its
+/// corners go round in circles about the axis of its spin.
+struct Whirl {
+    // A turn, in radians, from which on it pays to ask how far a box reaches in all its turns.
+    static constexpr double far_turn = 0.5;
+
+    glm::dvec3 axis{0.0};
+    std::array<double, 4> along{}; // m, of each corner and the opposite one
+    std::array<double, 4> across{};
+    double widest = 0.0; // m, of `across`
+    bool is_known = false;
+
+    /// Of what turns so far in the time that it pays to know it.
+    Whirl(const SteadyBox& box, double time)
+    {
+        const double square = glm::dot(box.spin, box.spin);
+        if (!(time * time * square > far_turn * far_turn)) {
+            widest = box.radius;
+            return;
+        }
+        is_known = true;
+        axis = box.spin / std::sqrt(square);
+        const glm::dvec3 part = box.half * (axis * axes_of(box.orientation));
+        along = {part.x + part.y + part.z, part.x + part.y - part.z, part.x - part.y + part.z,
+                 part.y + part.z - part.x};
+        for (std::size_t i = 0; i < along.size(); ++i) {
+            along[i] = std::abs(along[i]);
+            across[i] = std::sqrt(std::max(0.0, box.radius * box.radius - along[i] * along[i]));
+            widest = std::max(widest, across[i]);
+        }
+    }
+
+    [[nodiscard]] double reach(const glm::dvec3& normal, double radius) const
+    {
+        if (!is_known) return radius;
+        const double cosine = std::abs(glm::dot(axis, normal));
+        const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+        double most = 0.0;
+        for (std::size_t i = 0; i < along.size(); ++i)
+            most = std::max(most, cosine * along[i] + sine * across[i]);
+        return std::min(most, radius);
+    }
+};
+
+/// What a look needs to know of one of the two.
+struct Mover {
+    const SteadyBox& motion;
+    bool turns = false;
+    double speed_of_turning = 0.0; // rad/s
+    Whirl whirl;
+    OrientedBox box; // now
+
+    Mover(const SteadyBox& its, double from, double to)
+        : motion{its},
+          turns{its.spin != glm::dvec3{0.0}},
+          speed_of_turning{length(its.spin)},
+          whirl{its, to - from},
+          box{its.at(from)}
+    {}
+
+    void go_to(double time)
+    {
+        if (turns)
+            box = motion.at(time);
+        else
+            box.centre = motion.centre + time * motion.velocity;
+    }
+    [[nodiscard]] double reach_in_all_turns(const glm::dvec3& normal) const
+    {
+        return turns ? whirl.reach(normal, motion.radius) : half_projection(box, normal);
+    }
+};
+
+} // namespace hapnet::scene

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/collide/manifold.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+
+namespace hapnet::scene {
+
+/// A box that moves and turns steadily.
+struct SteadyBox {
+    glm::dvec3 centre{0.0}; // at time 0
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 velocity{0.0};
+    glm::dvec3 spin{0.0};
+    glm::dvec3 half{0.02};
+    double radius = 0.0; // of the corners
+
+    [[nodiscard]] OrientedBox at(double time) const;
+    [[nodiscard]] glm::dquat orientation_at(double time) const;
+    /// The same motion, but at `time` it is there and turned so.
+    void put(const glm::dvec3& place, const glm::dquat& turned, double time);
+};
+
+} // namespace hapnet::scene

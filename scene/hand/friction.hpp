@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/description.hpp"
+#include "scene/hand/advance.hpp"
+
+#include <cmath>
+#include <span>
+
+namespace hapnet::scene {
+
+/// The dry friction of a hand's spring: along the surface it pulls through a spring and a damper,
+/// as stiff as those across it, from a proxy on the surface. The proxy stays where it is while the
+/// pull is within the cone of friction, and follows the hand when it is not (V. Hayward and
+/// B. Armstrong, A new computational model of friction applied to haptic rendering, 2000; CHAI3D's
+/// friction proxy). It keeps to the body, however that moves.
+struct FrictionSpring {
+    HandFriction limits{};   // as shares of the force across the surface; 0: it is smooth
+    glm::dvec3 stretch{0.0}; // of the hand over the proxy, along the surface, at the start
+    bool slides = false;     // at the start, and then at the end
+    glm::dvec3 slid{0.0};    // how far the proxy went over the surface in the tick
+
+    [[nodiscard]] double limit() const { return slides ? limits.sliding : limits.sticking; }
+};
+
+/// What is left of a contact's greatest force for the push across the surface, so that both parts
+/// together are no more than it.
+[[nodiscard]] inline double push_max(double force_max, const HandFriction& limits)
+{
+    return force_max / std::sqrt(1.0 + limits.sticking * limits.sticking);
+}
+
+/// A body's springs, their friction and what they do: all as long.
+struct FrictionContacts {
+    std::span<const HandSpring> springs;
+    std::span<FrictionSpring> frictions;
+    std::span<SpringImpulse> work;
+};
+
+/// advance() where some springs have friction: by the implicit midpoint rule throughout, in which a
+/// pull that leaves the cone is cut to it. The rule loses what friction takes and gains nothing,
+/// however stiff; what directions gain that turn is taken away as in advance().
+HandEnergy advance_with_friction(MovingBody& body, const BodyDynamics& dynamics,
+                                 const FrictionContacts& contacts, double tick);
+
+/// A hand's friction on something that moves evenly through the tick whatever the hand does.
+struct Rub {
+    double stiffness = 0.0;
+    double damping = 0.0;
+    glm::dvec3 velocity{0.0}; // of the hand over the surface, along it
+    double impulse = 0.0;     // across the surface, N s
+    double tick = 0.0;
+};
+
+/// The impulse on the hand, N s, with the mean force across the surface: exact while that is
+/// steady, in the tick in which the hand begins to slide, too, and it slides on in its direction.
+[[nodiscard]] glm::dvec3 rub_evenly(const Rub& rub, FrictionSpring& friction);
+
+} // namespace hapnet::scene

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapnet::scene {
+
+/// The energy that impulses give when all are taken by one share: none + linear s + square s^2, J.
+/// Kinetic energy is such a parabola, with square >= 0, so without impulses nothing is gained and
+/// there always is a share that gains no more than may be.
+struct EnergyOfShare {
+    double none = 0.0;
+    double linear = 0.0;
+    double square = 0.0;
+
+    [[nodiscard]] double at(double share) const { return none + share * (linear + share * square); }
+    /// The largest share, at most 1, that gains no more; where there is none, that which gains
+    /// least. Nothing of what is not a number.
+    [[nodiscard]] double share_within(double most) const
+    {
+        if (none + linear + square <= most) return 1.0;
+        const double room = most - none;
+        const double root = std::sqrt(std::max(linear * linear + 4.0 * square * room, 0.0));
+        const double share =
+            linear > 0.0 ? 2.0 * room / (linear + root) : (root - linear) / (2.0 * square);
+        return share > 0.0 ? std::min(share, 1.0) : 0.0;
+    }
+    /// The share, at most 1, that gains least.
+    [[nodiscard]] double share_of_least() const
+    {
+        const double share = -linear / (2.0 * square);
+        return share > 0.0 ? std::min(share, 1.0) : 0.0;
+    }
+};
+
+/// For what may be gained that itself shrinks with the share: rounds in which a share is tried
+/// after the other, each within what the one before leaves. They nearly always end after two or
+/// three; then they go faster than is asked for, so that they do end.
+inline constexpr int share_rounds_max = 64;
+[[nodiscard]] inline double next_share(double share, double within, int round)
+{
+    constexpr int patient = 8;
+    constexpr double faster = 0.9;
+    return std::min(share, round < patient ? within : faster * within);
+}
+
+} // namespace hapnet::scene

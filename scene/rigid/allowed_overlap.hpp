@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+
+namespace hapnet::scene {
+
+// Overlaps, in shares of the smallest half edge of the two. With each touch in a tick they may
+// overlap by a little more, so that those that slide on each other or come to rest are not held up
+// and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
+inline constexpr double overlap_step = 0.01;
+inline constexpr double overlap_max = 0.5;
+inline constexpr double least_step = 0.05; // of the above
+// How near to that counts.
+inline constexpr double near_share = 0.1;
+
+/// By how much two that overlap so far may overlap more at the next touch.
+[[nodiscard]] inline double next_overlap(double gap, double smallest)
+{
+    return overlap_step * smallest * std::max(least_step, 1.0 + gap / (overlap_max * smallest));
+}
+
+} // namespace hapnet::scene

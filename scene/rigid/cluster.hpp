@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/bodies.hpp"
+#include "scene/collide/manifold.hpp"
+#include "scene/solver/contact_block.hpp"
+
+#include <cstdint>
+
+namespace hapnet::scene {
+
+/// A body at the moment at which it becomes part of a cluster.
+struct ClusterPart {
+    const BodyProperties& properties;
+    OrientedBox box;
+    glm::dvec3 velocity{0.0};
+    glm::dvec3 angular_momentum{0.0}; // about its centre
+};
+
+/// Movable bodies that stick together, as after an inelastic impact: of all the motions that one
+/// rigid body can have, the one with the same momentum and the same angular momentum. It is the
+/// projection of their motion in the metric of kinetic energy, so energy falls. Where a part is
+/// locked so is the cluster: it keeps the momentum along what is free; it turns about what all
+/// parts may turn about, and not at all when a part is locked along an axis.
+///
+/// All parts are first counted, for the mass and the centre, and then joined.
+class Cluster {
+public:
+    void count(const ClusterPart& part);
+    void join(const ClusterPart& part);
+    /// After all parts were joined.
+    void stick();
+
+    [[nodiscard]] const glm::dvec3& velocity() const { return velocity_; }
+    [[nodiscard]] BodyMotion motion_of(const ClusterPart& part) const;
+    [[nodiscard]] glm::dvec3 angular_momentum_of(const ClusterPart& part) const;
+    /// It touches a wall that moves, and that pushes it along a unit vector: it loses what it has
+    /// against the wall. At another wall only what is along both is left of its motion over that
+    /// one, at a third nothing. Returns the change of the velocity of each part.
+    glm::dvec3 stick_to_wall(const glm::dvec3& normal, const glm::dvec3& ground);
+
+private:
+    double mass_ = 0.0;
+    glm::dvec3 weighed_{0.0}; // the centre times the mass
+    glm::dvec3 momentum_{0.0};
+    glm::dvec3 angular_momentum_{0.0}; // about the centre
+    glm::dmat3 inertia_{0.0};
+    glm::dvec3 free_{1.0};  // 0 along what is locked
+    glm::dvec3 turns_{1.0}; // 0 about what is locked
+    glm::dvec3 velocity_{0.0};
+    glm::dvec3 spin_{0.0};
+    std::uint32_t walls_ = 0;
+    glm::dvec3 wall_{0.0}; // the first one's normal
+};
+
+} // namespace hapnet::scene

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+//
+// What of continuous collision is about two that may touch, and when they do.
+#include "scene/rigid/allowed_overlap.hpp"
+#include "scene/rigid/continuous.hpp"
+
+#include <algorithm>
+
+namespace hapnet::scene {
+
+namespace {
+
+double shortest_half(const SteadyBox& box)
+{
+    return std::min(box.half.x, std::min(box.half.y, box.half.z));
+}
+
+} // namespace
+
+bool ContinuousCollision::are_to_meet(FlyerIndex a, std::uint32_t b, bool is_plane) const
+{
+    for (MeetingIndex i = flyers_[a].first; i != none;) {
+        const Meeting& meeting = meetings_[i];
+        const bool is_a = meeting.a == a;
+        if (meeting.is_plane == is_plane && (is_a ? meeting.b : meeting.a) == b) return true;
+        i = is_a ? meeting.next_of_a : meeting.next_of_b;
+    }
+    return false;
+}
+
+/// How far apart they are at a moment.
+Gap ContinuousCollision::gap_of(const Surroundings& around, const Meeting& meeting,
+                                double time) const
+{
+    const OrientedBox box = flyers_[meeting.a].flight.at(time);
+    if (!meeting.is_plane) return gap_between(box, flyers_[meeting.b].flight.at(time));
+    const PlaneDescription& plane = around.config.planes[meeting.b];
+    return gap_between(PlaneSurface{plane.normal, plane.offset_m}, box);
+}
+
+void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting& wanted)
+{
+    if (meetings_.is_full()) {
+        Flyer& stopped = flyers_[flyers_[wanted.a].is_movable ? wanted.a : wanted.b];
+        if (!stopped.has_stopped) stop(stopped, wanted.time);
+        ++around.state.interventions.budgets_spent;
+        return;
+    }
+    double smallest = shortest_half(flyers_[wanted.a].flight);
+    if (!wanted.is_plane) smallest = std::min(smallest, shortest_half(flyers_[wanted.b].flight));
+    const Gap gap = gap_of(around, wanted, 0.0);
+    // Those that began far in each other cannot pass each other any more.
+    if (gap.distance <= -overlap_max * smallest) return;
+    const auto index = static_cast<MeetingIndex>(meetings_.size());
+    Meeting& meeting = meetings_.add();
+    meeting = wanted;
+    meeting.smallest = smallest;
+    meeting.gap = std::min(gap.distance, 0.0);
+    meeting.gap -= next_overlap(meeting.gap, smallest);
+    meeting.next_of_a = flyers_[meeting.a].first;
+    flyers_[meeting.a].first = index;
+    if (!meeting.is_plane) {
+        meeting.next_of_b = flyers_[meeting.b].first;
+        flyers_[meeting.b].first = index;
+    }
+    advance(around, meeting, wanted.time, steps_at_once);
+}
+
+/// The next touch; of those at the same time the first.
+ContinuousCollision::MeetingIndex ContinuousCollision::earliest() const
+{
+    MeetingIndex found = none;
+    for (MeetingIndex i = 0; i < meetings_.size(); ++i) {
+        const Meeting& meeting = meetings_[i];
+        if (meeting.is_over) continue;
+        if (found == none || meeting.time < meetings_[found].time) found = i;
+    }
+    return found;
+}
+
+/// Searches for their next touch while both go on as they do, with at most so many looks.
+void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, double from,
+                                  std::uint32_t looks_max)
+{
+    const Flyer& a = flyers_[meeting.a];
+    const auto stays = [](const Flyer& flyer) { return flyer.has_stopped || !flyer.is_movable; };
+    meeting.is_sure = false;
+    meeting.is_over = stays(a) && (meeting.is_plane || stays(flyers_[meeting.b]));
+    if (!meeting.is_plane && a.cluster != none && a.cluster == flyers_[meeting.b].cluster)
+        meeting.is_over = true;
+    if (meeting.is_over) return;
+    GapSearch asked{.gap = meeting.gap,
+                    .near = near_share * next_overlap(meeting.gap, meeting.smallest),
+                    .from = from,
+                    .to = a.is_released ? scales_.tick : std::min(scales_.tick, a.bend)};
+    const std::uint32_t granted = std::min(looks_max, steps_left_);
+    std::uint32_t left = granted;
+    Advanced advanced;
+    if (meeting.is_plane) {
+        const PlaneDescription& plane = around.config.planes[meeting.b];
+        advanced =
+            advance_to_gap(PlaneSurface{plane.normal, plane.offset_m}, a.flight, asked, left);
+    } else {
+        const Flyer& b = flyers_[meeting.b];
+        if (!b.is_released) asked.to = std::min(asked.to, b.bend);
+        advanced = advance_to_gap(a.flight, b.flight, asked, left);
+    }
+    steps_left_ -= granted - left;
+    meeting.time = advanced.time;
+    meeting.is_sure = advanced.end == Advanced::End::reached;
+    meeting.is_over = advanced.end == Advanced::End::clear;
+}
+
+/// The same for all of a flyer's meetings, but for those with another that is `done`.
+void ContinuousCollision::advance_all(const Surroundings& around, FlyerIndex index, double from,
+                                      FlyerIndex done)
+{
+    for_meetings_of(index, [&](Meeting& meeting) {
+        const FlyerIndex other = meeting.a == index ? meeting.b : meeting.a;
+        if (meeting.is_plane || other != done) advance(around, meeting, from, steps_at_once);
+    });
+}
+
+/// One that sleeps is to be woken.
+void ContinuousCollision::note_push(const Bodies& bodies, BodyId body)
+{
+    if (bodies.slot_of[body] < bodies.awake) return;
+    if (std::find(woken_.begin(), woken_.end(), body) == woken_.end()) woken_.add(body);
+}
+
+} // namespace hapnet::scene

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace hapnet::soak {
+
+/// Which random scenes to look through.
+struct WorstTicks {
+    std::uint64_t first = 0; // seed
+    std::uint64_t count = 0;
+    std::size_t bodies_max = 8; // movable ones
+};
+
+/// Counts the work of every tick of the scenes, plays the 100 with the most in a tick again, five
+/// times, and prints the dearest ticks: the time of a tick is the least of the five, so what else
+/// the machine does hardly counts.
+void print_worst_ticks(const WorstTicks& asked);
+
+} // namespace hapnet::soak
