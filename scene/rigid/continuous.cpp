@@ -497,21 +497,26 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
     const ContactVector impulse = touch_impulse(block, a, b, least_bounce * scales_.fall);
     if (std::all_of(impulse.begin(), impulse.end(), [](double part) { return part == 0.0; }))
         return false;
-    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm, double driven) {
-        const Slot slot = bodies.slot_of[body];
-        apply_impulse(bodies, slot, by, arm);
-        departures_[slot].beginning.energy_driven += driven;
+    const auto push = [&](BodyId body, const Wrench& by, const glm::dvec3& arm) {
+        apply_impulse(bodies, bodies.slot_of[body], by, arm);
         note_push(bodies, body);
+    };
+    const auto note_driven = [&](const Flyer& flyer, const Toucher& was, const Wrench& by,
+                                 const glm::dvec3& arm, double given) {
+        const BodyMotion now = toucher(around, flyer, time).motion;
+        const double taken = 0.5 * (work_of(by, arm, was.motion) + work_of(by, arm, now));
+        departures_[bodies.slot_of[flyer.body]].beginning.energy_driven +=
+            driven_energy(given, taken);
     };
     meeting.has_pushed = true;
     const Wrench on_b = wrench(block, impulse);
     const Wrench on_a{-on_b.impulse, -on_b.angular};
-    if (second.is_movable)
-        push(second.body, on_b, block.arm_b,
-             first.is_kinematic ? work_of(on_b, block.arm_a, a.motion) : 0.0);
-    if (!meeting.is_plane && first.is_movable)
-        push(first.body, on_a, block.arm_a,
-             second.is_kinematic ? work_of(on_a, block.arm_b, b.motion) : 0.0);
+    if (second.is_movable) push(second.body, on_b, block.arm_b);
+    if (!meeting.is_plane && first.is_movable) push(first.body, on_a, block.arm_a);
+    if (first.is_kinematic)
+        note_driven(second, b, on_b, block.arm_b, work_of(on_b, block.arm_a, a.motion));
+    else if (second.is_kinematic)
+        note_driven(first, a, on_a, block.arm_a, work_of(on_a, block.arm_b, b.motion));
     return true;
 }
 

@@ -115,10 +115,15 @@ void ContinuousCollision::stick_to_wall(const Surroundings& around, FlyerIndex i
     const glm::dvec3 change = clusters_[flyers_[index].cluster].stick_to_wall(normal, ground);
     for_stuck(index, [&](Flyer& flyer) {
         const Slot slot = bodies.slot_of[flyer.body];
-        bodies.velocity.put(slot, bodies.velocity.at(slot) + change);
-        if (is_driven)
+        const glm::dvec3 before = bodies.velocity.at(slot);
+        bodies.velocity.put(slot, before + change);
+        if (is_driven) {
+            const glm::dvec3 mean =
+                before + 0.5 * change - (scales_.tick - time) * around.steady_acceleration(slot);
+            const glm::dvec3 push = bodies.properties[slot].mass * change;
             departures_[slot].beginning.energy_driven +=
-                bodies.properties[slot].mass * glm::dot(change, ground);
+                driven_energy(glm::dot(push, ground), glm::dot(push, mean));
+        }
         note_push(bodies, flyer.body);
         flyer.flight.centre -= time * change;
         flyer.flight.velocity += change;

@@ -95,6 +95,13 @@ void Kinematics::begin_contacts(const Bodies& bodies, ContactSolver& solver,
     }
 }
 
+double driven_energy(double given, double taken)
+{
+    // What pushes a body at rest gives it all that it gains, but for rounding.
+    constexpr double rounding = 1e-12;
+    return std::min(given, taken + rounding * std::abs(taken));
+}
+
 namespace {
 
 /// From the centres of two that touch to where they do.
@@ -114,7 +121,7 @@ void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integra
             0.5 * (work_of(push, arms.of_body, start) + work_of(push, arms.of_body, end));
         const double given = std::max(work_of(push, arms.of_surface, integrations[by].mean),
                                       work_of(push, arms.of_surface, integrations[by].predicted));
-        integrations[body].energy_driven += std::min(given, taken);
+        integrations[body].energy_driven += driven_energy(given, taken);
     };
     for (const ContactBlock& block : solver.blocks()) {
         const bool a_drives = solver.is_kinematic(block.a);

@@ -53,10 +53,13 @@ private:
     Scratch<KinematicTick> ticks_;
 };
 
+/// Of the work, J, of an impulse on the surface of a kinematic body the other gets no more than it
+/// takes by its own motion: what cannot follow, because it is locked or wedged, gets no energy, and
+/// its impulse may be any.
+[[nodiscard]] double driven_energy(double given, double taken);
+
 /// Adds what kinematic bodies do to those that they push and carry. The force of a contact counts
-/// as constant over the tick, or as a blow at its end: whichever is more. Of that a body gets no
-/// more than it takes: what cannot follow, because it is locked or wedged, gets no energy, and its
-/// impulse may be any.
+/// as constant over the tick, or as a blow at its end: whichever is more.
 void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integrations);
 
 } // namespace hapnet::scene
