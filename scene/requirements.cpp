@@ -117,7 +117,7 @@ std::string_view name_of(Feature feature)
     constexpr std::array<std::string_view, features> names{
         "contact",     "hips",   "skew",          "rotation", "friction",  "restitution",
         "drag",        "bodies", "sleep",         "grid",     "kinematic", "feel",
-        "felt-planes", "fields", "hand-friction", "shapes"};
+        "felt-planes", "fields", "hand-friction", "shapes",   "joints"};
     return names.at(static_cast<std::size_t>(feature));
 }
 
@@ -138,7 +138,7 @@ FeatureSet abilities_of(StepperKind kind)
     case StepperKind::many: add(grid); [[fallthrough]];
     case StepperKind::few: add(bodies, sleep); [[fallthrough]];
     case StepperKind::lone:
-        add(rotation, skew, kinematic, feel, felt_planes, hand_friction, shapes);
+        add(rotation, skew, kinematic, feel, felt_planes, hand_friction, shapes, joints);
         [[fallthrough]];
     case StepperKind::sliding_coulomb: add(friction); [[fallthrough]];
     case StepperKind::sliding: add(contact, hands, restitution, drag, fields); break;
@@ -184,13 +184,15 @@ Requirements requirements_of(const Description& description, bool sleeping)
                 fmt::format("fields of force: {}", description.fields.size())),
         require_hand_friction(description),
         require(shapes, census.round > 0,
-                fmt::format("spheres and capsules: {} of {} bodies", census.round, total))};
+                fmt::format("spheres and capsules: {} of {} bodies", census.round, total)),
+        require(joints, !description.joints.empty(),
+                fmt::format("joints: {}", description.joints.size()))};
     if (!needs[0].is_required) {
         for (Requirement& each : needs) {
             const bool is_own = each.feature == contact || each.feature == rotation ||
                                 each.feature == kinematic || each.feature == felt_planes ||
                                 each.feature == fields || each.feature == hand_friction ||
-                                each.feature == shapes;
+                                each.feature == shapes || each.feature == joints;
             if (!is_own) each = without_contact(each.feature);
         }
     }

@@ -29,8 +29,9 @@ enum class Feature : std::uint8_t {
     fields,        // fields of force
     hand_friction, // hands that stick and slide
     shapes,        // spheres and capsules
+    joints,        // joints between bodies, or a body and the world
 };
-inline constexpr std::size_t features = 16;
+inline constexpr std::size_t features = 17;
 
 [[nodiscard]] std::string_view name_of(Feature feature);
 

@@ -6,8 +6,10 @@
 #include "scene/bounded.hpp"
 #include "scene/tick_cost.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace hapnet::scene {
@@ -83,6 +85,20 @@ struct HandSlip {
     double stored_j = 0.0;  // at the start, in the springs along the surfaces
 };
 
+/// A joint's index in its description.
+using JointId = std::uint32_t;
+
+/// What a joint did in the last tick.
+struct JointState {
+    double coordinate = 0.0; // rad of a hinge, m of a slider or spring; see JointDescription
+    double rate = 0.0;       // of it, per second
+    base::Force force{};     // on its first body, at the joint: the mean over the tick
+    glm::dvec3 torque{0.0};  // N m, likewise, about the joint
+};
+
+/// Two bodies, the lower id first.
+using BodyPair = std::pair<BodyId, BodyId>;
+
 /// What holds from a world's first tick to its last.
 struct WorldConfig {
     std::vector<PlaneDescription> planes{};
@@ -92,6 +108,13 @@ struct WorldConfig {
     bool sleeping = true; // whether bodies at rest may fall asleep
     HandFeels feels{};
     std::vector<FieldDescription> fields{};
+    std::vector<BodyPair> apart{}; // that do not touch each other: joined; sorted
+
+    [[nodiscard]] bool are_apart(BodyId a, BodyId b) const
+    {
+        return !apart.empty() && std::binary_search(apart.begin(), apart.end(),
+                                                    BodyPair{std::min(a, b), std::max(a, b)});
+    }
 };
 
 /// How a kinematic body goes on.
@@ -149,6 +172,7 @@ struct WorldState {
     Bounded<BodyId> pushed{};               // the bodies with a push or a torque, each once
     Bounded<BodyId> twisted{};              // those of them with a torque, each once
     std::vector<std::uint8_t> is_pushed{};  // by id: 1 in `pushed`, 2 in `twisted`
+    std::vector<JointState> joints{};       // by id
     std::vector<KinematicScript> scripts{}; // of the kinematic bodies, in the order of their slots
     std::vector<HandSlip> slips{};          // by hand; empty where no hand has friction
     std::uint64_t ticks = 0;

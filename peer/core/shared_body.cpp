@@ -39,6 +39,10 @@ base::Result<scene::BodyId> shared_body(const scene::Description& scene)
                           "static_friction");
     }
     if (!scene.fields.empty()) return base::fail("a session has no fields of force yet");
+    if (!scene.joints.empty()) {
+        return base::fail("a session has no joints yet: leave out hinges, sliders, balls and "
+                          "springs");
+    }
     if (scene.hands.count == 0) return base::fail("a session needs a hand; this scene has none");
     const auto index = found - bodies.begin();
     if (index > std::numeric_limits<number_on_the_wire>::max()) {

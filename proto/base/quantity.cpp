@@ -135,10 +135,12 @@ bool is_unit(std::string_view word)
     if (parse_duration(one) || parse_probability(one) || parse_bit_rate(one) || parse_size(one)) {
         return true;
     }
-    static constexpr std::array kinds{
-        &length_kind,    &mass_kind,  &density_kind,    &stiffness_kind, &damping_kind,
-        &force_kind,     &turn_kind,  &force_rate_kind, &speed_kind,     &acceleration_kind,
-        &frequency_kind, &angle_kind, &mobility_kind,   &power_kind,     &energy_kind};
+    static constexpr std::array kinds{&length_kind,       &mass_kind,           &density_kind,
+                                      &stiffness_kind,    &damping_kind,        &force_kind,
+                                      &turn_kind,         &force_rate_kind,     &speed_kind,
+                                      &acceleration_kind, &frequency_kind,      &angle_kind,
+                                      &mobility_kind,     &power_kind,          &energy_kind,
+                                      &torsion_kind,      &torsion_damping_kind};
     return std::any_of(kinds.begin(), kinds.end(), [&](const QuantityKind* kind) {
         return parse_quantity(one, *kind).has_value();
     });

@@ -68,6 +68,10 @@ inline constexpr QuantityKind angle_kind{
     "an angle",
     "90deg or 1.5rad",
     {{{"rad", 0, 1.0, true}, {"deg", 0, radians_per_degree}, {"mrad", -3}}}};
+inline constexpr QuantityKind torsion_kind{
+    "a torsional stiffness", "0.5Nm/rad", {{{"Nm/rad", 0, 1.0, true}, {"mNm/rad", -3}}}};
+inline constexpr QuantityKind torsion_damping_kind{
+    "a torsional damping", "0.01Nms/rad", {{{"Nms/rad", 0, 1.0, true}, {"mNms/rad", -3}}}};
 inline constexpr QuantityKind turn_kind{
     "an angular velocity",
     "1rad/s or 90deg/s",

@@ -57,6 +57,7 @@ bool reaches(const Aabb& box, const PlaneDescription& plane)
 template <BroadPhase broad_phase>
 PairFinder<broad_phase>::PairFinder(const WorldConfig& config, const Bodies& bodies)
     : planes_of_scene_{config.planes},
+      apart_{config.apart},
       fat_boxes_{config, bodies},
       boxes_{first_boxes(fat_boxes_, bodies)},
       pairs_{room_for_bodies(bodies)},
@@ -118,6 +119,8 @@ void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, BodyId id)
     boxes_.for_overlapping(id, [&](BodyId other) {
         if (other == id || stamps_[other] == stamp_) return;
         if (is_kinematic && bodies.slot_of[other] >= bodies.movable) return;
+        const BodyPair both{std::min(id, other), std::max(id, other)};
+        if (!apart_.empty() && std::binary_search(apart_.begin(), apart_.end(), both)) return;
         const bool is_active = is_awake || bodies.slot_of[other] < bodies.awake;
         if (!pairs_.add(std::min(id, other), std::max(id, other), is_active)) has_left_out_ = true;
     });

@@ -124,6 +124,7 @@ private:
     void renew_hand(Hand& known, const HandPath& path);
 
     std::vector<PlaneDescription> planes_of_scene_;
+    std::vector<BodyPair> apart_; // see WorldConfig
     FatAabbs fat_boxes_;
     Finder boxes_;
     PairSet pairs_;

@@ -25,6 +25,14 @@ namespace hapnet::scene {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
+/// A unit vector along x (0), y or z.
+[[nodiscard]] inline glm::dvec3 axis_of_world(int axis)
+{
+    glm::dvec3 direction{0.0};
+    direction[axis] = 1.0;
+    return direction;
+}
+
 /// Whether no component is larger than `most` or NaN.
 [[nodiscard]] inline bool is_within(const glm::dvec3& v, double most)
 {

@@ -380,7 +380,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     };
     const BodyId own = flyers_[index].body;
     pairs.for_overlapping(way, [&](BodyId id) {
-        if (id == own) return;
+        if (id == own || around.config.are_apart(id, own)) return;
         const FlyerIndex other = add_flyer(around, id);
         if (are_to_meet(other, index, false)) return;
         meet(other, false);
@@ -389,6 +389,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
         // Those that were thrown out of the boxes in which the others find them.
         if (other == index || !flyers_[other].is_fast) continue;
         if (!overlap(way, flyers_[other].searched)) continue;
+        if (around.config.are_apart(own, flyers_[other].body)) continue;
         if (are_to_meet(index, other, false) || are_to_meet(other, index, false)) continue;
         meet(other, false);
     }

@@ -288,6 +288,15 @@ void EnergyAccount::join_islands(const Tick& tick, std::span<const Slot> slots)
         if (tick.solver.responds(block.a) && tick.solver.responds(block.b))
             islands_.join(block.a, block.b);
     }
+    join_joined(tick.solver.joints(), islands_);
+}
+
+/// A share of a joint's impulse would not hold it: JointEnergy settles the islands with joints.
+void EnergyAccount::leave_joined(const JointSolver& joints)
+{
+    for (const JointSolver::Group& group : joints.groups()) {
+        if (group.is_awake) balances_[islands_.root_of(joints.body_of(group))].is_settled = true;
+    }
 }
 
 /// One body may gain what others of its island lose.
@@ -299,6 +308,7 @@ void EnergyAccount::find_shares(const Tick& tick, std::span<const Slot> slots,
         const SolverIndex root = islands_.root_of(slot + 1);
         if (root != slot + 1) balances_[root].add(balances_[slot + 1]);
     }
+    leave_joined(tick.solver.joints());
     // What may be gained shrinks with the share: with that of hands, and of what turns.
     for (int round = 0; round < share_rounds_max; ++round) {
         bool any = false;

@@ -78,6 +78,7 @@ private:
     [[nodiscard]] static Balance balance_of(const Tick& tick, const BodyTick& body,
                                             double share = 1.0);
     void join_islands(const Tick& tick, std::span<const Slot> slots);
+    void leave_joined(const JointSolver& joints);
     template <typename TickOf>
     void find_shares(const Tick& tick, std::span<const Slot> slots, TickOf&& tick_of_slot);
     template <typename Scale>

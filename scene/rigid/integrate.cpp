@@ -60,23 +60,18 @@ void set_start(BodyIntegration& integration, const WorldState& state, Slot slot,
                          glm::dvec3{0.0}};
 }
 
-void integrate_orientation(const BodyIntegration& integration, Bodies& bodies, Slot slot,
-                           const BodyMotion& mean, double tick)
+glm::dquat orientation_at_end(const BodyIntegration& integration, const Bodies& bodies, Slot slot,
+                              const BodyMotion& mean, double tick)
 {
     if (integration.has_hands) {
         const glm::dvec3 more = tick * (mean.spin - integration.mean_to_there.spin);
-        bodies.orientation.put(slot, is_negligible(more) ? integration.orientation
-                                                         : rotated(integration.orientation, more));
-        return;
+        return is_negligible(more) ? integration.orientation
+                                   : rotated(integration.orientation, more);
     }
-    if (is_negligible(tick * mean.spin)) return;
-    if (rotates_uniformly(bodies.properties[slot])) {
-        bodies.orientation.put(slot, rotated(bodies.orientation.at(slot), tick * mean.spin));
-        return;
-    }
-    bodies.orientation.put(
-        slot, rotated(bodies.orientation.at(slot),
-                      tick * spin_through_tick(integration, bodies, slot, mean, tick)));
+    const glm::dquat now = bodies.orientation.at(slot);
+    if (is_negligible(tick * mean.spin)) return now;
+    if (rotates_uniformly(bodies.properties[slot])) return rotated(now, tick * mean.spin);
+    return rotated(now, tick * spin_through_tick(integration, bodies, slot, mean, tick));
 }
 
 } // namespace
@@ -110,6 +105,7 @@ void reset(BodyIntegration& integration)
     integration.friction_contacts = 0;
     integration.drag = 0.0;
     integration.has_hands = false;
+    integration.is_joined = false;
     integration.hand_energy_stored = 0.0;
     integration.energy_driven = 0.0;
     integration.grips.impulse = 0.0;
@@ -244,6 +240,42 @@ void apply_stop(const ContactBlock& block, const SlidingBody& body,
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 
+void stop_sliding_contacts(const Bodies& bodies, const Scales& scales, ContactSolver& solver,
+                           std::span<const BodyIntegration> integrations)
+{
+    const auto stop = [&](const ContactBlock& block, SolverIndex index, const glm::dvec3& ground) {
+        const BodyProperties& body = bodies.properties[index - 1];
+        if (integrations[index].friction_contacts != 1 || rolls(body)) return;
+        apply_stop(block, {integrations[index], ground, index == block.b}, body, scales,
+                   solver.mean_motion(index));
+    };
+    for (const ContactBlock& block : solver.blocks()) {
+        if (block.friction == 0.0) continue;
+        if (block.a == 0 || block.b == 0) {
+            stop(block, block.a + block.b, glm::dvec3{0.0});
+        } else if (solver.responds(block.a) != solver.responds(block.b)) {
+            const SolverIndex index = solver.responds(block.a) ? block.a : block.b;
+            const BodyMotion& ground = integrations[block.a + block.b - index].start;
+            if (ground.spin == glm::dvec3{0.0}) stop(block, index, ground.velocity);
+        }
+    }
+}
+
+void warm_start(ContactSolver& solver, std::span<BodyIntegration> integrations)
+{
+    const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push,
+                         double sign) {
+        if (!solver.responds(index)) return;
+        BodyIntegration& body = integrations[index];
+        body.contact_impulse += sign * push.impulse;
+        body.contact_angular_impulse += sign * (glm::cross(arm, push.impulse) + push.angular);
+    };
+    for (const ContactBlock& block : solver.blocks()) {
+        add(block.b, block.arm_b, block.start_push, 1.0);
+        add(block.a, block.arm_a, block.start_push, -1.0);
+    }
+}
+
 Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots,
                             std::span<const BodyIntegration> integrations, ContactSolver& solver,
                             const Scales& scales)
@@ -259,6 +291,7 @@ Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots
         if (sum_of_sizes(way) + half * sum_of_sizes(mean.spin) <= most) continue;
         ways.any_far = true;
         const BodyIntegration& integration = integrations[i];
+        if (integration.is_joined) continue;
         const BodyMotion& end = solver.end_motion(i);
         const auto kept = [&](const glm::dvec3& now, const glm::dvec3& from, const glm::dvec3& to,
                               const glm::dvec3& with_hands, double stray) {
@@ -287,21 +320,25 @@ Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots
     return ways;
 }
 
+Placement placement_at_end(const BodyIntegration& integration, const Bodies& bodies, Slot slot,
+                           const BodyMotion& mean, double tick)
+{
+    const glm::dquat orientation = orientation_at_end(integration, bodies, slot, mean, tick);
+    if (integration.has_hands)
+        return {integration.position + tick * (mean.velocity - integration.mean_to_there.velocity),
+                orientation};
+    return {bodies.position.at(slot) + tick * mean.velocity, orientation};
+}
+
 void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,
                         ContactSolver& solver, const Scales& scales)
 {
-    const double tick = scales.tick;
     const SolverIndex index = slot + 1;
-    BodyMotion& mean = solver.mean_motion(index);
     const BodyMotion& end_motion = solver.end_motion(index);
-    integrate_orientation(integration, bodies, slot, mean, tick);
-    const glm::dvec3 from = bodies.position.at(slot);
-    if (integration.has_hands) {
-        bodies.position.put(slot, integration.position +
-                                      tick * (mean.velocity - integration.mean_to_there.velocity));
-    } else {
-        bodies.position.put(slot, from + tick * mean.velocity);
-    }
+    const Placement end =
+        placement_at_end(integration, bodies, slot, solver.mean_motion(index), scales.tick);
+    bodies.orientation.put(slot, end.orientation);
+    bodies.position.put(slot, end.position);
     bodies.velocity.put(slot, end_motion.velocity);
     bodies.angular_momentum.put(
         slot, about_unlocked_axes(bodies.properties[slot], integration.angular_momentum +

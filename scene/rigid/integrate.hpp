@@ -37,6 +37,7 @@ struct BodyIntegration {
     double drag = 0.0;                           // 1/s, on the plane that supports it
     glm::dvec3 support_normal{0.0};              // its normal
     FirstTouch first_touch;                      // of those met on its way
+    bool is_joined = false;                      // a joint holds it: it goes where that lets it
     double energy_driven = 0.0; // J: work of the own motion of hands and of kinematic bodies
 
     // Where a body with hands on it would be at the end.
@@ -87,6 +88,14 @@ struct SlidingBody {
 void apply_stop(const ContactBlock& block, const SlidingBody& body,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
+/// The same for all bodies with but one such contact, once the impulses are known.
+void stop_sliding_contacts(const Bodies& bodies, const Scales& scales, ContactSolver& solver,
+                           std::span<const BodyIntegration> integrations);
+
+/// Sums up last tick's contact impulses on each body. They count as constant forces, so that a body
+/// that rests or slides straight on is in balance before the solver looks at it.
+void warm_start(ContactSolver& solver, std::span<BodyIntegration> integrations);
+
 /// A body that goes farther than this in a tick, in half edges of the smallest body, could pass
 /// through something.
 inline constexpr double far_way = 0.5;
@@ -108,6 +117,14 @@ Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots
 /// one with hands on it.
 [[nodiscard]] glm::dvec3 spin_through_tick(const BodyIntegration& integration, const Bodies& bodies,
                                            Slot slot, const BodyMotion& mean, double tick);
+
+/// Where integrate_position() will move the body.
+struct Placement {
+    glm::dvec3 position{0.0};
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+};
+[[nodiscard]] Placement placement_at_end(const BodyIntegration& integration, const Bodies& bodies,
+                                         Slot slot, const BodyMotion& mean, double tick);
 
 /// Moves the body by the mean velocity that was solved for.
 void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,

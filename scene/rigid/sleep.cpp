@@ -55,6 +55,15 @@ Sleep::Sleep(const WorldConfig& config, const Bodies& bodies)
     }
 }
 
+void Sleep::join(std::span<const BodyId> bodies)
+{
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+        joined_.emplace_back(bodies[0], bodies[i]);
+        joined_.emplace_back(bodies[i], bodies[0]);
+    }
+    std::sort(joined_.begin(), joined_.end());
+}
+
 template <BroadPhase broad_phase>
 void Sleep::wake(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder)
 {
@@ -83,6 +92,14 @@ void Sleep::wake_island(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pa
         const BodyId next = queue_.take_last();
         pairs.for_first(next, [&](PairIndex i) { wake_other(i, pairs[i].b); });
         pairs.for_second(next, [&](PairIndex i) { wake_other(i, pairs[i].a); });
+        if (joined_.empty()) continue;
+        for (auto with = std::lower_bound(joined_.begin(), joined_.end(), BodyPair{next, 0});
+             with != joined_.end() && with->first == next; ++with) {
+            const Slot slot = bodies.slot_of[with->second];
+            if (slot < bodies.awake || slot >= bodies.movable) continue;
+            move_to_awake(with->second, bodies, pair_finder);
+            queue_.add(with->second);
+        }
     }
 }
 
@@ -162,6 +179,8 @@ void Sleep::find_islands(const Bodies& bodies, PairFinder<broad_phase>& pair_fin
             bodies.slot_of[pair.a] < bodies.awake && bodies.slot_of[pair.b] < bodies.awake;
         if (are_awake && touches(pair.memory)) islands_.join(pair.a, pair.b);
     }
+    for (const auto& [one, other] : joined_)
+        if (bodies.slot_of[one] < bodies.awake) islands_.join(one, other);
     for (Slot slot = 0; slot < bodies.awake; ++slot)
         island_rested_[bodies.properties[slot].id] = std::numeric_limits<double>::infinity();
     for (Slot slot = 0; slot < bodies.awake; ++slot) {

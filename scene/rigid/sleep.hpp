@@ -25,6 +25,9 @@ class Sleep {
 public:
     Sleep(const WorldConfig& config, const Bodies& bodies);
 
+    /// Bodies that joints join sleep and wake as those that touch each other do.
+    void join(std::span<const BodyId> bodies);
+
     /// Wakes a body and all that touches it, one through the other, and starts its time at rest
     /// anew. Slots change.
     template <BroadPhase broad_phase>
@@ -85,6 +88,7 @@ private:
 
     Islands islands_;
     std::vector<double> island_rested_; // by the island's id: the least of its bodies
+    std::vector<BodyPair> joined_;      // both ways round, sorted
     Bounded<BodyId> touched_;
     Bounded<BodyId> queue_; // those going to wake, or to sleep
 };

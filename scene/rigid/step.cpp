@@ -64,8 +64,8 @@ std::size_t blocks_for(const WorldConfig& config, const Bodies& bodies)
 } // namespace
 
 template <BroadPhase broad_phase>
-RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
-                                        const WorldConfig& config, const WorldState& state)
+RigidStepper<broad_phase>::RigidStepper(const Description& description, const WorldConfig& config,
+                                        const WorldState& state)
     : scales_{scales_of(config, state.bodies)},
       pairs_{config, state.bodies},
       sleep_{config, state.bodies},
@@ -77,34 +77,47 @@ RigidStepper<broad_phase>::RigidStepper(const Description& /*description*/,
       kinematics_{state.bodies, scales_},
       plane_contacts_{pairs_.plane_pairs_max()},
       integrations_{state.bodies.moving + std::size_t{1}},
-      solver_{state.bodies.moving, blocks_for(config, state.bodies)},
+      solver_{state.bodies.moving, blocks_for(config, state.bodies), joint_solver_of(description)},
       restitution_{config, state.bodies, blocks_for(config, state.bodies)},
       account_{state.bodies},
+      joints_{description, state.bodies, scales_},
+      joint_energy_{state.bodies, solver_.joints().groups().size()},
       continuous_{config, state.bodies, scales_},
       any_round_{any_is_round(state.bodies.properties)}
-{}
+{
+    if constexpr (sleeps) {
+        for (std::size_t group = 0; group < solver_.joints().groups().size(); ++group)
+            sleep_.join(joints_.bodies_of(group));
+    }
+}
 
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& state)
 {
     state.tick_cost = {};
     const bool has_kinematics = state.bodies.moving != state.bodies.movable;
+    const bool has_joints = !joints_.is_empty();
+    const std::uint64_t hits = state.interventions.sweeps_continued;
     if (has_kinematics) kinematics_.begin_tick(config, state);
     update_pairs(state);
     collide_hands(config, state);
     wake_disturbed(state);
     begin_contacts(state);
     if (has_kinematics) kinematics_.begin_contacts(state.bodies, solver_, integrations_.all());
+    if (has_joints) begin_joints(state);
     collide_planes(config, state);
     collide_bodies(state);
-    warm_start();
+    warm_start(solver_, integrations_.all());
+    if (has_joints) joints_.warm_start(solver_, integrations_.all());
     integrate_velocities(config, state); // gravity, pushes, drag, the hands' springs
     const bool bounced =
         restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
+    if (has_joints) joints_.stiffen(state.bodies, solver_, integrations_.all());
     const bool changed = solve_velocities(state.tick_cost);
     if (has_kinematics) add_driven_energy(solver_, integrations_.all());
     store_contact_impulses(state);
-    stop_sliding_contacts(state);
+    if (has_joints) joints_.store_impulses(state, solver_);
+    stop_sliding_contacts(state.bodies, scales_, solver_, integrations_.all());
     correct_positions(state);
     if (bounced || changed) settle_energy(config, state);
     if (has_kinematics && kinematics_.any_far()) any_far_ = true;
@@ -112,6 +125,11 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
     integrate_free_bodies(state);
     if (any_far_) solve_continuous(config, state);
     if (has_kinematics) kinematics_.end_tick(state);
+    if (has_joints) {
+        joints_.end_tick(state, solver_.joints());
+        joint_energy_.settle({config, state, active_.slots(), integrations_.all(), solver_, joints_,
+                              state.interventions.sweeps_continued != hits});
+    }
     active_.clear();
     report_hand_forces(config, state);
     update_sleep(state);
@@ -268,6 +286,23 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
     reset(integrations_[slot + 1]);
 }
 
+/// All bodies that joints hold take part in the tick.
+template <BroadPhase broad_phase>
+void RigidStepper<broad_phase>::begin_joints(const WorldState& state)
+{
+    const Bodies& bodies = state.bodies;
+    joints_.begin_contacts(bodies, solver_);
+    for (std::size_t group = 0; group < solver_.joints().groups().size(); ++group) {
+        if (!solver_.joints().groups()[group].is_awake) continue;
+        for (const BodyId body : joints_.bodies_of(group)) {
+            activate(bodies, bodies.slot_of[body]);
+            integrations_[bodies.slot_of[body] + 1].is_joined = true;
+        }
+    }
+    joints_.begin_tick(state, solver_);
+    joint_energy_.begin_tick(state);
+}
+
 /// A block for the solver; null without a point or room.
 template <BroadPhase broad_phase>
 ContactBlock* RigidStepper<broad_phase>::add_contact(std::uint32_t points, ContactMemory& memory)
@@ -385,24 +420,6 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
     }
 }
 
-/// Sums up last tick's contact impulses on each body. They count as constant forces, so that a body
-/// that rests or slides straight on is in balance before the solver looks at it.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::warm_start()
-{
-    const auto add = [&](SolverIndex index, const glm::dvec3& arm, const Wrench& push,
-                         double sign) {
-        if (!solver_.responds(index)) return;
-        BodyIntegration& body = integrations_[index];
-        body.contact_impulse += sign * push.impulse;
-        body.contact_angular_impulse += sign * (glm::cross(arm, push.impulse) + push.angular);
-    };
-    for (const ContactBlock& block : solver_.blocks()) {
-        add(block.b, block.arm_b, block.start_push, 1.0);
-        add(block.a, block.arm_a, block.start_push, -1.0);
-    }
-}
-
 /// Finds the velocities of the active bodies at the end of the tick, without what their contacts
 /// have to change.
 template <BroadPhase broad_phase>
@@ -461,6 +478,7 @@ bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
     counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
     counts_.sweeps = outcome.sweeps;
     counts_.change = outcome.change;
+    if (!joints_.is_empty()) joints_.soften(solver_);
     for (const Slot slot : active_.slots()) {
         const BodyIntegration& integration = integrations_[slot + 1];
         const BodyMotion& end = solver_.end_motion(slot + 1);
@@ -491,28 +509,6 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
     }
 }
 
-/// Ends the slip of a body's only contact with friction at its moment within the tick.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::stop_sliding_contacts(const WorldState& state)
-{
-    const auto stop = [&](const ContactBlock& block, SolverIndex index, const glm::dvec3& ground) {
-        const BodyProperties& body = state.bodies.properties[index - 1];
-        if (integrations_[index].friction_contacts != 1 || rolls(body)) return;
-        apply_stop(block, {integrations_[index], ground, index == block.b}, body, scales_,
-                   solver_.mean_motion(index));
-    };
-    for (const ContactBlock& block : solver_.blocks()) {
-        if (block.friction == 0.0) continue;
-        if (block.a == 0 || block.b == 0) {
-            stop(block, block.a + block.b, glm::dvec3{0.0});
-        } else if (solver_.responds(block.a) != solver_.responds(block.b)) {
-            const SolverIndex index = solver_.responds(block.a) ? block.a : block.b;
-            const BodyMotion& ground = integrations_[block.a + block.b - index].start;
-            if (ground.spin == glm::dvec3{0.0}) stop(block, index, ground.velocity);
-        }
-    }
-}
-
 /// Changes the mean velocities so that nothing overlaps at the end of the tick. The velocities at
 /// the end stay as they are: nothing gains speed by being moved apart (nonlinear Gauss-Seidel).
 template <BroadPhase broad_phase>
@@ -524,10 +520,13 @@ void RigidStepper<broad_phase>::correct_positions(WorldState& state)
         if (!block.turns) continue;
         for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
     }
+    if (!joints_.is_empty()) joints_.set_way_targets(state, solver_, integrations_.all());
     state.tick_cost.visits += solver_.correct_positions(position_limits()).visits;
+    if (!joints_.is_empty()) joints_.bound_ways(solver_);
     // A body that is thrown off its path is held back; the others go as far as that lets them.
     if (!hold_back(state)) return;
     state.tick_cost.visits += solver_.correct_positions_again(position_limits()).visits;
+    if (!joints_.is_empty()) joints_.bound_ways(solver_);
     hold_back(state);
 }
 

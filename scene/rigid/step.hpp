@@ -9,6 +9,8 @@
 #include "scene/rigid/free_flight.hpp"
 #include "scene/rigid/hand_contacts.hpp"
 #include "scene/rigid/integrate.hpp"
+#include "scene/rigid/joint_energy.hpp"
+#include "scene/rigid/joints.hpp"
 #include "scene/rigid/kinematics.hpp"
 #include "scene/rigid/restitution.hpp"
 #include "scene/rigid/sleep.hpp"
@@ -65,13 +67,12 @@ private:
     void collide_hands(const WorldConfig& config, WorldState& state);
     void wake_disturbed(WorldState& state);
     void begin_contacts(const WorldState& state);
+    void begin_joints(const WorldState& state);
     void collide_planes(const WorldConfig& config, WorldState& state);
     void collide_bodies(WorldState& state);
-    void warm_start();
     bool solve_velocities(TickCost& cost);
     void integrate_velocities(const WorldConfig& config, WorldState& state);
     void store_contact_impulses(const WorldState& state);
-    void stop_sliding_contacts(const WorldState& state);
     void correct_positions(WorldState& state);
     bool hold_back(WorldState& state);
     void settle_energy(const WorldConfig& config, WorldState& state);
@@ -110,6 +111,8 @@ private:
     ContactSolver solver_;
     Restitution restitution_;
     EnergyAccount account_;
+    Joints joints_;
+    JointEnergy joint_energy_;
     ContinuousCollision continuous_;
     bool any_far_ = false; // some body could pass another in this tick
     bool any_round_;       // some body is a sphere or a capsule

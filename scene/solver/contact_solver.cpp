@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hapnet::scene {
 
@@ -52,7 +53,7 @@ double distance2(std::span<const double> a, std::span<const double> b)
 
 } // namespace
 
-ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
+ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks, JointSolver joints)
     : responses_{bodies + 1},
       end_motions_{bodies + 1},
       mean_motions_{bodies + 1},
@@ -62,12 +63,14 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       contacts_{bodies + 1},
       islands_{bodies + 1},
       starts_{bodies + 2},
-      order_{blocks},
+      order_{blocks + joints.groups().size()},
       before_{numbers_per_block * std::min(blocks, mixed_max)},
       after_{numbers_per_block * std::min(blocks, mixed_max)},
       good_{numbers_per_block * std::min(blocks, mixed_max)},
       saved_{bodies + 1},
-      anderson_{numbers_per_block * std::min(blocks, mixed_max)}
+      anderson_{numbers_per_block * std::min(blocks, mixed_max)},
+      joints_{std::move(joints)},
+      changes_of_joints_{joints_.groups().size()}
 {}
 
 /// The first look, and then for each island either its share or the few sweeps of any.
@@ -75,7 +78,10 @@ std::uint64_t ContactSolver::visits_bound(const SolverLimits& limits) const
 {
     const std::uint64_t any = sweeps_min * blocks_max_;
     const std::uint64_t all = std::uint64_t{limits.sweeps_max} * blocks_max_;
-    return blocks_max_ + std::min(all, std::max<std::uint64_t>(any, limits.visits_max));
+    const std::uint64_t contacts =
+        blocks_max_ + std::min(all, std::max<std::uint64_t>(any, limits.visits_max));
+    // All joints of a group are visited with every sweep of its island.
+    return contacts + (std::uint64_t{1} + limits.sweeps_max) * joints_.joints();
 }
 
 void ContactSolver::begin(std::size_t bodies, std::size_t kinematic)
@@ -108,7 +114,9 @@ SolverOutcome ContactSolver::correct_positions(const SolverLimits& limits)
         return false;
     };
     const std::span<ContactBlock> blocks = blocks_.all();
-    if (std::none_of(blocks.begin(), blocks.end(), overlaps)) return {};
+    if (std::none_of(blocks.begin(), blocks.end(), overlaps) &&
+        (joints_.is_empty() || !joints_.corrects_ways()))
+        return {};
     // The new part of the impulses counts half in the mean velocities, as a force's would. For an
     // impact it should count whole, from its moment on: a good start.
     for (ContactBlock& block : blocks) {
@@ -129,13 +137,16 @@ SolverOutcome ContactSolver::correct_positions_again(const SolverLimits& limits)
         block.impulse = {};
         block.has_matrix = false;
     }
+    for (std::uint32_t i = 0; i < joints_.joints(); ++i) {
+        for (JointRow& row : joints_.joint(i).rows) row.way_impulse = 0.0;
+    }
     return run({Mode::positions, mean_motions_.all(), limits});
 }
 
 SolverOutcome ContactSolver::run(const Task& task)
 {
     SolverOutcome outcome{.sweeps = 1};
-    const bool is_only_one = blocks_.size() == 1;
+    const bool is_only_one = blocks_.size() == 1 && joints_.is_empty();
     if (!is_only_one) count_contacts();
     for (ContactBlock& block : blocks_.all()) {
         const bool has_no_other = is_only_one || is_alone(block);
@@ -144,8 +155,9 @@ SolverOutcome ContactSolver::run(const Task& task)
         outcome.change = std::max(outcome.change, block.change);
     }
     outcome.visits = blocks_.size();
+    if (!joints_.is_empty()) run_joints(task, outcome);
     outcome.in_balance = outcome.change <= task.limits.converged;
-    if (outcome.in_balance || blocks_.size() < 2) return outcome;
+    if (outcome.in_balance || !has_several()) return outcome;
     find_islands();
     std::size_t moving = 0;
     for_moving_islands(task, [&](Island island) { moving += island.size(); });
@@ -157,8 +169,13 @@ SolverOutcome ContactSolver::run(const Task& task)
     outcome.change = 0.0;
     for_moving_islands(task, [&](Island island) {
         const SolverOutcome one = run_island(its, island);
+        const Island contacts = contacts_of(island);
         outcome.sweeps = std::max(outcome.sweeps, one.sweeps);
-        outcome.visits += (one.sweeps - 1) * island.size();
+        outcome.visits += (one.sweeps - 1) * contacts.size();
+        for (const std::uint32_t i : island.subspan(contacts.size())) {
+            const JointSolver::Group& group = joints_.groups()[i - blocks_.size()];
+            outcome.visits += (one.sweeps - 1) * (group.end - group.begin);
+        }
         outcome.change = std::max(outcome.change, one.change);
     });
     return outcome;
@@ -168,7 +185,11 @@ SolverOutcome ContactSolver::run(const Task& task)
 template <typename Do>
 void ContactSolver::for_moving_islands(const Task& task, Do&& act)
 {
-    const auto moves = [&](std::uint32_t i) { return blocks_[i].change > task.limits.converged; };
+    const auto moves = [&](std::uint32_t i) {
+        const double change =
+            i < blocks_.size() ? blocks_[i].change : changes_of_joints_[i - blocks_.size()];
+        return change > task.limits.converged;
+    };
     std::uint32_t begin = 0;
     for (const std::uint32_t end : starts_.all()) {
         const Island island = order_.all().subspan(begin, end - begin);
@@ -177,12 +198,52 @@ void ContactSolver::for_moving_islands(const Task& task, Do&& act)
     }
 }
 
-SolverOutcome ContactSolver::run_island(const Task& task, Island island)
+/// The first visit of all groups.
+void ContactSolver::run_joints(const Task& task, SolverOutcome& outcome)
+{
+    const std::span<const JointSolver::Group> groups = joints_.groups();
+    changes_of_joints_.resize(groups.size());
+    awake_groups_ = 0;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        changes_of_joints_[i] = 0.0;
+        if (!groups[i].is_awake) continue;
+        ++awake_groups_;
+        changes_of_joints_[i] = solve_joints(groups[i], task);
+        outcome.change = std::max(outcome.change, changes_of_joints_[i]);
+        outcome.visits += groups[i].end - groups[i].begin;
+    }
+}
+
+double ContactSolver::solve_joints(const JointSolver::Group& group, const Task& task)
+{
+    const auto mode =
+        task.mode == Mode::positions ? JointSolver::Mode::ways : JointSolver::Mode::velocities;
+    return joints_.solve(group, {mode, responses_.all(), task.motions, task.limits.tolerance});
+}
+
+double ContactSolver::sweep_joints(const Task& task, Island groups)
+{
+    double change = 0.0;
+    for (const std::uint32_t i : groups)
+        change = std::max(change, solve_joints(joints_.groups()[i - blocks_.size()], task));
+    return change;
+}
+
+/// The blocks come before the groups of joints.
+ContactSolver::Island ContactSolver::contacts_of(Island island) const
+{
+    if (joints_.is_empty()) return island;
+    const auto end = std::lower_bound(island.begin(), island.end(), blocks_.size());
+    return island.first(static_cast<std::size_t>(end - island.begin()));
+}
+
+SolverOutcome ContactSolver::run_island(const Task& task, Island whole)
 {
     SolverOutcome outcome{.sweeps = 1};
-    if (island.size() > mixed_max) {
+    const Island island = contacts_of(whole);
+    if (island.size() > mixed_max || island.empty()) {
         while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
-            outcome.change = sweep(task, island);
+            outcome.change = sweep(task, whole);
             outcome.sweeps += 2;
             if (outcome.change <= task.limits.converged) break;
         }
@@ -197,7 +258,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
     double first2 = -1.0;
     bool has_jumped = false;
     while (outcome.sweeps + 2 <= task.limits.sweeps_max) {
-        outcome.change = sweep(task, island);
+        outcome.change = sweep(task, whole);
         outcome.sweeps += 2;
         if (outcome.change <= task.limits.converged) break;
         read_impulses(island, after_.all());
@@ -206,7 +267,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
         // A mixture that leads astray, because something opens or slips there, is taken back.
         constexpr double astray = 4.0;
         if (has_jumped && !(step2 <= astray * shortest2)) {
-            undo_mixture(task, island);
+            undo_mixture(task, whole);
             anderson_.begin(numbers_per_block * island.size());
             std::copy(good_.all().begin(), good_.all().end(), before_.all().begin());
             has_jumped = false;
@@ -222,19 +283,24 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
             anderson_.begin(numbers_per_block * island.size());
             has_jumped = false;
         }
-        if (has_jumped) take_mixture(task, island);
+        if (has_jumped) take_mixture(task, whole);
     }
     return outcome;
 }
 
-double ContactSolver::sweep(const Task& task, Island island)
+/// To and fro. Joints come last: nothing is left of what they miss.
+double ContactSolver::sweep(const Task& task, Island whole)
 {
     double change = 0.0;
+    const Island island = contacts_of(whole);
+    const Island groups = whole.subspan(island.size());
     for (const std::uint32_t i : island)
         change = std::max(change, solve_block(blocks_[i], task, Effort::one_iteration));
+    if (!groups.empty()) change = std::max(change, sweep_joints(task, groups));
     for (std::size_t i = island.size(); i-- > 0;) {
         change = std::max(change, solve_block(blocks_[island[i]], task, Effort::one_iteration));
     }
+    if (!groups.empty()) change = std::max(change, sweep_joints(task, groups));
     return change;
 }
 
@@ -245,10 +311,13 @@ void ContactSolver::read_impulses(Island island, std::span<double> impulses) con
 }
 
 /// From after_ to before_; the way back is kept.
-void ContactSolver::take_mixture(const Task& task, Island island)
+void ContactSolver::take_mixture(const Task& task, Island whole)
 {
+    const Island island = contacts_of(whole);
     std::copy(after_.all().begin(), after_.all().end(), good_.all().begin());
     save(task, island);
+    for (const std::uint32_t i : whole.subspan(island.size()))
+        joints_.save(joints_.groups()[i - blocks_.size()], task.motions);
     for (std::size_t i = 0; i < island.size(); ++i) {
         ContactBlock& block = blocks_[island[i]];
         ContactVector change = contact_vector(block, block.impulse);
@@ -259,9 +328,12 @@ void ContactSolver::take_mixture(const Task& task, Island island)
     }
 }
 
-void ContactSolver::undo_mixture(const Task& task, Island island)
+void ContactSolver::undo_mixture(const Task& task, Island whole)
 {
+    const Island island = contacts_of(whole);
     restore(task, island);
+    for (const std::uint32_t i : whole.subspan(island.size()))
+        joints_.restore(joints_.groups()[i - blocks_.size()], task.motions);
     for (std::size_t i = 0; i < island.size(); ++i) {
         write(blocks_[island[i]], &good_[numbers_per_block * i]);
     }
@@ -335,6 +407,13 @@ void ContactSolver::count_contacts()
         ++contacts_[block.a];
         ++contacts_[block.b];
     }
+    for (const JointSolver::Group& group : joints_.groups()) {
+        if (!group.is_awake) continue;
+        for (const JointBlock& joint : joints_.joints_of(group)) {
+            ++contacts_[joint.a];
+            ++contacts_[joint.b];
+        }
+    }
 }
 
 /// Whether no other block has to do with its bodies.
@@ -353,16 +432,25 @@ void ContactSolver::find_islands()
     for (const ContactBlock& block : blocks_.all()) {
         if (responds(block.a) && responds(block.b)) islands_.join(block.a, block.b);
     }
+    const std::span<const JointSolver::Group> groups = joints_.groups();
+    join_joined(joints_, islands_);
     starts_.resize(bodies + 1);
     for (std::uint32_t& start : starts_.all()) start = 0;
     const auto root_of_block = [&](const ContactBlock& block) {
         return islands_.root_of(responds(block.a) ? block.a : block.b);
     };
     for (const ContactBlock& block : blocks_.all()) ++starts_[root_of_block(block) + 1];
+    for (const JointSolver::Group& group : groups)
+        if (group.is_awake) ++starts_[islands_.root_of(joints_.body_of(group)) + 1];
     for (std::size_t i = 1; i <= bodies; ++i) starts_[i] += starts_[i - 1];
-    order_.resize(blocks_.size());
+    order_.resize(blocks_.size() + awake_groups_);
     for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
         order_[starts_[root_of_block(blocks_[i])]++] = i;
+    }
+    for (std::uint32_t i = 0; i < groups.size(); ++i) {
+        if (!groups[i].is_awake) continue;
+        order_[starts_[islands_.root_of(joints_.body_of(groups[i]))]++] =
+            static_cast<std::uint32_t>(blocks_.size()) + i;
     }
     // Now every entry has become the end of its island.
     starts_.resize(bodies);

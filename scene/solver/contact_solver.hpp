@@ -6,6 +6,7 @@
 #include "scene/solver/anderson.hpp"
 #include "scene/solver/block_solver.hpp"
 #include "scene/solver/islands.hpp"
+#include "scene/solver/joint_solver.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -34,10 +35,10 @@ struct SolverOutcome {
 /// (projected Gauss-Seidel). A contact that is in balance already costs a look, and what is at
 /// rest or nearly so is done with one sweep. Bodies that touch each other and are not are an
 /// island: swept again and again, to and fro, with Anderson mixing, which is what holds a heavy
-/// body on a light one, and a stack.
+/// body on a light one, and a stack. Joints take part as blocks of their own, one for each group.
 class ContactSolver {
 public:
-    ContactSolver(std::size_t bodies, std::size_t blocks);
+    ContactSolver(std::size_t bodies, std::size_t blocks, JointSolver joints = {});
 
     /// Begins a tick: no contacts, bodies 1 .. `bodies`, and after them `kinematic` ones, which
     /// move by themselves: their responses have to be zero.
@@ -61,6 +62,7 @@ public:
     [[nodiscard]] bool is_full() const { return blocks_.is_full(); }
     ContactBlock& add() { return blocks_.add(); }
     [[nodiscard]] std::span<ContactBlock> blocks() { return blocks_.all(); }
+    [[nodiscard]] JointSolver& joints() { return joints_; }
 
     /// Changes the impulses of the contacts and the velocities at the end of the tick.
     SolverOutcome solve_velocities(const SolverLimits& limits);
@@ -84,7 +86,8 @@ private:
     /// on.
     enum class Effort : std::uint8_t { full, one_iteration };
 
-    using Island = std::span<const std::uint32_t>; // its blocks
+    /// Its blocks, and its groups of joints with the number of blocks added.
+    using Island = std::span<const std::uint32_t>;
 
     SolverOutcome run(const Task& task);
     template <typename Do>
@@ -93,6 +96,15 @@ private:
     void save(const Task& task, Island island);
     void restore(const Task& task, Island island);
     double sweep(const Task& task, Island island);
+    double sweep_joints(const Task& task, Island groups);
+    double solve_joints(const JointSolver::Group& group, const Task& task);
+    void run_joints(const Task& task, SolverOutcome& outcome);
+    [[nodiscard]] Island contacts_of(Island island) const;
+    /// Groups of joints alone do not meet each other.
+    [[nodiscard]] bool has_several() const
+    {
+        return blocks_.size() > 0 && blocks_.size() + awake_groups_ > 1;
+    }
     void read_impulses(Island island, std::span<double> impulses) const;
     void take_mixture(const Task& task, Island island);
     void undo_mixture(const Task& task, Island island);
@@ -120,6 +132,10 @@ private:
     Scratch<double> before_, after_, good_; // impulses of an island
     Scratch<BodyMotion> saved_;             // of its bodies
     Anderson anderson_;
+
+    JointSolver joints_;
+    std::size_t awake_groups_ = 0;      // of joints
+    Scratch<double> changes_of_joints_; // m/s, what the last visit changed, by group
 };
 
 } // namespace hapnet::scene

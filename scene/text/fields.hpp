@@ -169,6 +169,98 @@ constexpr auto fields_of(base::Tag<BodyDescription>)
 
 namespace text {
 
+/// The joints as they are written: each kind has a table of its own.
+struct Joint : JointDescription {
+    std::string of{}, with{}; // `body` and `to`
+};
+struct Hinge : Joint {};
+struct Slider : Joint {};
+struct Ball : Joint {};
+struct Spring : Joint {};
+
+inline constexpr PerAxis joint_place{{base::length_kind, -reach_max_m, reach_max_m}};
+inline constexpr base::Quantity travel{base::length_kind, -2.0 * reach_max_m, 2.0 * reach_max_m};
+inline constexpr base::Quantity turned{base::angle_kind, -angle_max_rad, angle_max_rad};
+inline constexpr auto name_field = base::field("name", &JointDescription::name, "for readers");
+inline constexpr auto body_field =
+    base::field("body", &Joint::of, BodyName{}, "which body it holds").required();
+inline constexpr auto to_field =
+    base::field("to", &Joint::with, BodyName{}, "which other body; none: the world");
+inline constexpr auto collides_field = base::field(
+    "collides", &JointDescription::collides, base::Flag{},
+    "whether the two bodies touch each other as others do; without, they pass each other");
+inline constexpr auto rebound_field =
+    base::field("restitution", &JointDescription::restitution, base::Number{0.0, 1.0},
+                "at the limits; 0: it stops there, 1: elastic");
+inline constexpr base::Quantity spring_stiffness{base::stiffness_kind, 0.0, stiffness_max_n_per_m};
+inline constexpr base::Quantity spring_damping{base::damping_kind, 0.0, damping_max_ns_per_m};
+
+constexpr auto fields_of(base::Tag<Hinge>)
+{
+    return base::fields(
+        "hinge", name_field, body_field, to_field,
+        base::field("position", &JointDescription::position, joint_place, "a point of its axis")
+            .always(),
+        base::field("axis", &JointDescription::axis, Direction{}, "of any length").always(),
+        base::field("lowest", &JointDescription::lowest, turned,
+                    "limit of the angle, which is 0 in the scene as written, right-handed"),
+        base::field("highest", &JointDescription::highest, turned, "limit of the angle"),
+        rebound_field,
+        base::field("stiffness", &JointDescription::stiffness,
+                    base::Quantity{base::torsion_kind, 0.0, torsion_max_n_m_per_rad},
+                    "of a return spring"),
+        base::field(
+            "damping", &JointDescription::damping,
+            base::Quantity{base::torsion_damping_kind, 0.0, torsion_damping_max_n_m_s_per_rad},
+            "against turning"),
+        base::field("rest", &JointDescription::rest, turned,
+                    "the angle at which the spring is slack; 0 without it"),
+        collides_field);
+}
+
+constexpr auto fields_of(base::Tag<Slider>)
+{
+    return base::fields(
+        "slider", name_field, body_field, to_field,
+        base::field("axis", &JointDescription::axis, Direction{}, "of any length").always(),
+        base::field("lowest", &JointDescription::lowest, travel,
+                    "limit of the travel along the axis, which is 0 in the scene as written"),
+        base::field("highest", &JointDescription::highest, travel, "limit of the travel"),
+        rebound_field,
+        base::field("stiffness", &JointDescription::stiffness, spring_stiffness,
+                    "of a return spring"),
+        base::field("damping", &JointDescription::damping, spring_damping, "against sliding"),
+        base::field("rest", &JointDescription::rest, travel,
+                    "the travel at which the spring is slack; 0 without it"),
+        collides_field);
+}
+
+constexpr auto fields_of(base::Tag<Ball>)
+{
+    return base::fields("ball", name_field, body_field, to_field,
+                        base::field("position", &JointDescription::position, joint_place,
+                                    "the point about which they turn")
+                            .always(),
+                        collides_field);
+}
+
+constexpr auto fields_of(base::Tag<Spring>)
+{
+    return base::fields(
+        "spring", name_field, body_field, to_field,
+        base::field("position", &JointDescription::position, joint_place, "its end at the body")
+            .always(),
+        base::field("to_position", &JointDescription::to_position, joint_place, "its other end")
+            .always(),
+        base::field("stiffness", &JointDescription::stiffness, spring_stiffness, "of the spring"),
+        base::field("damping", &JointDescription::damping, spring_damping,
+                    "against a change of its length"),
+        base::field("rest", &JointDescription::rest,
+                    base::Quantity{base::length_kind, 0.0, 2.0 * reach_max_m},
+                    "its length when slack; without it, as long as it is in the scene as written"),
+        collides_field);
+}
+
 /// What may be written instead of a mass.
 struct Density {
     std::optional<double> kg_per_m3{};

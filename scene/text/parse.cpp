@@ -65,6 +65,7 @@ struct Growing {
     Description scene;
     std::vector<Place> body_places;
     std::vector<Place> plane_places;
+    std::vector<Place> joint_places;
 };
 
 void read_array(TableReader& table, Growing& growing)
@@ -154,6 +155,71 @@ void read_bodies(TableReader& table, Growing& growing)
     }
 }
 
+/// The body with that name, or number.
+std::optional<std::uint32_t> body_called(const std::string& name, const Node& node,
+                                         const Growing& growing, Reading& reading)
+{
+    const auto& bodies = growing.scene.bodies;
+    if (name.starts_with('#')) return static_cast<std::uint32_t>(std::stoul(name.substr(1)));
+    const auto is_called = [&](const BodyDescription& body) { return body.name == name; };
+    const auto found = std::find_if(bodies.begin(), bodies.end(), is_called);
+    if (found == bodies.end()) {
+        reading.complain(node.place, fmt::format("no body is called '{}'", name));
+        return std::nullopt;
+    }
+    if (std::find_if(found + 1, bodies.end(), is_called) != bodies.end()) {
+        reading.complain(node.place, fmt::format("several bodies are called '{}': write the number "
+                                                 "of one, the first body is 0",
+                                                 name));
+        return std::nullopt;
+    }
+    return static_cast<std::uint32_t>(found - bodies.begin());
+}
+
+template <typename Keys>
+void read_joint(const Node& node, JointKind kind, Growing& growing, Reading& reading)
+{
+    TableReader table{std::get<Node::Table>(node.value), node.place, reading};
+    Keys keys;
+    base::read_fields(table, keys);
+    table.finish();
+    if (!reading.is_good()) return;
+    keys.kind = kind;
+    const auto body = body_called(keys.of, *table.find("body"), growing, reading);
+    if (table.find("to") != nullptr)
+        keys.to = body_called(keys.with, *table.find("to"), growing, reading);
+    if (body) keys.body = *body;
+    growing.scene.joints.push_back(keys);
+    growing.joint_places.push_back(node.place);
+}
+
+/// Joints of all kinds in the order of the text, which is that of their numbers.
+void read_joints(TableReader& table, Growing& growing)
+{
+    Reading& reading = table.reading();
+    std::vector<std::pair<const Node*, JointKind>> nodes;
+    for (const JointKind kind :
+         {JointKind::hinge, JointKind::slider, JointKind::ball, JointKind::spring}) {
+        const std::string_view key = base::name_of(kind);
+        with_each(table.find(key), key, reading,
+                  [&](const Node& node) { nodes.emplace_back(&node, kind); });
+    }
+    std::stable_sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) {
+        const Place& p = a.first->place;
+        const Place& q = b.first->place;
+        return std::pair{p.line, p.column} < std::pair{q.line, q.column};
+    });
+    for (const auto& [node, kind] : nodes) {
+        switch (kind) {
+        case JointKind::hinge: read_joint<text::Hinge>(*node, kind, growing, reading); break;
+        case JointKind::slider: read_joint<text::Slider>(*node, kind, growing, reading); break;
+        case JointKind::ball: read_joint<text::Ball>(*node, kind, growing, reading); break;
+        case JointKind::spring: read_joint<text::Spring>(*node, kind, growing, reading); break;
+        }
+        if (!reading.is_good()) return;
+    }
+}
+
 /// Where that stands which check() finds wrong, as far as one part alone is.
 Place culprit(const Growing& growing, Place otherwise)
 {
@@ -166,6 +232,11 @@ Place culprit(const Growing& growing, Place otherwise)
     for (std::size_t i = 0; i < growing.scene.bodies.size(); ++i) {
         alone.bodies = {growing.scene.bodies[i]};
         if (!check(alone)) return growing.body_places[i];
+    }
+    alone.bodies = growing.scene.bodies;
+    for (std::size_t i = 0; i < growing.scene.joints.size(); ++i) {
+        alone.joints = {growing.scene.joints[i]};
+        if (!check(alone)) return growing.joint_places[i];
     }
     return otherwise;
 }
@@ -193,6 +264,7 @@ base::Result<Description> parse_scene(std::string_view text, const std::string& 
     });
     read_planes(table, growing);
     read_bodies(table, growing);
+    if (reading.is_good()) read_joints(table, growing);
     table.finish();
     if (reading.is_good()) {
         if (const auto fine = check(scene); !fine) {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// soak_scene FIRST COUNT: plays the random scenes of the seeds FIRST .. FIRST + COUNT - 1 under
-// the laws. Prints every seed that breaks one, and at the end the worst of each, and how often the
-// ticks had to step in. With HAPNET_SOAK_GUARDS set, also every seed in which a guard acted. Exits
-// 0 when none is broken.
+// soak_scene FIRST COUNT [joints]: plays the random scenes of the seeds FIRST .. FIRST + COUNT - 1
+// under the laws; with `joints`, each with joints between its bodies. Prints every seed that breaks
+// one, and at the end the worst of each, and how often the ticks had to step in. With
+// HAPNET_SOAK_GUARDS set, also every seed in which a guard acted. Exits 0 when none is broken.
 //
 // soak_scene --worst FIRST COUNT [BODIES]: of the same scenes with at most so many movable bodies
 // (8) prints the ticks that take longest.
@@ -69,8 +69,9 @@ int main(int argc, char** argv)
         hapnet::soak::print_worst_ticks(asked);
         return 0;
     }
-    if (arguments.size() != 2) {
-        fmt::print(stderr, "usage: soak_scene FIRST COUNT\n"
+    const bool joints = arguments.size() == 3 && arguments[2] == "joints";
+    if (arguments.size() != 2 && !joints) {
+        fmt::print(stderr, "usage: soak_scene FIRST COUNT [joints]\n"
                            "       soak_scene --worst FIRST COUNT [BODIES]\n");
         return 2;
     }
@@ -79,7 +80,7 @@ int main(int argc, char** argv)
     constexpr std::uint64_t often = 10'000;
     Tally tally;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
-        const auto play = hapnet::test::random_play(seed);
+        const auto play = hapnet::test::random_play(seed, {.joints = joints});
         const auto outcome = hapnet::test::judge(play, seed);
         ++tally.played;
         tally.ticks += play.ticks.size();

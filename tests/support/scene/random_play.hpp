@@ -52,6 +52,7 @@ struct PlayLimits {
     std::uint32_t bodies_max = 40;
     std::uint32_t ticks_min = 20;
     std::uint32_t ticks_max = 60;
+    bool joints = false; // adds joints to the scene that the seed gives without
 };
 
 /// A random scene and what happens to it.

@@ -149,6 +149,24 @@ SceneLaws::SceneLaws(const RandomPlay& play) : play_{play}, moments_(play.descri
         const bool locked = form.locked.x || form.locked.y || form.locked.z;
         if (!form.movable || locked) nothing_is_fixed_ = false;
     }
+    for (const scene::JointDescription& joint : play.description.joints)
+        if (!joint.to) nothing_is_fixed_ = false;
+}
+
+/// From where the bodies are: a hinge's angle is the world's, which counts its turns.
+double SceneLaws::stored_by(const World& world) const
+{
+    double sum = 0.0;
+    const auto& joints = play_.description.joints;
+    for (scene::JointId id = 0; id < joints.size(); ++id) {
+        const scene::JointDescription& joint = joints[id];
+        const bool is_spring = joint.kind == scene::JointKind::spring;
+        const double slack =
+            is_spring ? length(joint.position.value - joint.to_position.value) : 0.0;
+        const double bend = world.joint(id).coordinate - joint.rest.value_or(slack);
+        sum += 0.5 * joint.stiffness * bend * bend;
+    }
+    return sum;
 }
 
 SceneLaws::Moment SceneLaws::moment_of(const World& world, BodyId id) const
@@ -167,6 +185,7 @@ void SceneLaws::before(const World& world)
         for (const scene::FieldDescription& field : world.frozen().fields)
             moments_[id].field += force_on_body(field, world.frozen(), bodies, bodies.slot_of[id]);
     }
+    stored_ = stored_by(world);
 }
 
 std::optional<std::string> SceneLaws::after(const World& world)
@@ -420,9 +439,11 @@ std::optional<std::string> SceneLaws::check_energy(const World& world, const Bal
     for (std::uint32_t i = 0; i < play_.description.hands.count; ++i)
         hands += most_from_hand(world, i, balance.fastest);
     const double driven = driven_energy(world, balance);
-    const double gained =
-        balance.kinetic_after - balance.kinetic_before - balance.work - hands - driven;
-    const double there = balance.kinetic_before + balance.kinetic_after + std::abs(balance.work);
+    const double stored = stored_by(world);
+    const double gained = balance.kinetic_after - balance.kinetic_before + stored - stored_ -
+                          balance.work - hands - driven;
+    const double there =
+        balance.kinetic_before + balance.kinetic_after + std::abs(balance.work) + stored + stored_;
     const double tolerated = energy_tolerance * there + balance.slack;
     if (tolerated > 0.0) worst_.energy = std::max(worst_.energy, gained / tolerated);
     if (gained <= tolerated) return std::nullopt;

@@ -96,7 +96,8 @@ TEST(QuietTick, WouldBeNoticedIfItWereNot)
 
 INSTANTIATE_TEST_SUITE_P(Scene, QuietTick,
                          testing::Values("paper", "push-6dof", "stack-10", "cubes-100", "conveyor",
-                                         "soft-and-hard", "guide", "stick-slip", "rolling"));
+                                         "soft-and-hard", "guide", "stick-slip", "rolling", "door",
+                                         "drawer", "button"));
 
 } // namespace
 } // namespace hapnet::scene

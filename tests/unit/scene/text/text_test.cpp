@@ -176,10 +176,12 @@ TEST(SceneText, TheBuiltInPaperSceneIsThePapers)
 TEST(SceneText, EveryBuiltInSceneReadsUnderItsNameAndPrintsAsItself)
 {
     const std::vector<std::pair<std::string_view, std::size_t>> expected{
-        {"cubes-100", 100}, {"cubes-1000", 1000},   {"cubes-10000", 10'000}, {"paper", 2},
-        {"stack-10", 10},   {"mass-ratio-1000", 2}, {"push-6dof", 2},        {"lift", 1},
-        {"wall", 2},        {"conveyor", 10},       {"soft-and-hard", 3},    {"guide", 2},
-        {"stick-slip", 3},  {"rolling", 7}};
+        {"cubes-100", 100}, {"cubes-1000", 1000}, {"cubes-10000", 10'000},
+        {"paper", 2},       {"stack-10", 10},     {"mass-ratio-1000", 2},
+        {"push-6dof", 2},   {"lift", 1},          {"wall", 2},
+        {"conveyor", 10},   {"soft-and-hard", 3}, {"guide", 2},
+        {"stick-slip", 3},  {"rolling", 7},       {"door", 2},
+        {"drawer", 3},      {"button", 2}};
     for (const auto& [name, bodies] : expected) {
         const auto scene = load_scene(std::string{name}, {});
         ASSERT_TRUE(scene) << scene.error().message;
