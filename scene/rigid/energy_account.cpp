@@ -43,7 +43,8 @@ struct EnergyAccount::BodyTick {
     glm::dvec3 mean_velocity{0.0}; // by which it goes
     glm::dvec3 mean_spin{0.0};
     const BodyIntegration* integration = nullptr; // where something acted on it but gravity
-    double driven_in_touches = 0.0;
+    double driven_in_touches = 0.0;               // J
+    double driven_speed = 0.0;                    // m/s: of the surfaces that did so, at most
     bool has_moved = false;
 };
 
@@ -98,6 +99,7 @@ EnergyAccount::BodyTick EnergyAccount::moved_tick_of(const Tick& tick, Slot slot
                   .mean_velocity =
                       tick.scales.rate * (bodies.position.at(slot) - beginning.position),
                   .driven_in_touches = beginning.energy_driven,
+                  .driven_speed = beginning.driven_speed,
                   .has_moved = true};
     if (!tick.active.contains(slot)) return body;
     body.integration = &tick.integrations[slot + 1];
@@ -172,6 +174,19 @@ double EnergyAccount::given_by_grips(const Tick& tick, const BodyTick& body, con
     return body.integration->grips.given(share, fastest);
 }
 
+/// What kinematic bodies did to a body in touches: no more than what it has of their impulses in
+/// the end, at the speed of their surfaces. Where it is locked or wedged, impulses may be any.
+double EnergyAccount::driven_in_touches(const Tick& tick, const BodyTick& body,
+                                        const Motion& motion)
+{
+    if (body.driven_in_touches <= 0.0) return body.driven_in_touches;
+    const BodyProperties& properties = tick.state.bodies.properties[body.slot];
+    const glm::dvec3& half = properties.half;
+    const double passed = properties.mass * length(motion.change) +
+                          length(motion.angular) / std::min({half.x, half.y, half.z});
+    return std::min(body.driven_in_touches, body.driven_speed * passed);
+}
+
 void EnergyAccount::Balance::add(const Balance& other)
 {
     gain.linear += other.gain.linear;
@@ -216,7 +231,8 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTic
     const double twisted = glm::dot(motion.twist, motion.spin_forced);
     balance.stored =
         energy_tolerance * there + mass * miss2 + speed_tolerance * speed_tolerance * twisted;
-    balance.given = turning_slack(tick, body, motion, share) + share * body.driven_in_touches;
+    balance.given =
+        turning_slack(tick, body, motion, share) + share * driven_in_touches(tick, body, motion);
     if (body.integration == nullptr) return balance;
     balance.stored += body.integration->hand_energy_stored;
     balance.given += share * body.integration->energy_driven;

@@ -294,7 +294,8 @@ void feed(scene::World& world, const TickInputs& inputs)
     for (const auto& [body, state] : inputs.places) base::ensure(!world.place(body, state));
     for (const Twist& twist : inputs.twists) {
         const base::Position at{world.position(twist.body).value + twist.at};
-        base::ensure(!world.push(twist.body, base::Force{twist.force}, at));
+        const auto refused = world.push(twist.body, base::Force{twist.force}, at);
+        base::ensure(!refused || *refused == scene::Refusal::out_of_range);
         base::ensure(!world.push_torque(twist.body, twist.torque));
     }
     for (const Blow& blow : inputs.blows) {
