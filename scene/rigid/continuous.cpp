@@ -502,11 +502,16 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
         note_push(bodies, body);
     };
     const auto note_driven = [&](const Flyer& flyer, const Toucher& was, const Wrench& by,
-                                 const glm::dvec3& arm, double given) {
+                                 const glm::dvec3& arm, const Toucher& surface,
+                                 const glm::dvec3& arm_of_surface) {
         const BodyMotion now = toucher(around, flyer, time).motion;
+        const double given = work_of(by, arm_of_surface, surface.motion);
+        const double speed =
+            length(surface.motion.velocity + glm::cross(surface.motion.spin, arm_of_surface));
         const double taken = 0.5 * (work_of(by, arm, was.motion) + work_of(by, arm, now));
-        departures_[bodies.slot_of[flyer.body]].beginning.energy_driven +=
-            driven_energy(given, taken);
+        Beginning& beginning = departures_[bodies.slot_of[flyer.body]].beginning;
+        beginning.energy_driven += driven_energy(given, taken);
+        beginning.driven_speed = std::max(beginning.driven_speed, speed);
     };
     meeting.has_pushed = true;
     const Wrench on_b = wrench(block, impulse);
@@ -514,9 +519,9 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
     if (second.is_movable) push(second.body, on_b, block.arm_b);
     if (!meeting.is_plane && first.is_movable) push(first.body, on_a, block.arm_a);
     if (first.is_kinematic)
-        note_driven(second, b, on_b, block.arm_b, work_of(on_b, block.arm_a, a.motion));
+        note_driven(second, b, on_b, block.arm_b, a, block.arm_a);
     else if (second.is_kinematic)
-        note_driven(first, a, on_a, block.arm_a, work_of(on_a, block.arm_b, b.motion));
+        note_driven(first, a, on_a, block.arm_a, b, block.arm_b);
     return true;
 }
 

@@ -73,6 +73,7 @@ public:
         glm::dvec3 velocity{0.0};
         glm::dvec3 angular_momentum{0.0};
         double energy_driven = 0.0; // J: what kinematic bodies did to it since then, in touches
+        double driven_speed = 0.0;  // m/s: the greatest of their surfaces there
     };
     /// Of an awake body since begin(), and of a sleeper that the last solve() changed.
     [[nodiscard]] const Beginning& beginning(Slot slot) const

@@ -121,8 +121,9 @@ void ContinuousCollision::stick_to_wall(const Surroundings& around, FlyerIndex i
             const glm::dvec3 mean =
                 before + 0.5 * change - (scales_.tick - time) * around.steady_acceleration(slot);
             const glm::dvec3 push = bodies.properties[slot].mass * change;
-            departures_[slot].beginning.energy_driven +=
-                driven_energy(glm::dot(push, ground), glm::dot(push, mean));
+            Beginning& beginning = departures_[slot].beginning;
+            beginning.energy_driven += driven_energy(glm::dot(push, ground), glm::dot(push, mean));
+            beginning.driven_speed = std::max(beginning.driven_speed, length(ground));
         }
         note_push(bodies, flyer.body);
         flyer.flight.centre -= time * change;

@@ -44,6 +44,7 @@ struct EnergyAccount::BodyTick {
     glm::dvec3 mean_spin{0.0};
     const BodyIntegration* integration = nullptr; // where something acted on it but gravity
     double driven_in_touches = 0.0;
+    double driven_speed = 0.0; // of what drove it then
     bool has_moved = false;
 };
 
@@ -98,6 +99,7 @@ EnergyAccount::BodyTick EnergyAccount::moved_tick_of(const Tick& tick, Slot slot
                   .mean_velocity =
                       tick.scales.rate * (bodies.position.at(slot) - beginning.position),
                   .driven_in_touches = beginning.energy_driven,
+                  .driven_speed = beginning.driven_speed,
                   .has_moved = true};
     if (!tick.active.contains(slot)) return body;
     body.integration = &tick.integrations[slot + 1];
@@ -172,6 +174,17 @@ double EnergyAccount::given_by_grips(const Tick& tick, const BodyTick& body, con
     return body.integration->grips.given(share, fastest);
 }
 
+/// What kinematic bodies gave in touches: no more than the momentum that came of it, at their
+/// speed. One that wedges a body along its locks could drive it to any speed within a tick.
+double EnergyAccount::given_in_touches(const BodyProperties& properties, const BodyTick& body,
+                                       const Motion& motion)
+{
+    if (body.driven_in_touches <= 0.0) return body.driven_in_touches;
+    const double passed = std::max(properties.mass * length(motion.change),
+                                   length(motion.angular) / length(properties.half));
+    return std::min(body.driven_in_touches, body.driven_speed * passed);
+}
+
 void EnergyAccount::Balance::add(const Balance& other)
 {
     gain.linear += other.gain.linear;
@@ -216,7 +229,8 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTic
     const double twisted = glm::dot(motion.twist, motion.spin_forced);
     balance.stored =
         energy_tolerance * there + mass * miss2 + speed_tolerance * speed_tolerance * twisted;
-    balance.given = turning_slack(tick, body, motion, share) + share * body.driven_in_touches;
+    balance.given = turning_slack(tick, body, motion, share) +
+                    share * given_in_touches(tick.state.bodies.properties[body.slot], body, motion);
     if (body.integration == nullptr) return balance;
     balance.stored += body.integration->hand_energy_stored;
     balance.given += share * body.integration->energy_driven;
