@@ -501,27 +501,23 @@ bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& 
         apply_impulse(bodies, bodies.slot_of[body], by, arm);
         note_push(bodies, body);
     };
-    const auto note_driven = [&](const Flyer& flyer, const Toucher& was, const Wrench& by,
-                                 const glm::dvec3& arm, const Toucher& surface,
-                                 const glm::dvec3& arm_of_surface) {
-        const BodyMotion now = toucher(around, flyer, time).motion;
-        const double given = work_of(by, arm_of_surface, surface.motion);
-        const double speed =
-            length(surface.motion.velocity + glm::cross(surface.motion.spin, arm_of_surface));
-        const double taken = 0.5 * (work_of(by, arm, was.motion) + work_of(by, arm, now));
-        Beginning& beginning = departures_[bodies.slot_of[flyer.body]].beginning;
-        beginning.energy_driven += driven_energy(given, taken);
-        beginning.driven_speed = std::max(beginning.driven_speed, speed);
-    };
     meeting.has_pushed = true;
     const Wrench on_b = wrench(block, impulse);
     const Wrench on_a{-on_b.impulse, -on_b.angular};
     if (second.is_movable) push(second.body, on_b, block.arm_b);
     if (!meeting.is_plane && first.is_movable) push(first.body, on_a, block.arm_a);
-    if (first.is_kinematic)
-        note_driven(second, b, on_b, block.arm_b, a, block.arm_a);
-    else if (second.is_kinematic)
-        note_driven(first, a, on_a, block.arm_a, b, block.arm_b);
+    if (!first.is_kinematic && !second.is_kinematic) return true;
+    const bool is_b = first.is_kinematic;
+    const Flyer& driven = is_b ? second : first;
+    const Wrench& by = is_b ? on_b : on_a;
+    const glm::dvec3& arm = is_b ? block.arm_b : block.arm_a;
+    const glm::dvec3& surface_arm = is_b ? block.arm_a : block.arm_b;
+    const BodyMotion& surface = (is_b ? a : b).motion;
+    const BodyMotion now = toucher(around, driven, time).motion;
+    const double taken = 0.5 * (work_of(by, arm, (is_b ? b : a).motion) + work_of(by, arm, now));
+    departures_[bodies.slot_of[driven.body]].beginning.add_driven(
+        driven_energy(work_of(by, surface_arm, surface), taken),
+        length(surface.velocity + glm::cross(surface.spin, surface_arm)));
     return true;
 }
 

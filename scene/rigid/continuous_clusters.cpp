@@ -121,9 +121,8 @@ void ContinuousCollision::stick_to_wall(const Surroundings& around, FlyerIndex i
             const glm::dvec3 mean =
                 before + 0.5 * change - (scales_.tick - time) * around.steady_acceleration(slot);
             const glm::dvec3 push = bodies.properties[slot].mass * change;
-            Beginning& beginning = departures_[slot].beginning;
-            beginning.energy_driven += driven_energy(glm::dot(push, ground), glm::dot(push, mean));
-            beginning.driven_speed = std::max(beginning.driven_speed, length(ground));
+            departures_[slot].beginning.add_driven(
+                driven_energy(glm::dot(push, ground), glm::dot(push, mean)), length(ground));
         }
         note_push(bodies, flyer.body);
         flyer.flight.centre -= time * change;

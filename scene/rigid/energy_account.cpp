@@ -43,8 +43,8 @@ struct EnergyAccount::BodyTick {
     glm::dvec3 mean_velocity{0.0}; // by which it goes
     glm::dvec3 mean_spin{0.0};
     const BodyIntegration* integration = nullptr; // where something acted on it but gravity
-    double driven_in_touches = 0.0;
-    double driven_speed = 0.0; // of what drove it then
+    double driven_in_touches = 0.0;               // J
+    double driven_speed = 0.0;                    // m/s: of the surfaces that did so, at most
     bool has_moved = false;
 };
 
@@ -174,14 +174,16 @@ double EnergyAccount::given_by_grips(const Tick& tick, const BodyTick& body, con
     return body.integration->grips.given(share, fastest);
 }
 
-/// What kinematic bodies gave in touches: no more than the momentum that came of it, at their
-/// speed. One that wedges a body along its locks could drive it to any speed within a tick.
-double EnergyAccount::given_in_touches(const BodyProperties& properties, const BodyTick& body,
-                                       const Motion& motion)
+/// What kinematic bodies did to a body in touches: no more than what it has of their impulses in
+/// the end, at the speed of their surfaces. Where it is locked or wedged, impulses may be any.
+double EnergyAccount::driven_in_touches(const Tick& tick, const BodyTick& body,
+                                        const Motion& motion)
 {
     if (body.driven_in_touches <= 0.0) return body.driven_in_touches;
-    const double passed = std::max(properties.mass * length(motion.change),
-                                   length(motion.angular) / length(properties.half));
+    const BodyProperties& properties = tick.state.bodies.properties[body.slot];
+    const glm::dvec3& half = properties.half;
+    const double passed = properties.mass * length(motion.change) +
+                          length(motion.angular) / std::min({half.x, half.y, half.z});
     return std::min(body.driven_in_touches, body.driven_speed * passed);
 }
 
@@ -229,8 +231,8 @@ EnergyAccount::Balance EnergyAccount::balance_of(const Tick& tick, const BodyTic
     const double twisted = glm::dot(motion.twist, motion.spin_forced);
     balance.stored =
         energy_tolerance * there + mass * miss2 + speed_tolerance * speed_tolerance * twisted;
-    balance.given = turning_slack(tick, body, motion, share) +
-                    share * given_in_touches(tick.state.bodies.properties[body.slot], body, motion);
+    balance.given =
+        turning_slack(tick, body, motion, share) + share * driven_in_touches(tick, body, motion);
     if (body.integration == nullptr) return balance;
     balance.stored += body.integration->hand_energy_stored;
     balance.given += share * body.integration->energy_driven;

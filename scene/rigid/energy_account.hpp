@@ -75,8 +75,8 @@ private:
                                               const Motion& motion, double share);
     [[nodiscard]] static double given_by_grips(const Tick& tick, const BodyTick& body,
                                                const Motion& motion, double share);
-    [[nodiscard]] static double given_in_touches(const BodyProperties& properties,
-                                                 const BodyTick& body, const Motion& motion);
+    [[nodiscard]] static double driven_in_touches(const Tick& tick, const BodyTick& body,
+                                                  const Motion& motion);
     [[nodiscard]] static Balance balance_of(const Tick& tick, const BodyTick& body,
                                             double share = 1.0);
     void join_islands(const Tick& tick, std::span<const Slot> slots);
