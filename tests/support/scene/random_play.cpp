@@ -5,6 +5,7 @@
 #include "proto/base/ensure.hpp"
 #include "proto/base/math.hpp"
 #include "proto/base/random.hpp"
+#include "scene/maths/vector.hpp"
 #include "tests/support/scene/dice.hpp"
 #include "tests/support/scene/random_elements.hpp"
 #include "tests/support/scene/random_hands.hpp"
@@ -286,6 +287,11 @@ RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
     return play;
 }
 
+bool is_in_reach(const glm::dvec3& position, const Twist& twist)
+{
+    return scene::is_within(position + twist.at, scene::reach_max_m);
+}
+
 void feed(scene::World& world, const TickInputs& inputs)
 {
     for (std::uint32_t i = 0; i < inputs.hands.size(); ++i)
@@ -294,8 +300,8 @@ void feed(scene::World& world, const TickInputs& inputs)
     for (const auto& [body, state] : inputs.places) base::ensure(!world.place(body, state));
     for (const Twist& twist : inputs.twists) {
         const base::Position at{world.position(twist.body).value + twist.at};
-        const auto refused = world.push(twist.body, base::Force{twist.force}, at);
-        base::ensure(!refused || *refused == scene::Refusal::out_of_range);
+        if (!is_in_reach(world.position(twist.body).value, twist)) continue;
+        base::ensure(!world.push(twist.body, base::Force{twist.force}, at));
         base::ensure(!world.push_torque(twist.body, twist.torque));
     }
     for (const Blow& blow : inputs.blows) {

@@ -69,8 +69,11 @@ struct RandomPlay {
 /// bodies that are put elsewhere. From `elements_from` on, more. A pure function of the seed.
 [[nodiscard]] RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits = {});
 
-/// Gives a world its inputs of a tick. None of them is refused, but a blow that would be too much,
-/// and a push at a point that is out of reach, as what was thrown far away may be.
+/// Whether a world takes a twist of a body that is there, and not thrown out of all reach.
+[[nodiscard]] bool is_in_reach(const glm::dvec3& position, const Twist& twist);
+
+/// Gives a world its inputs of a tick. None of them is refused, but a blow that would be too much;
+/// twists out of reach are left out.
 void feed(scene::World& world, const TickInputs& inputs);
 
 /// The scene and what happens to it as a mirror in the plane x = 0 shows them.

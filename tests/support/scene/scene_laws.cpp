@@ -248,7 +248,8 @@ glm::dvec3 SceneLaws::steady_force(const World& world, BodyId id, bool sleeps) c
         if (body == id) force += free_part(form, push.value);
     }
     for (const Twist& twist : play_.ticks[world.ticks() - 1].twists) {
-        if (twist.body == id) force += free_part(form, twist.force);
+        if (twist.body == id && is_in_reach(moments_[id].state.position.value, twist))
+            force += free_part(form, twist.force);
     }
     return force + free_part(form, moments_[id].field);
 }
@@ -257,7 +258,8 @@ glm::dvec3 SceneLaws::steady_torque(const World& world, BodyId id) const
 {
     glm::dvec3 torque{0.0};
     for (const Twist& twist : play_.ticks[world.ticks() - 1].twists) {
-        if (twist.body == id) torque += twist.torque + glm::cross(twist.at, twist.force);
+        if (twist.body == id && is_in_reach(moments_[id].state.position.value, twist))
+            torque += twist.torque + glm::cross(twist.at, twist.force);
     }
     const Turning turning = play_.description.bodies[id].turning;
     if (turning == Turning::free) return torque;
