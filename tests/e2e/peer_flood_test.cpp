@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Nonsense thrown at a peer's socket, by strangers and from where the other peer should be.
 #include "proto/base/random.hpp"
+#include "proto/wire/message.hpp"
 #include "tests/e2e/peer.hpp"
 #include "tests/e2e/udp.hpp"
 
@@ -23,7 +24,7 @@ constexpr std::uint64_t datagrams = 100'000;
 std::vector<std::byte> nonsense(const base::RandomStream& stream, std::uint64_t number)
 {
     const bool like_ours = number % 4 < 2;
-    const std::size_t size = like_ours ? (number % 4 == 0 ? 70 : 144) : stream.below(300, number);
+    const std::size_t size = like_ours ? (number % 4 == 0 ? 86 : 136) : stream.below(300, number);
     std::vector<std::byte> bytes(size);
     for (std::size_t i = 0; i < size; i += 8) {
         const std::uint64_t bits = stream.bits(number, static_cast<std::uint32_t>(i + 1));
@@ -34,7 +35,7 @@ std::vector<std::byte> nonsense(const base::RandomStream& stream, std::uint64_t 
     if (like_ours) {
         bytes[0] = std::byte{'H'};
         bytes[1] = std::byte{'N'};
-        bytes[2] = std::byte{1};
+        bytes[2] = std::byte{wire::protocol_version};
         bytes[3] = std::byte{2};
     } else if (size > 0) {
         bytes[0] = std::byte{0};

@@ -61,7 +61,7 @@ TEST(PeerUsage, RefusesWhatItDoesNotKnowNamingIt)
         run_peer_with({"--algorithm", "newest"}), 2,
         {"--algorithm", "neither a file nor an algorithm 'newest'", "base, dead-reckoning, sep"});
     expect_refusal(run_peer_with({"--device", "omni1394:"}), 2, {"--device", "'omni1394:'", "sim"});
-    expect_refusal(run_peer_with({"--scene", "moon"}), 2, {"--scene", "'moon'", "paper"});
+    expect_refusal(run_peer_with({"--scene", "papers"}), 2, {"--scene", "'papers'", "paper"});
 }
 
 TEST(PeerUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
