@@ -47,8 +47,8 @@ public:
 private:
     using Bytes = std::array<std::uint8_t, 16>; // as IPv6
     struct Member {
-        Bytes address;
-        unsigned int bits; // of them
+        Bytes address{};
+        unsigned int bits = 0; // of them
         std::optional<std::uint16_t> port;
     };
     static Bytes bytes_of(const Endpoint& endpoint);

@@ -177,6 +177,7 @@ public:
 private:
     static_assert(std::is_trivially_destructible_v<BodyState>);
     union {
+        // NOLINTNEXTLINE(readability-identifier-naming): a member of this class
         std::array<BodyState, bodies_max> all_; // the first count_ of them
     };
     std::size_t count_ = 0;
@@ -225,10 +226,11 @@ struct Bye {
 using Message = std::variant<Hello, State, Bye>;
 
 /// The bytes of one encoded message.
-class Datagram {
+class Datagram { // NOLINT(*-member-init): what is behind the message is never read
 public:
-    Datagram() = default;                              // NOLINT(*-member-init): empty
+    Datagram() = default;
     Datagram(const Datagram& other) { *this = other; } // NOLINT(*-member-init)
+    ~Datagram() = default;
     Datagram& operator=(const Datagram& other)
     {
         size_ = other.size_;
@@ -244,7 +246,6 @@ private:
     template <typename Kind>
     [[nodiscard]] static Datagram of(const Kind& message);
 
-    // What is behind the message is never read.
     std::array<std::byte, message_bytes_max> bytes_;
     std::size_t size_ = 0;
 };
