@@ -81,8 +81,8 @@ private:
     std::unique_ptr<std::byte[]> memory_; // NOLINT(*-avoid-c-arrays): not filled with zeros
     std::vector<Block> blocks_;
     std::array<std::uint32_t, sizes.size()> open_{}; // the first block of each size that has room
-    std::uint32_t free_ = none;                    // the first free block that has been used
-    std::uint32_t touched_ = 0;                    // the first that has not, and all behind it
+    std::uint32_t free_ = none;                      // the first free block that has been used
+    std::uint32_t touched_ = 0;                      // the first that has not, and all behind it
 };
 
 } // namespace hapnet::emulator

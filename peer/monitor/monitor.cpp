@@ -52,8 +52,7 @@ std::string_view describe(net::SendOutcome outcome)
 {
     switch (outcome) {
     case net::SendOutcome::sent:
-    case net::SendOutcome::buffer_full:
-        return ""; // for the moment
+    case net::SendOutcome::buffer_full: // for the moment
     // Said by the other host, or by this one of an earlier datagram: nobody listens there yet.
     case net::SendOutcome::refused: return "";
     case net::SendOutcome::no_route: return "there is no route to it; is the network up?";

@@ -214,7 +214,7 @@ std::string_view state_of(const loop::ServoStatus& status)
 std::string says(const loop::ServoStatus& status, const Recovery& recovery)
 {
     DeviceNews news{status.calibration, status.fault, false, recovery};
-    const std::string withheld{words_on(status.withheld)};
+    std::string withheld{words_on(status.withheld)};
     if (status.withheld == loop::Withheld::by_emergency_stop) return withheld;
     if (is_at_fault(status)) return describe(news);
     news.is_of_calibration = true;

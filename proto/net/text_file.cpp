@@ -26,8 +26,8 @@ base::Result<std::string> text_of_file(const std::string& path)
     std::ifstream file{path, std::ios::binary};
     if (!file) return refuse(std::strerror(errno));
     std::string text;
-    std::array<char, std::size_t{64} << 10>
-        block; // NOLINT(*-member-init): only what is read is used
+    // NOLINTNEXTLINE(*-member-init): only what is read is used
+    std::array<char, std::size_t{64} << 10> block;
     while (text.size() <= bytes_max && file) {
         file.read(block.data(), block.size());
         text.append(block.data(), static_cast<std::size_t>(file.gcount()));

@@ -58,6 +58,7 @@ public:
     Association(const Config& config, StaticKeys keys, Secret seed);
     Association(const Association&) = delete;
     Association& operator=(const Association&) = delete;
+    ~Association() = default;
 
     /// A message that was opened: the first bytes of the datagram are the plain message.
     struct Received {
@@ -138,7 +139,7 @@ private:
         std::optional<KeyIndex> other; // while the response is read
     };
     struct Responding {
-        Responding(KeyIndex own_index, const Initiation& cause, const StaticKeys& keys,
+        Responding(KeyIndex own_index, const Initiation& initiation, const StaticKeys& keys,
                    Bytes prologue, Secret ephemeral, const Place& from);
 
         KeyIndex own, other;

@@ -27,7 +27,7 @@ std::optional<StaticKeys> StaticKeys::from(Secret own, const PublicKey& other, S
 }
 
 NoiseKk::NoiseKk(Role role, const StaticKeys& keys, Bytes prologue, Secret ephemeral)
-    : role_{role}, keys_{keys}, ephemeral_{std::move(ephemeral)}, hash_{}
+    : role_{role}, keys_{keys}, ephemeral_{std::move(ephemeral)}
 {
     std::ranges::copy(std::as_bytes(std::span{protocol_name}), hash_.begin());
     chaining_key_ = SecretHash{hash_};

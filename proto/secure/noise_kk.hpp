@@ -111,7 +111,7 @@ private:
     PublicKey ephemeral_public_{};
     PublicKey other_ephemeral_{};
     SecretHash chaining_key_;
-    Hash hash_;
+    Hash hash_{};
     Secret key_; // of the cipher
     std::uint64_t number_ = 0;
 

@@ -10,7 +10,8 @@
 
 namespace hapnet::secure {
 
-static_assert(key_bytes == crypto_scalarmult_BYTES && key_bytes == crypto_scalarmult_SCALARBYTES);
+static_assert(key_bytes == crypto_scalarmult_BYTES);
+static_assert(key_bytes == crypto_scalarmult_SCALARBYTES);
 static_assert(key_bytes == crypto_aead_chacha20poly1305_ietf_KEYBYTES);
 static_assert(key_bytes == crypto_aead_xchacha20poly1305_ietf_KEYBYTES);
 static_assert(tag_bytes == crypto_aead_chacha20poly1305_ietf_ABYTES);
@@ -33,6 +34,7 @@ unsigned char* raw_room(std::span<std::byte> bytes)
 /// BLAKE2b of parts.
 class Hasher {
 public:
+    // NOLINTNEXTLINE(*-member-init): the library does that
     explicit Hasher(std::size_t size, Bytes key = {}) : size_{size}
     {
         base::ensure(crypto_generichash_init(&state_, raw(key), key.size(), size) == 0);

@@ -28,7 +28,7 @@ bool is_as_good_as(const glm::dquat& kept, const glm::dquat& now)
            std::abs(now.y - kept.y) <= rounding && std::abs(now.z - kept.z) <= rounding;
 }
 
-double shortest(const glm::dvec3& half) { return std::min(half.x, std::min(half.y, half.z)); }
+double shortest_half(const glm::dvec3& half) { return std::min(half.x, std::min(half.y, half.z)); }
 
 } // namespace
 
@@ -41,7 +41,7 @@ OrientedBox box_of(const Bodies& bodies, Slot slot)
 SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, BoxBoxMemory& memory)
 {
     const double margin = a.reach + b.reach;
-    const double near = far_share * std::min(shortest(a.box.half), shortest(b.box.half));
+    const double near = far_share * std::min(shortest_half(a.box.half), shortest_half(b.box.half));
     const glm::dvec3 velocity = b.velocity - a.velocity;
     // The spheres around them tell most pairs that fly side by side.
     const glm::dvec3 apart = b.box.centre - a.box.centre;
@@ -86,7 +86,7 @@ void SweptBoxes::renew(const Bodies& bodies, BodyId body, Entry& entry) const
     now.spin = bodies.angular_velocity(slot);
     const double turning = length(now.spin) * (now.radius - now.box.rounding);
     now.reach = scales_.tick * (length(bodies.velocity.at(slot)) + turning + scales_.fall) +
-                look_ahead * shortest(now.box.half);
+                look_ahead * shortest_half(now.box.half);
     const glm::dquat orientation = bodies.orientation.at(slot);
     if (is_as_good_as(now.orientation, orientation)) return;
     now.orientation = orientation;

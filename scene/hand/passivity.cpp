@@ -22,7 +22,7 @@ constexpr double second_order = 0.03;
 // Of the greatest force: the rounding of a sum of phases.
 constexpr double force_rounding = 1e-9;
 // Radians in a tick beyond which the inertia at the start says little of the end.
-constexpr double far_turn = 0.25;
+constexpr double far_turn_of_pressed = 0.25;
 
 /// Of a spring at the start of its tick.
 double stored_energy(const HandSpring& spring)
@@ -224,7 +224,7 @@ private:
         const double angle = spin * body_.tick;
         // Half of what it may be at most: the spin may be the smaller one of the end.
         const double slack = 0.5 * moments.spread * std::min(angle, 1.0) * spin * length(given);
-        if (angle <= far_turn) return slack;
+        if (angle <= far_turn_of_pressed) return slack;
         return slack + 0.5 * moments.range * (glm::dot(before, before) + glm::dot(after, after));
     }
 

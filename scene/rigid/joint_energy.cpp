@@ -16,7 +16,7 @@ namespace hapnet::scene {
 namespace {
 
 // Less than this share of all that was added up is rounding.
-constexpr double energy_rounding = 1e-13;
+constexpr double joint_rounding = 1e-13;
 // What errors have lost may come back only while it is little beside what moves.
 constexpr double owed_max = 0.01;
 // So little of what is there may be gained until the next tick, and so is what gravity does in one.
@@ -188,7 +188,7 @@ void JointEnergy::settle(const Tick& tick)
         }
         island.gain = 0.0;
         owed_[g] = excess;
-        if (excess <= energy_rounding * island.there) continue;
+        if (excess <= joint_rounding * island.there) continue;
         const double fall = tick.config.tick * length(tick.config.gravity);
         island.is_little = excess <= little * island.there + island.mass * fall * fall;
         owed_[g] = island.is_little ? std::max(0.0, excess - island.kinetic) : 0.0;
