@@ -72,8 +72,6 @@ public:
 
     [[nodiscard]] const std::optional<Session>& session() const { return session_; }
     [[nodiscard]] std::optional<ClockEstimate> clock() const { return clock_.estimate(); }
-    /// How often the other side's clock has jumped.
-    [[nodiscard]] std::uint32_t clock_jumps() const { return clock_.jumps(); }
     /// Whether the other side has been heard in this run of it.
     [[nodiscard]] bool has_met() const { return remote_.has_value(); }
 

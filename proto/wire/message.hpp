@@ -28,8 +28,6 @@ inline constexpr std::uint8_t protocol_version = 2;
 inline constexpr std::size_t bodies_max = 8;
 /// The longest message: a state with eight bodies that turn. Always one datagram.
 inline constexpr std::size_t message_bytes_max = 838;
-/// Bytes kept free behind every message, which sealing needs.
-inline constexpr std::size_t seal_bytes_max = 20;
 
 /// Answers "when did my message reach you?": the two stamps from which the receiver computes
 /// round-trip time and clock offset, as NTP does (RFC 5905).
