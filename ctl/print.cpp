@@ -111,6 +111,26 @@ std::string diff_text(const Json& reply)
     return text.empty() ? "nothing would change\n" : text;
 }
 
+/// From which datagrams on the conditions hold.
+std::string effect_text(const Json& reply)
+{
+    std::string from;
+    if (at(reply, "/effective_at/up").is_number()) {
+        from =
+            fmt::format("datagram {} up (A to B) and datagram {} down (B to A)",
+                        text_at(reply, "/effective_at/up"), text_at(reply, "/effective_at/down"));
+    } else {
+        const Json paths = at(reply, "/effective_at");
+        for (const auto& [path, next] : paths.items()) {
+            from += fmt::format("{}datagram {} up and {} down of {}", from.empty() ? "" : ", ",
+                                text_at(next, "/up"), text_at(next, "/down"), path);
+        }
+    }
+    return fmt::format("generation {} holds{}{}, {:.2f} s after the start\n",
+                       text_at(reply, "/generation"), from.empty() ? "" : " from ", from,
+                       number_at(reply, "/elapsed_s"));
+}
+
 } // namespace
 
 std::string in_words(const Options& options, const Json& reply)
@@ -139,10 +159,7 @@ std::string in_words(const Options& options, const Json& reply)
         return fmt::format("nothing changed: generation {} still holds\n",
                            text_at(reply, "/generation"));
     }
-    return fmt::format("generation {} holds from datagram {} up (A to B) and datagram {} down (B "
-                       "to A), {:.2f} s after the start\n",
-                       text_at(reply, "/generation"), text_at(reply, "/effective_at/up"),
-                       text_at(reply, "/effective_at/down"), number_at(reply, "/elapsed_s"));
+    return effect_text(reply);
 }
 
 std::string WatchPrinter::next(const Json& reply)

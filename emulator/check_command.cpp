@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/scenario.hpp"
 #include "emulator/tools/describe.hpp"
@@ -47,6 +48,9 @@ base::Result<int> run(const CheckOptions& options)
     } else {
         fmt::print("{}{}", in_words("up: from A to B", up, stream, prediction.up),
                    in_words("down: from B to A", down, stream, prediction.down));
+    }
+    if (!profile->paths.empty()) {
+        fmt::print("# where {} have nothing of their own\n", fmt::join(paths_in(*profile), ", "));
     }
     if (!profile->timeline.empty()) {
         fmt::print("# and {} changes later, the last at {:.6g} s\n", profile->timeline.size(),

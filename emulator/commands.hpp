@@ -11,6 +11,8 @@ namespace hapnet::emulator {
 
 /// Relays until it is told to stop.
 [[nodiscard]] base::Result<int> run(const Options& options);
+/// The same for many pairs.
+[[nodiscard]] base::Result<int> run(const LinkOptions& options);
 /// The same for any client of a server.
 [[nodiscard]] base::Result<int> run(const UpstreamOptions& options);
 /// Prints the profile in canonical form, each stage in words, and warnings.

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
 #include "emulator/control/reply.hpp"
-#include "emulator/core/emulated_path.hpp"
+#include "emulator/core/paths.hpp"
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/endpoints.hpp"
 #include "emulator/options.hpp"
 #include "emulator/pacer.hpp"
-#include "emulator/ports/relay.hpp"
+#include "emulator/paths_report.hpp"
+#include "emulator/ports/links.hpp"
+#include "emulator/ports/upstream.hpp"
 #include "emulator/profile_file.hpp"
 #include "emulator/recorder.hpp"
 #include "emulator/report.hpp"
@@ -23,12 +26,12 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <tuple>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -39,23 +42,32 @@ constexpr std::string_view program = "hapnet-emulator";
 
 void say(std::string_view text) { net::say(program, text); }
 
+/// The paths of a run and its port; what it is to them.
+struct Plan {
+    const Options& options;
+    const Scenario& scenario;
+    Recorder::Files files;
+    Paths::Setup paths;
+};
+
 /// One run, from bound sockets to written files. Everything but the recorder's writing happens on
-/// the thread that constructs it.
+/// the thread that constructs it. `Run`: what its reports are made from, with its port.
+template <typename Run>
 class Session {
+    using Port = typename Run::Port;
+
 public:
-    Session(const Options& options, const Scenario& scenario, const Endpoints& endpoints)
-        : start_{net::monotonic_now()},
-          scenario_{scenario},
-          recorder_{{options.fates, options.capture}},
-          path_{scenario.profile,
-                {.seed = scenario.seed,
-                 .start = start_,
-                 .limits = QueueLimits::within(options.in_flight_bytes),
-                 .replay = scenario.replay}},
-          relay_{endpoints, path_, recorder_},
-          run_{options, scenario_, path_.director(), relay_, recorder_, {}, {}},
+    /// `make(paths, recorder)` gives the port.
+    template <typename MakePort>
+    Session(const Plan& plan, base::TimePoint start, const MakePort& make)
+        : start_{start},
+          recorder_{plan.files},
+          paths_{plan.scenario.profile, plan.paths},
+          port_{make(paths_, recorder_)},
+          run_{plan.options, plan.scenario, paths_, *port_, recorder_, {}, {}},
           status_{start_}
     {
+        const Options& options = run_.options;
         if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
         if (options.control) control_.emplace(*options.control);
         if (options.duration) end_ = start_ + *options.duration;
@@ -67,15 +79,15 @@ public:
     {
         if (const auto shortage = run_.real_time.shortage(); !shortage.empty()) say(shortage);
         if (run_.options.timing == Timing::spin) say(spin_warning);
-        for (const std::string& warning : scenario_.warnings) say(warning);
+        for (const std::string& warning : run_.scenario.warnings) say(warning);
         fmt::print("{}", ready_line(run_));
         std::fflush(stdout);
     }
 
     void relay_until_stopped(net::StopSignal& stop)
     {
-        std::vector<int> descriptors{relay_.a().socket.descriptor(), relay_.b().socket.descriptor(),
-                                     stop.descriptor()};
+        std::vector<int> descriptors = port_->descriptors();
+        descriptors.push_back(stop.descriptor());
         if (control_) descriptors.push_back(control_->descriptor());
         Emulation emulation = controlled();
         const control::Subject subject = subject_of(emulation);
@@ -83,14 +95,13 @@ public:
         auto now = start_;
         while (!stop.requested() && !base::is_due(end_, now)) {
             pacer.wait(descriptors, next_deadline());
-            const bool adopted = relay_.receive() > 0;
+            port_->receive();
             now = net::monotonic_now();
-            path_.advance(now);
-            relay_.release(now);
+            paths_.advance(now);
+            port_->release(now);
             run_.elapsed = now - start_;
-            if (adopted) tell(endpoints_line(relay_));
-            while (const auto notice = relay_.next_notice()) tell(*notice);
-            if (control_) control_->serve(subject, now, path_.next_due());
+            while (const auto notice = port_->next_notice()) tell(*notice);
+            if (control_) control_->serve(subject, now, paths_.next_due());
             if (stop.reload_requested()) reload(now);
             tell_of_files();
             status_.show([this] { return status_line(run_); }, now);
@@ -128,7 +139,9 @@ public:
 private:
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const
     {
-        auto deadline = base::earlier(path_.next_deadline(), end_);
+        auto deadline = base::earlier(paths_.next_due(), paths_.next_change());
+        deadline = base::earlier(deadline, port_->next_deadline());
+        deadline = base::earlier(deadline, end_);
         deadline = base::earlier(deadline, status_.next_deadline());
         return control_ ? base::earlier(deadline, control_->next_deadline()) : deadline;
     }
@@ -145,7 +158,7 @@ private:
             }
             return net::text_of_file(path);
         };
-        return {.path = path_,
+        return {.paths = paths_,
                 .statistics_json = [this] { return statistics_json(run_); },
                 .open = open};
     }
@@ -155,13 +168,20 @@ private:
     {
         Options options = run_.options;
         options.replay.reset(); // stays as it was read; reading it would hold up the relay
-        auto scenario = scenario_of(options);
+        const auto scenario = scenario_of(options, paths_.names());
         if (!scenario) {
             return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
-        std::ignore = path_.apply(Apply{scenario->profile}, now); // is never refused
+        const Profile& profile = scenario->profile;
+        const auto done = paths_.apply(
+            [&](std::string_view name, const Path& /*path*/) -> base::Result<Command> {
+                return Apply{profile_of(profile, name)};
+            },
+            paths_in(profile), now);
+        if (!done)
+            return tell(fmt::format("SIGHUP: the old profile stays: {}", done.error().message));
         tell(fmt::format("SIGHUP: {} is read again, generation {}",
-                         *run_.options.conditions.profile, path_.director().generation()));
+                         *run_.options.conditions.profile, paths_.generation()));
     }
 
     /// Once, and while there is time to make room or to begin again.
@@ -180,10 +200,9 @@ private:
     }
 
     base::TimePoint start_;
-    const Scenario& scenario_;
     Recorder recorder_;
-    EmulatedPath path_;
-    ports::Relay relay_;
+    Paths paths_;
+    std::unique_ptr<Port> port_;
     std::optional<control::Server> control_;
     std::optional<net::ResultFile> stats_;
     std::optional<base::TimePoint> end_;
@@ -192,20 +211,100 @@ private:
     Status status_;
 };
 
+/// The signals that end it or, with a profile to read again, also SIGHUP: without one a closed
+/// terminal ends the run.
+net::Hangup hangup_of(const Options& options)
+{
+    return options.conditions.profile ? net::Hangup::reload : net::Hangup::stop;
+}
+
+template <typename Run, typename MakePort>
+int run_session(const Plan& plan, base::TimePoint start, const MakePort& make)
+{
+    net::StopSignal stop{hangup_of(plan.options)};
+    Session<Run> session{plan, start, make};
+    session.announce();
+    session.relay_until_stopped(stop);
+    return session.finish();
+}
+
+/// What a run with so many paths needs, which share the memory.
+Plan plan_of(const Options& options, const Scenario& scenario, std::size_t paths,
+             base::TimePoint start)
+{
+    return {
+        .options = options,
+        .scenario = scenario,
+        .files = {.fates = options.fates, .capture = options.capture, .has_several_paths = true},
+        .paths = {.seed = scenario.seed,
+                  .start = start,
+                  .limits = QueueLimits::shared(options.in_flight_bytes, paths),
+                  .slab = std::make_shared<Slab>(options.in_flight_bytes),
+                  .replay = scenario.replay}};
+}
+
+/// The interfaces of a link in the capture: "1 (to 2)", "2 (to 1)".
+CaptureNames capture_names(const std::string& link)
+{
+    if (!is_pair(link)) return {link + " side A", link + " side B"};
+    const auto dash = link.find('-');
+    const auto name = [](const std::string& of, const std::string& to) {
+        return fmt::format("{} (to {})", of, to);
+    };
+    const auto first = link.substr(0, dash);
+    const auto second = link.substr(dash + 1);
+    return {name(first, second), name(second, first)};
+}
+
 } // namespace
 
 base::Result<int> run(const Options& options)
 {
     const auto scenario = scenario_of(options);
     if (!scenario) return tl::unexpected{scenario.error()};
-    const auto endpoints = look_up(options);
-    if (!endpoints) return tl::unexpected{endpoints.error()};
-    // Without a profile there is nothing to read again, and a closed terminal ends the run.
-    net::StopSignal stop{options.conditions.profile ? net::Hangup::reload : net::Hangup::stop};
-    Session session{options, *scenario, *endpoints};
-    session.announce();
-    session.relay_until_stopped(stop);
-    return session.finish();
+    const auto places = look_up(options);
+    if (!places) return tl::unexpected{places.error()};
+    const auto start = net::monotonic_now();
+    Plan plan = plan_of(options, *scenario, 1, start);
+    plan.files.has_several_paths = false;
+    return run_session<Run>(plan, start, [&](Paths& paths, Recorder& recorder) {
+        return std::make_unique<ports::Links>(*places, paths, recorder);
+    });
+}
+
+base::Result<int> run(const LinkOptions& options)
+{
+    PathNames names;
+    for (const TypedLink& link : options.links) names.links.push_back(link.name);
+    const auto scenario = scenario_of(options.run, names);
+    if (!scenario) return tl::unexpected{scenario.error()};
+    const auto places = look_up(options);
+    if (!places) return tl::unexpected{places.error()};
+    const auto start = net::monotonic_now();
+    Plan plan = plan_of(options.run, *scenario, options.links.size(), start);
+    plan.files.pairs.clear();
+    for (const auto& name : names.links) plan.files.pairs.push_back(capture_names(name));
+    return run_session<LinksRun>(plan, start, [&](Paths& paths, Recorder& recorder) {
+        return std::make_unique<ports::Links>(*places, paths, recorder);
+    });
+}
+
+base::Result<int> run(const UpstreamOptions& options)
+{
+    const auto scenario = scenario_of(options.run, {.clients = true});
+    if (!scenario) return tl::unexpected{scenario.error()};
+    const auto places = look_up(options);
+    if (!places) return tl::unexpected{places.error()};
+    const auto start = net::monotonic_now();
+    Plan plan = plan_of(options.run, *scenario, options.clients_max, start);
+    plan.files.pairs = {{"clients", "server"}};
+    plan.paths.takes_newcomers = true;
+    const ports::Upstream::Setup setup{.clients_max = options.clients_max,
+                                       .idle = options.idle,
+                                       .named_by_address = options.named_by_address};
+    return run_session<UpstreamRun>(plan, start, [&](Paths& paths, Recorder& recorder) {
+        return std::make_unique<ports::Upstream>(*places, setup, paths, recorder);
+    });
 }
 
 } // namespace hapnet::emulator

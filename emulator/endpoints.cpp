@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/endpoints.hpp"
 
+#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -9,60 +10,128 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// One side: where the emulator listens, and who is there.
+/// One side as it was typed, and what its parts are called.
+struct TypedSide {
+    const net::HostPort& listen;
+    const std::vector<net::AddressPattern>& ends;
+    std::string listen_name; // "--listen-a"
+    std::string end_name;    // "--a"
+};
+
+/// The same, looked up.
 struct Side {
     net::Endpoint listen;
     std::optional<net::Endpoint> peer;
+    std::optional<net::AddressSet> allowed;
 };
 
-base::Result<Side> look_up_side(const char* name, const net::HostPort& listen,
-                                const std::optional<net::HostPort>& peer)
+base::Result<Side> side_of_one_peer(const TypedSide& typed, const net::Endpoint& listen)
 {
-    Side side{net::resolve(listen), std::nullopt};
-    if (!peer) {
-        if (side.listen.is_loopback()) return side;
-        return base::fail(fmt::format("--listen-{0} {1} can be reached from other machines: name "
-                                      "the one sender that may use it: --{0} HOST:PORT",
-                                      name, side.listen.to_text()));
+    const net::AddressPattern& end = typed.ends.front();
+    const auto peer = net::resolve({end.host, *end.port}, listen.family());
+    if (listen.is_loopback() && !peer.is_loopback()) {
+        return base::fail(fmt::format(
+            "{0} {2} cannot be reached from {1} {3}: listen on {4}, or on an address of this "
+            "machine that the peer there can reach",
+            typed.end_name, typed.listen_name, peer.to_text(), listen.to_text(),
+            listen.family() == AF_INET6 ? "[::]" : "0.0.0.0"));
     }
-    side.peer = net::resolve(*peer, side.listen.family());
-    if (side.listen.is_loopback() && !side.peer->is_loopback()) {
-        return base::fail(
-            fmt::format("--{0} {1} cannot be reached from --listen-{0} {2}: listen on {3}, or on "
-                        "an address of this machine that the peer there can reach",
-                        name, side.peer->to_text(), side.listen.to_text(),
-                        side.listen.family() == AF_INET6 ? "[::]" : "0.0.0.0"));
+    net::require_route(peer);
+    return Side{listen, peer, std::nullopt};
+}
+
+base::Result<net::AddressSet> set_of(const std::vector<net::AddressPattern>& patterns,
+                                     const net::Endpoint& listen, const std::string& option)
+{
+    net::AddressSet set;
+    for (const auto& pattern : patterns) {
+        if (auto added = set.add(pattern, listen.family()); !added) {
+            return base::fail(fmt::format("{} {}", option, added.error().message));
+        }
     }
-    net::require_route(*side.peer);
-    return side;
+    return set;
+}
+
+base::Result<Side> look_up_side(const TypedSide& typed)
+{
+    const auto listen = net::resolve(typed.listen);
+    if (typed.ends.empty()) {
+        if (listen.is_loopback()) return Side{listen, std::nullopt, std::nullopt};
+        return base::fail(fmt::format("{} {} can be reached from other machines: name "
+                                      "the one sender that may use it: {} HOST:PORT",
+                                      typed.listen_name, listen.to_text(), typed.end_name));
+    }
+    if (typed.ends.size() == 1 && typed.ends.front().port) return side_of_one_peer(typed, listen);
+    auto allowed = set_of(typed.ends, listen, typed.end_name);
+    if (!allowed) return tl::unexpected{allowed.error()};
+    if (listen.is_loopback() && !allowed->is_loopback()) {
+        return base::fail(fmt::format("{} names hosts that cannot be reached from {} {}: listen "
+                                      "on {}",
+                                      typed.end_name, typed.listen_name, listen.to_text(),
+                                      listen.family() == AF_INET6 ? "[::]" : "0.0.0.0"));
+    }
+    return Side{listen, std::nullopt, *std::move(allowed)};
+}
+
+base::Result<Endpoints> look_up_sides(const TypedSide& typed_a, const TypedSide& typed_b)
+{
+    auto a = look_up_side(typed_a);
+    if (!a) return tl::unexpected{a.error()};
+    auto b = look_up_side(typed_b);
+    if (!b) return tl::unexpected{b.error()};
+    return Endpoints{
+        a->listen, b->listen, a->peer, b->peer, std::move(a->allowed), std::move(b->allowed)};
 }
 
 /// A datagram that is sent to the emulator itself would go round for ever.
-base::Result<Endpoints> without_loop(Endpoints endpoints)
+base::Result<std::vector<NamedEndpoints>> without_loop(std::vector<NamedEndpoints> links)
 {
-    for (const auto& [name, peer] : {std::pair{"a", endpoints.a}, std::pair{"b", endpoints.b}}) {
-        for (const auto& listen : {endpoints.listen_a, endpoints.listen_b}) {
-            if (!peer || !peer->reaches(listen)) continue;
-            return base::fail(fmt::format("--{} {} is where the emulator itself listens: name the "
+    const auto is_own = [&](const net::Endpoint& peer) {
+        return std::ranges::any_of(links, [&](const NamedEndpoints& one) {
+            return peer.reaches(one.endpoints.listen_a) || peer.reaches(one.endpoints.listen_b);
+        });
+    };
+    for (const auto& [link, endpoints] : links) {
+        for (const auto& [name, peer] :
+             {std::pair{"a", endpoints.a}, std::pair{"b", endpoints.b}}) {
+            if (!peer || !is_own(*peer)) continue;
+            const auto option =
+                link.empty() ? fmt::format("--{}", name) : fmt::format("--link {}:", link);
+            return base::fail(fmt::format("{} {} is where the emulator itself listens: name the "
                                           "other program's address",
-                                          name, peer->to_text()));
+                                          option, peer->to_text()));
         }
     }
-    return endpoints;
+    return links;
 }
 
 } // namespace
 
-base::Result<Endpoints> look_up(const Options& options)
+base::Result<std::vector<NamedEndpoints>> look_up(const Options& options)
 {
-    const auto a = look_up_side("a", options.listen_a, options.a);
-    if (!a) return tl::unexpected{a.error()};
-    const auto b = look_up_side("b", options.listen_b, options.b);
-    if (!b) return tl::unexpected{b.error()};
-    return without_loop({a->listen, b->listen, a->peer, b->peer});
+    auto endpoints = look_up_sides({options.listen_a, options.a, "--listen-a", "--a"},
+                                   {options.listen_b, options.b, "--listen-b", "--b"});
+    if (!endpoints) return tl::unexpected{endpoints.error()};
+    return without_loop({{"", *std::move(endpoints)}});
 }
 
-base::Result<ports::Upstream::Places> look_up(const UpstreamOptions& options)
+base::Result<std::vector<NamedEndpoints>> look_up(const LinkOptions& options)
+{
+    std::vector<NamedEndpoints> links;
+    for (const TypedLink& link : options.links) {
+        const auto part = [&](const char* what) {
+            return fmt::format("--link {}: {}", link.name, what);
+        };
+        auto endpoints =
+            look_up_sides({link.listen_1, link.end_1, part("LISTEN_1"), part("END_1")},
+                          {link.listen_2, link.end_2, part("LISTEN_2"), part("END_2")});
+        if (!endpoints) return tl::unexpected{endpoints.error()};
+        links.push_back({link.name, *std::move(endpoints)});
+    }
+    return without_loop(std::move(links));
+}
+
+base::Result<ServerAndClients> look_up(const UpstreamOptions& options)
 {
     const auto listen = net::resolve(options.listen);
     const auto server = net::resolve(options.upstream);
@@ -72,7 +141,7 @@ base::Result<ports::Upstream::Places> look_up(const UpstreamOptions& options)
                         "server's address",
                         server.to_text()));
     }
-    ports::Upstream::Places places{listen, server, {}};
+    ServerAndClients places{listen, server, {}};
     if (options.allowed.empty()) {
         if (!listen.is_loopback()) {
             return base::fail(fmt::format("--listen {} can be reached from other machines: say who "
@@ -86,10 +155,10 @@ base::Result<ports::Upstream::Places> look_up(const UpstreamOptions& options)
             }
         }
     }
-    for (const auto& pattern : options.allowed) {
-        if (auto added = places.allowed.add(pattern, listen.family()); !added) {
-            return base::fail("--allow " + added.error().message);
-        }
+    if (!options.allowed.empty()) {
+        auto allowed = set_of(options.allowed, listen, "--allow");
+        if (!allowed) return tl::unexpected{allowed.error()};
+        places.allowed = *std::move(allowed);
     }
     net::require_route(server);
     return places;

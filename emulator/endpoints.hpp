@@ -3,11 +3,13 @@
 #pragma once
 
 #include "emulator/options.hpp"
-#include "emulator/ports/upstream.hpp"
 #include "proto/base/result.hpp"
+#include "proto/net/address_set.hpp"
 #include "proto/net/endpoint.hpp"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -15,15 +17,30 @@ namespace hapnet::emulator {
 struct Endpoints {
     net::Endpoint listen_a;
     net::Endpoint listen_b;
-    std::optional<net::Endpoint> a;
+    std::optional<net::Endpoint> a; // nullopt: the first sender
     std::optional<net::Endpoint> b;
+    std::optional<net::AddressSet> allowed_a{}; // of senders, where the first is taken
+    std::optional<net::AddressSet> allowed_b{};
 };
 
-/// Looks up the names. The error is one of usage: combinations that cannot work or are not safe.
-/// Throws std::system_error when a name does not resolve or an endpoint cannot be reached.
-[[nodiscard]] base::Result<Endpoints> look_up(const Options& options);
+/// Those of one of several links; the only one has no name.
+struct NamedEndpoints {
+    std::string name;
+    Endpoints endpoints;
+};
 
-/// The same of a server and its clients.
-[[nodiscard]] base::Result<ports::Upstream::Places> look_up(const UpstreamOptions& options);
+/// A server, and who may be its client.
+struct ServerAndClients {
+    net::Endpoint listen;
+    net::Endpoint server;
+    net::AddressSet allowed;
+};
+
+// They look up the names. The error is one of usage: combinations that cannot work or are not safe.
+// They throw std::system_error when a name does not resolve or an endpoint cannot be reached.
+
+[[nodiscard]] base::Result<std::vector<NamedEndpoints>> look_up(const Options& options);
+[[nodiscard]] base::Result<std::vector<NamedEndpoints>> look_up(const LinkOptions& options);
+[[nodiscard]] base::Result<ServerAndClients> look_up(const UpstreamOptions& options);
 
 } // namespace hapnet::emulator

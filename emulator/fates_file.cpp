@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator {
 
-base::Result<Fates> read_fates(const std::string& path)
+base::Result<FatesOfPaths> read_fates(const std::string& path)
 {
     std::error_code trouble;
     if (std::filesystem::is_directory(path, trouble)) {
@@ -24,12 +24,12 @@ base::Result<Fates> read_fates(const std::string& path)
     // Whatever else it is may have no end.
     std::string text(fates_header.size(), '\0');
     text.resize(static_cast<std::size_t>(file.read(text.data(), std::ssize(text)).gcount()));
-    if (text == fates_header) {
+    if (text == fates_header || text.starts_with(fmt::format("{},direction", path_column))) {
         text.append(std::istreambuf_iterator<char>{file}, {});
     } else if (file) {
         text += '\n';
     }
-    auto fates = parse_fates(text);
+    auto fates = parse_fates_of_paths(text);
     if (!fates) return base::fail(fmt::format("{}: {}", path, fates.error().message));
     return fates;
 }

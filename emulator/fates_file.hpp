@@ -9,7 +9,7 @@
 
 namespace hapnet::emulator {
 
-/// The fates in a file; the error names it, and the line.
-[[nodiscard]] base::Result<Fates> read_fates(const std::string& path);
+/// The fates in a file, by the names of their paths; the error names it, and the line.
+[[nodiscard]] base::Result<FatesOfPaths> read_fates(const std::string& path);
 
 } // namespace hapnet::emulator

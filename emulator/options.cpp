@@ -3,6 +3,7 @@
 #include "emulator/options.hpp"
 
 #include "emulator/core/conditions.hpp"
+#include "emulator/paths_options.hpp"
 #include "emulator/presets.hpp"
 #include "proto/base/text.hpp"
 #include "proto/cli/command.hpp"
@@ -28,7 +29,9 @@ constexpr const char* description =
     "Without --a and --b the emulator takes the first sender on each side, on loopback only. When "
     "that sender has been silent for 1 s, another one may take its place.\n"
     "\n"
-    "With --listen and --upstream it stands between a server and any number of clients.";
+    "With --listen and --upstream it stands between a server and any number of clients, with "
+    "--link "
+    "between many pairs at once.";
 
 constexpr const char* footer =
     R"(Units are mandatory: ns us ms s min h for times, % for shares, B KiB for sizes, kbit/s Mbit/s
@@ -49,12 +52,14 @@ Examples:
       --down.loss 10% --seed 42 --duration 30s --stats run.json
   hapnet-emulator --listen-a :7001 --listen-b :7002 --profile wifi-busy \
       --control emulator.sock --fates fates.csv --pcap run.pcapng
+  hapnet-emulator --link 1-2=:7001,:7002 --link 1-3=:7003,:7004 \
+      --delay 20ms --set 1-3.delay=80ms --set 3-1.loss=2%
   hapnet-emulator predict lte --rate 1000
   hapnet-emulator check --delay 80ms --jitter 15ms
 
-The emulator prints one line "ready a=... b=..." (with --upstream "ready listen=...") on stdout when
-it listens; port 0 takes any free port. SIGINT or SIGTERM ends the run and writes the files. SIGHUP
-reads --profile again; without a profile, or with --upstream, it ends the run.)";
+The emulator prints one line "ready a=... b=..." (with --upstream "ready listen=...", with --link
+"ready 1-2=...,...") on stdout when it listens; port 0 takes any free port. SIGINT or SIGTERM ends the run and writes the files. SIGHUP
+reads --profile again; without a profile it ends the run.)";
 
 constexpr const char* exit_codes = R"(  0  done
   1  the run failed
@@ -158,6 +163,19 @@ cli::Take as_setting(std::string key, ConditionOptions& into)
     };
 }
 
+/// A key of a setting and its value: "1-2.delay=80ms".
+cli::Take by_key(ConditionOptions& into)
+{
+    return [&into](const std::string& text) -> base::Result<void> {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            return base::fail(fmt::format("'{}': write KEY=VALUE, such as up.delay=80ms", text));
+        }
+        into.settings.push_back({text.substr(0, equals), text.substr(equals + 1), "--set "});
+        return {};
+    };
+}
+
 /// `own_rate`: the command has a --rate of its own, which takes the condition, too.
 void add_conditions(cli::Command& command, ConditionOptions& into, bool own_rate)
 {
@@ -168,6 +186,12 @@ void add_conditions(cli::Command& command, ConditionOptions& into, bool own_rate
         cli::into(into.netem));
     command.option("--seed", "NUMBER", "Seed for every random draw (default: the profile's, or 1)",
                    cli::into(into.seed, cli::seed));
+    command
+        .option("--set", "KEY=VALUE",
+                "The same by a key: up.delay=20ms, and of one of several paths 1-2.delay=20ms, "
+                "wan.up.loss=5% or client.3.delay=80ms; may be repeated",
+                by_key(into))
+        .repeated();
     for (const char* prefix : {"", "up.", "down."}) {
         for (const auto& [name, type, help] : listed_conditions()) {
             const std::string key = fmt::format("{}{}", prefix, name);
@@ -197,27 +221,22 @@ base::Result<std::size_t> parse_in_flight(const std::string& text)
     return base::fail(fmt::format("'{}' is out of range: 1MiB to 64GiB", text));
 }
 
-base::Result<net::HostPort> parse_host(const std::string& text)
-{
-    auto host = net::parse_host_port(text);
-    if (host && host->port == 0) {
-        return base::fail(fmt::format("'{}': nothing can be sent to port 0", text));
-    }
-    return host;
-}
-
 void add_run_options(cli::Command& program, Options& options)
 {
     program.option("--listen-a", "ADDRESS",
                    "Where A sends to: HOST:PORT; :PORT listens on loopback. Required, as is "
-                   "--listen-b, without --upstream",
+                   "--listen-b, without --upstream and --link",
                    cli::into(options.listen_a, net::parse_listen_address));
     program.option("--listen-b", "ADDRESS", "Where B sends to",
                    cli::into(options.listen_b, net::parse_listen_address));
-    program.option("--a", "HOST:PORT", "Address of A (default: the first sender)",
-                   cli::into(options.a, parse_host));
-    program.option("--b", "HOST:PORT", "Address of B (default: the first sender)",
-                   cli::into(options.b, parse_host));
+    program
+        .option("--a", "HOST:PORT|HOST|NET/BITS",
+                "Address of A; the first sender from one of several, HOST or NET/BITS, which may "
+                "be repeated (default: the first sender)",
+                allow_into(options.a))
+        .repeated();
+    program.option("--b", "HOST:PORT|HOST|NET/BITS", "The same of B", allow_into(options.b))
+        .repeated();
     program.option("--profile", "FILE|NAME",
                    "Conditions and their timeline from a TOML file, or the name of a preset "
                    "(hapnet-emulator check --list)",
@@ -256,50 +275,6 @@ void add_run_options(cli::Command& program, Options& options)
                    "Listen on this Unix socket for hapnet-ctl, which shows and changes the "
                    "conditions while the emulator runs",
                    cli::into(options.control));
-}
-
-constexpr const char* clients_group = "Any client of a server, instead of A and B";
-
-/// Patterns, one after the other.
-cli::Take allow_into(std::vector<net::AddressPattern>& into)
-{
-    return [&into](const std::string& text) -> base::Result<void> {
-        auto pattern = net::parse_address_pattern(text);
-        if (!pattern) return tl::unexpected{pattern.error()};
-        into.push_back(*std::move(pattern));
-        return {};
-    };
-}
-
-void add_upstream_options(cli::Command& program, UpstreamOptions& options)
-{
-    constexpr std::uint64_t clients_most = 1024;
-    program
-        .option("--upstream", "HOST:PORT",
-                "The server. Each address that sends to --listen gets a path of its own to it: up "
-                "is to the server",
-                cli::into(options.upstream, parse_host))
-        .under(clients_group);
-    program
-        .option("--listen", "ADDRESS", "Where its clients send to",
-                cli::into(options.listen, net::parse_listen_address))
-        .under(clients_group);
-    program
-        .option(
-            "--allow", "HOST|NET/BITS",
-            "Who may be a client, such as 10.0.0.0/8; may be repeated. Required unless --listen "
-            "is on loopback",
-            allow_into(options.allowed))
-        .repeated()
-        .under(clients_group);
-    program
-        .option("--clients", "NUMBER", "How many at a time at most (default 64)",
-                cli::into(options.clients_max, base::Count{1, clients_most}))
-        .under(clients_group);
-    program
-        .option("--idle", "TIME", "Forget a client that has been silent for so long (default 1min)",
-                cli::into(options.idle, base::Time{}))
-        .under(clients_group);
 }
 
 /// The spacing of datagrams that come "1000" or "1000/s".
@@ -361,6 +336,8 @@ void add_verify(cli::Command& command, VerifyOptions& options)
     command.option("--profile", "FILE|NAME",
                    "The profile that the run was to follow (default: the one in RUN)",
                    cli::into(options.profile));
+    command.option("--link", "NAME", "Which path of a run with several: 1-2, wan, or client.3",
+                   cli::into(options.link));
     command.option("--seed", "NUMBER", "The seed of the run (default: the one in the profile)",
                    cli::into(options.seed, cli::seed));
     command.option("--rate", "NUMBER",
@@ -423,33 +400,14 @@ base::Result<void> require_addresses(const cli::Command& program)
         if (program.is_given(option)) continue;
         return base::fail(
             fmt::format("{0} is required: {0} {1}, or --listen and --upstream for any "
-                        "client of a server",
+                        "client of a server, or --link for many pairs",
                         option, example));
     }
-    for (const char* option : {"--listen", "--allow", "--clients", "--idle"}) {
+    for (const char* option : {"--listen", "--allow", "--clients", "--idle", "--name-by"}) {
         if (!program.is_given(option)) continue;
         return base::fail(fmt::format("{} goes with --upstream HOST:PORT", option));
     }
     return {};
-}
-
-/// What has no meaning, or none yet, with many clients.
-base::Result<void> require_upstream(const cli::Command& program)
-{
-    for (const char* option : {"--listen-a", "--listen-b", "--a", "--b"}) {
-        if (!program.is_given(option)) continue;
-        return base::fail(fmt::format("{} and --upstream exclude each other: clients send to "
-                                      "--listen",
-                                      option));
-    }
-    for (const char* option : {"--fates", "--replay", "--pcap", "--control"}) {
-        if (!program.is_given(option)) continue;
-        return base::fail(fmt::format("{} is for one pair, and --upstream has many: use --listen-a "
-                                      "and --listen-b with it",
-                                      option));
-    }
-    if (program.is_given("--listen")) return {};
-    return base::fail("--listen is required: --listen 127.0.0.1:7001");
 }
 
 net::CommandLine<AnyOptions> checked(Options options, const cli::Command& program)
@@ -459,6 +417,20 @@ net::CommandLine<AnyOptions> checked(Options options, const cli::Command& progra
     if (fine) fine = require_own_files(options);
     if (!fine) return tl::unexpected{fine.error()};
     return AnyOptions{std::move(options)};
+}
+
+/// The run that the options describe.
+net::CommandLine<AnyOptions> chosen_run(Options options, LinkOptions links, UpstreamOptions through,
+                                        const cli::Command& program)
+{
+    const bool has_links = program.is_given("--link");
+    if (!has_links && !program.is_given("--upstream")) return checked(std::move(options), program);
+    auto fine = has_links ? require_links(links, program) : require_upstream(program);
+    if (fine) fine = require_own_files(options);
+    if (!fine) return tl::unexpected{fine.error()};
+    (has_links ? links.run : through.run) = std::move(options);
+    if (has_links) return AnyOptions{std::move(links)};
+    return AnyOptions{std::move(through)};
 }
 
 } // namespace
@@ -483,6 +455,8 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     add_run_options(program, options);
     UpstreamOptions through;
     add_upstream_options(program, through);
+    LinkOptions links;
+    add_link_options(program, links);
 
     cli::Command& check = program.command("check", "Describes a profile, stage by stage");
     check.describe(check_description);
@@ -518,10 +492,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     if (is_list) return net::Answer{preset_list('\n')};
     if (verify.is_chosen()) return AnyOptions{std::move(verifying)};
     if (!check.is_chosen() && !predict.is_chosen()) {
-        if (!program.is_given("--upstream")) return checked(std::move(options), program);
-        if (auto fine = require_upstream(program); !fine) return tl::unexpected{fine.error()};
-        through.run = std::move(options);
-        return AnyOptions{std::move(through)};
+        return chosen_run(std::move(options), std::move(links), std::move(through), program);
     }
     const auto fine = check.is_chosen() ? require_conditions(checking.conditions, check)
                                         : require_conditions(predicting.conditions, predict);

@@ -4,6 +4,7 @@
 
 #include "emulator/core/queue_limits.hpp"
 #include "emulator/tools/predict.hpp"
+#include "emulator/typed_link.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/address_set.hpp"
@@ -30,6 +31,7 @@ enum class Timing : std::uint8_t { eco, precise, spin };
 struct TypedSetting {
     std::string key;
     std::string value;
+    std::string_view before_key = "--"; // what was typed before it
 };
 
 /// Where conditions come from. Names are not looked up and files not opened yet.
@@ -44,8 +46,8 @@ struct ConditionOptions {
 struct Options {
     net::HostPort listen_a;
     net::HostPort listen_b;
-    std::optional<net::HostPort> a; // nullopt: adopt the first sender
-    std::optional<net::HostPort> b;
+    std::vector<net::AddressPattern> a; // none: adopt the first sender
+    std::vector<net::AddressPattern> b;
     ConditionOptions conditions;
     std::optional<std::string> replay; // fates to apply instead of drawing
     Timing timing = Timing::precise;
@@ -58,6 +60,12 @@ struct Options {
     std::optional<std::string> control; // the path of a Unix socket
 };
 
+/// A run with several links.
+struct LinkOptions {
+    std::vector<TypedLink> links;
+    Options run; // its ends are not used
+};
+
 /// A run for any client of a server: `hapnet-emulator --listen ... --upstream HOST:PORT`
 struct UpstreamOptions {
     net::HostPort listen;
@@ -65,7 +73,8 @@ struct UpstreamOptions {
     std::vector<net::AddressPattern> allowed; // none: loopback
     std::size_t clients_max = 64;
     base::Duration idle = std::chrono::seconds{60};
-    Options run; // its ends and the files of single datagrams are not used
+    bool named_by_address = false; // the paths of clients
+    Options run;                   // its ends are not used
 };
 
 /// `hapnet-emulator check PROFILE`
@@ -87,11 +96,12 @@ struct VerifyOptions {
     std::optional<std::string> profile; // instead of the one in RUN
     std::optional<base::Seed> seed;     // instead of the one in the profile
     std::optional<base::Duration> spacing;
+    std::optional<std::string> link; // which one of a run with several
     bool as_json = false;
 };
 
-using AnyOptions =
-    std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions, VerifyOptions>;
+using AnyOptions = std::variant<Options, LinkOptions, UpstreamOptions, CheckOptions, PredictOptions,
+                                VerifyOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

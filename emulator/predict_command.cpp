@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/scenario.hpp"
 #include "emulator/stream_json.hpp"
 #include "emulator/tools/describe.hpp"
@@ -133,6 +134,11 @@ base::Result<int> run(const PredictOptions& options)
     const auto profile = profile_for(options.conditions, netem_warnings);
     if (!profile) return tl::unexpected{profile.error()};
     for (const std::string& warning : netem_warnings) net::say("hapnet-emulator", warning);
+    if (const auto paths = paths_in(*profile); !paths.empty()) {
+        net::say("hapnet-emulator",
+                 fmt::format("this is of paths without conditions of their own; {} have some",
+                             fmt::join(paths, ", ")));
+    }
     const tools::Stream& stream = options.stream;
     const auto seed = seed_of(options.conditions, *profile);
     const auto [up, down] = predict(*profile, stream, seed);

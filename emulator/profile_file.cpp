@@ -31,14 +31,15 @@ std::string path_beside(const std::string& name, const std::string& beside)
     return (std::filesystem::path{beside}.parent_path() / name).string();
 }
 
-base::Result<Profile> load_profile(const std::string& file_or_name)
+base::Result<Profile> load_profile(const std::string& file_or_name, const PathNames& names)
 {
     const auto found =
         base::find_text(meant_name(file_or_name), presets(), "a preset", net::text_of_file);
     if (!found) return tl::unexpected{found.error()};
-    return parse_profile(found->text, found->source, [&](const std::string& name) {
+    const auto open = [&](const std::string& name) {
         return net::text_of_file(path_beside(name, found->source));
-    });
+    };
+    return parse_profile(found->text, found->source, open, names);
 }
 
 } // namespace hapnet::emulator

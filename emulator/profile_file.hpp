@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "proto/base/result.hpp"
 
@@ -13,7 +14,9 @@ namespace hapnet::emulator {
 /// is when `beside` is empty.
 [[nodiscard]] std::string path_beside(const std::string& name, const std::string& beside);
 
-/// Reads the preset of that name, or else a file. The error names the file and the line.
-[[nodiscard]] base::Result<Profile> load_profile(const std::string& file_or_name);
+/// Reads the preset of that name, or else a file. The error names the file and the line. It may
+/// speak of the paths that `names` has.
+[[nodiscard]] base::Result<Profile> load_profile(const std::string& file_or_name,
+                                                 const PathNames& names = {.any = true});
 
 } // namespace hapnet::emulator

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <iterator>
 #include <netinet/in.h>
 #include <spdlog/fmt/fmt.h>
 #include <system_error>
@@ -27,6 +28,8 @@ constexpr base::Duration write_every = std::chrono::milliseconds{20};
 constexpr std::size_t buffer_bytes = 1 << 18;
 /// Entries written of one queue before the other.
 constexpr std::size_t batch_max = 4096;
+/// Rows that are kept in memory, of all ways together.
+constexpr std::size_t waiting_bytes_max = 4 << 20;
 
 [[noreturn]] void refuse(const std::string& what)
 {
@@ -52,7 +55,7 @@ void write_all(int descriptor, std::string_view text)
 {
     while (!text.empty()) {
         const auto count = write(descriptor, text.data(), text.size());
-        if (count < 0 && errno != EINTR) refuse("cannot write the fates of down");
+        if (count < 0 && errno != EINTR) refuse("cannot write the fates that come last");
         if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
     }
 }
@@ -76,49 +79,94 @@ UdpAddress udp_address_of(const net::Endpoint& endpoint)
     return address;
 }
 
-Recorder::Fates::Fates(const std::string& path) : file{path}, down_descriptor{open_nameless(path)}
+Recorder::Fates::Fates(const std::string& path, bool of_several)
+    : file{path}, has_several_paths{of_several}, aside{open_nameless(path)}
 {
-    up.reserve(2 * buffer_bytes);
-    down.reserve(2 * buffer_bytes);
-    up = fmt::format("{}\n", fates_header);
+    ways[0].rows.reserve(2 * buffer_bytes);
+    ways[0].rows = has_several_paths ? fmt::format("{},{}\n", path_column, fates_header)
+                                     : fmt::format("{}\n", fates_header);
 }
 
-Recorder::Fates::~Fates() { close(down_descriptor); }
+Recorder::Fates::~Fates() { close(aside); }
+
+Recorder::Fates::Way& Recorder::Fates::way_of(const FateEntry& entry)
+{
+    const std::size_t way =
+        2 * std::size_t{entry.path} + (entry.direction == Direction::up ? 0 : 1);
+    if (way >= ways.size()) ways.resize(2 * std::size_t{entry.path} + 2);
+    return ways[way];
+}
 
 void Recorder::Fates::write()
 {
     FateEntry entry;
     for (std::size_t i = 0; i < batch_max && queue.try_dequeue(entry); ++i) {
-        append_row(entry.direction == Direction::up ? up : down, entry.direction, entry.number,
-                   entry.fate);
+        Way& way = way_of(entry);
+        const auto before = way.rows.size();
+        if (has_several_paths) {
+            if (entry.path >= names.size()) {
+                const std::scoped_lock guard{coming_lock};
+                std::move(coming.begin(), coming.end(), std::back_inserter(names));
+                coming.clear();
+            }
+            way.rows += names.at(entry.path);
+            way.rows += ',';
+        }
+        append_row(way.rows, entry.direction, entry.number, entry.fate);
+        if (&way == ways.data()) continue;
+        waiting_bytes += way.rows.size() - before;
+        if (way.rows.size() >= buffer_bytes) set_aside(way);
     }
-    file.append(up);
-    write_all(down_descriptor, down);
-    up.clear();
-    down.clear();
+    file.append(ways[0].rows);
+    ways[0].rows.clear();
+    if (waiting_bytes < waiting_bytes_max) return;
+    for (Way& way : ways) set_aside(way);
 }
 
-/// The rows of down go after those of up.
+/// Writes what waits of a way to the file without a name.
+void Recorder::Fates::set_aside(Way& way)
+{
+    if (way.rows.empty()) return;
+    write_all(aside, way.rows);
+    way.pieces.push_back({aside_bytes, way.rows.size()});
+    aside_bytes += way.rows.size();
+    waiting_bytes -= way.rows.size();
+    way.rows.clear();
+}
+
+void Recorder::Fates::copy(const Piece& piece, std::string& buffer)
+{
+    for (std::size_t done = 0; done < piece.bytes;) {
+        buffer.resize(std::min(buffer_bytes, piece.bytes - done));
+        const auto count =
+            pread(aside, buffer.data(), buffer.size(), static_cast<off_t>(piece.begin + done));
+        if (count == 0 || (count < 0 && errno != EINTR)) {
+            refuse("cannot read the fates that come last");
+        }
+        if (count < 0) continue;
+        file.append({buffer.data(), static_cast<std::size_t>(count)});
+        done += static_cast<std::size_t>(count);
+    }
+}
+
+/// The ways follow each other.
 void Recorder::Fates::finish()
 {
-    if (lseek(down_descriptor, 0, SEEK_SET) != 0) refuse("cannot read the fates of down");
-    down.resize(buffer_bytes);
-    for (;;) {
-        const auto count = read(down_descriptor, down.data(), down.size());
-        if (count < 0 && errno != EINTR) refuse("cannot read the fates of down");
-        if (count == 0) break;
-        if (count > 0) file.append({down.data(), static_cast<std::size_t>(count)});
+    std::string buffer;
+    for (std::size_t way = 1; way < ways.size(); ++way) {
+        for (const Piece& piece : ways[way].pieces) copy(piece, buffer);
+        file.append(ways[way].rows);
     }
     file.commit({});
 }
 
-Recorder::Capture::Capture(const std::string& path)
+Recorder::Capture::Capture(const std::string& path, const std::vector<CaptureNames>& pairs)
     : file{path},
       since_1970{base::from_seconds(net::wall_clock_seconds()) -
                  net::monotonic_now().time_since_epoch()}
 {
     bytes.reserve(2 * buffer_bytes);
-    append_capture_head(bytes, base::version_line("hapnet-emulator"));
+    append_capture_head(bytes, base::version_line("hapnet-emulator"), pairs);
 }
 
 void Recorder::Capture::write()
@@ -165,8 +213,8 @@ void Recorder::Capture::append(const CaptureHeader& complete)
 
 Recorder::Recorder(const Files& files)
 {
-    if (files.fates) fates_ = std::make_unique<Fates>(*files.fates);
-    if (files.capture) capture_ = std::make_unique<Capture>(*files.capture);
+    if (files.fates) fates_ = std::make_unique<Fates>(*files.fates, files.has_several_paths);
+    if (files.capture) capture_ = std::make_unique<Capture>(*files.capture, files.pairs);
     if (fates_ || capture_) thread_ = std::thread{[this] { run(); }};
 }
 
@@ -176,10 +224,22 @@ Recorder::~Recorder()
     if (thread_.joinable()) thread_.join();
 }
 
-void Recorder::on_fate(Direction direction, std::uint64_t number, const Fate& fate)
+std::uint32_t Recorder::add_path(const std::string& name)
+{
+    if (fates_ && fates_->has_several_paths) {
+        const std::scoped_lock guard{fates_->coming_lock};
+        fates_->coming.push_back(name);
+    }
+    return paths_++;
+}
+
+void Recorder::on_fate(std::uint32_t path, Direction direction, std::uint64_t number,
+                       const Fate& fate)
 {
     if (!fates_) return;
-    if (!fates_->queue.try_enqueue({fate, number, direction})) fates_lost_.fetch_add(1, relaxed);
+    if (!fates_->queue.try_enqueue({fate, number, path, direction})) {
+        fates_lost_.fetch_add(1, relaxed);
+    }
 }
 
 void Recorder::on_arrival(const CapturedPacket& packet, const Fate& fate)

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <readerwriterqueue/readerwritercircularbuffer.h>
 #include <span>
@@ -34,6 +35,8 @@ public:
     struct Files {
         std::optional<std::string> fates{};
         std::optional<std::string> capture{};
+        std::vector<CaptureNames> pairs{CaptureNames{}}; // of interfaces of the capture
+        bool has_several_paths = false;                  // the fates say of which path they are
     };
 
     /// Throws std::system_error when a file cannot be written. No thread when there is none. The
@@ -46,11 +49,14 @@ public:
 
     [[nodiscard]] bool captures() const { return capture_ != nullptr; }
 
+    /// A path whose fates will come, and the number by which they do. May allocate and lock.
+    [[nodiscard]] std::uint32_t add_path(const std::string& name);
+
     // For the relay's thread. They neither allocate nor lock nor call the system; nothing happens
     // where no file is asked for.
 
-    /// The datagram of this number was given this fate.
-    void on_fate(Direction direction, std::uint64_t number, const Fate& fate);
+    /// The datagram of this number was given this fate on that path.
+    void on_fate(std::uint32_t path, Direction direction, std::uint64_t number, const Fate& fate);
     /// A datagram arrived, and this becomes of it, queues included.
     void on_arrival(const CapturedPacket& packet, const Fate& fate);
     /// A datagram left, `late` after it was due.
@@ -75,6 +81,7 @@ private:
     struct FateEntry {
         Fate fate;
         std::uint64_t number = 0;
+        std::uint32_t path = 0;
         Direction direction = Direction::up;
     };
     /// The beginning of a packet; its bytes follow in chunks.
@@ -96,8 +103,10 @@ private:
     template <typename T>
     using Queue = moodycamel::BlockingReaderWriterCircularBuffer<T>;
 
+    /// The rows of each way, in the order of the ways, whenever they come: those of the first way
+    /// go to the file, those of the others to a file without a name, in pieces, until the end.
     struct Fates {
-        explicit Fates(const std::string& path);
+        Fates(const std::string& path, bool has_several_paths);
         ~Fates();
         Fates(const Fates&) = delete;
         Fates& operator=(const Fates&) = delete;
@@ -105,15 +114,32 @@ private:
         void write();
         void finish();
 
+        struct Piece {
+            std::uint64_t begin = 0; // in the file without a name
+            std::size_t bytes = 0;
+        };
+        struct Way {
+            std::string rows; // that are not written yet
+            std::vector<Piece> pieces;
+        };
+        Way& way_of(const FateEntry& entry);
+        void set_aside(Way& way);
+        void copy(const Piece& piece, std::string& buffer);
+
         static constexpr std::size_t capacity = 1 << 16; // 3 s at 20 000 datagrams/s
         Queue<FateEntry> queue{capacity};
         net::ResultFile file;
-        int down_descriptor; // a file without a name, for the rows that come last
-        std::string up;
-        std::string down;
+        bool has_several_paths;
+        int aside; // the file without a name
+        std::uint64_t aside_bytes = 0;
+        std::size_t waiting_bytes = 0; // in the rows of all ways but the first
+        std::vector<Way> ways{2};      // up and down of each path
+        std::vector<std::string> names;
+        std::mutex coming_lock;
+        std::vector<std::string> coming; // names of paths that the writer has not seen yet
     };
     struct Capture {
-        explicit Capture(const std::string& path);
+        Capture(const std::string& path, const std::vector<CaptureNames>& pairs);
 
         void write();
         void take(const Part& part);
@@ -134,6 +160,7 @@ private:
 
     std::unique_ptr<Fates> fates_;
     std::unique_ptr<Capture> capture_;
+    std::uint32_t paths_ = 0;
     std::atomic<std::uint64_t> fates_lost_{0};
     std::atomic<std::uint64_t> capture_lost_{0};
     std::atomic<bool> stop_{false};

@@ -22,19 +22,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-DirectionOfRun direction_of(const ports::Relay::Side& side)
-{
-    return {side.link.statistics(), &side.link.stream_statistics(), side.strangers,
-            side.socket.overflowed()};
-}
-
 Json address_of(const ports::Relay::Side& side)
 {
     const auto& address = side.filter.address();
     return address ? Json(address->to_text()) : Json(nullptr);
 }
 
-/// What is missing in the files that were asked for.
+const ports::Relay& relay_of(const Run& run) { return *run.port.relays().front(); }
+
+} // namespace
+
+DirectionOfRun direction_of(const ports::Relay::Side& side)
+{
+    return {side.link.statistics(), &side.link.stream_statistics(), side.strangers,
+            side.socket.overflowed()};
+}
+
 std::string incomplete(const Recorder& recorder)
 {
     std::string text;
@@ -47,8 +50,6 @@ std::string incomplete(const Recorder& recorder)
     }
     return text;
 }
-
-} // namespace
 
 nlohmann::ordered_json configuration_json(const Path& path)
 {
@@ -65,25 +66,16 @@ nlohmann::ordered_json configuration_json(const Path& path)
 std::string ready_line(const Run& run)
 {
     return fmt::format("ready a={} b={} seed={} timing={}\n",
-                       run.relay.a().socket.local().to_text(),
-                       run.relay.b().socket.local().to_text(), run.scenario.seed.value(),
+                       relay_of(run).a().socket.local().to_text(),
+                       relay_of(run).b().socket.local().to_text(), run.scenario.seed.value(),
                        to_text(run.options.timing));
-}
-
-std::string endpoints_line(const ports::Relay& relay)
-{
-    const auto in_words = [](const ports::Relay::Side& side) {
-        const auto& address = side.filter.address();
-        return address ? address->to_text() : std::string{"not known yet"};
-    };
-    return fmt::format("a is {}, b is {}", in_words(relay.a()), in_words(relay.b()));
 }
 
 std::string statistics_json(const Run& run)
 {
     const Options& options = run.options;
-    const ports::Relay::Side& a = run.relay.a();
-    const ports::Relay::Side& b = run.relay.b();
+    const ports::Relay::Side& a = relay_of(run).a();
+    const ports::Relay::Side& b = relay_of(run).b();
     std::vector<std::string> reasons;
     for (const auto& [way, side] : {std::pair{"up", &a}, std::pair{"down", &b}}) {
         for (const std::string& reason : reasons_against(direction_of(*side), options.budget)) {
@@ -107,7 +99,7 @@ std::string statistics_json(const Run& run)
         {"b", address_of(b)},
         {"strangers", a.strangers + b.strangers},
         {"overflowed", a.socket.overflowed() + b.socket.overflowed()},
-        {"generation", run.director.generation()},
+        {"generation", run.paths.generation()},
         {"configuration", configuration_json(run.scenario.profile.path)},
         {"profile", to_text(run.scenario.profile)},
         {"fates", or_null(options.fates)},
@@ -127,16 +119,16 @@ std::string summary(const Run& run)
 {
     return fmt::format("{:.1f} s, seed {}\n", base::to_seconds(run.elapsed),
                        run.scenario.seed.value()) +
-           in_words("up   (A to B)", direction_of(run.relay.a()), run.options.budget) +
-           in_words("down (B to A)", direction_of(run.relay.b()), run.options.budget) +
+           in_words("up   (A to B)", direction_of(relay_of(run).a()), run.options.budget) +
+           in_words("down (B to A)", direction_of(relay_of(run).b()), run.options.budget) +
            incomplete(run.recorder);
 }
 
 std::string status_line(const Run& run)
 {
     return fmt::format("{:.0f} s | {} | {}", base::to_seconds(run.elapsed),
-                       in_short("up", direction_of(run.relay.a())),
-                       in_short("down", direction_of(run.relay.b())));
+                       in_short("up", direction_of(relay_of(run).a())),
+                       in_short("down", direction_of(relay_of(run).b())));
 }
 
 } // namespace hapnet::emulator

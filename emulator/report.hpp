@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/director.hpp"
-#include "emulator/endpoints.hpp"
+#include "emulator/core/paths.hpp"
+#include "emulator/direction_report.hpp"
 #include "emulator/options.hpp"
-#include "emulator/ports/relay.hpp"
+#include "emulator/ports/links.hpp"
+#include "emulator/recorder.hpp"
 #include "emulator/scenario.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/real_time.hpp"
@@ -15,25 +16,34 @@
 
 namespace hapnet::emulator {
 
-/// All that a report is made from.
-struct Run {
+/// All that a report on a run is made from. `has_names`: its paths have them.
+template <typename PortType, bool has_names>
+struct RunOf {
+    using Port = PortType;
+
     const Options& options;
     const Scenario& scenario;
-    const Director& director;
-    const ports::Relay& relay;
+    const Paths& paths;
+    const Port& port;
     const Recorder& recorder;
     net::RealTime real_time;
     base::Duration elapsed{}; // since the sockets were bound
 };
 
+/// Of one pair.
+using Run = RunOf<ports::Links, false>;
+
+/// What is known of the direction that begins on this side.
+[[nodiscard]] DirectionOfRun direction_of(const ports::Relay::Side& side);
+
 /// The line that says that the emulator listens: "ready a=127.0.0.1:7001 b=... seed=42 ...".
 [[nodiscard]] std::string ready_line(const Run& run);
 
-/// Who is on each side: "a is 127.0.0.1:5000, b is not known yet".
-[[nodiscard]] std::string endpoints_line(const ports::Relay& relay);
-
 /// What of each direction differs from the default, as a profile says it.
 [[nodiscard]] nlohmann::ordered_json configuration_json(const Path& path);
+
+/// What is missing in the files that were asked for, a line each.
+[[nodiscard]] std::string incomplete(const Recorder& recorder);
 
 /// What --stats writes: one JSON object.
 [[nodiscard]] std::string statistics_json(const Run& run);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/scenario.hpp"
 
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
-#include "emulator/core/profile/timeline.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
 #include "emulator/tools/describe.hpp"
@@ -12,6 +12,7 @@
 #include "proto/base/text.hpp"
 #include "proto/net/text_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
@@ -22,12 +23,12 @@ namespace {
 
 /// What --profile or --netem says, before the settings of the command line.
 base::Result<Profile> profile_named(const ConditionOptions& options,
-                                    std::vector<std::string>& warnings)
+                                    std::vector<std::string>& warnings, const PathNames& names)
 {
     if (options.profile && options.netem) {
         return base::fail("a profile and --netem exclude each other: give one of them");
     }
-    if (options.profile) return load_profile(*options.profile);
+    if (options.profile) return load_profile(*options.profile, names);
     if (!options.netem) return Profile{};
     auto netem = tools::parse_netem(*options.netem);
     if (!netem) return base::fail(fmt::format("--netem: {}", netem.error().message));
@@ -39,29 +40,48 @@ base::Result<Profile> profile_named(const ConditionOptions& options,
     return profile;
 }
 
-base::Result<Path> with_typed(const Path& path, const std::vector<TypedSetting>& typed)
+/// The profile with the settings of the command line, which win over all that it says.
+base::Result<void> take_typed(Profile& profile, const std::vector<TypedSetting>& typed,
+                              const PathNames& names)
 {
     std::vector<Setting> settings;
-    for (const auto& [key, value] : typed) {
-        auto setting = parse_setting(key, value, net::text_of_file);
-        if (!setting) return base::fail("--" + setting.error().message);
+    auto paths = paths_in(profile);
+    for (const auto& [key, value, before_key] : typed) {
+        auto setting = parse_setting(key, value, net::text_of_file, names);
+        if (!setting) return base::fail(fmt::format("{}{}", before_key, setting.error().message));
+        const bool is_known =
+            setting->path.empty() || std::ranges::find(paths, setting->path) != paths.end();
+        if (!is_known) paths.push_back(setting->path);
         settings.push_back(*std::move(setting));
     }
-    return with_settings(path, settings);
+    auto all = with_settings(profile.path, settings);
+    if (!all) return tl::unexpected{all.error()};
+    std::vector<PathPatch> patches;
+    for (const std::string& path : paths) {
+        const auto own = with_settings(profile_of(profile, path).path, settings, path);
+        if (!own) return tl::unexpected{own.error()};
+        const PathPatch patch{path, difference(all->up, own->up), difference(all->down, own->down)};
+        if (patch.up == Patch{} && patch.down == Patch{}) continue;
+        patch_for(patches, path) = patch;
+    }
+    profile.path = *std::move(all);
+    profile.paths = std::move(patches);
+    return {};
 }
 
 /// What the conditions do at 1000 datagrams a second that a user may not have meant, with the
 /// numbers that a prediction finds.
-void warn_of_conditions(Scenario& scenario)
+void warn_of_conditions(Scenario& scenario, const std::string& path)
 {
     const tools::Stream stream{.packets = 20'000};
-    const Profile beginning{"", scenario.seed, scenario.profile.path, {}};
+    const Profile beginning{"", scenario.seed, profile_of(scenario.profile, path).path, {}};
     const auto& [up, down] = beginning.path;
     if (up == Conditions{} && down == Conditions{}) return;
     const tools::Prediction prediction = predict(beginning, stream, scenario.seed);
     const auto warn = [&](const char* where, const std::vector<std::string>& warnings) {
         for (const std::string& warning : warnings) {
-            scenario.warnings.push_back(fmt::format("{}: {}", where, warning));
+            scenario.warnings.push_back(
+                fmt::format("{}{}: {}", path.empty() ? "" : path + ", ", where, warning));
         }
     };
     const auto of_up = warnings(up, stream, prediction.up);
@@ -89,6 +109,19 @@ void make_absolute(std::vector<LossLaw>& laws, const std::string& beside)
     }
 }
 
+/// Of a change, or of a path.
+void make_absolute(auto& patches, const std::string& beside) requires requires
+{
+    patches.up.delay.has_value();
+}
+{
+    for (Patch* way : {&patches.up, &patches.down}) {
+        if (way->delay) make_absolute(*way->delay, beside);
+        if (way->jitter) make_absolute(*way->jitter, beside);
+        if (way->loss) make_absolute(*way->loss, beside);
+    }
+}
+
 void make_absolute(Profile& profile, const std::string& beside)
 {
     for (Conditions* way : {&profile.path.up, &profile.path.down}) {
@@ -96,27 +129,41 @@ void make_absolute(Profile& profile, const std::string& beside)
         make_absolute(way->jitter, beside);
         make_absolute(way->loss, beside);
     }
+    for (PathPatch& own : profile.paths) make_absolute(own, beside);
     for (Change& change : profile.timeline) {
-        for (Patch* way : {&change.up, &change.down}) {
-            if (way->delay) make_absolute(*way->delay, beside);
-            if (way->jitter) make_absolute(*way->jitter, beside);
-            if (way->loss) make_absolute(*way->loss, beside);
-        }
+        make_absolute(change, beside);
+        for (PathPatch& own : change.paths) make_absolute(own, beside);
     }
+}
+
+/// Whether the fates are those of paths that the run has.
+base::Result<void> replayable(const FatesOfPaths& fates, const PathNames& names)
+{
+    const bool is_single = names.links.empty() && !names.clients;
+    if (fates.contains("") != is_single && !fates.empty()) {
+        return base::fail(is_single ? "these are fates of several paths: replay them with the "
+                                      "same --link or --upstream"
+                                    : "these are fates of the only path of a run: replay them "
+                                      "with --listen-a and --listen-b");
+    }
+    for (const auto& [path, own] : fates) {
+        if (!names.contains(path)) return base::fail(names.refusal(path));
+    }
+    return {};
 }
 
 } // namespace
 
 base::Result<Profile> profile_for(const ConditionOptions& options,
-                                  std::vector<std::string>& warnings)
+                                  std::vector<std::string>& warnings, const PathNames& names)
 {
-    auto profile = profile_named(options, warnings);
+    auto profile = profile_named(options, warnings, names);
     if (!profile) return profile;
     make_absolute(*profile, options.profile.value_or(""));
-    auto path = with_typed(profile->path, options.settings);
-    if (!path) return tl::unexpected{path.error()};
-    profile->path = *std::move(path);
-    if (const auto valid = Timeline::validate(*profile); !valid) {
+    if (const auto taken = take_typed(*profile, options.settings, names); !taken) {
+        return tl::unexpected{taken.error()};
+    }
+    if (const auto valid = validate_timelines(*profile); !valid) {
         const auto& [index, message] = valid.error();
         return base::fail(fmt::format("the settings of the command line contradict change {} of "
                                       "the profile's timeline, at {}: {}",
@@ -131,10 +178,10 @@ base::Seed seed_of(const ConditionOptions& options, const Profile& profile)
     return options.seed ? *options.seed : profile.seed.value_or(base::Seed{1});
 }
 
-base::Result<Scenario> scenario_of(const Options& options)
+base::Result<Scenario> scenario_of(const Options& options, const PathNames& names)
 {
     Scenario scenario;
-    auto profile = profile_for(options.conditions, scenario.warnings);
+    auto profile = profile_for(options.conditions, scenario.warnings, names);
     if (!profile) return tl::unexpected{profile.error()};
     scenario.profile = *std::move(profile);
     scenario.seed = seed_of(options.conditions, scenario.profile);
@@ -142,12 +189,15 @@ base::Result<Scenario> scenario_of(const Options& options)
     if (options.replay) {
         auto fates = read_fates(*options.replay);
         if (!fates) return tl::unexpected{fates.error()};
-        scenario.replay = std::make_shared<const Fates>(*std::move(fates));
+        const auto fits = replayable(*fates, names);
+        if (!fits) return base::fail(fmt::format("{}: {}", *options.replay, fits.error().message));
+        scenario.replay = std::make_shared<const FatesOfPaths>(*std::move(fates));
         scenario.warnings.emplace_back("--replay gives the fates: mtu, loss, corrupt, duplicate, "
                                        "delay, jitter and reorder are those of the file; rate and "
                                        "order hold");
     } else {
-        warn_of_conditions(scenario);
+        warn_of_conditions(scenario, "");
+        for (const PathPatch& own : scenario.profile.paths) warn_of_conditions(scenario, own.path);
     }
     return scenario;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/fates/fates.hpp"
+#include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/profile.hpp"
 #include "emulator/options.hpp"
 #include "proto/base/random.hpp"
@@ -18,20 +19,23 @@ namespace hapnet::emulator {
 struct Scenario {
     Profile profile; // with the seed and the settings of the command line
     base::Seed seed{1};
-    std::shared_ptr<const Fates> replay; // null: fates are drawn
-    std::vector<std::string> warnings;   // for a person, a sentence each
+    std::shared_ptr<const FatesOfPaths> replay; // null: fates are drawn
+    std::vector<std::string> warnings;          // for a person, a sentence each
 };
 
 /// The profile that --profile, --netem and single settings make. Paths in it are absolute. A
-/// warning for each thing that netem would have done differently.
+/// warning for each thing that netem would have done differently. It may speak of the paths that
+/// `names` has.
 [[nodiscard]] base::Result<Profile> profile_for(const ConditionOptions& options,
-                                                std::vector<std::string>& warnings);
+                                                std::vector<std::string>& warnings,
+                                                const PathNames& names = {.any = true});
 
 /// The seed that draws: that of the command line, of the profile, or 1.
 [[nodiscard]] base::Seed seed_of(const ConditionOptions& options, const Profile& profile);
 
 /// Opens the files that the options name. The error is one of bad input: it names the option or
-/// the file and line.
-[[nodiscard]] base::Result<Scenario> scenario_of(const Options& options);
+/// the file and line. `names`: the paths of the run.
+[[nodiscard]] base::Result<Scenario> scenario_of(const Options& options,
+                                                 const PathNames& names = {});
 
 } // namespace hapnet::emulator

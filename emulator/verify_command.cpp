@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/commands.hpp"
 #include "emulator/core/fates/fates.hpp"
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "emulator/fates_file.hpp"
 #include "emulator/profile_file.hpp"
@@ -15,7 +16,9 @@
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -49,18 +52,32 @@ struct Evidence {
     Profile profile;
 };
 
-base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<Profile> profile)
+base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<Profile> profile,
+                                   const std::optional<std::string>& link)
 {
     auto fates = read_fates(fates_path);
     if (!fates) return tl::unexpected{fates.error()};
     if (!profile) return tl::unexpected{profile.error()};
-    return Evidence{*std::move(fates), *std::move(profile)};
+    const auto path = link.value_or("");
+    const auto own = fates->find(path);
+    if (own != fates->end()) return Evidence{std::move(own->second), profile_of(*profile, path)};
+    std::vector<std::string_view> names;
+    for (const auto& [name, of_path] : *fates) names.push_back(name);
+    if (names.size() == 1 && names.front().empty()) {
+        return base::fail(fmt::format("{} has fates of one path: leave out --link", fates_path));
+    }
+    return base::fail(fmt::format("{} has fates of several paths: name one with --link: {}",
+                                  fates_path, fmt::join(names, ", ")));
 }
 
 /// Whether the fates are those of all datagrams that the statistics count. Rows that are missing at
 /// the end of the table leave no gap in it.
-base::Result<Evidence> all_there(Evidence evidence, const nlohmann::json& statistics)
+base::Result<Evidence> all_there(Evidence evidence, const nlohmann::json& all,
+                                 const std::optional<std::string>& link)
 {
+    const auto links = all.value("links", nlohmann::json::object());
+    if (link && !links.contains(*link)) return evidence; // a client, which may be forgotten
+    const nlohmann::json& statistics = link ? links[*link] : all;
     const auto& [up, down] = evidence.fates;
     for (const auto& [direction, fates] : {std::pair{"up", &up}, std::pair{"down", &down}}) {
         const auto way = statistics.value(direction, nlohmann::json::object());
@@ -102,9 +119,10 @@ base::Result<Evidence> evidence_of_statistics(const VerifyOptions& request, cons
     };
     const auto profile = request.profile ? load_profile(*request.profile)
                                          : parse_profile(text_at("profile"), path, open);
-    auto evidence = evidence_in(std::filesystem::exists(fates) ? fates : beside, profile);
+    auto evidence =
+        evidence_in(std::filesystem::exists(fates) ? fates : beside, profile, request.link);
     if (!evidence) return evidence;
-    return all_there(*std::move(evidence), json);
+    return all_there(*std::move(evidence), json, request.link);
 }
 
 base::Result<Evidence> evidence_of(const VerifyOptions& request)
@@ -114,12 +132,13 @@ base::Result<Evidence> evidence_of(const VerifyOptions& request)
             return (std::filesystem::path{request.run} / name).string();
         };
         return evidence_in(inside("fates.csv"),
-                           load_profile(request.profile.value_or(inside("profile.toml"))));
+                           load_profile(request.profile.value_or(inside("profile.toml"))),
+                           request.link);
     }
     // Fates may be larger than what text_of_file() takes.
     const bool is_json = std::ifstream{request.run}.peek() == '{';
     if (!is_json && request.profile) {
-        return evidence_in(request.run, load_profile(*request.profile));
+        return evidence_in(request.run, load_profile(*request.profile), request.link);
     }
     const auto text = net::text_of_file(request.run);
     if (!text) return tl::unexpected{text.error()};
@@ -142,7 +161,8 @@ base::Result<int> run(const VerifyOptions& request)
     }
     const tools::Claim claim{.path = profile.path,
                              .seed = request.seed ? request.seed : profile.seed,
-                             .spacing = request.spacing};
+                             .spacing = request.spacing,
+                             .name = request.link.value_or("")};
     const auto verification = verify(claim, evidence->fates.up, evidence->fates.down);
     fmt::print("{}", request.as_json ? json_of(verification) : to_text(verification));
     return verification.failed() ? net::exit_failed : 0;

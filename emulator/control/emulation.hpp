@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/emulated_path.hpp"
+#include "emulator/core/paths.hpp"
 #include "proto/base/result.hpp"
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace hapnet::emulator {
 /// The running emulator as its control sees it. All functions are called from the thread that
 /// relays, between two datagrams.
 struct Emulation {
-    EmulatedPath& path;
+    Paths& paths;
     /// The statistics as one JSON object.
     std::function<std::string()> statistics_json;
     /// The text of a file that a profile or a setting names; `beside` is the file of the profile,

@@ -3,13 +3,19 @@
 #include "emulator/control/reply.hpp"
 
 #include "emulator/control/settings.hpp"
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "proto/base/ensure.hpp"
 #include "proto/control/core/reply.hpp"
 
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <span>
 #include <spdlog/fmt/fmt.h>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -38,86 +44,188 @@ OpenFile files_beside(const std::string& file, const Emulation& emulation)
     return [&emulation, file](const std::string& name) { return emulation.open(name, file); };
 }
 
-base::Result<Profile> profile_of(const ProfileText& text, const Emulation& emulation)
+base::Result<Profile> parsed(const ProfileText& text, const Emulation& emulation)
 {
-    return parse_profile(text.toml, text.file, files_beside(text.file, emulation));
+    return parse_profile(text.toml, text.file, files_beside(text.file, emulation),
+                         emulation.paths.names());
 }
 
-/// The answer to a command: from when on the conditions hold.
-std::string effect_of(const Command& command, Emulation& emulation, base::TimePoint now)
+/// The numbers of the next datagrams.
+Json next_numbers(const EmulatedPath& path)
 {
-    EmulatedPath& path = emulation.path;
-    const auto generation = path.director().generation();
-    if (const auto done = path.apply(command, now); !done) return refusal(done.error().message);
     const auto next = [&](Direction direction) {
         return path.link(direction).statistics().received;
     };
-    return line_of(
-        Json{{"ok", true},
-             {"generation", path.director().generation()},
-             {"changed", path.director().generation() != generation},
-             {"elapsed_s", base::to_seconds(path.director().elapsed())},
-             {"effective_at_ns", now.time_since_epoch().count()},
-             {"effective_at", {{"up", next(Direction::up)}, {"down", next(Direction::down)}}}});
+    return {{"up", next(Direction::up)}, {"down", next(Direction::down)}};
+}
+
+/// Of the only path, or of each by its name.
+Json effective_at(const Paths& paths)
+{
+    Json json = Json::object();
+    for (const auto& [name, path] : paths.all()) {
+        if (name.empty()) return next_numbers(*path);
+        json[name] = next_numbers(*path);
+    }
+    return json;
+}
+
+/// The answer to a command: from when on the conditions hold.
+std::string effect_of(const Paths::CommandFor& command, std::span<const std::string> mentioned,
+                      Emulation& emulation, base::TimePoint now)
+{
+    Paths& paths = emulation.paths;
+    const auto generation = paths.generation();
+    if (const auto done = paths.apply(command, mentioned, now); !done) {
+        return refusal(done.error().message);
+    }
+    return line_of(Json{{"ok", true},
+                        {"generation", paths.generation()},
+                        {"changed", paths.generation() != generation},
+                        {"elapsed_s", base::to_seconds(paths.elapsed())},
+                        {"effective_at_ns", now.time_since_epoch().count()},
+                        {"effective_at", effective_at(paths)}});
+}
+
+using Deciders = std::vector<Paths::Decider>;
+
+/// What is set by hand on several paths: one entry for all that ends at the same time.
+Json live_of_several(const Deciders& deciders, base::TimePoint now)
+{
+    std::map<std::optional<base::TimePoint>, std::vector<PathPatch>> by_end;
+    for (const auto& [name, director] : deciders) {
+        for (const Director::Override& one : director->overrides()) {
+            auto& patches = by_end[one.until];
+            const auto known = std::ranges::find(patches, name, &PathPatch::path);
+            PathPatch& patch = known != patches.end()
+                                   ? *known
+                                   : patches.emplace_back(PathPatch{std::string{name}, {}, {}});
+            patch.up = merged(std::move(patch.up), one.up);
+            patch.down = merged(std::move(patch.down), one.down);
+        }
+    }
+    Json live = Json::array();
+    for (auto& [end, patches] : by_end) {
+        const bool is_of_all = patches.size() == deciders.size();
+        const auto all = is_of_all ? joined(std::move(patches)) : JoinedPatch{{}, {}, patches};
+        Json settings = Json::object();
+        const auto add = [&](std::string_view path, const Patch& up, const Patch& down) {
+            for (const auto& [key, value] : texts_of(Direction::up, up, path)) {
+                settings[key] = value;
+            }
+            for (const auto& [key, value] : texts_of(Direction::down, down, path)) {
+                settings[key] = value;
+            }
+        };
+        add("", all.up, all.down);
+        for (const PathPatch& own : all.paths) add(own.path, own.up, own.down);
+        live.push_back({{"settings", std::move(settings)},
+                        {"remaining_s", seconds(end ? std::optional{*end - now} : std::nullopt)}});
+    }
+    return live;
+}
+
+Json live_of(const Director& director)
+{
+    Json live = Json::array();
+    for (const Director::Override& one : director.overrides()) {
+        std::optional<base::Duration> left;
+        if (one.until) left = *one.until - director.now();
+        live.push_back({{"settings", settings_json(one)}, {"remaining_s", seconds(left)}});
+    }
+    return live;
+}
+
+/// What is still to come; with clients, of those that have nothing of their own.
+Profile remaining_of(const Emulation& emulation, const Deciders& deciders)
+{
+    const bool has_clients = emulation.paths.names().clients;
+    if (has_clients || deciders.size() == 1) {
+        Profile remaining = deciders.back().director->remaining();
+        if (deciders.back().name.empty()) return remaining;
+    }
+    std::vector<NamedProfile> profiles;
+    for (const auto& [name, director] : deciders) {
+        profiles.push_back({std::string{name}, director->remaining()});
+    }
+    return joined(profiles);
 }
 
 } // namespace
 
 std::string reply_to(const ShowRequest& /*request*/, const Emulation& emulation)
 {
-    const Director& director = emulation.path.director();
+    const auto deciders = emulation.paths.deciders();
+    const Director& director = *deciders.back().director;
     const base::TimePoint now = director.now();
-    Json live = Json::array();
-    for (const Director::Override& one : director.overrides()) {
-        std::optional<base::Duration> left;
-        if (one.until) left = *one.until - now;
-        live.push_back({{"settings", settings_json(one)}, {"remaining_s", seconds(left)}});
-    }
     std::optional<base::Duration> next;
-    if (const auto change = director.next_change()) next = *change - now;
-    return line_of(Json{{"ok", true},
-                        {"generation", director.generation()},
-                        {"elapsed_s", base::to_seconds(director.elapsed())},
-                        {"timeline",
-                         {{"position_s", base::to_seconds(director.position())},
-                          {"changes", director.profile().timeline.size()},
-                          {"next_change_in_s", seconds(next)}}},
-                        {"live", std::move(live)},
-                        {"profile", to_text(director.remaining())}});
+    if (const auto change = emulation.paths.next_change()) next = *change - now;
+    const bool is_only = deciders.size() == 1;
+    return line_of(
+        Json{{"ok", true},
+             {"generation", emulation.paths.generation()},
+             {"elapsed_s", base::to_seconds(emulation.paths.elapsed())},
+             {"timeline",
+              {{"position_s", base::to_seconds(director.position())},
+               {"changes", director.profile().timeline.size()},
+               {"next_change_in_s", seconds(next)}}},
+             {"live", is_only && deciders.front().name.empty() ? live_of(director)
+                                                               : live_of_several(deciders, now)},
+             {"profile", to_text(remaining_of(emulation, deciders))}});
 }
 
 std::string reply_to(const SetRequest& request, Emulation& emulation, base::TimePoint now)
 {
-    auto set = set_of(request, emulation.path.director().path(), files_beside("", emulation));
-    return set ? effect_of(*std::move(set), emulation, now) : refusal(set.error().message);
+    const auto settings =
+        settings_of(request, files_beside("", emulation), emulation.paths.names());
+    if (!settings) return refusal(settings.error().message);
+    std::vector<std::string> mentioned;
+    for (const Setting& setting : *settings) {
+        if (!setting.path.empty()) mentioned.push_back(setting.path);
+    }
+    const auto command = [&](std::string_view name, const Path& path) {
+        return set_of(*settings, request.lasting, name, path).map([](Set set) {
+            return Command{std::move(set)};
+        });
+    };
+    return effect_of(command, mentioned, emulation, now);
 }
 
 std::string reply_to(const ApplyRequest& request, Emulation& emulation, base::TimePoint now)
 {
-    auto profile = profile_of(request.profile, emulation);
+    const auto profile = parsed(request.profile, emulation);
     if (!profile) return refusal(profile.error().message);
-    return effect_of(Apply{*std::move(profile)}, emulation, now);
+    const auto command = [&](std::string_view name, const Path& /*path*/) -> base::Result<Command> {
+        return Apply{profile_of(*profile, name)};
+    };
+    return effect_of(command, paths_in(*profile), emulation, now);
 }
 
 std::string reply_to(const DiffRequest& request, const Emulation& emulation)
 {
-    const auto profile = profile_of(request.profile, emulation);
+    const auto profile = parsed(request.profile, emulation);
     if (!profile) return refusal(profile.error().message);
-    const Director& director = emulation.path.director();
+    const auto deciders = emulation.paths.deciders();
     Json changes = Json::array();
-    for (const auto& [key, from, to] : differences(director.path(), profile->path)) {
-        changes.push_back({{"key", key}, {"from", from}, {"to", to}});
+    bool is_other_timeline = false;
+    for (const auto& [name, director] : deciders) {
+        const Profile own = profile_of(*profile, name);
+        for (const auto& [key, from, to] : differences(director->path(), own.path, name)) {
+            changes.push_back({{"key", key}, {"from", from}, {"to", to}});
+        }
+        is_other_timeline = is_other_timeline || director->remaining().timeline != own.timeline;
     }
-    const auto steps = director.remaining().timeline.size();
+    const auto steps = deciders.back().director->remaining().timeline.size();
     return line_of(Json{{"ok", true},
                         {"changes", std::move(changes)},
                         {"timeline", {{"from", steps}, {"to", profile->timeline.size()}}},
-                        {"is_other_timeline", director.remaining().timeline != profile->timeline}});
+                        {"is_other_timeline", is_other_timeline}});
 }
 
 std::string reply_to(const ResetRequest& /*request*/, Emulation& emulation, base::TimePoint now)
 {
-    return effect_of(Reset{}, emulation, now);
+    return effect_of([](std::string_view, const Path&) -> base::Result<Command> { return Reset{}; },
+                     {}, emulation, now);
 }
 
 nlohmann::ordered_json statistics_of(const Emulation& emulation)
@@ -125,8 +233,8 @@ nlohmann::ordered_json statistics_of(const Emulation& emulation)
     auto json = Json::parse(emulation.statistics_json(), nullptr,
                             /*allow_exceptions*/ false);
     base::ensure(json.is_object());
-    json["generation"] = emulation.path.director().generation();
-    json["elapsed_s"] = base::to_seconds(emulation.path.director().elapsed());
+    json["generation"] = emulation.paths.generation();
+    json["elapsed_s"] = base::to_seconds(emulation.paths.elapsed());
     return json;
 }
 
@@ -134,6 +242,7 @@ control::Answer answer_to(std::string_view line, Emulation& emulation, base::Tim
 {
     const auto request = parse_request(line);
     if (!request) return refusal(request.error().message);
+    emulation.paths.catch_up(now);
     if (const auto* one = std::get_if<ShowRequest>(&*request)) return reply_to(*one, emulation);
     if (const auto* set = std::get_if<SetRequest>(&*request)) {
         return reply_to(*set, emulation, now);

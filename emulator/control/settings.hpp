@@ -8,20 +8,30 @@
 #include "emulator/core/profile/text.hpp"
 #include "proto/base/result.hpp"
 
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hapnet::emulator {
 
 // Between the texts of requests and replies and the values that they stand for.
 
-/// What the request means while `path` holds: burst_loss changes the list of losses that holds.
-/// "up.…" and "down.…" win over "both.…"; otherwise a later setting wins over an earlier one.
-[[nodiscard]] base::Result<Set> set_of(const SetRequest& request, const Path& path,
-                                       const OpenFile& open);
+/// The settings of a request, of the paths that `names` has.
+[[nodiscard]] base::Result<std::vector<Setting>>
+settings_of(const SetRequest& request, const OpenFile& open, const PathNames& names);
+
+/// What settings mean for the path called `name` while `path` holds on it: burst_loss changes the
+/// list of losses that holds. Of those that contradict each other wins the one that with_settings()
+/// says.
+[[nodiscard]] base::Result<Set> set_of(std::span<const Setting> settings,
+                                       std::optional<base::Duration> lasting, std::string_view name,
+                                       const Path& path);
 
 /// What a patch sets one way: {"up.delay", "80ms"}, ...; a value is what parse_setting() reads.
-[[nodiscard]] std::vector<SettingText> texts_of(Direction direction, const Patch& patch);
+[[nodiscard]] std::vector<SettingText> texts_of(Direction direction, const Patch& patch,
+                                                std::string_view path = {});
 
 /// A setting that differs between two paths. "none": it does nothing there.
 struct Difference {
@@ -31,6 +41,7 @@ struct Difference {
 
     friend bool operator==(const Difference&, const Difference&) = default;
 };
-[[nodiscard]] std::vector<Difference> differences(const Path& from, const Path& to);
+[[nodiscard]] std::vector<Difference> differences(const Path& from, const Path& to,
+                                                  std::string_view path = {});
 
 } // namespace hapnet::emulator

@@ -92,8 +92,12 @@ bool Director::advance(base::TimePoint now)
 base::Result<void> Director::apply(const Command& command, base::TimePoint now)
 {
     advance(now);
-    if (const auto* set = std::get_if<Set>(&command)) return take(*set);
-    if (const auto* other = std::get_if<Apply>(&command)) {
+    if (const auto* set = std::get_if<Set>(&command)) {
+        auto overrides = overrides_with(*set);
+        if (!overrides) return tl::unexpected{overrides.error()};
+        overrides_ = *std::move(overrides);
+        update();
+    } else if (const auto* other = std::get_if<Apply>(&command)) {
         follow(other->profile, now_);
     } else {
         follow(started_with_, start_);
@@ -101,7 +105,14 @@ base::Result<void> Director::apply(const Command& command, base::TimePoint now)
     return {};
 }
 
-base::Result<void> Director::take(const Set& set)
+base::Result<void> Director::check(const Command& command) const
+{
+    const auto* set = std::get_if<Set>(&command);
+    if (set == nullptr) return {};
+    return overrides_with(*set).map([](const auto&) {});
+}
+
+base::Result<std::vector<Director::Override>> Director::overrides_with(const Set& set) const
 {
     std::optional<base::TimePoint> until;
     if (set.lasting) {
@@ -119,9 +130,7 @@ base::Result<void> Director::take(const Set& set)
                                       "expire, or run reset",
                                       overrides_max));
     }
-    overrides_ = std::move(overrides);
-    update();
-    return {};
+    return overrides;
 }
 
 void Director::follow(const Profile& profile, base::TimePoint begin)

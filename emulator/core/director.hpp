@@ -75,6 +75,9 @@ public:
     /// refused.
     base::Result<void> apply(const Command& command, base::TimePoint now);
 
+    /// Whether apply() would refuse it after advance().
+    [[nodiscard]] base::Result<void> check(const Command& command) const;
+
     [[nodiscard]] const Profile& profile() const { return profile_; }
 
     /// What is set by hand; a later one wins over an earlier one.
@@ -94,7 +97,7 @@ public:
     [[nodiscard]] Profile remaining() const;
 
 private:
-    base::Result<void> take(const Set& set);
+    [[nodiscard]] base::Result<std::vector<Override>> overrides_with(const Set& set) const;
     void follow(const Profile& profile, base::TimePoint begin);
     void let_later_steps_win(base::Duration before);
     bool update();

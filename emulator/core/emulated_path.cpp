@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/emulated_path.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -28,14 +29,13 @@ Link make_link(const Path& path, const EmulatedPath::Setup& setup,
 
 } // namespace
 
-EmulatedPath::EmulatedPath(const Profile& profile, const Setup& setup)
-    : EmulatedPath{profile, setup,
+EmulatedPath::EmulatedPath(Director director, const Setup& setup)
+    : EmulatedPath{std::move(director), setup,
                    setup.slab ? setup.slab : std::make_shared<Slab>(setup.limits.bytes_max)}
 {}
 
-EmulatedPath::EmulatedPath(const Profile& profile, const Setup& setup,
-                           const std::shared_ptr<Slab>& slab)
-    : director_{profile, setup.start},
+EmulatedPath::EmulatedPath(Director director, const Setup& setup, const std::shared_ptr<Slab>& slab)
+    : director_{std::move(director)},
       up_{make_link(director_.path(), setup, slab, Direction::up)},
       down_{make_link(director_.path(), setup, slab, Direction::down)}
 {}

@@ -29,15 +29,21 @@ public:
         std::shared_ptr<Slab> slab{};          // null: one for both, as large as the limits say
         std::shared_ptr<const Fates> replay{}; // null: fates are drawn
         bool has_stream_statistics = true;     // false: they are not asked for
-        std::string name{};                    // where there are several; see Pipeline
+        std::string name{};                    // where there are several; see path_name.hpp
     };
 
-    EmulatedPath(const Profile& profile, const Setup& setup);
+    EmulatedPath(const Profile& profile, const Setup& setup)
+        : EmulatedPath{Director{profile, setup.start}, setup}
+    {}
+    /// Goes on where the director stands.
+    EmulatedPath(Director director, const Setup& setup);
 
-    /// Follows the timeline up to `now`. Cheap when nothing changes.
-    void advance(base::TimePoint now)
+    /// Follows the timeline up to `now`. Cheap when nothing changes. Returns whether something has.
+    bool advance(base::TimePoint now)
     {
-        if (director_.advance(now)) enact(now);
+        const bool has_changed = director_.advance(now);
+        if (has_changed) enact(now);
+        return has_changed;
     }
 
     /// Takes the next datagram of a direction, which arrived at `arrival`; see Link::on_packet().
@@ -88,7 +94,7 @@ public:
     }
 
 private:
-    EmulatedPath(const Profile& profile, const Setup& setup, const std::shared_ptr<Slab>& slab);
+    EmulatedPath(Director director, const Setup& setup, const std::shared_ptr<Slab>& slab);
 
     [[nodiscard]] Link& link_of(Direction direction)
     {

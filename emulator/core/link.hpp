@@ -49,7 +49,7 @@ public:
         std::shared_ptr<Slab> slab{};      // for the bytes in flight; null: one of its own
         std::optional<Replay> replay{};    // gives the fates instead of the conditions
         bool has_stream_statistics = true; // false: they are not asked for
-        std::string name{};                // of the path, where there are several: "client/1"
+        std::string name{};                // of the path, where there are several: "1-2"
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/pipeline.hpp"
 
+#include "emulator/core/path_name.hpp"
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
@@ -28,8 +29,7 @@ bool is_drawn(base::Probability share, const base::RandomStream& stream, std::ui
 Pipeline::Pipeline(const Conditions& conditions, base::Seed seed, Direction direction,
                    std::string_view path)
     : seed_{seed},
-      way_{path.empty() ? std::string{to_text(direction)}
-                        : fmt::format("{}/{}", path, to_text(direction))},
+      way_{stream_name(path, direction)},
       mtu_{conditions.mtu},
       corrupt_{conditions.corrupt},
       corrupt_stream_{stream_of(seed, way_, "corrupt")},

@@ -24,7 +24,7 @@ namespace hapnet::emulator {
 /// reorder. The rate and the order of departure are kept by Link.
 class Pipeline {
 public:
-    /// The streams of a path with a name begin with it: "client/1/up/jitter".
+    /// The streams of a path with a name begin with it: "client/1/up/jitter"; see stream_name().
     Pipeline(const Conditions& conditions, base::Seed seed, Direction direction,
              std::string_view path = {});
 

@@ -24,6 +24,21 @@ struct QueueLimits {
         return {.datagrams_max = datagrams_of(bytes), .bytes_max = bytes};
     }
 
+    /// Those of one of several paths that share so much memory: it may have more than its part
+    /// while others need less, and a few datagrams in any case.
+    [[nodiscard]] static constexpr QueueLimits shared(std::size_t bytes, std::size_t paths)
+    {
+        constexpr std::size_t parts = 4;
+        constexpr std::size_t one_path_datagrams_min = 1024;
+        constexpr std::size_t one_path_bytes_min = std::size_t{1} << 20;
+        const auto all = within(bytes);
+        const auto part = [&](std::size_t of, std::size_t least) {
+            return std::min(of, std::max(least, of / paths * parts));
+        };
+        return {.datagrams_max = part(all.datagrams_max, one_path_datagrams_min),
+                .bytes_max = part(all.bytes_max, one_path_bytes_min)};
+    }
+
 private:
     static constexpr std::size_t datagrams_of(std::size_t bytes)
     {

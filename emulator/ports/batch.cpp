@@ -25,6 +25,26 @@ DropCause cause_of(net::SendOutcome outcome)
 
 } // namespace
 
+void Batch::take(const net::Received& datagram, const Entrance& entrance)
+{
+    const Admission admission = way_.path.on_packet(way_.direction, datagram.bytes, datagram.at,
+                                                    exit_.destination.has_value());
+    way_.recorder.on_fate(way_.recorded_as, way_.direction, admission.number, admission.fate);
+    if (way_.recorder.captures()) {
+        Fate fate = admission.fate;
+        fate.drop = admission.drop;
+        way_.recorder.on_arrival({.side = entrance.side,
+                                  .is_outbound = false,
+                                  .at = datagram.at,
+                                  .from = udp_address_of(datagram.from),
+                                  .to = udp_address_of(entrance.local),
+                                  .payload = datagram.bytes,
+                                  .pair = way_.pair},
+                                 fate);
+    }
+    if (admission.departure) add(*admission.departure);
+}
+
 void Batch::flush()
 {
     if (count_ == 0) return;
@@ -35,7 +55,7 @@ void Batch::flush()
         if (outcomes[i] == net::SendOutcome::sent) {
             on_sent(departures_[i], at);
         } else {
-            path_.on_failed(direction_, departures_[i], cause_of(outcomes[i]));
+            way_.path.on_failed(way_.direction, departures_[i], cause_of(outcomes[i]));
         }
     }
     count_ = 0;
@@ -43,25 +63,25 @@ void Batch::flush()
 
 void Batch::on_sent(const Datagram& departure, base::TimePoint at)
 {
-    if (recorder_.captures()) {
-        recorder_.on_departure({.side = exit_.side,
-                                .is_outbound = true,
-                                .at = at,
-                                .from = udp_address_of(exit_.local),
-                                .to = udp_address_of(*exit_.destination),
-                                .payload = departure.bytes},
-                               at - departure.due, departure.is_copy);
+    if (way_.recorder.captures()) {
+        way_.recorder.on_departure({.side = exit_.side,
+                                    .is_outbound = true,
+                                    .at = at,
+                                    .from = udp_address_of(exit_.local),
+                                    .to = udp_address_of(*exit_.destination),
+                                    .payload = departure.bytes,
+                                    .pair = way_.pair},
+                                   at - departure.due, departure.is_copy);
     }
-    path_.on_sent(direction_, departure, at); // its bytes go
+    way_.path.on_sent(way_.direction, departure, at); // its bytes go
 }
 
-bool send_due(EmulatedPath& path, Direction direction, const Exit& exit, Recorder& recorder,
-              base::TimePoint now)
+bool send_due(const Way& way, const Exit& exit, base::TimePoint now)
 {
-    if (!base::is_due(path.link(direction).next_deadline(), now)) return false;
-    Batch due{path, direction, exit, recorder};
+    if (!base::is_due(way.path.link(way.direction).next_deadline(), now)) return false;
+    Batch due{way, exit};
     for (std::size_t i = 0; i < net::BatchSender::batch_max; ++i) {
-        const auto departure = path.poll(direction, now);
+        const auto departure = way.path.poll(way.direction, now);
         if (!departure) {
             due.flush();
             return false;
@@ -69,6 +89,20 @@ bool send_due(EmulatedPath& path, Direction direction, const Exit& exit, Recorde
         due.add(*departure);
     }
     return true;
+}
+
+void send_due(const Way& up, const Exit& up_exit, const Way& down, const Exit& down_exit,
+              base::TimePoint now)
+{
+    // Twice what one receive() takes with a copy of each: a flood cannot fill the queue by being
+    // taken faster than it is sent, and what it left behind there shrinks while it goes on.
+    constexpr int rounds_max = 32;
+    bool has_more_up = true;
+    bool has_more_down = true;
+    for (int round = 0; round < rounds_max && (has_more_up || has_more_down); ++round) {
+        if (has_more_up) has_more_up = send_due(up, up_exit, now);
+        if (has_more_down) has_more_down = send_due(down, down_exit, now);
+    }
 }
 
 } // namespace hapnet::emulator::ports

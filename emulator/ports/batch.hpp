@@ -10,9 +10,26 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 
 namespace hapnet::emulator::ports {
+
+/// One direction of a path, and where it is recorded.
+struct Way {
+    EmulatedPath& path;
+    Direction direction;
+    Recorder& recorder;
+    std::uint32_t recorded_as = 0; // by its fates
+    std::uint32_t pair = 0;        // of interfaces in the capture
+};
+
+/// Where the datagrams of one direction come in.
+struct Entrance {
+    CaptureSide side;
+    const net::Endpoint& local; // of the socket
+};
 
 /// Where the datagrams of one direction leave.
 struct Exit {
@@ -25,9 +42,10 @@ struct Exit {
 /// What leaves in one direction: gathered and sent together. Flush it before the bytes go.
 class Batch {
 public:
-    Batch(EmulatedPath& path, Direction direction, const Exit& exit, Recorder& recorder)
-        : path_{path}, direction_{direction}, exit_{exit}, recorder_{recorder}
-    {}
+    Batch(const Way& way, const Exit& exit) : way_{way}, exit_{exit} {}
+
+    /// Shows the path a datagram that has arrived, and adds it if it is not delayed.
+    void take(const net::Received& datagram, const Entrance& entrance);
 
     void add(const Datagram& departure)
     {
@@ -43,10 +61,8 @@ public:
 private:
     void on_sent(const Datagram& departure, base::TimePoint at);
 
-    EmulatedPath& path_;
-    Direction direction_;
+    Way way_;
     Exit exit_;
-    Recorder& recorder_;
     std::size_t count_ = 0;
     std::array<Datagram, net::BatchSender::batch_max> departures_;
     std::array<std::span<const std::byte>, net::BatchSender::batch_max> bytes_;
@@ -54,12 +70,11 @@ private:
 
 /// Sends at most one batch of what is due at `now` in a direction; returns whether it was a whole
 /// one.
-bool send_due(EmulatedPath& path, Direction direction, const Exit& exit, Recorder& recorder,
-              base::TimePoint now);
+bool send_due(const Way& way, const Exit& exit, base::TimePoint now);
 
-/// Batches of each direction that one release() sends at most. Twice what one receive() takes with
-/// a copy of each: a flood cannot fill the queue by being taken faster than it is sent, and what
-/// it left behind there shrinks while it goes on.
-inline constexpr int release_rounds_max = 32;
+/// Sends what is due of both directions, in turn; so much at most that what arrives does not have
+/// to wait long. What is left is still due.
+void send_due(const Way& up, const Exit& up_exit, const Way& down, const Exit& down_exit,
+              base::TimePoint now);
 
 } // namespace hapnet::emulator::ports

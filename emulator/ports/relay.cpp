@@ -8,81 +8,95 @@
 
 namespace hapnet::emulator::ports {
 
-int Relay::pass(Side& from, Side& to)
+/// Why the datagram is not to pass; nullopt: it is one of the side's peer, which may be a new one.
+std::optional<Relay::Refusal> Relay::refusal_of(Side& from, const net::Received& datagram)
 {
-    const auto arrived = from.socket.receive();
-    if (arrived.empty()) return 0;
-    int adopted = 0;
-    Batch undelayed{path_, from.direction, to.exit(), recorder_};
-    for (const net::Received& datagram : arrived) {
+    if (from.filter.address() != datagram.from) {
         // What seems to come from ourselves is forged: adopted, it would go round for ever.
-        const bool is_own = datagram.from == from.local || datagram.from == to.local;
-        const Sender sender =
-            is_own ? Sender::unknown : from.filter.classify(datagram.from, datagram.at);
-        if (sender == Sender::unknown) {
-            from.on_stranger(datagram.from, datagram.at, is_own);
-            continue;
-        }
-        if (sender == Sender::adopted) ++adopted;
-        const Admission admission = path_.on_packet(from.direction, datagram.bytes, datagram.at,
-                                                    to.filter.address().has_value());
-        recorder_.on_fate(from.direction, admission.number, admission.fate);
-        if (recorder_.captures()) {
-            Fate fate = admission.fate;
-            fate.drop = admission.drop;
-            recorder_.on_arrival({.side = from.side,
-                                  .is_outbound = false,
-                                  .at = datagram.at,
-                                  .from = udp_address_of(datagram.from),
-                                  .to = udp_address_of(from.local),
-                                  .payload = datagram.bytes},
-                                 fate);
-        }
-        if (admission.departure) undelayed.add(*admission.departure);
+        if (own_.contains(datagram.from)) return Refusal::is_own;
+        if (from.allowed && !from.allowed->contains(datagram.from)) return Refusal::not_allowed;
     }
-    undelayed.flush();
-    return adopted;
+    switch (from.filter.classify(datagram.from, datagram.at)) {
+    case Sender::known: return std::nullopt;
+    case Sender::adopted: has_adopted_ = true; return std::nullopt;
+    case Sender::unknown: break;
+    }
+    return from.filter.adopts() ? Refusal::side_is_taken : Refusal::not_the_peer;
 }
 
-Relay::Side::Side(CaptureSide which, const net::Endpoint& listen,
-                  const std::optional<net::Endpoint>& peer, const Link& from_here)
+void Relay::pass(Side& from, Side& to)
+{
+    const auto arrived = from.socket.receive();
+    if (arrived.empty()) return;
+    Batch undelayed{way(from.direction), to.exit()};
+    for (const net::Received& datagram : arrived) {
+        if (const auto refusal = refusal_of(from, datagram)) {
+            from.on_stranger(datagram, *refusal);
+            continue;
+        }
+        paths_.advance(datagram.at);
+        undelayed.take(datagram, from.entrance());
+    }
+    undelayed.flush();
+}
+
+Relay::Side::Side(CaptureSide which, const Endpoints& endpoints, const Link& from_here)
     : side{which},
       direction{which == CaptureSide::a ? Direction::up : Direction::down},
-      socket{listen, net::Load::bulk},
+      socket{which == CaptureSide::a ? endpoints.listen_a : endpoints.listen_b, net::Load::bulk},
       local{socket.local()},
-      filter{peer},
+      filter{which == CaptureSide::a ? endpoints.a : endpoints.b},
+      allowed{which == CaptureSide::a ? endpoints.allowed_a : endpoints.allowed_b},
       link{from_here}
 {}
 
-void Relay::Side::on_stranger(const net::Endpoint& who, base::TimePoint at, bool is_own)
+void Relay::Side::on_stranger(const net::Received& datagram, Refusal why)
 {
     ++strangers;
-    if (!notice.permits(at)) return;
-    stranger = Stranger{who, filter.address(), filter.heard_at(), filter.adopts(), is_own, at};
+    if (!notice.permits(datagram.at)) return;
+    stranger = Stranger{datagram.from, filter.address(), filter.heard_at(), why, datagram.at};
 }
 
-Relay::Relay(const Endpoints& endpoints, EmulatedPath& path, Recorder& recorder)
-    : path_{path},
+Relay::Relay(const Endpoints& endpoints, Paths& paths, Recorder& recorder, const Among& among)
+    : name_{among.name},
+      paths_{paths},
+      path_{paths.add(among.name)},
       recorder_{recorder},
-      a_{CaptureSide::a, endpoints.listen_a, endpoints.a, path.link(Direction::up)},
-      b_{CaptureSide::b, endpoints.listen_b, endpoints.b, path.link(Direction::down)}
-{}
+      recorded_as_{recorder.add_path(among.name)},
+      pair_{among.pair},
+      own_{among.own},
+      a_{CaptureSide::a, endpoints, path_.link(Direction::up)},
+      b_{CaptureSide::b, endpoints, path_.link(Direction::down)}
+{
+    own_.add(a_.local);
+    own_.add(b_.local);
+}
 
 namespace {
 
-std::string notice_of(const Relay::Side& side, const Relay::Stranger& stranger)
+std::string notice_of(const std::string& link, const Relay::Side& side,
+                      const Relay::Stranger& stranger)
 {
-    const char name = side.side == CaptureSide::a ? 'a' : 'b';
-    const auto said = fmt::format("{} sends to --listen-{} {}", stranger.who.to_text(), name,
-                                  side.local.to_text());
-    if (stranger.is_own) {
+    const bool is_a = side.side == CaptureSide::a;
+    const auto place = link.empty() ? fmt::format("--listen-{}", is_a ? 'a' : 'b')
+                                    : fmt::format("LISTEN_{} of --link {}", is_a ? 1 : 2, link);
+    const auto said =
+        fmt::format("{} sends to {} {}", stranger.who.to_text(), place, side.local.to_text());
+    switch (stranger.why) {
+    case Relay::Refusal::is_own:
         return fmt::format("{}: dropped, as it names the emulator's own address as its sender",
                            said);
-    }
-    if (!stranger.adopts) {
-        return fmt::format(
-            "{0}: dropped, as only {1} may; to let it in, start again with --{2} {3}", said,
-            stranger.owner->to_text(), name, stranger.who.to_text());
+    case Relay::Refusal::not_allowed:
+        return fmt::format("{}: dropped, as {} does not name it", said,
+                           link.empty() ? fmt::format("--{}", is_a ? 'a' : 'b')
+                                        : fmt::format("END_{}", is_a ? 1 : 2));
+    case Relay::Refusal::not_the_peer:
+        return fmt::format("{}: dropped, as only {} may; to let it in, start again with {} {}",
+                           said, stranger.owner->to_text(),
+                           link.empty() ? fmt::format("--{}", is_a ? 'a' : 'b')
+                                        : fmt::format("END_{}", is_a ? 1 : 2),
+                           stranger.who.to_text());
+    case Relay::Refusal::side_is_taken: break;
     }
     const std::chrono::duration<double, std::milli> ago{stranger.at - stranger.owner_heard};
     return fmt::format("{}: dropped, as {} has that side and was heard {:.0f} ms ago; another "
@@ -90,28 +104,38 @@ std::string notice_of(const Relay::Side& side, const Relay::Stranger& stranger)
                        said, stranger.owner->to_text(), ago.count());
 }
 
+std::string who(const Relay::Side& side)
+{
+    const auto& address = side.filter.address();
+    return address ? address->to_text() : std::string{"not known yet"};
+}
+
 } // namespace
 
 std::optional<std::string> Relay::next_notice()
 {
+    if (std::exchange(has_adopted_, false)) {
+        const bool is_named = !name_.empty();
+        return fmt::format("{}{} is {}, {} is {}", is_named ? name_ + ": " : "",
+                           is_named ? "end 1" : "a", who(a_), is_named ? "end 2" : "b", who(b_));
+    }
     for (Side* side : {&a_, &b_}) {
         if (const auto stranger = std::exchange(side->stranger, std::nullopt)) {
-            return notice_of(*side, *stranger);
+            return notice_of(name_, *side, *stranger);
         }
     }
     return std::nullopt;
 }
 
-int Relay::receive() { return pass(a_, b_) + pass(b_, a_); }
+void Relay::receive()
+{
+    pass(a_, b_);
+    pass(b_, a_);
+}
 
 void Relay::release(base::TimePoint now)
 {
-    bool a_has_more = true;
-    bool b_has_more = true;
-    for (int round = 0; round < release_rounds_max && (a_has_more || b_has_more); ++round) {
-        if (a_has_more) a_has_more = send_due(path_, Direction::up, b_.exit(), recorder_, now);
-        if (b_has_more) b_has_more = send_due(path_, Direction::down, a_.exit(), recorder_, now);
-    }
+    send_due(way(Direction::up), b_.exit(), way(Direction::down), a_.exit(), now);
 }
 
 } // namespace hapnet::emulator::ports

@@ -3,11 +3,12 @@
 #pragma once
 
 #include "emulator/core/capture/pcapng.hpp"
-#include "emulator/core/emulated_path.hpp"
 #include "emulator/core/endpoint_filter.hpp"
+#include "emulator/core/paths.hpp"
 #include "emulator/core/rate_limit.hpp"
 #include "emulator/endpoints.hpp"
 #include "emulator/ports/batch.hpp"
+#include "emulator/ports/own_sockets.hpp"
 #include "emulator/recorder.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/endpoint.hpp"
@@ -19,68 +20,96 @@
 
 namespace hapnet::emulator::ports {
 
-/// The two sockets and the path between them. Moves datagrams; EmulatedPath and EndpointFilter take
+/// Two sockets and the path between them. Moves datagrams; EmulatedPath and EndpointFilter take
 /// every decision.
 class Relay {
 public:
-    /// Binds both sockets. Throws std::system_error when it cannot. The path and the recorder
-    /// outlive it.
-    Relay(const Endpoints& endpoints, EmulatedPath& path, Recorder& recorder);
+    /// What it has among the relays of a run: a name, unless it is the only one, all sockets, and
+    /// its place in the capture.
+    struct Among {
+        std::string name;
+        OwnSockets& own;
+        std::uint32_t pair = 0;
+    };
+
+    /// Binds both sockets. Throws std::system_error when it cannot. The paths, the recorder and
+    /// what it is among outlive it.
+    Relay(const Endpoints& endpoints, Paths& paths, Recorder& recorder, const Among& among);
+    Relay(const Relay&) = delete;
+    Relay& operator=(const Relay&) = delete;
+    ~Relay() = default;
 
     /// Takes what has arrived, at most one batch a side, so that a flood cannot hold up what is
     /// due, and sends on at once what is not delayed. Conditions that change in the meantime hold
-    /// from the first datagram that arrived after their time. Returns how many senders were
-    /// adopted by that.
-    int receive();
+    /// from the first datagram that arrived after their time.
+    void receive();
+    /// The same of one side.
+    void receive_from_a() { pass(a_, b_); }
+    void receive_from_b() { pass(b_, a_); }
 
     /// Sends what is due at `now`, the two sides in turn; so much at most that what arrives does
     /// not have to wait long. What is left is still due.
     void release(base::TimePoint now);
+
+    /// Why a datagram was dropped before the path saw it.
+    enum class Refusal : std::uint8_t { is_own, not_allowed, not_the_peer, side_is_taken };
 
     /// Somebody whose datagram was dropped, and why.
     struct Stranger {
         net::Endpoint who;
         std::optional<net::Endpoint> owner; // of this side
         base::TimePoint owner_heard{};
-        bool adopts = false; // this side takes another one when its owner is silent
-        bool is_own = false; // forged
+        Refusal why = Refusal::is_own;
         base::TimePoint at{};
     };
 
     /// One side of the relay, and the direction that begins there.
     struct Side {
-        Side(CaptureSide which, const net::Endpoint& listen,
-             const std::optional<net::Endpoint>& peer, const Link& from_here);
+        Side(CaptureSide which, const Endpoints& endpoints, const Link& from_here);
 
         CaptureSide side;
         Direction direction; // of the datagrams that come from here
         net::UdpSocket socket;
         net::Endpoint local;
         EndpointFilter<net::Endpoint> filter;
-        const Link& link;            // of that direction
+        std::optional<net::AddressSet> allowed; // that may be adopted; nullopt: whoever comes
+        const Link& link;                       // of that direction
         std::uint64_t strangers = 0; // datagrams from any other address, our own among them
         RateLimit notice{};
         std::optional<Stranger> stranger{}; // one that nobody has been told of
 
+        [[nodiscard]] Entrance entrance() const { return {side, local}; }
         [[nodiscard]] Exit exit() { return {side, socket, local, filter.address()}; }
 
-        void on_stranger(const net::Endpoint& who, base::TimePoint at, bool is_own);
+        void on_stranger(const net::Received& datagram, Refusal why);
     };
 
-    /// A stranger of either side that somebody should be told of, once for each; nullopt: there is
-    /// none. After one no other of its side is named for a while.
+    /// What somebody should be told: who is on which side now, or of a stranger, once of each;
+    /// nullopt: there is nothing. After a stranger no other of its side is named for a while.
     [[nodiscard]] std::optional<std::string> next_notice();
 
+    [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const Side& a() const { return a_; }
     [[nodiscard]] const Side& b() const { return b_; }
 
 private:
-    int pass(Side& from, Side& to);
+    void pass(Side& from, Side& to);
+    [[nodiscard]] std::optional<Refusal> refusal_of(Side& from, const net::Received& datagram);
+    [[nodiscard]] Way way(Direction direction) const
+    {
+        return {path_, direction, recorder_, recorded_as_, pair_};
+    }
 
+    std::string name_;
+    Paths& paths_;
     EmulatedPath& path_;
     Recorder& recorder_;
+    std::uint32_t recorded_as_;
+    std::uint32_t pair_;
+    OwnSockets& own_;
     Side a_;
     Side b_;
+    bool has_adopted_ = false; // and nobody has been told
 };
 
 } // namespace hapnet::emulator::ports

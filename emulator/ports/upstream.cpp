@@ -20,64 +20,50 @@ net::Endpoint place_towards(const net::Endpoint& server)
     return net::resolve({host, 0}, server.family());
 }
 
-/// A client may have more than its part of the memory while others need less, and a few datagrams
-/// in any case.
-QueueLimits limits_of(const Upstream::Setup& setup)
-{
-    constexpr std::size_t parts = 4;
-    constexpr std::size_t datagrams_min = 1024;
-    const auto all = QueueLimits::within(setup.in_flight_bytes);
-    const auto part = [&](std::size_t of, std::size_t least) {
-        return std::min(of, std::max(least, of / setup.clients_max * parts));
-    };
-    return {.datagrams_max = part(all.datagrams_max, datagrams_min),
-            .bytes_max = part(all.bytes_max, 16 * Slab::block_bytes)};
-}
-
 } // namespace
 
 Upstream::Client::Client(std::uint64_t its_number, const net::Endpoint& its_address,
-                         const Places& places, EmulatedPath its_path)
+                         const ServerAndClients& places)
     : number{its_number},
       address{its_address},
       server{places.server},
       socket{place_towards(places.server), net::Load::bulk},
-      local{socket.local()},
-      path{std::move(its_path)}
+      local{socket.local()}
 {}
 
-Upstream::Upstream(Places places, Setup setup, Recorder& recorder)
+Upstream::Upstream(ServerAndClients places, Setup setup, Paths& paths, Recorder& recorder)
     : places_{std::move(places)},
-      setup_{std::move(setup)},
+      setup_{setup},
+      paths_{paths},
       recorder_{recorder},
-      slab_{std::make_shared<Slab>(setup_.in_flight_bytes)},
       listening_{places_.listen, net::Load::bulk},
       local_{listening_.local()},
-      own_hosts_{net::addresses_of_this_machine()},
       table_{setup_.clients_max, setup_.idle},
       clients_(setup_.clients_max)
-{}
-
-EmulatedPath Upstream::path_of(std::uint64_t number) const
 {
-    return EmulatedPath{setup_.profile,
-                        {.seed = setup_.seed,
-                         .start = setup_.start,
-                         .limits = limits_of(setup_),
-                         .slab = slab_,
-                         .name = fmt::format("client/{}", number)}};
+    own_.add(local_);
 }
 
-/// Whether a datagram of this sender is forged, or our own that has come back: let in, it would go
-/// round for ever.
-bool Upstream::is_own(const net::Endpoint& from) const
+/// By address, a client that comes again is another one: "client.10.0.0.1:5000#2".
+std::string Upstream::name_of(const Client& client)
 {
-    const auto port = from.port();
-    const bool has_our_port =
-        port == local_.port() || std::ranges::any_of(clients_, [&](const auto& client) {
-            return client && client->local.port() == port;
-        });
-    return has_our_port && own_hosts_.contains(from);
+    constexpr std::size_t remembered_max = 65'536;
+    const auto number = fmt::format("{}", client.number);
+    if (!setup_.named_by_address) return client_path(number);
+    const auto address = client.address->to_text();
+    if (visits_.size() >= remembered_max && !visits_.contains(address)) {
+        return client_path(fmt::format("{}#{}", address, number));
+    }
+    const auto visit = ++visits_[address];
+    return client_path(visit == 1 ? address : fmt::format("{}#{}", address, visit));
+}
+
+void Upstream::give_path(Client& client)
+{
+    client.name = name_of(client);
+    client.path = &paths_.add(client.name);
+    client.recorded_as = recorder_.add_path(client.name);
+    own_.add(client.local);
 }
 
 void Upstream::turn_away(const net::Received& datagram, const std::string& why)
@@ -91,7 +77,7 @@ void Upstream::turn_away(const net::Received& datagram, const std::string& why)
 Upstream::Client* Upstream::client_of(const net::Received& datagram)
 {
     if (const auto known = table_.find(datagram.from, datagram.at)) return clients_[*known].get();
-    if (is_own(datagram.from)) {
+    if (own_.contains(datagram.from)) {
         ++strangers_;
         turn_away(datagram, "as it names the emulator's own address as its sender");
         return nullptr;
@@ -112,7 +98,7 @@ Upstream::Client* Upstream::client_of(const net::Received& datagram)
     const auto number = table_.number(*place);
     auto& client = clients_[*place];
     try {
-        client = std::make_unique<Client>(number, datagram.from, places_, path_of(number));
+        client = std::make_unique<Client>(number, datagram.from, places_);
         answers_.add(client->socket.descriptor(), *place, {.to_read = true});
     } catch (const std::system_error& error) { // no descriptors, no ports
         client.reset();
@@ -121,6 +107,7 @@ Upstream::Client* Upstream::client_of(const net::Received& datagram)
         turn_away(datagram, fmt::format("as the system has no socket for it: {}", error.what()));
         return nullptr;
     }
+    give_path(*client);
     return client.get();
 }
 
@@ -132,28 +119,27 @@ void Upstream::take_from_clients()
     for (const net::Received& datagram : arrived) {
         Client* client = client_of(datagram);
         if (client == nullptr) continue;
-        const auto admission = client->path.on_packet(Direction::up, datagram.bytes, datagram.at);
-        if (!admission.departure) continue;
         if (whose != client) {
             if (undelayed) undelayed->flush();
-            undelayed.emplace(client->path, Direction::up, to_server(*client), recorder_);
+            undelayed.emplace(way(*client, Direction::up), to_server(*client));
             whose = client;
         }
-        undelayed->add(*admission.departure);
+        paths_.advance(datagram.at);
+        undelayed->take(datagram, {CaptureSide::a, local_});
     }
     if (undelayed) undelayed->flush();
 }
 
 void Upstream::take_from_server(Client& client)
 {
-    Batch undelayed{client.path, Direction::down, to_client(client), recorder_};
+    Batch undelayed{way(client, Direction::down), to_client(client)};
     for (const net::Received& datagram : client.socket.receive()) {
         if (datagram.from != places_.server) {
             ++client.strangers;
             continue;
         }
-        const auto admission = client.path.on_packet(Direction::down, datagram.bytes, datagram.at);
-        if (admission.departure) undelayed.add(*admission.departure);
+        paths_.advance(datagram.at);
+        undelayed.take(datagram, {CaptureSide::b, client.local});
     }
     undelayed.flush();
 }
@@ -166,27 +152,12 @@ void Upstream::receive()
     }
 }
 
-void Upstream::send_due_of(Client& client, base::TimePoint now)
-{
-    bool has_more_up = true;
-    bool has_more_down = true;
-    for (int round = 0; round < release_rounds_max && (has_more_up || has_more_down); ++round) {
-        if (has_more_up) {
-            has_more_up = send_due(client.path, Direction::up, to_server(client), recorder_, now);
-        }
-        if (has_more_down) {
-            has_more_down =
-                send_due(client.path, Direction::down, to_client(client), recorder_, now);
-        }
-    }
-}
-
 void Upstream::release(base::TimePoint now)
 {
     for (const auto& client : clients_) {
         if (!client) continue;
-        client->path.advance(now);
-        send_due_of(*client, now);
+        send_due(way(*client, Direction::up), to_server(*client), way(*client, Direction::down),
+                 to_client(*client), now);
     }
     forget_idle(now);
 }
@@ -207,13 +178,15 @@ void Upstream::forget_idle(base::TimePoint now)
 {
     for (std::size_t place = 0; place < clients_.size(); ++place) {
         auto& client = clients_[place];
-        if (!client || now < table_.idle_at(place) || !has_nothing_in_flight(client->path))
+        if (!client || now < table_.idle_at(place) || !has_nothing_in_flight(*client->path))
             continue;
-        departed_.up.add(client->path.link(Direction::up).statistics());
-        departed_.down.add(client->path.link(Direction::down).statistics());
+        departed_.up.add(client->path->link(Direction::up).statistics());
+        departed_.down.add(client->path->link(Direction::down).statistics());
         departed_.strangers_down += client->strangers;
         departed_.overflowed_down += client->socket.overflowed();
         ++forgotten_;
+        own_.remove(client->local);
+        paths_.remove(client->name);
         client.reset();
         table_.forget(place);
     }
@@ -225,8 +198,7 @@ std::optional<base::TimePoint> Upstream::next_deadline() const
     for (std::size_t place = 0; place < clients_.size(); ++place) {
         const auto& client = clients_[place];
         if (!client) continue;
-        next = base::earlier(next, client->path.next_deadline());
-        if (has_nothing_in_flight(client->path)) {
+        if (has_nothing_in_flight(*client->path)) {
             next = base::earlier(next, table_.idle_at(place));
         }
     }

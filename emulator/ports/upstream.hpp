@@ -3,20 +3,21 @@
 #pragma once
 
 #include "emulator/core/client_table.hpp"
-#include "emulator/core/emulated_path.hpp"
-#include "emulator/core/profile/profile.hpp"
+#include "emulator/core/paths.hpp"
 #include "emulator/core/rate_limit.hpp"
-#include "emulator/core/slab.hpp"
+#include "emulator/endpoints.hpp"
 #include "emulator/ports/batch.hpp"
+#include "emulator/ports/own_sockets.hpp"
 #include "emulator/recorder.hpp"
 #include "proto/base/time.hpp"
-#include "proto/net/address_set.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/udp_socket.hpp"
 #include "proto/net/wait_set.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,31 +30,24 @@ namespace hapnet::emulator::ports {
 /// in. Moves datagrams; EmulatedPath, ClientTable and AddressSet take every decision.
 class Upstream {
 public:
-    struct Places {
-        net::Endpoint listen;
-        net::Endpoint server;
-        net::AddressSet allowed; // who may be a client
-    };
     struct Setup {
-        Profile profile;
-        base::Seed seed{1};
-        base::TimePoint start{};
-        std::size_t in_flight_bytes = QueueLimits::bytes_by_default; // of all clients together
         std::size_t clients_max = 64;
         base::Duration idle = std::chrono::seconds{60}; // silent for so long: forgotten
+        bool named_by_address = false;                  // their paths; else by their numbers
     };
 
     /// A client and its path. `up` is from the client to the server.
     struct Client {
-        Client(std::uint64_t number, const net::Endpoint& address, const Places& places,
-               EmulatedPath path);
+        Client(std::uint64_t number, const net::Endpoint& address, const ServerAndClients& places);
 
         std::uint64_t number; // from 1, by their first datagrams
         std::optional<net::Endpoint> address;
         std::optional<net::Endpoint> server;
         net::UdpSocket socket; // to the server
         net::Endpoint local;   // of it
-        EmulatedPath path;
+        std::string name{};    // of its path
+        EmulatedPath* path = nullptr;
+        std::uint32_t recorded_as = 0;
         std::uint64_t strangers = 0; // datagrams to its socket that are not the server's
     };
 
@@ -65,21 +59,25 @@ public:
         std::uint64_t overflowed_down = 0;
     };
 
-    /// Binds the socket. Throws std::system_error when it cannot. The recorder outlives it.
-    Upstream(Places places, Setup setup, Recorder& recorder);
+    /// Binds the socket. Throws std::system_error when it cannot. The paths and the recorder
+    /// outlive it.
+    Upstream(ServerAndClients places, Setup setup, Paths& paths, Recorder& recorder);
 
     /// Takes what has arrived, at most one batch of each socket, and sends on at once what is not
     /// delayed.
     void receive();
 
-    /// Follows the timeline, sends what is due at `now`, and forgets who has been silent.
+    /// Sends what is due at `now`, and forgets who has been silent.
     void release(base::TimePoint now);
 
+    /// When a client may be forgotten.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
     /// To wait for.
-    [[nodiscard]] int listening_descriptor() const { return listening_.descriptor(); }
-    [[nodiscard]] int servers_descriptor() const { return answers_.descriptor(); }
+    [[nodiscard]] std::vector<int> descriptors() const
+    {
+        return {listening_.descriptor(), answers_.descriptor()};
+    }
 
     /// A sentence about a client that was turned away, or that came; each once.
     [[nodiscard]] std::optional<std::string> next_notice();
@@ -99,14 +97,17 @@ public:
 
 private:
     [[nodiscard]] Client* client_of(const net::Received& datagram);
-    [[nodiscard]] bool is_own(const net::Endpoint& from) const;
-    [[nodiscard]] EmulatedPath path_of(std::uint64_t number) const;
+    [[nodiscard]] std::string name_of(const Client& client);
+    void give_path(Client& client);
     void take_from_clients();
     void take_from_server(Client& client);
-    void send_due_of(Client& client, base::TimePoint now);
     void forget_idle(base::TimePoint now);
     void turn_away(const net::Received& datagram, const std::string& why);
-    [[nodiscard]] Exit to_server(Client& client) const
+    [[nodiscard]] Way way(Client& client, Direction direction)
+    {
+        return {*client.path, direction, recorder_, client.recorded_as};
+    }
+    [[nodiscard]] static Exit to_server(Client& client)
     {
         return {CaptureSide::b, client.socket, client.local, client.server};
     }
@@ -115,16 +116,17 @@ private:
         return {CaptureSide::a, listening_, local_, client.address};
     }
 
-    Places places_;
+    ServerAndClients places_;
     Setup setup_;
+    Paths& paths_;
     Recorder& recorder_;
-    std::shared_ptr<Slab> slab_;
     net::UdpSocket listening_;
     net::Endpoint local_;
-    net::AddressSet own_hosts_; // of this machine, where a datagram of our own could come from
+    OwnSockets own_;
     net::WaitSet answers_;
     ClientTable<net::Endpoint> table_;
     std::vector<std::unique_ptr<Client>> clients_;
+    std::map<std::string, std::uint64_t> visits_; // by addresses, where they are names
     Departed departed_;
     std::uint64_t forgotten_ = 0;
     std::uint64_t strangers_ = 0;

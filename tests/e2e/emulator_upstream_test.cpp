@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // The emulator between a server and any number of clients.
+#include "emulator/core/fates/fates.hpp"
 #include "proto/net/clock.hpp"
 #include "proto/net/udp_socket.hpp"
 #include "tests/e2e/emulator.hpp"
@@ -133,6 +134,60 @@ TEST(EmulatorUpstream, TurnsAwayWhoIsNotAllowedAndWhoIsOneTooManyAndSaysSoOnce)
     EXPECT_EQ(statistics["clients_forgotten"], 1);
     EXPECT_EQ(statistics["clients_seen"], 2);
     EXPECT_EQ(statistics["up"]["received"], 2);
+}
+
+TEST(EmulatorUpstream, ChangesTheConditionsOfAllClientsOrOfOneAlsoBeforeItComes)
+{
+    EchoServer server;
+    TemporaryFolder folder;
+    const auto control = folder.file("s");
+    UpstreamRunning emulator{server, {"--delay", "5ms", "--control", control}};
+    const auto ctl = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"--json", control});
+        return nlohmann::json::parse(run("hapnet-ctl", words).out, nullptr, false);
+    };
+    EXPECT_EQ(ctl({"set", "client.2.up.delay", "80ms", "down.delay", "20ms"})["generation"], 2);
+    std::list<Host> clients(2);
+    for (Host& client : clients) {
+        client.send(*emulator.listen, 1);
+        server.answer(1);
+        ASSERT_EQ(client.receive(1, 2s).size(), 1U);
+    }
+    EXPECT_GE(clients.front().arrivals()[0].delay, 25ms - 4us);
+    EXPECT_GE(clients.back().arrivals()[0].delay, 100ms - 4us);
+    EXPECT_EQ(ctl({"set", "client.1.up.loss", "100%"})["effective_at"]["client.1"]["up"], 1);
+    for (Host& client : clients) client.send(*emulator.listen, 2);
+    server.answer(1);
+    EXPECT_EQ(numbers_of(clients.back().receive(2, 2s)), (std::vector<std::uint64_t>{1, 2}));
+    const auto statistics = emulator.stop();
+    EXPECT_EQ(statistics["clients"][0]["up"]["dropped"]["random_loss"], 1);
+    EXPECT_EQ(statistics["generation"], 3);
+}
+
+TEST(EmulatorUpstream, RecordsTheFatesOfEachClientAndReplaysThem)
+{
+    TemporaryFolder folder;
+    const auto fates_of = [&](std::vector<std::string> options, const char* name) {
+        EchoServer server; // which hears, but does not answer
+        options.insert(options.end(),
+                       {"--fates", folder.file(name), "--pcap", folder.file("run.pcapng")});
+        UpstreamRunning emulator{server, options};
+        std::list<Host> clients(3);
+        for (Host& client : clients) { // one after the other: their order is their number
+            for (std::uint64_t n = 0; n < 20; ++n) client.send(*emulator.listen, n);
+        }
+        net::sleep_until(net::monotonic_now() + 200ms);
+        EXPECT_EQ(emulator.stop()["up"]["received"], 60);
+        return text_of(folder.file(name));
+    };
+    const auto first = fates_of({"--loss", "50%", "--seed", "3"}, "first.csv");
+    const auto fates = emulator::parse_fates_of_paths(first);
+    ASSERT_TRUE(fates) << fates.error().message;
+    EXPECT_EQ(fates->size(), 3U);
+    EXPECT_EQ(fates->at("client.2").up.size(), 20U);
+    EXPECT_NE(fates->at("client.1").up, fates->at("client.3").up);
+    EXPECT_EQ(fates_of({"--replay", folder.file("first.csv")}, "again.csv"), first);
+    EXPECT_GT(text_of(folder.file("run.pcapng")).size(), 60U * 100U);
 }
 
 TEST(EmulatorUpstream, IsNeverAnOpenRelayAndNeverItsOwnServer)

@@ -71,7 +71,7 @@ TEST(EmulatorUsage, RefusesBadValuesNamingTheOptionTheTextAndTheCure)
     expect_refusal(run_with({"--order", "random"}), 2, {"--order", "random", "keep", "free"});
     expect_refusal(run_with({"--timing", "now"}), 2, {"--timing", "'now'", "precise"});
     expect_refusal(run_with({"--seed", "x"}), 2, {"--seed", "'x'", "whole number"});
-    expect_refusal(run_with({"--a", "127.0.0.1"}), 2, {"--a", "HOST:PORT"});
+    expect_refusal(run_with({"--a", "127.0.0.1/40"}), 2, {"--a", "at most 32 bits"});
     expect_refusal(run_with({"--a", "127.0.0.1:0"}), 2, {"--a", "port 0"});
     expect_refusal(run_with({"--a", "127.0.0.1:70000"}), 2, {"--a", "65535"});
     expect_refusal(run_with({"--delay", "1ms", "--delay", "2ms"}), 2, {"--delay"});

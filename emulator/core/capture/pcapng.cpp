@@ -208,7 +208,8 @@ void append_delay(std::string& text, base::Duration delay)
 
 } // namespace
 
-void append_capture_head(std::string& bytes, std::string_view program)
+void append_capture_head(std::string& bytes, std::string_view program,
+                         std::span<const CaptureNames> pairs)
 {
     {
         const Block block{bytes, section_header};
@@ -218,15 +219,17 @@ void append_capture_head(std::string& bytes, std::string_view program)
         put(bytes, ~std::uint64_t{0}); // as long as the file
         put_option(bytes, user_application, program);
     }
-    put_interface(bytes, "side A");
-    put_interface(bytes, "side B");
+    for (const CaptureNames& names : pairs) {
+        put_interface(bytes, names.a);
+        put_interface(bytes, names.b);
+    }
 }
 
 void append_packet(std::string& bytes, const CapturedPacket& packet, base::Duration since_1970,
                    std::string_view comment)
 {
     const Block block{bytes, enhanced_packet};
-    put(bytes, static_cast<std::uint32_t>(packet.side));
+    put(bytes, 2 * packet.pair + static_cast<std::uint32_t>(packet.side));
     const auto time =
         static_cast<std::uint64_t>((packet.at.time_since_epoch() + since_1970).count());
     put(bytes, static_cast<std::uint32_t>(time >> 32));

@@ -35,13 +35,21 @@ struct CapturedPacket {
     UdpAddress from;
     UdpAddress to;
     std::span<const std::byte> payload; // at most payload_bytes_max
+    std::uint32_t pair = 0;             // of sides, where there are several
 
     static constexpr std::size_t payload_bytes_max = 65'527; // over IPv6; 20 less over IPv4
 };
 
-/// Appends what a capture begins with: the section header and the two interfaces. `program` is
-/// named as what wrote it.
-void append_capture_head(std::string& bytes, std::string_view program);
+/// What the two interfaces of a pair are called.
+struct CaptureNames {
+    std::string a = "side A";
+    std::string b = "side B";
+};
+
+/// Appends what a capture begins with: the section header and the interfaces, two for each pair.
+/// `program` is named as what wrote it.
+void append_capture_head(std::string& bytes, std::string_view program,
+                         std::span<const CaptureNames> pairs);
 
 /// Appends one packet, with a comment of at most 65535 bytes. An IPv4 packet when both addresses
 /// are IPv4, or IPv4 in an IPv6 address (::ffff:1.2.3.4); otherwise IPv6. `since_1970`: of the time

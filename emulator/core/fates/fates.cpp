@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/fates/fates.hpp"
 
+#include "emulator/core/path_name.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -281,11 +283,10 @@ base::Result<void> read_row(std::string_view line, Fates& fates)
     return {};
 }
 
-} // namespace
-
-base::Result<Fates> parse_fates(std::string_view text)
+/// The rows of a table after its head, each read by `read`.
+template <typename Read>
+base::Result<void> read_rows(std::string_view text, std::string_view head, const Read& read)
 {
-    Fates fates;
     for (std::size_t line = 1; line == 1 || !text.empty(); ++line) {
         const auto refuse = [&](std::string_view reason) {
             return base::fail(fmt::format("line {}: {}", line, reason));
@@ -295,12 +296,80 @@ base::Result<Fates> parse_fates(std::string_view text)
         }
         const auto row = take(text, '\n');
         if (line == 1) {
-            if (row != fates_header) return refuse(fmt::format("expected '{}'", fates_header));
-        } else if (const auto read = read_row(row, fates); !read) {
-            return refuse(read.error().message);
+            if (row != head) return refuse(fmt::format("expected '{}'", head));
+        } else if (const auto done = read(row); !done) {
+            return refuse(done.error().message);
         }
     }
-    return fates;
+    return {};
+}
+
+std::string head_of_paths() { return fmt::format("{},{}", path_column, fates_header); }
+
+/// Adds the fate in `row` to those of its path, which is `path` until another one begins.
+base::Result<void> read_row_of_path(std::string_view row, FatesOfPaths& fates, Fates*& last,
+                                    std::string& path)
+{
+    const auto name = take(row, ',');
+    if (last == nullptr || name != path) {
+        const auto way = parse_way(name);
+        if (!way || way->path != name || name.empty()) {
+            return base::fail(fmt::format("{}: expected the name of a link, such as 1-2, found "
+                                          "'{}'",
+                                          path_column, name));
+        }
+        const auto [place, is_new] = fates.try_emplace(std::string{name});
+        if (!is_new) {
+            return base::fail(
+                fmt::format("{}: the rows of {} must follow each other", path_column, name));
+        }
+        last = &place->second;
+        path = name;
+    }
+    return read_row(row, *last);
+}
+
+} // namespace
+
+base::Result<Fates> parse_fates(std::string_view text)
+{
+    Fates fates;
+    return read_rows(text, fates_header, [&](std::string_view row) { return read_row(row, fates); })
+        .map([&] { return std::move(fates); });
+}
+
+std::string to_text(const FatesOfPaths& fates)
+{
+    if (const auto only = fates.find(""); only != fates.end()) return to_text(only->second);
+    std::string text = head_of_paths() + "\n";
+    for (const auto& [path, own] : fates) {
+        for (const Direction direction : {Direction::up, Direction::down}) {
+            std::uint64_t number = 0;
+            for (const Fate& fate : direction == Direction::up ? own.up : own.down) {
+                text += path;
+                text += ',';
+                append_row(text, direction, number++, fate);
+            }
+        }
+    }
+    return text;
+}
+
+base::Result<FatesOfPaths> parse_fates_of_paths(std::string_view text)
+{
+    if (!text.starts_with(path_column)) {
+        return parse_fates(text).map([](Fates only) {
+            FatesOfPaths all;
+            all.emplace("", std::move(only));
+            return all;
+        });
+    }
+    FatesOfPaths fates;
+    Fates* last = nullptr;
+    std::string path;
+    return read_rows(text, head_of_paths(),
+                     [&](std::string_view row) { return read_row_of_path(row, fates, last, path); })
+        .map([&] { return std::move(fates); });
 }
 
 } // namespace hapnet::emulator

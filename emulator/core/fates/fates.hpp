@@ -9,6 +9,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,5 +58,18 @@ struct Fates {
 /// Reads the whole table; refuses, with the line and what was expected, everything that to_text()
 /// would not have written.
 [[nodiscard]] base::Result<Fates> parse_fates(std::string_view text);
+
+// Of a run with several paths: one more column in front, the name of the path. The tables of the
+// paths follow each other.
+
+inline constexpr std::string_view path_column = "link";
+
+/// By the names of the paths.
+using FatesOfPaths = std::map<std::string, Fates, std::less<>>;
+
+[[nodiscard]] std::string to_text(const FatesOfPaths& fates);
+
+/// Either table; that of the only path has the name "".
+[[nodiscard]] base::Result<FatesOfPaths> parse_fates_of_paths(std::string_view text);
 
 } // namespace hapnet::emulator

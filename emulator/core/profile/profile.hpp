@@ -12,6 +12,15 @@
 
 namespace hapnet::emulator {
 
+/// What one of several paths has of its own, over what all have.
+struct PathPatch {
+    std::string path; // its name; see path_name.hpp
+    Patch up;
+    Patch down;
+
+    friend bool operator==(const PathPatch&, const PathPatch&) = default;
+};
+
 /// A point of the timeline: from `time` since the run began these settings hold. With a ramp they
 /// are approached in a straight line from what held before and reached at time + ramp; only
 /// numbers of the same law can be ramped.
@@ -20,6 +29,7 @@ struct Change {
     base::Duration ramp{};
     Patch up;
     Patch down;
+    std::vector<PathPatch> paths{}; // ascending by their names
 
     friend bool operator==(const Change&, const Change&) = default;
 };
@@ -30,6 +40,7 @@ struct Profile {
     std::optional<base::Seed> seed; // nullopt: the file does not say
     Path path;                      // at the beginning
     std::vector<Change> timeline;   // ascending in time
+    std::vector<PathPatch> paths{}; // ascending by their names
 
     friend bool operator==(const Profile&, const Profile&) = default;
 };

@@ -111,47 +111,77 @@ void for_each_of(Path& path, std::optional<Direction> direction, Use use)
 
 /// The setting that a key names.
 struct Target {
-    std::optional<Direction> direction; // nullopt: both
-    std::string name;                   // one of setting_keys
+    Way way;
+    std::string name; // one of setting_keys
 };
 
-base::Result<Target> target_of(std::string_view key)
+bool is_setting(std::string_view name)
+{
+    return std::find(setting_keys.begin(), setting_keys.end(), name) != setting_keys.end();
+}
+
+std::string with_underscores(std::string_view name)
+{
+    std::string text{name};
+    std::replace(text.begin(), text.end(), '-', '_');
+    return text;
+}
+
+/// A key of more parts than the name of a setting and of a way.
+base::Result<Target> refusal_of_parts(std::string_view key, std::string_view front)
+{
+    const auto dot = front.rfind('.');
+    const auto inner = dot == std::string_view::npos ? front : front.substr(dot + 1);
+    if (is_setting(with_underscores(inner))) {
+        return base::fail(
+            fmt::format("{}: a setting is set as a whole: {} '{{ ... }}'", key, front));
+    }
+    return base::fail(fmt::format("{}: unknown direction '{}': use up, down or both", key,
+                                  front.substr(0, front.find('.'))));
+}
+
+base::Result<Target> target_of(std::string_view key, const PathNames& names)
 {
     if (key == "seed") {
         return base::fail("seed: the seed of a run cannot change: start the emulator with --seed");
     }
-    constexpr std::array<std::string_view, 3> prefixes{"up", "down", "both"};
-    const auto is_name = [](std::string_view name) {
-        return std::find(setting_keys.begin(), setting_keys.end(), name) != setting_keys.end();
-    };
-    const auto dot = key.find('.');
-    const auto prefix = dot == std::string_view::npos ? "" : key.substr(0, dot);
-    const bool is_prefix = std::find(prefixes.begin(), prefixes.end(), prefix) != prefixes.end();
-    std::string name{is_prefix ? key.substr(dot + 1) : key};
-    std::replace(name.begin(), name.end(), '-', '_');
-    if (const auto end = name.find('.'); end != std::string::npos) {
-        if (is_name(name.substr(0, end))) {
-            const auto whole = key.substr(0, key.rfind('.'));
-            return base::fail(
-                fmt::format("{}: a setting is set as a whole: {} '{{ ... }}'", key, whole));
-        }
-        if (!is_prefix) {
-            return base::fail(
-                fmt::format("{}: unknown direction '{}': use up, down or both", key, prefix));
-        }
+    const auto dot = key.rfind('.');
+    const auto front = dot == std::string_view::npos ? "" : key.substr(0, dot);
+    const auto name = with_underscores(dot == std::string_view::npos ? key : key.substr(dot + 1));
+    const auto way = parse_way(front);
+    const bool can_be_many = !names.links.empty() || names.clients || names.any;
+    const bool is_numbered = way && (is_pair(way->path) || way->path.starts_with("client."));
+    if (!way || !(names.contains(way->path) || can_be_many || is_numbered)) {
+        return refusal_of_parts(key, front);
     }
-    if (!is_name(name)) {
-        const std::string_view in = is_prefix ? key.substr(0, dot + 1) : "";
+    if (!names.contains(way->path)) {
+        return base::fail(fmt::format("{}: {}", key, names.refusal(way->path)));
+    }
+    if (!is_setting(name)) {
+        const std::string_view in = front.empty() ? "" : key.substr(0, dot + 1);
         if (const auto meant = base::nearest(name, setting_keys)) {
             return base::fail(
                 fmt::format("unknown key '{}': did you mean '{}{}'?", key, in, *meant));
         }
         return base::fail(fmt::format("unknown key '{}': {}", key, suggestion(name, setting_keys)));
     }
-    Target target{std::nullopt, std::move(name)};
-    if (prefix == "up") target.direction = Direction::up;
-    if (prefix == "down") target.direction = Direction::down;
-    return target;
+    return Target{*way, name};
+}
+
+/// Calls use(setting) for those that are for all paths or for the one of this name; of two that
+/// contradict, the one that wins comes last.
+template <typename Use>
+void in_turn(std::span<const Setting> settings, std::string_view path, const Use& use)
+{
+    for (const bool is_of_all : {true, false}) {
+        for (const bool is_of_both : {true, false}) {
+            for (const Setting& setting : settings) {
+                if (setting.path.empty() != is_of_all) continue;
+                if (!is_of_all && setting.path != path) continue;
+                if (!setting.direction.has_value() == is_of_both) use(setting);
+            }
+        }
+    }
 }
 
 } // namespace
@@ -218,12 +248,12 @@ SettingTexts setting_texts(const Patch& patch)
 }
 
 base::Result<Setting> parse_setting(std::string_view key, std::string_view value,
-                                    const OpenFile& open)
+                                    const OpenFile& open, const PathNames& names)
 {
     Reading reading{std::string{key}, open, false};
-    const auto target = target_of(key);
+    const auto target = target_of(key, names);
     if (!target) return tl::unexpected{target.error()};
-    Setting setting{target->direction, {}};
+    Setting setting{target->way.direction, {}, target->way.path};
     const std::string text = with_unit(target->name, value);
     const auto refuse = [&](const std::string& why) {
         return base::fail(fmt::format("{}: {}", key, explained(target->name, text, why)));
@@ -236,21 +266,15 @@ base::Result<Setting> parse_setting(std::string_view key, std::string_view value
     return setting;
 }
 
-base::Result<Path> with_settings(Path path, std::span<const Setting> settings)
+base::Result<Path> with_settings(Path path, std::span<const Setting> settings,
+                                 std::string_view name)
 {
-    const auto in_turn = [&](auto use) {
-        for (const bool is_of_both : {true, false}) {
-            for (const Setting& setting : settings) {
-                if (!setting.direction.has_value() == is_of_both) use(setting);
-            }
-        }
-    };
-    in_turn([&](const Setting& setting) {
+    in_turn(settings, name, [&](const Setting& setting) {
         for_each_of(path, setting.direction, [&](Conditions& conditions) {
             conditions = patched(std::move(conditions), setting.settings.patch);
         });
     });
-    in_turn([&](const Setting& setting) {
+    in_turn(settings, name, [&](const Setting& setting) {
         if (!setting.settings.burst_loss) return;
         for_each_of(path, setting.direction, [&](Conditions& conditions) {
             add_bursts(conditions.loss, *setting.settings.burst_loss);
@@ -261,6 +285,20 @@ base::Result<Path> with_settings(Path path, std::span<const Setting> settings)
             fmt::format("a direction can have at most {} laws of loss", loss_laws_max));
     }
     return path;
+}
+
+Patch patch_of(std::span<const Setting> settings, std::string_view name, Direction direction,
+               const Conditions& after)
+{
+    Patch patch;
+    bool sets_bursts = false;
+    in_turn(settings, name, [&](const Setting& setting) {
+        if (setting.direction && *setting.direction != direction) return;
+        patch = merged(std::move(patch), setting.settings.patch);
+        sets_bursts = sets_bursts || setting.settings.burst_loss;
+    });
+    if (sets_bursts) patch.loss = after.loss;
+    return patch;
 }
 
 } // namespace hapnet::emulator

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/conditions.hpp"
+#include "emulator/core/path_name.hpp"
 #include "emulator/core/profile/reading.hpp"
 #include "proto/base/result.hpp"
 
@@ -42,17 +43,27 @@ using SettingTexts = std::array<std::optional<std::string>, setting_keys.size()>
 struct Setting {
     std::optional<Direction> direction; // nullopt: both ways
     DirectionSettings settings;
+    std::string path{}; // empty: of all paths
 };
 
 /// Reads a setting. `key` is NAME, both.NAME, up.NAME or down.NAME with a NAME of setting_keys
-/// ("burst-loss" is as good as "burst_loss"). `value` is what stands in a profile, without the
+/// ("burst-loss" is as good as "burst_loss"), or has the name of a path in front: 1-2.NAME,
+/// wan.up.NAME; only of one that `names` has. `value` is what stands in a profile, without the
 /// quotes: 5ms, 40/100, { law = "normal", sd = "3ms" }, ["5%", "40/100"]. Errors begin with `key`.
 [[nodiscard]] base::Result<Setting> parse_setting(std::string_view key, std::string_view value,
-                                                  const OpenFile& open);
+                                                  const OpenFile& open,
+                                                  const PathNames& names = {});
 
-/// `path` with the settings: those of both ways first, then those of one way, each in their order.
-/// burst_loss comes last and replaces the bursts without a phase in the list of losses, or is
-/// added to it. The error: more laws than a direction may have.
-[[nodiscard]] base::Result<Path> with_settings(Path path, std::span<const Setting> settings);
+/// `path`, which is called `name`, with the settings that are for all paths or for it: those of
+/// all before its own, and of each those of both ways first, then those of one way, each in their
+/// order. burst_loss comes last and replaces the bursts without a phase in the list of losses, or
+/// is added to it. The error: more laws than a direction may have.
+[[nodiscard]] base::Result<Path> with_settings(Path path, std::span<const Setting> settings,
+                                               std::string_view name = {});
+
+/// What the settings for all paths, or for this one, say one way; `after` are its conditions once
+/// they hold.
+[[nodiscard]] Patch patch_of(std::span<const Setting> settings, std::string_view name,
+                             Direction direction, const Conditions& after);
 
 } // namespace hapnet::emulator

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/profile/text.hpp"
 
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/timeline.hpp"
 #include "proto/base/text.hpp"
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::emulator {
@@ -20,32 +23,190 @@ struct Placed {
     Place place;
 };
 
-/// The tables both, up and down, where they are.
-std::vector<Placed> read_directions(TableReader& table)
+/// Reads the tables of settings of one table: both, all, up, down, and those of single paths.
+class SettingsReader {
+public:
+    SettingsReader(TableReader& table, const PathNames& names) : table_{table}, names_{names} {}
+
+    [[nodiscard]] std::vector<Placed> read() &&
+    {
+        read_way("both", {});
+        read_way("all", {});
+        read_way("up", {"", Direction::up});
+        read_way("down", {"", Direction::down});
+        if (const Node* node = table_.find("matrix")) read_matrix(*node);
+        if (const Node* node = table_.find("link")) {
+            read_paths(*node, "link.\"1-2\"", [](std::string_view key) { return parse_way(key); });
+        }
+        if (const Node* node = table_.find("client")) {
+            read_paths(*node, "client.3", [](std::string_view key) {
+                return std::optional{Way{client_path(key), std::nullopt}};
+            });
+        }
+        return std::move(all_);
+    }
+
+private:
+    [[nodiscard]] Reading& reading() const { return table_.reading(); }
+
+    void read_way(std::string_view key, const Way& way)
+    {
+        if (const Node* node = table_.find(key)) add(way, *node);
+    }
+    void add(const Way& way, const Node& node)
+    {
+        all_.push_back({{way.direction, read_direction(node, reading()), way.path}, node.place});
+    }
+    [[nodiscard]] bool is_there(const Way& way, Place place) const
+    {
+        if (names_.contains(way.path)) return true;
+        reading().complain(place, names_.refusal(way.path));
+        return false;
+    }
+
+    /// The tables of single paths, by the names that `way_of` reads.
+    void read_paths(const Node& node, std::string_view example, const auto& way_of)
+    {
+        const auto* entries = std::get_if<Node::Table>(&node.value);
+        if (entries == nullptr) {
+            return reading().complain(node.place, fmt::format("expected tables: [{}]", example));
+        }
+        for (const auto& [key, place, value] : *entries) {
+            const std::optional<Way> way = way_of(key);
+            if (!way || way->path.empty()) {
+                reading().complain(place, fmt::format("'{}' is not the name of a link: write "
+                                                      "[{}]",
+                                                      key, example));
+            } else if (is_there(*way, place)) {
+                read_path_table(*way, value);
+            }
+        }
+    }
+
+    /// Of a pair, the settings of one way; else both, up and down, or the settings of both.
+    void read_path_table(const Way& way, const Node& node)
+    {
+        const auto* entries = std::get_if<Node::Table>(&node.value);
+        if (entries == nullptr || way.direction) return add(way, node);
+        Node rest{node.place, Node::Table{}};
+        for (const base::Entry& entry : *entries) {
+            const auto part = entry.key == "up" || entry.key == "down" || entry.key == "both"
+                                  ? parse_way(entry.key)
+                                  : std::nullopt;
+            if (part) {
+                add({way.path, part->direction}, entry.value);
+            } else {
+                std::get<Node::Table>(rest.value).push_back(entry);
+            }
+        }
+        if (!std::get<Node::Table>(rest.value).empty()) add(way, rest);
+    }
+
+    void read_matrix(const Node& node)
+    {
+        const auto* entries = std::get_if<Node::Table>(&node.value);
+        if (entries == nullptr) {
+            return reading().complain(node.place, "expected a table: [matrix]");
+        }
+        TableReader table{*entries, node.place, reading()};
+        const Node* list = table.require("peers", "write peers = [1, 2, 3]");
+        const auto peers = list != nullptr ? peers_of(*list) : std::vector<std::uint64_t>{};
+        std::map<std::string, DirectionSettings> settings; // by their ways
+        for (const std::string_view key : setting_keys) {
+            const Node* rows = table.find(key);
+            if (rows != nullptr && !peers.empty()) read_rows(key, *rows, peers, settings);
+        }
+        table.finish();
+        for (auto& [name, of_way] : settings) {
+            const auto way = parse_way(name);
+            if (!way || !is_there(*way, node.place)) continue;
+            all_.push_back({{way->direction, std::move(of_way), way->path}, node.place});
+        }
+    }
+
+    [[nodiscard]] std::vector<std::uint64_t> peers_of(const Node& node) const
+    {
+        constexpr std::uint64_t highest = 999;
+        constexpr std::size_t most = 8;
+        std::vector<std::uint64_t> peers;
+        if (const auto* list = std::get_if<Node::List>(&node.value)) {
+            for (const Node& element : *list) {
+                const auto peer = base::count_of(element, highest);
+                if (peer && *peer > 0 && std::ranges::find(peers, *peer) == peers.end()) {
+                    peers.push_back(*peer);
+                }
+            }
+            if (peers.size() == list->size() && peers.size() >= 2 && peers.size() <= most) {
+                return peers;
+            }
+        }
+        reading().complain(node.place, "expected the different numbers of 2 to 8 peers: [1, 2, 3]");
+        return {};
+    }
+
+    /// Row i, column j: what peer i sends to peer j. What stands on the diagonal does not count.
+    void read_rows(std::string_view key, const Node& node, const std::vector<std::uint64_t>& peers,
+                   std::map<std::string, DirectionSettings>& settings) const
+    {
+        const auto size = peers.size();
+        const auto cells_of = [&](const Node& of) -> const Node::List* {
+            const auto* list = std::get_if<Node::List>(&of.value);
+            if (list != nullptr && list->size() == size) return list;
+            reading().complain(of.place,
+                               fmt::format("expected a list of {} rows, one for each peer, of {} "
+                                           "values each",
+                                           size, size));
+            return nullptr;
+        };
+        const auto* rows = cells_of(node);
+        for (std::size_t i = 0; rows != nullptr && i < size; ++i) {
+            const auto* cells = cells_of((*rows)[i]);
+            for (std::size_t j = 0; cells != nullptr && j < size; ++j) {
+                if (i == j) continue;
+                const auto way = fmt::format("{}-{}", peers[i], peers[j]);
+                read_setting(key, (*cells)[j], settings[way], reading());
+            }
+        }
+    }
+
+    TableReader& table_;
+    const PathNames& names_;
+    std::vector<Placed> all_{};
+};
+
+/// Of a path by its own settings, over what all have.
+PathPatch path_patch(const std::vector<Setting>& settings, const std::string& name,
+                     const Path& after)
 {
-    std::vector<Placed> all;
-    const auto read = [&](std::string_view key, std::optional<Direction> direction) {
-        const Node* node = table.find(key);
-        if (node == nullptr) return;
-        all.push_back({{direction, read_direction(*node, table.reading())}, node->place});
-    };
-    read("both", std::nullopt);
-    read("up", Direction::up);
-    read("down", Direction::down);
-    return all;
+    std::vector<Setting> own;
+    std::ranges::copy_if(settings, std::back_inserter(own),
+                         [&](const Setting& setting) { return setting.path == name; });
+    return {name, patch_of(own, name, Direction::up, after.up),
+            patch_of(own, name, Direction::down, after.down)};
 }
 
-Path read_path(TableReader& table)
+/// What holds at the beginning.
+void read_beginning(TableReader& table, const PathNames& names, Profile& profile)
 {
     std::vector<Setting> settings;
-    Place place = table.place();
-    for (Placed& placed : read_directions(table)) {
+    std::map<std::string, Place> places{{"", table.place()}};
+    for (Placed& placed : SettingsReader{table, names}.read()) {
+        places[placed.setting.path] = placed.place;
         settings.push_back(std::move(placed.setting));
-        place = placed.place;
     }
-    auto path = with_settings({}, settings);
-    if (!path) table.reading().complain(place, path.error().message);
-    return path.value_or(Path{});
+    for (const auto& [name, place] : places) {
+        auto path = with_settings({}, settings, name);
+        if (!path) {
+            table.reading().complain(place, path.error().message);
+        } else if (name.empty()) {
+            profile.path = *std::move(path);
+        } else {
+            auto patch = path_patch(settings, name, *path);
+            if (patch.up != Patch{} || patch.down != Patch{}) {
+                profile.paths.push_back(std::move(patch));
+            }
+        }
+    }
 }
 
 void read_time(const Node* node, base::Duration& target, Reading& reading)
@@ -61,7 +222,7 @@ struct PlacedChange {
     Place ramp_place;
 };
 
-PlacedChange read_change(const Node& node, Reading& reading)
+PlacedChange read_change(const Node& node, const PathNames& names, Reading& reading)
 {
     PlacedChange placed{{}, node.place, node.place};
     const auto* entries = std::get_if<Node::Table>(&node.value);
@@ -74,7 +235,7 @@ PlacedChange read_change(const Node& node, Reading& reading)
     const Node* ramp = table.find("ramp");
     read_time(ramp, placed.change.ramp, reading);
     if (ramp != nullptr) placed.ramp_place = ramp->place;
-    for (const Placed& side : read_directions(table)) {
+    for (const Placed& side : SettingsReader{table, names}.read()) {
         const DirectionSettings& settings = side.setting.settings;
         Patch patch = settings.patch;
         if (settings.burst_loss && !patch.loss) {
@@ -90,14 +251,21 @@ PlacedChange read_change(const Node& node, Reading& reading)
             }
         }
         const auto direction = side.setting.direction;
-        if (direction != Direction::down) placed.change.up = merged(placed.change.up, patch);
-        if (direction != Direction::up) placed.change.down = merged(placed.change.down, patch);
+        const auto add_to = [&](auto& target) {
+            if (direction != Direction::down) target.up = merged(std::move(target.up), patch);
+            if (direction != Direction::up) target.down = merged(std::move(target.down), patch);
+        };
+        if (side.setting.path.empty()) {
+            add_to(placed.change);
+        } else if (patch != Patch{}) {
+            add_to(patch_for(placed.change.paths, side.setting.path));
+        }
     }
     table.finish();
     return placed;
 }
 
-void read_timeline(const Node* node, Profile& profile, Reading& reading)
+void read_timeline(const Node* node, const PathNames& names, Profile& profile, Reading& reading)
 {
     if (node == nullptr) return;
     const auto* list = std::get_if<Node::List>(&node->value);
@@ -109,12 +277,14 @@ void read_timeline(const Node* node, Profile& profile, Reading& reading)
                                 fmt::format("a timeline can have at most {} changes", changes_max));
     }
     std::vector<PlacedChange> placed;
-    for (const Node& element : *list) placed.push_back(read_change(element, reading));
+    for (const Node& element : *list) {
+        placed.push_back(read_change(element, names, reading));
+    }
     std::stable_sort(placed.begin(), placed.end(),
                      [](const auto& a, const auto& b) { return a.change.time < b.change.time; });
     for (const PlacedChange& one : placed) profile.timeline.push_back(one.change);
     if (!reading.is_good()) return;
-    if (const auto valid = Timeline::validate(profile); !valid) {
+    if (const auto valid = validate_timelines(profile); !valid) {
         reading.complain(placed[valid.error().index].ramp_place, valid.error().message);
     }
 }
@@ -172,24 +342,58 @@ std::string time_text(base::Duration time)
     return base::quoted(text + "s");
 }
 
+/// A table, or the beginning of keys, and the settings in it.
+struct Section {
+    std::string name;
+    SettingTexts texts;
+    SettingTexts but; // that stand elsewhere
+};
+
+/// What both ways say, first what they say alike. `prefix` is that of the path's names.
+std::vector<Section> sections_of(const std::string& prefix, const Patch& up, const Patch& down)
+{
+    const SettingTexts of_up = setting_texts(up);
+    const SettingTexts of_down = setting_texts(down);
+    const SettingTexts both = common(of_up, of_down);
+    return {{prefix + "both", both, {}},
+            {prefix + "up", of_up, both},
+            {prefix + "down", of_down, both}};
+}
+
+std::vector<Section> sections_of(const PathPatch& own)
+{
+    if (is_pair(own.path)) {
+        const auto name = [&](Direction way) {
+            return fmt::format("link.{}", base::quoted(way_name(own.path, way)));
+        };
+        return {{name(Direction::up), setting_texts(own.up), {}},
+                {name(Direction::down), setting_texts(own.down), {}}};
+    }
+    const std::string prefix = client_path("");
+    const bool is_client = own.path.starts_with(prefix);
+    return sections_of(
+        fmt::format("{}.{}.", is_client ? "client" : "link",
+                    base::quoted(is_client ? own.path.substr(prefix.size()) : own.path)),
+        own.up, own.down);
+}
+
 void print_change(std::string& out, const Change& change)
 {
     out += fmt::format("\n[[at]]\ntime = {}\n", time_text(change.time));
     if (change.ramp > base::Duration{0}) {
         out += fmt::format("ramp = {}\n", value_text(change.ramp));
     }
-    const SettingTexts up = setting_texts(change.up);
-    const SettingTexts down = setting_texts(change.down);
-    const SettingTexts both = common(up, down);
-    print(out, both, {}, "both.");
-    print(out, up, both, "up.");
-    print(out, down, both, "down.");
+    const auto print_all = [&](const std::vector<Section>& sections) {
+        for (const auto& [name, texts, but] : sections) print(out, texts, but, name + ".");
+    };
+    print_all(sections_of("", change.up, change.down));
+    for (const PathPatch& own : change.paths) print_all(sections_of(own));
 }
 
 } // namespace
 
 base::Result<Profile> parse_profile(std::string_view text, const std::string& source,
-                                    const OpenFile& open)
+                                    const OpenFile& open, const PathNames& names)
 {
     Reading reading{source, open};
     const auto document = parse_document(text);
@@ -202,8 +406,8 @@ base::Result<Profile> parse_profile(std::string_view text, const std::string& so
     const Node* name = table.find("name");
     if (name != nullptr) read_value(*name, profile.name, reading);
     profile.seed = read_seed(table.find("seed"), reading);
-    profile.path = read_path(table);
-    read_timeline(table.find("at"), profile, reading);
+    read_beginning(table, names, profile);
+    read_timeline(table.find("at"), names, profile, reading);
     table.finish();
     if (!reading.is_good()) return base::fail(*reading.complaint());
     return profile;
@@ -219,12 +423,11 @@ std::string to_text(const Profile& profile)
         out += fmt::format("seed = {}\n",
                            profile.seed->value() > largest_integer ? base::quoted(seed) : seed);
     }
-    const SettingTexts up = setting_texts(to_patch(profile.path.up));
-    const SettingTexts down = setting_texts(to_patch(profile.path.down));
-    const SettingTexts both = common(up, down);
-    print_section(out, "both", both, {});
-    print_section(out, "up", up, both);
-    print_section(out, "down", down, both);
+    const auto print_all = [&](const std::vector<Section>& sections) {
+        for (const auto& [section, texts, but] : sections) print_section(out, section, texts, but);
+    };
+    print_all(sections_of("", to_patch(profile.path.up), to_patch(profile.path.down)));
+    for (const PathPatch& own : profile.paths) print_all(sections_of(own));
     for (const Change& change : profile.timeline) print_change(out, change);
     return out;
 }

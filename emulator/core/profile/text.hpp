@@ -17,9 +17,10 @@ inline constexpr std::size_t changes_max = 10'000;
 
 /// Reads a profile. `source` is the name of its file in errors, which begin with
 /// "FILE:LINE:COLUMN: " and say what is wrong and what would be right. Files that the profile
-/// names are asked from `open`.
+/// names are asked from `open`. It may speak of the paths that `names` has.
 [[nodiscard]] base::Result<Profile> parse_profile(std::string_view text, const std::string& source,
-                                                  const OpenFile& open);
+                                                  const OpenFile& open,
+                                                  const PathNames& names = {.any = true});
 
 /// The profile as TOML, in canonical form: it reads back as the same profile.
 [[nodiscard]] std::string to_text(const Profile& profile);

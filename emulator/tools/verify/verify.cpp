@@ -39,7 +39,7 @@ TestResult verify_seed(const Claim& claim, Direction direction, std::span<const 
     if (is_in_time(conditions) || conditions.mtu.bytes_max > 0) {
         return unable("seed", "the fates depend on when datagrams came or on their lengths");
     }
-    Pipeline pipeline{conditions, *claim.seed, direction};
+    Pipeline pipeline{conditions, *claim.seed, direction, claim.name};
     std::vector<Fate> expected;
     expected.reserve(fates.size());
     for (std::uint64_t number = 0; number < fates.size(); ++number) {

@@ -21,6 +21,7 @@ struct Claim {
     std::optional<base::Seed> seed{};        // known: the fates are drawn again and compared
     std::optional<base::Duration> spacing{}; // of datagrams, if they came evenly; > 0
     double alpha = 1e-6;                     // how often a test fails for a law that is right
+    std::string name{};                      // of the path, where there are several
 };
 
 /// What the tests say of the fates of a run.

@@ -219,11 +219,59 @@ TEST(EmulatorOptions, OfClientsOfAServerGoTogether)
     expect_said(refusal_alone({"--upstream", "a:1"}), "--listen is required");
     expect_said(refusal_alone({"--listen", ":1", "--upstream", "a:1", "--b", "b:1"}),
                 "--b and --upstream exclude each other");
-    expect_said(refusal_alone({"--listen", ":1", "--upstream", "a:1", "--fates", "f"}),
-                "--fates is for one pair");
+    EXPECT_EQ(options_of<UpstreamOptions>({"--listen", ":1", "--upstream", "a:1", "--fates", "f"})
+                  .run.fates,
+              "f");
+    EXPECT_TRUE(
+        options_of<UpstreamOptions>({"--listen", ":1", "--upstream", "a:1", "--name-by", "address"})
+            .named_by_address);
     expect_said(refusal({"--clients", "5"}), "--clients goes with --upstream");
     expect_said(refusal_alone({"--listen", ":1", "--upstream", "a:1", "--allow", "10.0.0.0/40"}),
                 "at most 32 bits");
+}
+
+TEST(EmulatorOptions, OfLinksNameTheirSidesAndTheirEnds)
+{
+    const auto options = options_of<LinkOptions>({"--link", "1-2=:7001,:7002", "--link",
+                                                  "wan=0.0.0.0:7003,:7004,10.0.0.0/8,", "--set",
+                                                  "2-1.delay=80ms", "--loss", "2%"});
+    ASSERT_EQ(options.links.size(), 2U);
+    EXPECT_EQ(options.links[0].name, "1-2");
+    EXPECT_EQ(options.links[0].listen_2.port, 7002);
+    EXPECT_EQ(options.links[0].end_1.size(), 0U);
+    EXPECT_EQ(options.links[1].listen_1.host, "0.0.0.0");
+    EXPECT_EQ(options.links[1].end_1.at(0).prefix, 8U);
+    EXPECT_EQ(options.links[1].end_2.size(), 0U);
+    EXPECT_EQ(options.run.conditions.settings.at(0).key, "2-1.delay");
+    expect_said(refusal_alone({"--link", "2-1=:1,:2"}), "'2-1': name the lower number first: 1-2");
+    expect_said(refusal_alone({"--link", "both=:1,:2"}), "'both' is not the name of a link");
+    expect_said(refusal_alone({"--link", "delay=:1,:2"}), "'delay' is not the name of a link");
+    expect_said(refusal_alone({"--link", "1-2=:1"}), "write two addresses to listen on");
+    expect_said(refusal_alone({"--link", "1-2"}), "write NAME=LISTEN_1,LISTEN_2");
+    expect_said(refusal_alone({"--link", "1-2=:1,:2", "--link", "1-2=:3,:4"}), "given twice");
+    expect_said(refusal_alone({"--link", "1-2=:1,:2", "--link", "1-3=:2,:4"}),
+                "--link 1-3: 127.0.0.1:2 is the address of another side");
+    expect_said(refusal_alone({"--link", "1-2=:1,:2", "--listen-a", ":3"}),
+                "--listen-a and --link exclude each other");
+    expect_said(refusal_alone({"--link", "1-2=:1,:2", "--upstream", "a:1"}),
+                "--upstream and --link exclude each other");
+    std::vector<std::string> many;
+    for (int i = 0; i < 29; ++i) {
+        many.insert(many.end(), {"--link", fmt::format("l{}=:0,:0", i)});
+    }
+    expect_said(refusal_alone(many), "at most 28");
+    expect_said(refusal({"--set", "delay"}), "write KEY=VALUE");
+    expect_said(refusal({"--set", "1-2.dealy=5ms"}), "--set unknown key '1-2.dealy'");
+}
+
+TEST(EmulatorOptions, OfOneSideAreOnePeerOrSeveralThatMaySend)
+{
+    const auto options = options_of<Options>({"--listen-a", ":1", "--listen-b", ":2", "--a",
+                                              "10.0.0.0/8", "--a", "host:*", "--b", "[::1]:9"});
+    EXPECT_EQ(options.a.size(), 2U);
+    EXPECT_FALSE(options.a[1].port);
+    EXPECT_EQ(options.b.at(0).port, 9U);
+    expect_said(refusal({"--a", "10.0.0.1:0"}), "nothing comes from port 0");
 }
 
 TEST(EmulatorOptions, OfTheMemoryInFlightHaveARange)

@@ -5,6 +5,7 @@
 #include "emulator/core/fates/fates.hpp"
 #include "proto/base/version.hpp"
 
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -56,8 +57,8 @@ TEST_F(RecorderFiles, OfFatesHoldAllOfUpAndThenAllOfDownHoweverTheyCame)
     Fates expected;
     Recorder recorder{{path("fates.csv"), {}}};
     for (std::uint64_t n = 0; n < 20'000; ++n) {
-        recorder.on_fate(Direction::down, n, fate_of(n));
-        recorder.on_fate(Direction::up, n, fate_of(n + 1));
+        recorder.on_fate(0, Direction::down, n, fate_of(n));
+        recorder.on_fate(0, Direction::up, n, fate_of(n + 1));
         expected.down.push_back(fate_of(n));
         expected.up.push_back(fate_of(n + 1));
     }
@@ -65,6 +66,29 @@ TEST_F(RecorderFiles, OfFatesHoldAllOfUpAndThenAllOfDownHoweverTheyCame)
     recorder.finish();
     EXPECT_EQ(text("fates.csv"), to_text(expected));
     EXPECT_EQ(names(), std::vector<std::string>{"fates.csv"});
+}
+
+TEST_F(RecorderFiles, OfFatesOfSeveralPathsHoldOneWayAfterTheOther)
+{
+    FatesOfPaths expected;
+    const std::vector<std::string> paths{"1-2", "1-3", "wan"};
+    Recorder recorder{{.fates = path("fates.csv"), .has_several_paths = true}};
+    for (std::uint32_t i = 0; i < paths.size(); ++i) {
+        EXPECT_EQ(recorder.add_path(paths[i]), i);
+    }
+    for (std::uint64_t n = 0; n < 10'000; ++n) { // more than are kept in memory
+        for (std::uint32_t i = 0; i < paths.size(); ++i) {
+            Fates& own = expected[paths[i]];
+            recorder.on_fate(i, Direction::down, n, fate_of(n + i));
+            recorder.on_fate(i, Direction::up, n, fate_of(n + i + 1));
+            own.down.push_back(fate_of(n + i));
+            own.up.push_back(fate_of(n + i + 1));
+        }
+    }
+    EXPECT_EQ(recorder.fates_lost(), 0U);
+    recorder.finish();
+    EXPECT_EQ(text("fates.csv"), to_text(expected));
+    EXPECT_EQ(parse_fates_of_paths(text("fates.csv")).value(), expected);
 }
 
 struct Blocks {
@@ -94,7 +118,8 @@ TEST_F(RecorderFiles, OfACaptureHoldEveryPacketWholeWithItsComment)
 {
     Recorder recorder{{{}, path("capture.pcapng")}};
     std::string expected;
-    append_capture_head(expected, base::version_line("hapnet-emulator"));
+    append_capture_head(expected, base::version_line("hapnet-emulator"),
+                        std::array{CaptureNames{}});
     const UdpAddress from{{std::byte{10}}, 7000, false};
     const UdpAddress to{{std::byte{11}}, 7001, false};
     for (const std::size_t size : {0U, 1U, 239U, 240U, 241U, 480U, 65'507U}) {
@@ -130,7 +155,7 @@ TEST_F(RecorderFiles, ThatWereNotFinishedLeaveNothingBehind)
 {
     {
         Recorder recorder{{path("fates.csv"), path("capture.pcapng")}};
-        recorder.on_fate(Direction::up, 0, fate_of(0));
+        recorder.on_fate(0, Direction::up, 0, fate_of(0));
     }
     EXPECT_EQ(names(), std::vector<std::string>{});
 }
@@ -160,7 +185,7 @@ TEST_F(RecorderFiles, OnADiskThatFillsUpKeepWhatFoundRoom)
     {
         Recorder recorder{{path("fates.csv"), {}}};
         for (std::uint64_t number = 0; number < 20'000; ++number) { // 600 KB, in several writes
-            recorder.on_fate(Direction::up, number, fate_of(number));
+            recorder.on_fate(0, Direction::up, number, fate_of(number));
         }
         EXPECT_THROW(recorder.finish(), std::system_error);
         EXPECT_TRUE(recorder.has_failed());
@@ -177,7 +202,7 @@ TEST(Recorder, WithoutAFileDoesNothing)
 {
     Recorder recorder{{}};
     EXPECT_FALSE(recorder.captures());
-    recorder.on_fate(Direction::up, 0, fate_of(0));
+    recorder.on_fate(0, Direction::up, 0, fate_of(0));
     recorder.on_departure({}, 0us, false);
     recorder.finish();
 }

@@ -92,7 +92,7 @@ TEST(Conversation, AnswersEachLineInTurnWithOneObjectAndNeverGoesBackAGeneration
                 said += said_to(conversation, line.substr(0, piece), fake, now);
                 line.erase(0, piece);
                 now += std::chrono::microseconds{dice.below(5000)};
-                fake.path.advance(now);
+                fake.paths.advance(now);
                 EXPECT_GE(fake.director().generation(), generation);
                 generation = fake.director().generation();
             }
@@ -121,7 +121,7 @@ TEST(Director, IsBackAtItsStartOnceEverythingMadeForATimeIsOver)
             EXPECT_NE(said.find("\"ok\":true"), std::string::npos) << said;
             now += std::chrono::milliseconds{dice.below(20)};
         }
-        fake.path.advance(now + 100ms);
+        fake.paths.advance(now + 100ms);
         EXPECT_EQ(fake.director().path(), before) << "seed " << seed;
         EXPECT_EQ(fake.director().next_change(), std::nullopt);
     }

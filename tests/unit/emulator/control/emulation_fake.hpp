@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hapnet::emulator {
 
@@ -20,30 +21,38 @@ using control::Conversation;
 
 /// An emulator that is only what its control sees of it.
 struct EmulationFake {
-    explicit EmulationFake(std::string_view toml, base::TimePoint start)
-        : path{parse_profile(toml, "fake.toml", no_files).value(),
-               {.start = start, .limits = {.datagrams_max = 16}}}
-    {}
+    /// `names`: of its paths.
+    explicit EmulationFake(std::string_view toml, base::TimePoint start,
+                           const std::vector<std::string>& names = {""},
+                           bool takes_newcomers = false)
+        : paths{
+              parse_profile(toml, "fake.toml", no_files).value(),
+              {.start = start, .limits = {.datagrams_max = 16}, .takes_newcomers = takes_newcomers}}
+    {
+        for (const std::string& name : names) paths.add(name);
+    }
 
     static base::Result<std::string> no_files(const std::string& name)
     {
         return base::fail("no file " + name);
     }
 
-    [[nodiscard]] const Director& director() const { return path.director(); }
+    /// The first of them.
+    [[nodiscard]] EmulatedPath& path() const { return *paths.all().front().path; }
+    [[nodiscard]] const Director& director() const { return path().director(); }
 
     /// The delay of the datagrams that come now.
     [[nodiscard]] DelayLaw delay(Direction direction) const
     {
-        return path.link(direction).conditions().delay.law;
+        return path().link(direction).conditions().delay.law;
     }
 
-    EmulatedPath path;
+    Paths paths;
     nlohmann::json statistics{{"up", {{"received", 0}, {"lateness_us", {{"p50", nullptr}}}}},
                               {"down", {{"received", 0}}},
                               {"program", "fake"},
                               {"valid", true}};
-    Emulation emulation{path, [this] { return statistics.dump(2); },
+    Emulation emulation{paths, [this] { return statistics.dump(2); },
                         [](const std::string& name, const std::string&) { return no_files(name); }};
     control::Subject subject = subject_of(emulation);
 };

@@ -44,8 +44,8 @@ json set(const json& settings) { return {{"command", "set"}, {"settings", settin
 
 TEST_F(Talk, AnswersAChangeWithTheTimeTheGenerationAndTheDatagramsFromWhichItHolds)
 {
-    for (int i = 0; i < 5; ++i) std::ignore = fake.path.on_packet(Direction::up, {}, start);
-    for (int i = 0; i < 3; ++i) std::ignore = fake.path.on_packet(Direction::down, {}, start);
+    for (int i = 0; i < 5; ++i) std::ignore = fake.path().on_packet(Direction::up, {}, start);
+    for (int i = 0; i < 3; ++i) std::ignore = fake.path().on_packet(Direction::down, {}, start);
     const auto reply = ask(set({{"both.delay", "80ms"}}), start + 1s);
     EXPECT_EQ(reply, (json{{"ok", true},
                            {"generation", 2},
@@ -131,7 +131,7 @@ TEST_F(Talk, SaysHowLongASettingStillHolds)
     auto request = set({{"up.delay", "1s"}});
     request["for"] = "30s";
     ask(request);
-    fake.path.advance(start + 10s);
+    fake.paths.advance(start + 10s);
     const auto shown = ask({{"command", "show"}}, start + 10s);
     EXPECT_EQ(shown["live"][0]["remaining_s"], 20.0);
     EXPECT_EQ(shown["timeline"]["next_change_in_s"], 20.0);
@@ -288,6 +288,65 @@ TEST_F(Talk, DoesWhatAClientAskedThatHasGone)
     EXPECT_EQ(fake.delay(Direction::up), DelayLaw{ConstantLaw{1ms}});
     EXPECT_TRUE(conversation.is_over());
     EXPECT_EQ(conversation.output(), "");
+}
+
+/// What several paths are told, and say.
+struct TalkOfPaths {
+    json ask(const json& request, base::TimePoint now = start)
+    {
+        return json::parse(said_to(conversation, request.dump() + "\n", fake, now));
+    }
+
+    EmulationFake fake;
+    Conversation conversation{};
+};
+
+TEST(TalkOfLinks, NamesThemInSettingsAnswersAndProfiles)
+{
+    TalkOfPaths talk{EmulationFake{"[both]\ndelay = \"10ms\"\n", start, {"1-2", "1-3", "wan"}}};
+    std::ignore = talk.fake.path().on_packet(Direction::up, {}, start);
+    const auto done = talk.ask(set({{"2-1.delay", "20ms"}, {"all.mtu", "1500B"}}), start + 1s);
+    EXPECT_EQ(done["generation"], 2);
+    EXPECT_EQ(done["effective_at"], (json{{"1-2", {{"up", 1}, {"down", 0}}},
+                                          {"1-3", {{"up", 0}, {"down", 0}}},
+                                          {"wan", {{"up", 0}, {"down", 0}}}}));
+    EXPECT_EQ(talk.fake.delay(Direction::up), DelayLaw{ConstantLaw{10ms}});
+    EXPECT_EQ(talk.fake.delay(Direction::down), DelayLaw{ConstantLaw{20ms}});
+    EXPECT_EQ(talk.ask(set({{"2-3.delay", "20ms"}}))["error"],
+              "2-3.delay: there is no link 2-3: use one of 1-2, 1-3, wan");
+    const auto shown = talk.ask({{"command", "show"}}, start + 1s);
+    EXPECT_EQ(shown["live"],
+              (json::array({{{"settings",
+                              {{"up.mtu", "1500B"}, {"down.mtu", "1500B"}, {"2-1.delay", "20ms"}}},
+                             {"remaining_s", nullptr}}})));
+    const std::string profile = shown["profile"];
+    EXPECT_NE(profile.find("[link.\"2-1\"]\ndelay = \"20ms\"\n"), std::string::npos) << profile;
+    EXPECT_EQ(talk.ask({{"command", "diff"}, {"profile", profile}}, start + 1s)["changes"],
+              json::array());
+    EXPECT_EQ(talk.ask({{"command", "apply"}, {"profile", "[link.wan.up]\nloss = \"5%\"\n"}},
+                       start + 2s)["changed"],
+              true);
+    const auto changes = talk.ask({{"command", "diff"}, {"profile", "[all]\nloss = \"5%\"\n"}},
+                                  start + 2s)["changes"];
+    EXPECT_EQ(changes.size(), 5U); // all ways but the one that has it
+    EXPECT_EQ(changes[0], (json{{"key", "1-2.loss"}, {"from", "none"}, {"to", "5%"}}));
+    EXPECT_EQ(talk.ask({{"command", "reset"}}, start + 3s)["generation"], 4);
+    EXPECT_EQ(talk.fake.delay(Direction::down), DelayLaw{ConstantLaw{10ms}});
+}
+
+TEST(TalkOfClients, ReachesThoseThatAreNotThereYet)
+{
+    TalkOfPaths talk{EmulationFake{"[both]\ndelay = \"10ms\"\n", start, {"client.1"}, true}};
+    EXPECT_EQ(talk.ask(set({{"client.2.up.delay", "20ms"}, {"both.delay", "30ms"}}))["changed"],
+              true);
+    EXPECT_EQ(talk.fake.delay(Direction::up), DelayLaw{ConstantLaw{30ms}});
+    const auto& second = talk.fake.paths.add("client.2");
+    EXPECT_EQ(second.link(Direction::up).conditions().delay.law, DelayLaw{ConstantLaw{20ms}});
+    EXPECT_EQ(second.link(Direction::down).conditions().delay.law, DelayLaw{ConstantLaw{30ms}});
+    EXPECT_EQ(talk.ask({{"command", "show"}})["profile"], "\n[both]\ndelay = \"30ms\"\n");
+    EXPECT_EQ(talk.ask(set({{"1-2.delay", "1ms"}}))["error"],
+              "1-2.delay: there is no link 1-2: start the emulator with --link "
+              "1-2=LISTEN_1,LISTEN_2");
 }
 
 } // namespace

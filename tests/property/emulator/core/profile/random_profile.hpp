@@ -30,12 +30,25 @@ public:
             time += below(3) == 0 ? base::Duration{} : duration(1e12);
             Change change{time, {}, patch(), below(2) == 0 ? patch() : Patch{}};
             if (below(3) == 0) change.down = change.up;
+            if (below(3) == 0) change.paths = paths();
             drawn.timeline.push_back(change);
         }
+        if (below(3) == 0) drawn.paths = paths();
         return drawn;
     }
 
 private:
+    /// Ascending by their names, each with something.
+    std::vector<PathPatch> paths()
+    {
+        std::vector<PathPatch> drawn;
+        for (const char* const name : {"1-12", "client.3", "wan"}) {
+            PathPatch one{name, patch(), patch()};
+            const bool has_something = one.up != Patch{} || one.down != Patch{};
+            if (below(2) == 0 && has_something) drawn.push_back(std::move(one));
+        }
+        return drawn;
+    }
     std::uint64_t bits() { return stream_.bits(index_++); }
     std::uint64_t below(std::uint64_t most) { return bits() % most; }
     double uniform() { return stream_.uniform(index_++); }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/core/capture/pcapng.hpp"
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -104,7 +105,7 @@ TEST(Capture, IsUnderstoodByTshark)
     const std::vector<std::byte> zero_sum{std::byte{0xb5}, std::byte{0x1f}};
     const base::TimePoint time{1'700'000'000s + 123'456'789ns};
     std::string bytes;
-    append_capture_head(bytes, "hapnet-emulator 1.0");
+    append_capture_head(bytes, "hapnet-emulator 1.0", std::array{CaptureNames{}});
     const auto a = CaptureSide::a;
     const auto b = CaptureSide::b;
     append_packet(bytes, {a, false, time, v4(1, 7000), v4(9, 7001), hello}, 0s, "delayed 160.0 ms");

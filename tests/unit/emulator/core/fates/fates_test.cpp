@@ -125,5 +125,28 @@ TEST(Replay, GivesEachDatagramTheFateOfItsNumberAndDropsWhatComesAfterTheLast)
     EXPECT_EQ(replay.on_packet({.number = 2}), (Fate{.drop = DropCause::replay_ended}));
 }
 
+TEST(Fates, OfSeveralPathsNamesThemInFront)
+{
+    FatesOfPaths fates;
+    fates["1-2"] = some;
+    fates["client.10.0.0.1:5"].down = some.up;
+    const auto text = to_text(fates);
+    EXPECT_TRUE(text.starts_with("link,direction,number,")) << text;
+    EXPECT_EQ(parse_fates_of_paths(text).value(), fates);
+    EXPECT_EQ(parse_fates_of_paths(some_text).value().at(""), some);
+    const auto head = fmt::format("{},{}\n", path_column, fates_header);
+    const auto why = [&](const std::string& rows) {
+        return parse_fates_of_paths(head + rows).error().message;
+    };
+    const std::string row = "1-2,up,0,deliver,,,5,,,,\n";
+    EXPECT_EQ(why("x y,up,0,deliver,,,5,,,,\n"),
+              "line 2: link: expected the name of a link, such as 1-2, found 'x y'");
+    EXPECT_EQ(why("2-1,up,0,deliver,,,5,,,,\n"),
+              "line 2: link: expected the name of a link, such as 1-2, found '2-1'");
+    EXPECT_EQ(why(row + "1-3,up,0,deliver,,,5,,,,\n" + "1-2,up,1,deliver,,,5,,,,\n"),
+              "line 4: link: the rows of 1-2 must follow each other");
+    EXPECT_EQ(why(row + row), "line 3: number: expected 1, found '0'");
+}
+
 } // namespace
 } // namespace hapnet::emulator

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 #include "emulator/core/loss/trace.hpp"
+#include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "proto/base/text.hpp"
 
@@ -308,6 +309,106 @@ TEST(ProfileText, QuantitiesOfDataHaveUnits)
     EXPECT_EQ(base::size_text(65'536), "64KiB");
     EXPECT_EQ(base::parse_signed_duration("-5ms").value(), -5ms);
     EXPECT_FALSE(base::parse_signed_duration("--5ms"));
+}
+
+TEST(ProfileText, GivesPathsSettingsOfTheirOwn)
+{
+    const Profile profile = parsed(R"(
+[all]
+delay = "10ms"
+loss = "1%"
+[link."1-2"]
+delay = "20ms"
+[link."2-1"]
+delay = "30ms"
+burst_loss = "1/100"
+[link.wan]
+rate = "1Mbit/s"
+up.delay = "40ms"
+[client.3]
+delay = "50ms"
+[[at]]
+time = "10s"
+all.delay = "60ms"
+link.1-2.delay = "70ms"
+link.wan.down.loss = "5%"
+)");
+    EXPECT_EQ(paths_in(profile), (std::vector<std::string>{"1-2", "client.3", "wan"}));
+    const auto delay = [](const Conditions& conditions) {
+        return std::get<ConstantLaw>(conditions.delay.law).value;
+    };
+    const Path pair = profile_of(profile, "1-2").path;
+    EXPECT_EQ(delay(pair.up), 20ms);
+    EXPECT_EQ(delay(pair.down), 30ms);
+    EXPECT_EQ(pair.up.loss, (std::vector<LossLaw>{RandomLoss{1_percent}}));
+    EXPECT_EQ(pair.down.loss, (std::vector<LossLaw>{RandomLoss{1_percent}, Burst{1, 100, {}}}));
+    const Path wan = profile_of(profile, "wan").path;
+    EXPECT_EQ(delay(wan.up), 40ms);
+    EXPECT_EQ(delay(wan.down), 10ms);
+    EXPECT_EQ(wan.down.rate.bits_per_second, 1'000'000U);
+    EXPECT_EQ(delay(profile_of(profile, "client.3").path.down), 50ms);
+    EXPECT_EQ(profile_of(profile, "1-3").path, profile.path);
+    const Timeline timeline{profile_of(profile, "1-2")};
+    EXPECT_EQ(delay(timeline.at(10s).up), 70ms);
+    EXPECT_EQ(delay(timeline.at(10s).down), 60ms);
+    EXPECT_EQ(Timeline{profile_of(profile, "wan")}.at(10s).down.loss,
+              (std::vector<LossLaw>{RandomLoss{5_percent}}));
+    EXPECT_EQ(parsed(to_text(profile)), profile);
+}
+
+TEST(ProfileText, AMatrixHasARowForEachPeerThatSends)
+{
+    const Profile profile = parsed(R"(
+[matrix]
+peers = [1, 2, 5]
+delay = [["0ms", "10ms", "20ms"],
+         ["30ms", "0ms", "40ms"],
+         ["50ms", "60ms", "0ms"]]
+[link."5-2"]
+delay = "70ms"
+)");
+    const auto delay = [&](std::string_view name, Direction direction) {
+        const Path path = profile_of(profile, name).path;
+        const Conditions& way = direction == Direction::up ? path.up : path.down;
+        return std::get<ConstantLaw>(way.delay.law).value;
+    };
+    EXPECT_EQ(delay("1-2", Direction::up), 10ms);
+    EXPECT_EQ(delay("1-2", Direction::down), 30ms);
+    EXPECT_EQ(delay("1-5", Direction::up), 20ms);
+    EXPECT_EQ(delay("2-5", Direction::up), 40ms);
+    EXPECT_EQ(delay("2-5", Direction::down), 70ms);
+    EXPECT_EQ(refusal("[matrix]\npeers = [1, 2]\ndelay = [[\"0ms\", \"1ms\"]]\n"),
+              "test.toml:3:9: expected a list of 2 rows, one for each peer, of 2 values each");
+    EXPECT_EQ(refusal("[matrix]\npeers = [1, 1]\n"),
+              "test.toml:2:9: expected the different numbers of 2 to 8 peers: [1, 2, 3]");
+}
+
+TEST(ProfileText, SpeaksOnlyOfThePathsOfItsRun)
+{
+    const auto why = [](std::string_view text, const PathNames& names) {
+        const auto profile = parse_profile(text, "t", {}, names);
+        return profile ? "" : profile.error().message;
+    };
+    const std::string_view pair = "[link.\"3-1\"]\ndelay = \"1ms\"\n";
+    EXPECT_EQ(why(pair, {.links = {"1-2", "1-3"}}), "");
+    EXPECT_EQ(why(pair, {.links = {"1-2"}}), "t:1:7: there is no link 1-3: use one of 1-2");
+    EXPECT_EQ(why(pair, {}), "t:1:7: there is no link 1-3: start the emulator with --link "
+                             "1-3=LISTEN_1,LISTEN_2");
+    EXPECT_EQ(why("[client.1]\ndelay = \"1ms\"\n", {.links = {"1-2"}}),
+              "t:1:9: there is no client.1: clients are those of --upstream");
+    EXPECT_EQ(why("[client.1]\ndelay = \"1ms\"\n", {.clients = true}), "");
+    EXPECT_EQ(why("[link.\"1-1\"]\ndelay = \"1ms\"\n", {.any = true}),
+              "t:1:7: '1-1' is not the name of a link: write [link.\"1-2\"]");
+    const auto key = [](std::string_view text, const PathNames& names) {
+        const auto setting = parse_setting(text, "5%", {}, names);
+        return setting ? setting->path : setting.error().message;
+    };
+    EXPECT_EQ(key("2-1.loss", {.links = {"1-2"}}), "1-2");
+    EXPECT_EQ(key("wan.up.loss", {.links = {"wan"}}), "wan");
+    EXPECT_EQ(key("all.loss", {.links = {"wan"}}), "");
+    EXPECT_EQ(key("client.10.0.0.1:5000.up.loss", {.clients = true}), "client.10.0.0.1:5000");
+    EXPECT_EQ(key("lan.loss", {.links = {"wan"}}),
+              "lan.loss: there is no link lan: use one of wan");
 }
 
 } // namespace

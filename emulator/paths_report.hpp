@@ -2,35 +2,34 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/options.hpp"
+#include "emulator/ports/links.hpp"
 #include "emulator/ports/upstream.hpp"
-#include "emulator/scenario.hpp"
-#include "proto/base/time.hpp"
-#include "proto/net/real_time.hpp"
+#include "emulator/report.hpp"
 
 #include <string>
 
 namespace hapnet::emulator {
 
-/// All that a report on a run with --upstream is made from.
-struct UpstreamRun {
-    const UpstreamOptions& options;
-    const Scenario& scenario;
-    const ports::Upstream& port;
-    net::RealTime real_time;
-    base::Duration elapsed{}; // since the socket was bound
-};
+// Reports on runs with several paths.
 
+using LinksRun = RunOf<ports::Links, true>;
+using UpstreamRun = RunOf<ports::Upstream, true>;
+
+/// "ready 1-2=127.0.0.1:7001,127.0.0.1:7002 ... seed=42 ..."
+[[nodiscard]] std::string ready_line(const LinksRun& run);
 /// "ready listen=127.0.0.1:7001 upstream=10.0.0.5:53 seed=42 ..."
 [[nodiscard]] std::string ready_line(const UpstreamRun& run);
 
-/// What --stats writes: one JSON object, with the sums of all clients and each that is there.
+/// What --stats writes: one JSON object, with the sums of all paths and each that is there.
+[[nodiscard]] std::string statistics_json(const LinksRun& run);
 [[nodiscard]] std::string statistics_json(const UpstreamRun& run);
 
 /// A few lines for a person.
+[[nodiscard]] std::string summary(const LinksRun& run);
 [[nodiscard]] std::string summary(const UpstreamRun& run);
 
 /// One short line for a terminal.
+[[nodiscard]] std::string status_line(const LinksRun& run);
 [[nodiscard]] std::string status_line(const UpstreamRun& run);
 
 } // namespace hapnet::emulator

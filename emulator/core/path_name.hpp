@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/conditions.hpp"
+#include "proto/base/result.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+// The names of the paths of one run, and of their two ways.
+//
+// | path                  | name       | up         | down         |
+// |-----------------------|------------|------------|--------------|
+// | the only one          | ""         | "up"       | "down"       |
+// | of two peers          | "1-2"      | "1-2"      | "2-1"        |
+// | of a link with a word | "wan"      | "wan.up"   | "wan.down"   |
+// | of a client           | "client.3" | "client.3.up" | "client.3.down" |
+
+/// A way as the keys of settings call it.
+[[nodiscard]] std::string way_name(std::string_view path, Direction direction);
+
+/// A way as the names of its random streams begin: with '/' instead of '.', "client/3/up".
+[[nodiscard]] std::string stream_name(std::string_view path, Direction direction);
+
+/// Whether its ways are called by two peers.
+[[nodiscard]] bool is_pair(std::string_view path);
+
+/// A name as --link takes it: "1-2" with the lower number first, or a word.
+[[nodiscard]] base::Result<std::string> parse_link_name(std::string_view text);
+
+/// A way, or both of a path; both of all paths when there is no name.
+struct Way {
+    std::string path;
+    std::optional<Direction> direction; // nullopt: both
+
+    friend bool operator==(const Way&, const Way&) = default;
+};
+/// What the beginning of a key names: "", "all", "both", "up", "1-2", "wan", "wan.up",
+/// "client.3.down"; nullopt when it can be no such name.
+[[nodiscard]] std::optional<Way> parse_way(std::string_view text);
+
+/// What a client is called.
+[[nodiscard]] std::string client_path(std::string_view number_or_address);
+
+/// Which paths a run has; by default the only one.
+struct PathNames {
+    std::vector<std::string> links{};
+    bool clients = false; // whoever comes
+    bool any = false;     // it is not known yet
+
+    [[nodiscard]] bool contains(std::string_view path) const;
+    /// Why not: "there is no link 1-3: use one of 1-2, 2-3".
+    [[nodiscard]] std::string refusal(std::string_view path) const;
+};
+
+} // namespace hapnet::emulator

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/emulated_path.hpp"
+#include "emulator/core/fates/fates.hpp"
+#include "emulator/core/path_name.hpp"
+#include "emulator/core/profile/profile.hpp"
+#include "proto/base/random.hpp"
+#include "proto/base/result.hpp"
+#include "proto/base/time.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+/// All emulated paths of a run, on one clock and with one generation: conditions that change, by
+/// the timeline or by hand, change on all paths at once. Paths may come and go. Does no I/O and
+/// reads no clock.
+class Paths {
+public:
+    struct Setup {
+        base::Seed seed{1};
+        base::TimePoint start{};
+        QueueLimits limits{};                         // of each direction of each path
+        std::shared_ptr<Slab> slab{};                 // that all share; null: one for each
+        std::shared_ptr<const FatesOfPaths> replay{}; // null: fates are drawn
+        bool takes_newcomers = false;                 // paths come later, and have names of clients
+    };
+
+    Paths(const Profile& profile, Setup setup);
+
+    /// A path of this name, which is not there yet: as if it had been from the start. It stays
+    /// where it is until it is removed.
+    EmulatedPath& add(const std::string& name);
+    void remove(std::string_view name);
+
+    /// Follows the timeline up to `now`, with all paths. Cheap when nothing changes.
+    void advance(base::TimePoint now)
+    {
+        now_ = std::max(now_, now);
+        if (base::is_due(next_change_, now)) advance_all(now);
+    }
+
+    /// The same, and lets all of them know what time it is, also where nothing changes.
+    void catch_up(base::TimePoint now)
+    {
+        now_ = std::max(now_, now);
+        advance_all(now_);
+    }
+
+    /// What a path is told, by its name and the conditions that hold on it.
+    using CommandFor =
+        std::function<base::Result<Command>(std::string_view path, const Path& conditions)>;
+
+    /// Tells all of them at once. Nothing changes when one would refuse. `mentioned`: the names
+    /// that the command speaks of; of those that are not there it is kept until they come.
+    base::Result<void> apply(const CommandFor& command, std::span<const std::string> mentioned,
+                             base::TimePoint now);
+
+    /// 1 at first, and one more whenever conditions have changed or other profiles were applied.
+    [[nodiscard]] std::uint64_t generation() const { return generation_; }
+    [[nodiscard]] base::Duration elapsed() const { return now_ - setup_.start; }
+
+    [[nodiscard]] std::optional<base::TimePoint> next_due() const;
+    [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
+
+    [[nodiscard]] PathNames names() const;
+
+    struct Named {
+        std::string name;
+        std::unique_ptr<EmulatedPath> path;
+    };
+    /// In the order in which they came.
+    [[nodiscard]] const std::vector<Named>& all() const { return paths_; }
+
+    /// What decides for a path; of those that are not there, as far as something is known of them.
+    struct Decider {
+        std::string_view name; // empty: of all that come and have nothing of their own
+        const Director* director = nullptr;
+    };
+    [[nodiscard]] std::vector<Decider> deciders() const;
+
+    /// How many names a run with newcomers can keep settings for.
+    static constexpr std::size_t absent_max = 64;
+
+private:
+    struct Absent {
+        std::string name;
+        Director director;
+    };
+
+    void advance_all(base::TimePoint now);
+    void find_next_change();
+    base::Result<void> expect(std::span<const std::string> mentioned);
+    void forget_absent(const Command& command, std::span<const std::string> mentioned);
+    [[nodiscard]] Director director_for(const std::string& name);
+    [[nodiscard]] std::uint64_t generations() const;
+
+    Profile profile_;
+    Setup setup_;
+    std::optional<Director> newcomers_; // what holds for whoever comes
+    std::vector<Absent> absent_;        // what holds for some of them
+    std::vector<std::string> mentioned_;
+    std::vector<Named> paths_;
+    base::TimePoint now_;
+    std::uint64_t generation_ = 1;
+    std::optional<base::TimePoint> next_change_;
+};
+
+} // namespace hapnet::emulator

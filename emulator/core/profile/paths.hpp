@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/core/profile/profile.hpp"
+#include "emulator/core/profile/timeline.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hapnet::emulator {
+
+// A profile of several paths, and what it is to each of them.
+
+/// The paths that have something of their own in it, ascending by their names.
+[[nodiscard]] std::vector<std::string> paths_in(const Profile& profile);
+
+/// What the profile is to this path, without the others; its timeline has the same changes, also
+/// those that change nothing here.
+[[nodiscard]] Profile profile_of(const Profile& profile, std::string_view path);
+
+/// Timeline::validate() of every path.
+[[nodiscard]] tl::expected<void, Timeline::BadChange> validate_timelines(const Profile& profile);
+
+/// The profile of one of several paths.
+struct NamedProfile {
+    std::string path;
+    Profile profile;
+};
+/// One profile that is to each path what its own is. What most have at the beginning, and what
+/// changes alike on all of them, stands in it for all.
+[[nodiscard]] Profile joined(std::span<const NamedProfile> profiles);
+
+/// One patch for several paths: what all have alike, and what is left of each.
+struct JoinedPatch {
+    Patch up;
+    Patch down;
+    std::vector<PathPatch> paths; // ascending by their names
+};
+[[nodiscard]] JoinedPatch joined(std::vector<PathPatch> patches);
+
+/// What has to be set to come from one to the other.
+[[nodiscard]] Patch difference(const Conditions& before, const Conditions& after);
+
+/// The patch of this path in `patches`, made if there is none; they stay in their order.
+[[nodiscard]] PathPatch& patch_for(std::vector<PathPatch>& patches, std::string_view path);
+
+} // namespace hapnet::emulator

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "emulator/options.hpp"
+#include "proto/base/result.hpp"
+#include "proto/cli/command.hpp"
+#include "proto/net/address_set.hpp"
+
+#include <vector>
+
+namespace hapnet::emulator {
+
+// The options of runs with several paths, and what they do not go with.
+
+void add_upstream_options(cli::Command& program, UpstreamOptions& options);
+void add_link_options(cli::Command& program, LinkOptions& options);
+
+[[nodiscard]] base::Result<void> require_upstream(const cli::Command& program);
+[[nodiscard]] base::Result<void> require_links(const LinkOptions& options,
+                                               const cli::Command& program);
+
+/// Patterns of addresses, one after the other.
+[[nodiscard]] cli::Take allow_into(std::vector<net::AddressPattern>& into);
+
+} // namespace hapnet::emulator

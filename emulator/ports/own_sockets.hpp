@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/net/address_set.hpp"
+#include "proto/net/endpoint.hpp"
+
+#include <vector>
+
+namespace hapnet::emulator::ports {
+
+/// The emulator's own sockets. A datagram that seems to come from one of them is forged, or one of
+/// its own that has come back: let in, it would go round for ever.
+class OwnSockets {
+public:
+    void add(const net::Endpoint& local);
+    void remove(const net::Endpoint& local);
+    [[nodiscard]] bool contains(const net::Endpoint& from) const;
+
+private:
+    struct Socket {
+        net::Endpoint local;
+        net::AddressSet host; // where it can be reached, when that is not all of this machine
+    };
+    net::AddressSet this_machine_ = net::addresses_of_this_machine();
+    std::vector<Socket> sockets_;
+};
+
+} // namespace hapnet::emulator::ports
