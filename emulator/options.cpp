@@ -58,8 +58,8 @@ Examples:
   hapnet-emulator check --delay 80ms --jitter 15ms
 
 The emulator prints one line "ready a=... b=..." (with --upstream "ready listen=...", with --link
-"ready 1-2=...,...") on stdout when it listens; port 0 takes any free port. SIGINT or SIGTERM ends the run and writes the files. SIGHUP
-reads --profile again; without a profile it ends the run.)";
+"ready 1-2=...,...") on stdout when it listens; port 0 takes any free port. SIGINT or SIGTERM ends
+the run and writes the files. SIGHUP reads --profile again; without a profile it ends the run.)";
 
 constexpr const char* exit_codes = R"(  0  done
   1  the run failed

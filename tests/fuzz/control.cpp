@@ -3,24 +3,23 @@
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/unit/emulator/control/emulation_fake.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <string_view>
 
-/// Whatever a client of the control socket sends, each line of the answers is an object that says
-/// whether it is one of success, and the profile that is shown in the end reads back.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+namespace {
+
+using namespace hapnet;
+using namespace hapnet::emulator;
+
+const base::TimePoint start{};
+
+/// Says the text to the emulator, and looks at the answers.
+void say(const std::string& text, EmulationFake& fake)
 {
-    using namespace hapnet;
-    using namespace hapnet::emulator;
-    const base::TimePoint start{};
-    EmulationFake fake{"[both]\ndelay = \"160ms\"\n", start};
     Conversation conversation;
-    std::string text;
-    for (const std::uint8_t byte : std::span{data, size}) text += static_cast<char>(byte);
-    text.resize(std::min(text.size(), conversation.room()));
-    conversation.on_bytes(text);
+    conversation.on_bytes(std::string_view{text}.substr(0, conversation.room()));
     conversation.on_end();
     std::string said;
     while (conversation.advance(fake.subject, start)) said += said_by(conversation, start);
@@ -28,8 +27,29 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::string line; std::getline(lines, line);) {
         const auto reply = nlohmann::json::parse(line, nullptr, false);
         base::ensure(reply.is_object() && reply.contains("ok") && reply["ok"].is_boolean());
+        if (!reply.contains("profile")) continue;
+        const std::string shown = reply["profile"];
+        base::ensure(parse_profile(shown, "shown", EmulationFake::no_files).has_value());
     }
+}
+
+} // namespace
+
+/// Whatever a client of the control socket sends, each line of the answers is an object that says
+/// whether it is one of success, and the profile that is shown in the end reads back. So it is with
+/// one path, with links and with clients.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    std::string text;
+    for (const std::uint8_t byte : std::span{data, size}) text += static_cast<char>(byte);
+    const std::string_view profile = "[both]\ndelay = \"160ms\"\n";
+    EmulationFake fake{profile, start};
+    say(text, fake);
     const Profile shown = fake.director().remaining();
     base::ensure(parse_profile(to_text(shown), "shown", EmulationFake::no_files).value() == shown);
+    EmulationFake links{profile, start, {"1-2", "wan"}};
+    say(text, links);
+    EmulationFake clients{profile, start, {"client.1"}, true};
+    say(text, clients);
     return 0;
 }
