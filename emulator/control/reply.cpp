@@ -106,8 +106,12 @@ Json live_of_several(const Deciders& deciders, base::TimePoint now)
     }
     Json live = Json::array();
     for (auto& [end, patches] : by_end) {
-        const bool is_of_all = patches.size() == deciders.size();
-        const auto all = is_of_all ? joined(std::move(patches)) : JoinedPatch{{}, {}, patches};
+        JoinedPatch all;
+        if (patches.size() == deciders.size()) {
+            all = joined(std::move(patches));
+        } else {
+            all.paths = std::move(patches);
+        }
         Json settings = Json::object();
         const auto add = [&](std::string_view path, const Patch& up, const Patch& down) {
             for (const auto& [key, value] : texts_of(Direction::up, up, path)) {

@@ -104,7 +104,7 @@ base::Result<std::string> parse_link_name(std::string_view text)
 
 std::optional<Way> parse_way(std::string_view text)
 {
-    if (const auto all = way_of_all(text)) return all;
+    if (auto all = way_of_all(text)) return all;
     if (const auto peers = parse_peers(text)) {
         if (peers->from < peers->to) return Way{std::string{text}, Direction::up};
         return Way{fmt::format("{}-{}", peers->to, peers->from), Direction::down};

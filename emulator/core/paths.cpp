@@ -110,12 +110,12 @@ base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::
     // A change is stamped by what arrives on any path: it may come after this moment.
     catch_up(now);
     now = now_;
-    if (const auto expected = expect(mentioned); !expected) return expected;
+    if (auto expected = expect(mentioned); !expected) return expected;
     std::vector<Command> commands;
     for (const auto& [name, director] : deciders()) {
         auto own = command(name, director->path());
         if (!own) return tl::unexpected{own.error()};
-        if (const auto valid = director->check(*own); !valid) return valid;
+        if (auto valid = director->check(*own); !valid) return valid;
         commands.push_back(*std::move(own));
     }
     const auto before = generations();

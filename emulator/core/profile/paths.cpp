@@ -144,11 +144,12 @@ Profile joined(std::span<const NamedProfile> profiles)
         if (own.up != Patch{} || own.down != Patch{}) patch_for(all.paths, path) = own;
     }
     for (auto& [key, patches] : changes) {
-        const bool is_of_all = patches.size() == profiles.size();
-        JoinedPatch change = is_of_all ? joined(std::move(patches)) : JoinedPatch{};
-        if (!is_of_all) {
+        JoinedPatch change;
+        if (patches.size() == profiles.size()) {
+            change = joined(std::move(patches));
+        } else {
+            std::ranges::sort(patches, {}, &PathPatch::path);
             change.paths = std::move(patches);
-            std::ranges::sort(change.paths, {}, &PathPatch::path);
         }
         all.timeline.push_back({std::get<0>(key), std::get<2>(key), std::move(change.up),
                                 std::move(change.down), std::move(change.paths)});
