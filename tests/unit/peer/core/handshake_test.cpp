@@ -17,7 +17,7 @@ constexpr Path far{.delay_min = 160ms, .delay_max = 160ms};
 wire::Hello hello_of(const Introduction& self, std::uint32_t nonce_heard = 0)
 {
     Handshake handshake{self};
-    wire::Hello hello = handshake.hello(base::TimePoint{1h}).value();
+    wire::Hello hello = handshake.hello(base::TimePoint{1h}, 0).value();
     hello.nonce_heard = nonce_heard;
     return hello;
 }
