@@ -197,7 +197,7 @@ void add_session_options(cli::Command& program, Options& options, std::string& p
                    "not turn (default: the task's; lift for T4, wall for T5, paper for the others)",
                    [&options](const std::string& text) { return take_scene(text, options); });
     add_force_options(program, options);
-    program.option("--task", "P1|T1|...|T6", "What the hands do, simulated or yours (default P1)",
+    program.option("--task", "P1|T1|...|T7", "What the hands do, simulated or yours (default P1)",
                    cli::into(options.task, parse_task));
     program.option("--algorithm", "NAME|FILE",
                    "How the two cubes are kept together: base (default), dead-reckoning, sep, or a "

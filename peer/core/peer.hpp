@@ -156,8 +156,16 @@ public:
     }
     [[nodiscard]] const Counters& counters() const { return counters_; }
     [[nodiscard]] bool is_alone() const; // all others said goodbye
-    /// Its place among all in the order of their ids, from 0: the 1st, 3rd, ... hand acts as L.
+    /// Its place among all in the order of their ids, from 0: the 1st, 3rd, ... hand acts as L, the
+    /// others as R.
     [[nodiscard]] std::size_t rank() const { return circle_.rank(); }
+    [[nodiscard]] bool is_left() const { return rank() % 2 == 0; }
+    /// One of so many that act on its side.
+    [[nodiscard]] double share_of_side() const
+    {
+        const std::size_t all = others().size() + 1;
+        return 1.0 / static_cast<double>(is_left() ? all - all / 2 : all / 2);
+    }
     [[nodiscard]] std::optional<wire::ByeReason> refusal() const { return refusal_; }
     /// Time from the start until the hands let go.
     [[nodiscard]] base::Duration hands_on() const;
