@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "peer/cli/key_commands.hpp"
 
+#include "proto/cli/parsers.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/secure/key_file.hpp"
 #include "proto/secure/keys/draw.hpp"

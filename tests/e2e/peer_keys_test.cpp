@@ -3,15 +3,16 @@
 // Two daemons with keys, over real sockets.
 #include "tests/e2e/emulator.hpp"
 #include "tests/e2e/peer.hpp"
-#include "tests/e2e/udp.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <sys/stat.h>
+#include <tuple>
 #include <vector>
 
 namespace hapnet::e2e {
@@ -56,6 +57,16 @@ std::string secret_in(const std::string& file, const std::string& key)
     return text.substr(begin, text.find('"', begin) - begin);
 }
 
+/// The lines of a file that begin so.
+std::vector<std::string> rows_of(const std::string& file, std::string_view begin)
+{
+    std::vector<std::string> rows;
+    std::istringstream text{text_of(file)};
+    for (std::string row; std::getline(text, row);)
+        if (row.starts_with(begin)) rows.push_back(row);
+    return rows;
+}
+
 } // namespace
 
 TEST(PeerKeys, SealASessionThroughTheEmulatorThatReplaysAndIsAnalysedAsAnyOther)
@@ -80,6 +91,40 @@ TEST(PeerKeys, SealASessionThroughTheEmulatorThatReplaysAndIsAnalysedAsAnyOther)
     }
     const auto analysis = analysis_of(a.record(), b.record());
     EXPECT_LE(analysis["settled_discrepancy_mm"].get<double>(), 0.1);
+}
+
+TEST(PeerKeys, MeetTheFatesThatTheSameSeedDealsWithoutThem)
+{
+    const Circle circle;
+    const TemporaryFolder folder;
+    std::vector<std::vector<std::string>> fates;
+    for (const bool keyed : {false, true}) {
+        const std::string file = folder.file(keyed ? "keyed.csv" : "plain.csv");
+        const std::string place_a = free_place(), place_b = free_place();
+        Emulator emulator{{"--delay", "20ms", "--jitter", "5ms", "--loss", "20%", "--seed", "7",
+                           "--a", place_a, "--b", place_b, "--fates", file}};
+        std::vector<std::string> options_a{"--task", "P1", "--duration", "3s"};
+        std::vector<std::string> options_b = options_a;
+        if (keyed) {
+            options_a.insert(options_a.end(), {"--key", circle.of(1)});
+            options_b.insert(options_b.end(), {"--key", circle.of(2)});
+        }
+        Peer a{1, place_a, emulator.a().to_text(), options_a};
+        Peer b{2, place_b, emulator.b().to_text(), options_b};
+        a.expect_end();
+        b.expect_end();
+        std::ignore = emulator.stop();
+        for (const char* way : {"up,", "down,"}) fates.push_back(rows_of(file, way));
+    }
+    for (const std::size_t way : {0U, 1U}) {
+        auto& plain = fates[way];
+        auto& keyed = fates[way + 2];
+        const std::size_t common = std::min(plain.size(), keyed.size());
+        EXPECT_GT(common, 2000U);
+        plain.resize(common);
+        keyed.resize(common);
+        EXPECT_EQ(plain, keyed) << way;
+    }
 }
 
 TEST(PeerKeys, LeaveNoCoreDump)

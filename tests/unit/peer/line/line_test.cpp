@@ -166,7 +166,7 @@ TEST(Line, WithAKeyCarriesAMessageUnchangedAndShowsNothingOfIt)
     ASSERT_NE(found, pair.sent(0).end());
     const Bytes& sealed = *found;
     const auto text = plain.bytes().subspan(secure::state_head_bytes, 16);
-    EXPECT_EQ(std::ranges::search(sealed, text).begin(), sealed.end());
+    EXPECT_EQ(std::search(sealed.begin(), sealed.end(), text.begin(), text.end()), sealed.end());
     EXPECT_EQ(status_of(pair.line(1), pair.now()).key->counts.handshakes, 1U);
     EXPECT_TRUE(status_of(pair.line(1), pair.now()).key->is_agreed);
 }
