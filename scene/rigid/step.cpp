@@ -144,6 +144,7 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
     pairs_.forget(body);
     boxes_.forget(body);
     hand_contacts_.forget(body);
+    joints_.on_placed(state, body);
 }
 
 template <BroadPhase broad_phase>
