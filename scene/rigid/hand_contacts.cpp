@@ -403,6 +403,13 @@ void HandContacts::store_impulses(BodyId body)
     }
 }
 
+const HandContacts::Spring& HandContacts::first_spring_on(BodyId body) const
+{
+    const std::span<const Spring> all = springs_.all();
+    return *std::find_if(all.begin(), all.end(),
+                         [body](const Spring& spring) { return spring.body == body; });
+}
+
 void HandContacts::scale_impulses(BodyId body, double share)
 {
     for (Spring& spring : springs_.all()) {

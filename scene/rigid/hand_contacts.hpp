@@ -84,6 +84,8 @@ public:
     void store_friction(WorldState& state, BodyId body);
     /// Keeps the impulses that were found for them.
     void store_impulses(BodyId body);
+    /// Of one that has some.
+    [[nodiscard]] const Spring& first_spring_on(BodyId body) const;
     /// Takes but a share of what the springs did to a body.
     void scale_impulses(BodyId body, double share);
     /// Reports to the hands what the springs did.

@@ -112,6 +112,15 @@ void reset(BodyIntegration& integration)
     integration.first_touch.time = std::numeric_limits<double>::infinity();
 }
 
+void begin_again(BodyIntegration& integration, const glm::dvec3& twist)
+{
+    integration.contact_impulse = glm::dvec3{0.0};
+    integration.contact_angular_impulse = twist;
+    integration.bounce_angular_impulse = glm::dvec3{0.0};
+    integration.bounce_angular_impulse_mean = glm::dvec3{0.0};
+    integration.energy_driven = 0.0;
+}
+
 void begin_bounces(BodyIntegration& integration)
 {
     integration.start_after_bounces = integration.start;

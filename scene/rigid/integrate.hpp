@@ -56,6 +56,9 @@ struct BodyIntegration {
 /// Starts with nothing acting on the body.
 void reset(BodyIntegration& integration);
 
+/// The same in the middle of a tick, for one that is solved anew: with what a torque adds alone.
+void begin_again(BodyIntegration& integration, const glm::dvec3& twist);
+
 /// Starts with no bounce yet.
 void begin_bounces(BodyIntegration& integration);
 

@@ -114,6 +114,7 @@ void RigidStepper<broad_phase>::step(const WorldConfig& config, WorldState& stat
         restitution_.apply(solver_, integrations_.all(), scales_, state.interventions);
     if (has_joints) joints_.stiffen(state.bodies, solver_, integrations_.all());
     const bool changed = solve_velocities(state.tick_cost);
+    if (bounced || changed) solve_anew_what_gains(config, state);
     if (has_kinematics) add_driven_energy(solver_, integrations_.all());
     store_contact_impulses(state);
     if (has_joints) joints_.store_impulses(state, solver_);
@@ -143,6 +144,7 @@ void RigidStepper<broad_phase>::on_body_placed(WorldState& state, BodyId body)
     pairs_.forget(body);
     boxes_.forget(body);
     hand_contacts_.forget(body);
+    joints_.on_placed(state, body);
 }
 
 template <BroadPhase broad_phase>
@@ -156,12 +158,13 @@ TickCost RigidStepper<broad_phase>::tick_cost_bound(const WorldConfig& config) c
 {
     const std::uint64_t pushed =
         std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
-    // Overlaps are looked at once more where a body is held back, sleepers by what carries them.
+    // Overlaps are looked at once more where a body is held back, sleepers by what carries them,
+    // velocities and springs where an island is solved anew.
     return {.pairs = (sleeps ? 2 + wake_rounds_max : 1) * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
-            .visits = solver_.visits_bound(velocity_limits()) +
+            .visits = 2 * solver_.visits_bound(velocity_limits()) +
                       2 * solver_.visits_bound(position_limits()),
-            .spring_rows = 2 * pushed * MidpointBudget::rows_solved_max, // against drag, twice
+            .spring_rows = 4 * pushed * MidpointBudget::rows_solved_max, // against drag, twice
             .looks = continuous_.looks_max()};
 }
 
@@ -418,76 +421,6 @@ void RigidStepper<broad_phase>::collide_bodies(WorldState& state)
         note(block->a, block->normal, pair.b);
         note(block->b, -block->normal, pair.a);
     }
-}
-
-/// Finds the velocities of the active bodies at the end of the tick, without what their contacts
-/// have to change.
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, WorldState& state)
-{
-    for (const BodyId body : state.pushed) activate(state.bodies, state.bodies.slot_of[body]);
-    // A torque is held for the tick, as last tick's contact forces are.
-    for (const BodyId body : state.twisted)
-        integrations_[state.bodies.slot_of[body] + 1].contact_angular_impulse +=
-            scales_.tick * state.torques[body];
-    integrate_hand_springs(config, state);
-    for (const Slot slot : active_.slots()) {
-        BodyIntegration& integration = integrations_[slot + 1];
-        if (!integration.has_hands)
-            integrate_velocity(integration, state, slot, solver_.response(slot + 1), config);
-        if (restitution_.is_needed()) begin_bounces(integration);
-    }
-}
-
-template <BroadPhase broad_phase>
-void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config, WorldState& state)
-{
-    const auto springs_of_all = hand_contacts_.springs();
-    for (std::size_t i = 0; i < springs_of_all.size(); ++i) {
-        const HandContacts::Spring& spring = springs_of_all[i];
-        if (i > 0 && spring.body == springs_of_all[i - 1].body) continue; // done with that
-        const Slot slot = state.bodies.slot_of[spring.body];
-        activate(state.bodies, slot);
-        BodyIntegration& integration = integrations_[slot + 1];
-        if (integration.has_hands) continue;
-        const auto [springs, work] = hand_contacts_.springs_on(spring.body);
-        const std::span<FrictionSpring> frictions = hand_contacts_.frictions_on(spring.body);
-        integrate_velocity_with_hands(integration, state, slot, solver_.response(slot + 1),
-                                      {springs, work, modes_[spring.hand], config, frictions});
-        hand_contacts_.store_impulses(spring.body);
-        if (!frictions.empty()) hand_contacts_.store_friction(state, spring.body);
-        if (integration.hands_are_braked) ++state.interventions.hands_braked;
-        state.tick_cost.spring_rows += integration.hand_rows;
-    }
-}
-
-/// Finds the velocities at the end of the tick at which nothing goes into anything, and from them
-/// the mean velocities. Returns whether last tick's contact forces had to change for that.
-template <BroadPhase broad_phase>
-bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
-{
-    for (const Slot slot : active_.slots())
-        solver_.end_motion(slot + 1) = integrations_[slot + 1].predicted;
-    for (ContactBlock& block : solver_.blocks()) {
-        set_centripetal_velocity(block, integrations_[block.a].start.spin,
-                                 integrations_[block.b].start.spin, scales_.tick);
-    }
-    const SolverOutcome outcome = solver_.solve_velocities(velocity_limits());
-    cost.contacts = solver_.blocks().size();
-    cost.visits += outcome.visits;
-    counts_.contacts = static_cast<std::uint32_t>(solver_.blocks().size());
-    counts_.sweeps = outcome.sweeps;
-    counts_.change = outcome.change;
-    if (!joints_.is_empty()) joints_.soften(solver_);
-    for (const Slot slot : active_.slots()) {
-        const BodyIntegration& integration = integrations_[slot + 1];
-        const BodyMotion& end = solver_.end_motion(slot + 1);
-        solver_.mean_motion(slot + 1) = {
-            integration.mean.velocity + 0.5 * (end.velocity - integration.predicted.velocity),
-            integration.mean.spin + 0.5 * (end.spin - integration.predicted.spin),
-            integration.bounce_angular_impulse_mean + 0.5 * end.angular_impulse};
-    }
-    return !outcome.in_balance;
 }
 
 /// Keeps the impulses for the next tick's warm start, and counts the contacts that rub.

@@ -48,10 +48,11 @@ void report(const Tally& tally)
     fmt::print(
         "  guards: {} in {:.2g} of the ticks: {} islands limited, {} ways cut, {} budgets "
         "spent; mechanisms: {} impulses trimmed, {} hands braked, {} bounces limited, {} sweeps "
-        "continued, {} clusters stuck\n",
+        "continued, {} clusters stuck, {} islands solved anew\n",
         done.guards(), static_cast<double>(done.guards()) / static_cast<double>(tally.ticks),
         done.islands_limited, done.paths_cut, done.budgets_spent, done.impulses_trimmed,
-        done.hands_braked, done.bounces_limited, done.sweeps_continued, done.clusters_stuck);
+        done.hands_braked, done.bounces_limited, done.sweeps_continued, done.clusters_stuck,
+        done.islands_anew);
     std::fflush(stdout);
 }
 

@@ -326,6 +326,13 @@ void SceneLaws::add_torque(Balance& balance, const BodyDescription& form, const 
     balance.angular += length(twist);
 }
 
+bool SceneLaws::is_joined(BodyId id) const
+{
+    const auto& joints = play_.description.joints;
+    return std::any_of(joints.begin(), joints.end(),
+                       [id](const auto& joint) { return joint.body == id || joint.to == id; });
+}
+
 void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
 {
     const BodyDescription& form = play_.description.bodies[id];
@@ -342,8 +349,12 @@ void SceneLaws::add(Balance& balance, const World& world, BodyId id) const
     const glm::dquat& rotated = was.state.orientation;
     balance.kinetic_before +=
         0.5 * mass * glm::dot(v0, v0) + spinning_energy(form, rotated, was.angular_momentum);
-    balance.kinetic_after +=
-        0.5 * mass * glm::dot(v1, v1) + spinning_energy(form, rotated, now.angular_momentum);
+    double spinning = spinning_energy(form, rotated, now.angular_momentum);
+    // A joint turns the angular momentum with the body: the inertia is that of where it came to.
+    if (is_joined(id))
+        spinning =
+            std::min(spinning, spinning_energy(form, now.state.orientation, now.angular_momentum));
+    balance.kinetic_after += 0.5 * mass * glm::dot(v1, v1) + spinning;
     balance.work += std::max(glm::dot(force, steady), glm::dot(force, moved));
     const glm::dvec3 torque = steady_torque(world, id);
     if (torque != glm::dvec3{0.0}) add_torque(balance, form, was, now, tick * torque);

@@ -84,6 +84,7 @@ private:
     void add_driven(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] static double turning_slack(const scene::BodyDescription& form, const Moment& was,
                                               const Moment& now, double angle);
+    [[nodiscard]] bool is_joined(scene::BodyId id) const;
     void add(Balance& balance, const scene::World& world, scene::BodyId id) const;
     [[nodiscard]] double most_from_hand(const scene::World& world, std::uint32_t hand,
                                         double fastest) const;

@@ -157,6 +157,29 @@ INSTANTIATE_TEST_SUITE_P(
         Scar{1000001991, "PushedThroughItsLockedCentre"}),
     [](const auto& each) { return each.param.name; });
 
+/// Islands that lost motion because last tick's forces drove them: where drag took a part of
+/// friction's, where a hand or a grip had counted on them, in a wedge at rest, on light bodies.
+class StaleForces : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(StaleForces, GiveWayWithoutAGuard)
+{
+    const std::uint64_t seed = GetParam();
+    const PlayOutcome outcome = judge(random_play(seed), seed);
+    EXPECT_FALSE(outcome.complaint) << *outcome.complaint;
+    EXPECT_EQ(outcome.interventions.guards(), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drag, StaleForces,
+                         testing::Values(900000698, 900001820, 900002197, 900002527, 900003178,
+                                         900003571, 900004101));
+INSTANTIATE_TEST_SUITE_P(Hands, StaleForces,
+                         testing::Values(900000025, 900000547, 900000573, 900004634));
+INSTANTIATE_TEST_SUITE_P(AtRest, StaleForces,
+                         testing::Values(900000555, 900003450, 900003458, 900005403, 900005432));
+INSTANTIATE_TEST_SUITE_P(Heaps, StaleForces,
+                         testing::Values(900000082, 900000732, 900001103, 900001212, 900001646,
+                                         900002266, 900002621, 900004474, 900005361));
+
 /// Fast bodies that are packed, or that spin beside each other, and used up the looks of a tick.
 class Crowds : public testing::TestWithParam<std::uint64_t> {};
 
