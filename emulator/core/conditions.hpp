@@ -6,6 +6,7 @@
 #include "emulator/core/fate.hpp"
 #include "emulator/core/formats.hpp"
 #include "emulator/core/loss/loss.hpp"
+#include "emulator/core/trace/rate_trace.hpp"
 #include "proto/base/probability.hpp"
 #include "proto/base/result.hpp"
 #include "proto/base/time.hpp"
@@ -106,14 +107,18 @@ constexpr auto fields_of(base::Tag<Mtu>)
 }
 
 /// A bottleneck that sends so many bits a second, one datagram after the other, from a queue that
-/// drops what does not fit (drop-tail). 0 bits: no bottleneck.
+/// drops what does not fit (drop-tail). 0 bits and no trace: no bottleneck.
 struct Rate {
     std::uint64_t bits_per_second = 0;
     std::size_t overhead_bytes = 28;        // added to each payload: IPv4 and UDP
     std::size_t queue_bytes_max = 64 << 10; // waiting, with overhead, besides the one being sent
+    std::optional<RateTraceLaw> trace{};    // instead of bits_per_second
+
+    [[nodiscard]] bool is_on() const { return bits_per_second > 0 || trace.has_value(); }
 
     friend bool operator==(const Rate&, const Rate&) = default;
 };
+/// Without the trace, which is a law with keys of its own.
 constexpr auto fields_of(base::Tag<Rate>)
 {
     return base::fields(

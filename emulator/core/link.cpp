@@ -34,7 +34,7 @@ Link::Link(const Conditions& conditions, const Setup& setup)
       pipeline_{conditions, setup.seed, setup.direction, setup.name},
       slab_{setup.slab ? setup.slab : std::make_shared<Slab>(setup.limits.bytes_max)},
       line_{setup.limits.datagrams_max},
-      bottleneck_{conditions.rate, setup.limits.datagrams_max},
+      bottleneck_{conditions.rate, setup.limits.datagrams_max, setup.start},
       last_arrival_{setup.start}
 {
     displaced_.reserve(displaced_max);

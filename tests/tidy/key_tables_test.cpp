@@ -137,6 +137,7 @@ const std::vector<KeyTable>& tables()
         {"loss-laws", grouped("law", emulator::LossLaw{})},
         {"stages", grouped<emulator::Mtu, emulator::Rate, emulator::Corruption,
                            emulator::Duplication, emulator::Reordering>("stage")},
+        {"rate-trace", rows_of<emulator::RateTraceLaw>()},
         {"scene", rows_of<scene::Description>()},
         {"hips", rows_of<scene::HandDescription>()},
         {"hand", rows_of<scene::Feel>()},
@@ -164,8 +165,8 @@ const std::set<std::string>& without_table()
 {
     static const std::set<std::string> names{
         "Material", "Sway", "ByOrder", "UsableCriteria", "GoodCriteria", "HandImpedance",
-        "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "EnergyLimits", "WrittenCorner",
-        "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
+        "TraceTiming", "InvoluntaryMotion", "Reflex", "Intent", "GovernorLimits", "EnergyLimits",
+        "WrittenCorner", "WrittenTorques", "RangeOf<what", "SearchRanges", "Sensitivity",
         // JSON, CSV and the settings in a record's header
         "Spread", "ForceSteps", "Similarity", "Metrics", "Table1Row", "TaskRow", "LimitRow",
         "SensitivityRow", "Judged", "CurveRow", "QosRow", "TrajectoryRow", "RealTimeRow",
@@ -187,6 +188,7 @@ const std::set<std::string>& with_table()
                                              "Corruption",
                                              "Duplication",
                                              "Reordering",
+                                             "RateTraceLaw",
                                              "Description",
                                              "HandDescription",
                                              "Feel",
