@@ -210,6 +210,8 @@ void read_setting(std::string_view key, const Node& node, DirectionSettings& set
         patch.mtu = read_stage<Mtu>(node, reading);
     } else if (key == "rate") {
         patch.rate = read_rate(node, reading);
+    } else if (key == "queue") {
+        patch.queue = read_stage<QueueControl>(node, reading);
     } else if (key == "loss") {
         patch.loss = read_losses(node, reading);
     } else if (key == "burst_loss") {
