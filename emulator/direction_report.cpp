@@ -101,6 +101,7 @@ nlohmann::ordered_json json_of(const DirectionOfRun& run, base::Duration budget)
               {"bytes_out", s.bytes_out},
               {"dropped", dropped},
               {"lateness_us", json_of(s.lateness)},
+              {"sojourn_us", json_of(s.sojourn)},
               {"strangers", run.strangers},
               {"overflowed", run.overflowed},
               {"over_budget", s.late_beyond(budget)},

@@ -101,7 +101,8 @@ std::string in_words(std::string_view title, const tools::DirectionPrediction& o
                             of.loss_run_max);
     }
     text += "\n";
-    for (const DropCause cause : {DropCause::rate_queue_full, DropCause::queue_full}) {
+    for (const DropCause cause :
+         {DropCause::rate_queue_full, DropCause::rate_queue_law, DropCause::queue_full}) {
         if (s.dropped_by(cause) == 0) continue;
         text += fmt::format("  dropped    {} by {}\n", s.dropped_by(cause), to_text(cause));
     }

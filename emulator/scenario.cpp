@@ -86,7 +86,13 @@ void make_absolute(std::vector<LossLaw>& laws, const std::string& beside)
 {
     for (LossLaw& law : laws) {
         if (auto* trace = std::get_if<TraceLoss>(&law)) make_absolute(trace->file, beside);
+        if (auto* trace = std::get_if<TimedTraceLoss>(&law)) make_absolute(trace->file, beside);
     }
+}
+
+void make_absolute(Rate& rate, const std::string& beside)
+{
+    if (rate.trace) make_absolute(rate.trace->file, beside);
 }
 
 void make_absolute(Profile& profile, const std::string& beside)
@@ -95,12 +101,14 @@ void make_absolute(Profile& profile, const std::string& beside)
         make_absolute(way->delay, beside);
         make_absolute(way->jitter, beside);
         make_absolute(way->loss, beside);
+        make_absolute(way->rate, beside);
     }
     for (Change& change : profile.timeline) {
         for (Patch* way : {&change.up, &change.down}) {
             if (way->delay) make_absolute(*way->delay, beside);
             if (way->jitter) make_absolute(*way->jitter, beside);
             if (way->loss) make_absolute(*way->loss, beside);
+            if (way->rate) make_absolute(*way->rate, beside);
         }
     }
 }

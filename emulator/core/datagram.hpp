@@ -36,7 +36,9 @@ struct Datagram {
 struct Queued {
     Datagram datagram; // due: when its last bit left the bottleneck, or its own time without others
     Fate fate;         // dropped: it only takes time in the bottleneck, its bytes are gone
-    std::size_t line_bytes = 0; // that the bottleneck has to send
+    std::size_t line_bytes = 0;     // that the bottleneck has to send
+    base::TimePoint begun{};        // when it began to send it
+    bool is_dropped_by_law = false; // by the law of the queue, instead of being sent
 };
 
 } // namespace hapnet::emulator

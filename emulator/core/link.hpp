@@ -88,7 +88,9 @@ public:
 
 private:
     [[nodiscard]] Fate fate_of(const Packet& packet);
-    [[nodiscard]] bool is_over_rate(const Datagram& datagram, const Fate& fate);
+    [[nodiscard]] std::optional<DropCause> refused_by_rate(const Datagram& datagram,
+                                                           const Fate& fate);
+    void on_passed(const Queued& passed);
     [[nodiscard]] bool passes_untouched(const Fate& fate) const;
     [[nodiscard]] bool hold(Datagram datagram, const Fate& fate);
     [[nodiscard]] std::optional<std::span<std::byte>> store(Datagram& datagram);

@@ -43,6 +43,9 @@ std::vector<LossLaw> laws()
             ListedLoss{{2, 3, 5, 7, 5000}},
             PatternLoss{parse_pattern("0010011").value()},
             TraceLoss{"losses.txt", trace},
+            TimedTraceLoss{"losses.csv", std::make_shared<const LossSeries>(
+                                             std::vector{0.1, 0.9, 0.3},
+                                             std::vector<base::Duration>{0ms, 50ms, 60ms})},
             Outage{{{10ms, 20ms}, {3s, 4s}}}};
 }
 

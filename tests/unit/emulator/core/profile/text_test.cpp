@@ -230,7 +230,7 @@ TEST(ProfileText, NamesWhatIsWrongWithTheKeyOfASetting)
     };
     EXPECT_EQ(why("upp.loss"), "upp.loss: unknown direction 'upp': use up, down or both");
     EXPECT_EQ(why("los"), "unknown key 'los': did you mean 'loss'?");
-    EXPECT_EQ(why("up.x"), "unknown key 'up.x': use one of mtu, rate, loss, burst_loss, "
+    EXPECT_EQ(why("up.x"), "unknown key 'up.x': use one of mtu, rate, queue, loss, burst_loss, "
                            "corrupt, duplicate, delay, jitter, order, reorder");
     EXPECT_EQ(why("seed"), "seed: the seed of a run cannot change: start the emulator with --seed");
     EXPECT_EQ(why("up.loss.share"),
