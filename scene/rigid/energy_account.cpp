@@ -327,6 +327,39 @@ void EnergyAccount::settle_touches(const Tick& tick, const ContinuousCollision& 
     });
 }
 
+void EnergyAccount::cut_ways(const Tick& tick, const ContinuousCollision& touches)
+{
+    Bodies& bodies = tick.state.bodies;
+    double fastest = 0.0; // m/s, of all at the start and at the end
+    double there = 0.0;   // J, at the start
+    for (const Slot slot : moved_) {
+        const BodyTick body = moved_tick_of(tick, slot, touches);
+        const BodyProperties& properties = bodies.properties[slot];
+        const glm::dvec3 spin =
+            Bodies::apply_inverse_inertia(properties, body.orientation, body.angular_momentum);
+        const double radius = length(properties.half);
+        fastest =
+            std::max({fastest, body.driven_speed, length(body.velocity) + radius * length(spin),
+                      length(body.end_velocity) + radius * length(bodies.angular_velocity(slot))});
+        there += 0.5 * (properties.mass * glm::dot(body.velocity, body.velocity) +
+                        glm::dot(body.angular_momentum, spin));
+    }
+    constexpr double cornerwise = 2.0;
+    touches.for_changed(bodies, [&](Slot slot) {
+        const ContinuousCollision::Beginning& beginning = touches.beginning(slot);
+        if (!(beginning.driven_speed > 0.0)) return;
+        const BodyProperties& properties = bodies.properties[slot];
+        const double beyond =
+            tick.scales.rate *
+            (length(bodies.position.at(slot) - beginning.position) - length(properties.half));
+        if (beyond <= cornerwise * fastest || 0.5 * properties.mass * beyond * beyond <= there)
+            return;
+        bodies.position.put(slot, beginning.position);
+        bodies.orientation.put(slot, beginning.orientation);
+        ++tick.state.interventions.paths_cut;
+    });
+}
+
 void EnergyAccount::join_islands(const Tick& tick, std::span<const Slot> slots)
 {
     for (const Slot slot : slots) islands_.reset(slot + 1);

@@ -45,6 +45,10 @@ public:
     /// The same when they have moved, of those that continuous collision changed: by the way that
     /// they went at last. Their touches are impulses of the tick like all others.
     void settle_touches(const Tick& tick, const ContinuousCollision& touches);
+    /// After that: between two touches a body may be faster than at its ends, but not beyond what
+    /// all the energy that there was can make it. Where locks drove it farther, by a kinematic body
+    /// that wedges it, it stays where it began.
+    void cut_ways(const Tick& tick, const ContinuousCollision& touches);
 
 private:
     struct BodyTick;

@@ -504,8 +504,10 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {
     continuous_.solve({config, state, kinematics_}, active_.slots(), pairs_);
-    if (continuous_.has_changed_any())
+    if (continuous_.has_changed_any()) {
         account_.settle_touches(energy_tick(config, state), continuous_);
+        account_.cut_ways(energy_tick(config, state), continuous_);
+    }
     state.tick_cost.looks = continuous_.looks();
     if constexpr (sleeps) {
         for (const BodyId body : continuous_.woken()) sleep_.wake(body, state.bodies, pairs_);
