@@ -19,5 +19,7 @@ namespace hapnet::emulator {
 [[nodiscard]] base::Result<int> run(const PredictOptions& options);
 /// Tests whether the fates of a run are those that its profile promises; 1 when a test fails.
 [[nodiscard]] base::Result<int> run(const VerifyOptions& request);
+/// Prints a profile that does what was measured.
+[[nodiscard]] base::Result<int> run(const LearnOptions& options);
 
 } // namespace hapnet::emulator

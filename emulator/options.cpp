@@ -108,6 +108,23 @@ constexpr const char* verify_exit_codes = R"(  0  no test failed
   1  a test failed
   2  bad usage, or a file that cannot be used)";
 
+constexpr const char* learn_description =
+    "Finds the laws of a measured path, delay, correlation in time and loss, and prints a profile "
+    "that follows them. How well each law fits is told on stderr and in comments of the profile.";
+
+constexpr const char* learn_footer =
+    R"(FILE is what ping has printed, what probe --csv has written, or CSV with a column of delays:
+delay_ns, _us, _ms or _s, empty for a lost datagram, and perhaps one of times. A round trip does
+not tell its two ways apart: all that varies is put into the way down.
+
+Examples:
+  ping -i 0.2 -c 5000 example.org > ping.txt
+  hapnet-emulator learn ping.txt > home.toml
+  hapnet-emulator learn walk.csv --columns "time=stamp:s, delay=rtt:ms")";
+
+constexpr const char* learn_exit_codes = R"(  0  done
+  2  bad usage, or a file that cannot be used)";
+
 /// The words of a parameter's description as a sentence: those of profiles.
 template <auto member>
 std::string words(std::string_view more = "")
@@ -143,6 +160,7 @@ std::vector<Condition> listed_conditions()
         {"corrupt", "SHARE", words<&Corruption::share>()},
         {"reorder", "TABLE", words<&Reordering::share>(": '{ share = \"1%\", displacement = 3 }'")},
         {"rate", "RATE", words<&Rate::bits_per_second>(queue)},
+        {"queue", "LAW", words<&QueueControl::law>(": drop-tail, codel or pie")},
         {"mtu", "SIZE", words<&Mtu::bytes_max>()},
     };
 }
@@ -356,6 +374,9 @@ base::Result<base::Duration> parse_even_spacing(const std::string& text)
 
 void add_verify(cli::Command& command, VerifyOptions& options)
 {
+    command.describe(verify_description);
+    command.add_footer(verify_footer);
+    command.add_exit_codes(verify_exit_codes);
     command.positional("RUN", "What a run has written", cli::into(options.run))
         .required("run.json");
     command.option("--profile", "FILE|NAME",
@@ -368,6 +389,19 @@ void add_verify(cli::Command& command, VerifyOptions& options)
                    "in time",
                    cli::into(options.spacing, parse_even_spacing));
     command.flag("--json", "Print one JSON object instead of a table", options.as_json);
+}
+
+void add_learn(cli::Command& command, LearnOptions& options)
+{
+    command.describe(learn_description);
+    command.add_footer(learn_footer);
+    command.add_exit_codes(learn_exit_codes);
+    command.positional("FILE", "What was measured", cli::into(options.file)).required("ping.txt");
+    command.option("--columns", "COLUMNS", "Columns of CSV with other names: \"delay=rtt:ms\"",
+                   cli::into(options.columns));
+    command.option("--rate", "NUMBER",
+                   "Datagrams a second that were sent, where FILE does not say so",
+                   cli::into(options.spacing, parse_even_spacing));
 }
 
 /// The names of the presets, each followed by `separator`.
@@ -508,13 +542,15 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
 
     cli::Command& verify =
         program.command("verify", "Tests whether the fates of a run follow its profile");
-    verify.describe(verify_description);
-    verify.add_footer(verify_footer);
-    verify.add_exit_codes(verify_exit_codes);
     VerifyOptions verifying;
     add_verify(verify, verifying);
 
+    cli::Command& learn = program.command("learn", "Finds the profile of a measured path");
+    LearnOptions learning;
+    add_learn(learn, learning);
+
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    if (learn.is_chosen()) return AnyOptions{std::move(learning)};
     if (is_list) return net::Answer{preset_list('\n')};
     if (verify.is_chosen()) return AnyOptions{std::move(verifying)};
     if (!check.is_chosen() && !predict.is_chosen()) {

@@ -90,8 +90,15 @@ struct VerifyOptions {
     bool as_json = false;
 };
 
-using AnyOptions =
-    std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions, VerifyOptions>;
+/// `hapnet-emulator learn FILE`
+struct LearnOptions {
+    std::string file;
+    std::string columns{};
+    std::optional<base::Duration> spacing{}; // instead of the one in FILE
+};
+
+using AnyOptions = std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions,
+                                VerifyOptions, LearnOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

@@ -54,7 +54,7 @@ Admission Link::on_packet(std::span<const std::byte> bytes, base::TimePoint arri
     Admission admission{packet.number, fate, fate.drop, {}};
     ++statistics_.received;
     statistics_.bytes_in += bytes.size();
-    if (const auto refused = refused_by_rate(datagram, fate)) admission.drop = refused;
+    if (bottleneck_.is_on() && fate.drop != DropCause::mtu) refuse_or_pass(datagram, admission);
     if (!admission.drop) {
         if (passes_untouched(fate)) {
             admission.departure = datagram;
@@ -74,14 +74,15 @@ Fate Link::fate_of(const Packet& packet)
     return setup_.replay ? setup_.replay->on_packet(packet) : pipeline_.on_packet(packet);
 }
 
-/// Why the queue of the rate does not take it. What will be lost behind the bottleneck takes
-/// its time there all the same; what is too large for the path never comes to it.
-std::optional<DropCause> Link::refused_by_rate(const Datagram& datagram, const Fate& fate)
+/// Drops it if the queue of the rate does not take it. What will be lost behind the bottleneck
+/// takes its time there all the same; what is too large for the path never comes to it.
+void Link::refuse_or_pass(const Datagram& datagram, Admission& admission)
 {
-    if (!bottleneck_.is_on() || fate.drop == DropCause::mtu) return std::nullopt;
-    const auto refused = bottleneck_.refuses(datagram);
-    if (!refused && fate.drop) bottleneck_.push(datagram, fate);
-    return refused;
+    if (const auto refused = bottleneck_.refuses(datagram)) {
+        admission.drop = refused;
+    } else if (admission.fate.drop) {
+        bottleneck_.push(datagram, admission.fate);
+    }
 }
 
 bool Link::passes_untouched(const Fate& fate) const

@@ -88,8 +88,7 @@ public:
 
 private:
     [[nodiscard]] Fate fate_of(const Packet& packet);
-    [[nodiscard]] std::optional<DropCause> refused_by_rate(const Datagram& datagram,
-                                                           const Fate& fate);
+    void refuse_or_pass(const Datagram& datagram, Admission& admission);
     void on_passed(const Queued& passed);
     [[nodiscard]] bool passes_untouched(const Fate& fate) const;
     [[nodiscard]] bool hold(Datagram datagram, const Fate& fate);

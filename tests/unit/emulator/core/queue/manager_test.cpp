@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/core/queue/manager.hpp"
+
 #include "emulator/core/bottleneck.hpp"
 #include "proto/base/random.hpp"
 
