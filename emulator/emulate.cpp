@@ -53,7 +53,7 @@ public:
                  .limits = QueueLimits::within(options.in_flight_bytes),
                  .replay = scenario.replay}},
           relay_{endpoints, path_, recorder_},
-          run_{options, scenario_, path_.director(), relay_, recorder_, {}, {}},
+          run_{options, scenario_, path_, relay_, recorder_, {}, {}},
           status_{start_}
     {
         if (options.stats && *options.stats != "-") stats_.emplace(*options.stats);
@@ -159,7 +159,8 @@ private:
         if (!scenario) {
             return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
-        std::ignore = path_.apply(Apply{scenario->profile}, now); // is never refused
+        // Is never refused.
+        std::ignore = path_.apply(Apply{scenario->profile}, now, ChangeCause::reload);
         tell(fmt::format("SIGHUP: {} is read again, generation {}",
                          *run_.options.conditions.profile, path_.director().generation()));
     }

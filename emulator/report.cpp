@@ -62,6 +62,25 @@ nlohmann::ordered_json configuration_json(const Path& path)
     return {{"up", of(Direction::up, path.up)}, {"down", of(Direction::down, path.down)}};
 }
 
+nlohmann::ordered_json changes_json(const ChangeLog& changes)
+{
+    Json list = Json::array();
+    for (const ConditionChange& change : changes.entries()) {
+        Json settings = Json::object();
+        for (const auto& [key, value] : texts_of(Direction::up, change.up)) settings[key] = value;
+        for (const auto& [key, value] : texts_of(Direction::down, change.down)) {
+            settings[key] = value;
+        }
+        list.push_back(
+            {{"generation", change.generation},
+             {"elapsed_s", base::to_seconds(change.elapsed)},
+             {"effective_at", {{"up", change.effective_up}, {"down", change.effective_down}}},
+             {"by", to_text(change.by)},
+             {"settings", std::move(settings)}});
+    }
+    return list;
+}
+
 std::string ready_line(const Run& run)
 {
     return fmt::format("ready a={} b={} seed={} timing={}\n",
@@ -107,8 +126,11 @@ std::string statistics_json(const Run& run)
         {"b", address_of(b)},
         {"strangers", a.strangers + b.strangers},
         {"overflowed", a.socket.overflowed() + b.socket.overflowed()},
-        {"generation", run.director.generation()},
-        {"configuration", configuration_json(run.scenario.profile.path)},
+        {"generation", run.path.director().generation()},
+        {"configuration_at_start", configuration_json(run.scenario.profile.path)},
+        {"configuration_at_end", configuration_json(run.path.director().path())},
+        {"changes", changes_json(run.path.changes())},
+        {"changes_omitted", run.path.changes().omitted()},
         {"profile", to_text(run.scenario.profile)},
         {"fates", or_null(options.fates)},
         {"replay", or_null(options.replay)},

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "emulator/core/director.hpp"
+#include "emulator/core/emulated_path.hpp"
 #include "emulator/endpoints.hpp"
 #include "emulator/options.hpp"
 #include "emulator/ports/relay.hpp"
@@ -19,7 +19,7 @@ namespace hapnet::emulator {
 struct Run {
     const Options& options;
     const Scenario& scenario;
-    const Director& director;
+    const EmulatedPath& path;
     const ports::Relay& relay;
     const Recorder& recorder;
     net::RealTime real_time;
@@ -34,6 +34,9 @@ struct Run {
 
 /// What of each direction differs from the default, as a profile says it.
 [[nodiscard]] nlohmann::ordered_json configuration_json(const Path& path);
+
+/// The changes of the conditions that a run saw, each with the settings that changed.
+[[nodiscard]] nlohmann::ordered_json changes_json(const ChangeLog& changes);
 
 /// What --stats writes: one JSON object.
 [[nodiscard]] std::string statistics_json(const Run& run);

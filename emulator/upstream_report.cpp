@@ -106,7 +106,7 @@ std::string statistics_json(const UpstreamRun& run)
         {"clients_seen", run.port.clients_seen()},
         {"clients_forgotten", run.port.clients_forgotten()},
         {"refused", run.port.refused()},
-        {"configuration", configuration_json(run.scenario.profile.path)},
+        {"configuration_at_start", configuration_json(run.scenario.profile.path)},
         {"profile", to_text(run.scenario.profile)},
         {"valid", reasons.empty()},
         {"invalid_because", reasons},

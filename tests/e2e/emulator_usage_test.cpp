@@ -172,8 +172,8 @@ TEST(EmulatorUsage, WritesStatisticsToStdoutForADash)
     const auto outcome = run_with({"--stats", "-", "--loss", "5%", "--up.loss", "7%"});
     EXPECT_EQ(outcome.exit, 0);
     const auto statistics = nlohmann::json::parse(outcome.out.substr(outcome.out.find('\n')));
-    EXPECT_EQ(statistics["configuration"]["up"]["loss"], "7%");
-    EXPECT_EQ(statistics["configuration"]["down"]["loss"], "5%");
+    EXPECT_EQ(statistics["configuration_at_start"]["up"]["loss"], "7%");
+    EXPECT_EQ(statistics["configuration_at_start"]["down"]["loss"], "5%");
     EXPECT_EQ(statistics["seed"], 1);
     EXPECT_EQ(statistics["budget_us"], 1000.0);
     EXPECT_TRUE(statistics["valid"].get<bool>());
