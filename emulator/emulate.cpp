@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/checks.hpp"
 #include "emulator/commands.hpp"
 #include "emulator/control/reply.hpp"
 #include "emulator/core/emulated_path.hpp"
@@ -23,6 +24,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
@@ -98,6 +100,12 @@ public:
         status_.clear();
     }
 
+    /// The error names a check that no statistics can meet.
+    [[nodiscard]] base::Result<void> ensure_checks() const
+    {
+        return ensure_keys(scenario_.checks, statistics_of(run_));
+    }
+
     /// Writes the files and says how it went; gives the exit code. Throws, after that, what kept
     /// the recorder from its files.
     int finish()
@@ -109,20 +117,23 @@ public:
         } catch (const std::system_error&) {
             failure = std::current_exception();
         }
+        const auto statistics = statistics_of(run_);
+        const std::string text = statistics.dump(2) + "\n";
         if (stats_) {
             try {
-                stats_->commit(statistics_json(run_));
+                stats_->commit(text);
             } catch (const std::system_error&) { // they are worth more than their place
                 failure = std::current_exception();
-                fmt::print("{}", statistics_json(run_));
+                fmt::print("{}", text);
             }
         } else if (run_.options.stats) {
-            fmt::print("{}", statistics_json(run_));
+            fmt::print("{}", text);
         }
-        net::tell(summary(run_));
+        const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
+        net::tell(summary(run_) + failed);
         if (failure) std::rethrow_exception(failure);
         const bool is_complete = recorder_.fates_lost() == 0 && recorder_.capture_lost() == 0;
-        return is_complete ? 0 : net::exit_failed;
+        return is_complete && failed.empty() ? 0 : net::exit_failed;
     }
 
 private:
@@ -146,7 +157,7 @@ private:
             return net::text_of_file(path);
         };
         return {.path = path_,
-                .statistics_json = [this] { return statistics_json(run_); },
+                .statistics_json = [this] { return statistics_of(run_).dump(); },
                 .open = open};
     }
 
@@ -204,6 +215,7 @@ base::Result<int> run(const Options& options)
     // Without a profile there is nothing to read again, and a closed terminal ends the run.
     net::StopSignal stop{options.conditions.profile ? net::Hangup::reload : net::Hangup::stop};
     Session session{options, *scenario, *endpoints};
+    if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session.announce();
     session.relay_until_stopped(stop);
     return session.finish();

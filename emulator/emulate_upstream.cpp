@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
+#include "emulator/checks.hpp"
 #include "emulator/commands.hpp"
 #include "emulator/endpoints.hpp"
 #include "emulator/pacer.hpp"
@@ -16,6 +17,7 @@
 
 #include <array>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
@@ -75,17 +77,26 @@ public:
         status_.clear();
     }
 
-    /// Writes the statistics and says how it went.
+    /// The error names a check that no statistics can meet.
+    [[nodiscard]] base::Result<void> ensure_checks() const
+    {
+        return ensure_keys(run_.scenario.checks, statistics_of(run_));
+    }
+
+    /// Writes the statistics and says how it went; gives the exit code.
     int finish()
     {
         net::leave_real_time();
-        net::tell(summary(run_));
+        const auto statistics = statistics_of(run_);
+        const std::string failed = not_met(statistics.value("checks", nlohmann::ordered_json{}));
+        net::tell(summary(run_) + failed);
+        const std::string text = statistics.dump(2) + "\n";
         if (stats_) {
-            stats_->commit(statistics_json(run_));
+            stats_->commit(text);
         } else if (run_.options.run.stats) {
-            fmt::print("{}", statistics_json(run_));
+            fmt::print("{}", text);
         }
-        return 0;
+        return failed.empty() ? 0 : net::exit_failed;
     }
 
 private:
@@ -114,6 +125,7 @@ base::Result<int> run(const UpstreamOptions& options)
     if (!places) return tl::unexpected{places.error()};
     net::StopSignal stop{net::Hangup::stop};
     UpstreamSession session{options, *scenario, *std::move(places)};
+    if (const auto fine = session.ensure_checks(); !fine) return tl::unexpected{fine.error()};
     session.announce();
     session.relay_until_stopped(stop);
     return session.finish();

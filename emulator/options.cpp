@@ -57,7 +57,7 @@ it listens; port 0 takes any free port. SIGINT or SIGTERM ends the run and write
 reads --profile again; without a profile, or with --upstream, it ends the run.)";
 
 constexpr const char* exit_codes = R"(  0  done
-  1  the run failed
+  1  the run failed, or did not meet a --require or a [[check]] of its profile
   2  bad usage or input
   3  the system refused (port in use, no permission))";
 
@@ -206,6 +206,17 @@ base::Result<net::HostPort> parse_host(const std::string& text)
     return host;
 }
 
+/// Conditions, one after the other.
+cli::Take require_into(std::vector<base::Condition>& into)
+{
+    return [&into](const std::string& text) -> base::Result<void> {
+        auto condition = base::parse_condition(text);
+        if (!condition) return tl::unexpected{condition.error()};
+        into.push_back(*std::move(condition));
+        return {};
+    };
+}
+
 void add_run_options(cli::Command& program, Options& options)
 {
     program.option("--listen-a", "ADDRESS",
@@ -252,6 +263,12 @@ void add_run_options(cli::Command& program, Options& options)
                    "Capture both sides to FILE, with a comment on each packet (pcapng, for "
                    "Wireshark)",
                    cli::into(options.capture));
+    program
+        .option("--require", "CONDITION",
+                "What the statistics must meet in the end, such as 'up.received>=1000', or the "
+                "run has failed (exit code 1); may be repeated",
+                require_into(options.required))
+        .repeated();
     program.option("--control", "SOCKET",
                    "Listen on this Unix socket for hapnet-ctl, which shows and changes the "
                    "conditions while the emulator runs",
@@ -501,8 +518,11 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     PredictOptions predicting;
     constexpr std::uint64_t packets_max = 1'000'000'000;
     add_dry_run(predict, predicting.conditions, predicting.stream);
-    predict.option("--packets", "NUMBER", "Number of datagrams, each way (default 400000)",
-                   cli::into(predicting.stream.packets, base::Count{1, packets_max}));
+    predict.option(
+        "--packets", "NUMBER",
+        "Number of datagrams, each way (default: 400000, and on up to 6400000 until mean "
+        "and deviation of the delay are known to 1 %)",
+        cli::into(predicting.stream.packets, base::Count{1, packets_max}));
     predict.flag("--json", "Print one JSON object instead of text", predicting.as_json);
     predict.flag("--list", "Print the names of the presets and exit", is_list);
 
@@ -523,6 +543,7 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
         through.run = std::move(options);
         return AnyOptions{std::move(through)};
     }
+    if (predict.is_given("--packets")) predicting.packets_max.reset();
     const auto fine = check.is_chosen() ? require_conditions(checking.conditions, check)
                                         : require_conditions(predicting.conditions, predict);
     if (!fine) return tl::unexpected{fine.error()};

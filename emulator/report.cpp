@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/report.hpp"
 
+#include "emulator/checks.hpp"
 #include "emulator/control/settings.hpp"
 #include "emulator/core/profile/settings.hpp"
 #include "emulator/core/profile/text.hpp"
@@ -98,7 +99,7 @@ std::string endpoints_line(const ports::Relay& relay)
     return fmt::format("a is {}, b is {}", in_words(relay.a()), in_words(relay.b()));
 }
 
-std::string statistics_json(const Run& run)
+nlohmann::ordered_json statistics_of(const Run& run)
 {
     const Options& options = run.options;
     const ports::Relay::Side& a = run.relay.a();
@@ -109,7 +110,7 @@ std::string statistics_json(const Run& run)
             reasons.push_back(fmt::format("{}: {}", way, reason));
         }
     }
-    const Json json{
+    Json json{
         {"program", "hapnet-emulator"},
         {"version", base::version()},
         {"commit", base::commit()},
@@ -142,7 +143,8 @@ std::string statistics_json(const Run& run)
         {"up", json_of(direction_of(a), options.budget)},
         {"down", json_of(direction_of(b), options.budget)},
     };
-    return json.dump(2) + "\n";
+    if (!run.scenario.checks.empty()) json["checks"] = judged(run.scenario.checks, json);
+    return json;
 }
 
 std::string summary(const Run& run)

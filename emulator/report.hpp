@@ -39,7 +39,7 @@ struct Run {
 [[nodiscard]] nlohmann::ordered_json changes_json(const ChangeLog& changes);
 
 /// What --stats writes: one JSON object.
-[[nodiscard]] std::string statistics_json(const Run& run);
+[[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run);
 
 /// A few lines for a person.
 [[nodiscard]] std::string summary(const Run& run);

@@ -178,7 +178,7 @@ std::optional<base::TimePoint> Director::find_next_change() const
 
 Profile Director::remaining() const
 {
-    Profile profile{profile_.name, profile_.seed, path_, {}};
+    Profile profile{profile_.name, profile_.seed, path_, {}, profile_.checks};
     Override by_hand; // as far as no step has taken over yet
     for (const Override& one : overrides_) {
         by_hand.up = merged(std::move(by_hand.up), one.up);

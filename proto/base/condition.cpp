@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-#include "proto/control/core/condition.hpp"
+#include "proto/base/condition.hpp"
 
 #include "proto/base/ensure.hpp"
 #include "proto/base/reading.hpp"
@@ -13,7 +13,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <vector>
 
-namespace hapnet::control {
+namespace hapnet::base {
 
 namespace {
 
@@ -52,7 +52,7 @@ bool holds(double left, Comparison comparison, double right)
     case Comparison::at_least: return left >= right;
     case Comparison::more: return left > right;
     }
-    base::ensure(false);
+    ensure(false);
     return false;
 }
 
@@ -67,7 +67,7 @@ std::vector<std::string_view> keys_of(const Json& object)
 
 /// What the path leads to: null where it goes on below a null, whose parts are still to come. The
 /// error names the keys where it leads astray.
-base::Result<const Json*> find(std::string_view path, const Json& statistics)
+Result<const Json*> find(std::string_view path, const Json& statistics)
 {
     const Json* place = &statistics;
     std::string passed;
@@ -76,9 +76,9 @@ base::Result<const Json*> find(std::string_view path, const Json& statistics)
         const std::string key{path.substr(0, dot)};
         const auto next = place->find(key);
         if (next == place->end()) {
-            return base::fail(fmt::format("there is no '{}' in {}: {}", key,
-                                          passed.empty() ? "the statistics" : passed,
-                                          base::suggestion(key, keys_of(*place))));
+            return fail(fmt::format("there is no '{}' in {}: {}", key,
+                                    passed.empty() ? "the statistics" : passed,
+                                    suggestion(key, keys_of(*place))));
         }
         passed += (passed.empty() ? "" : ".") + key;
         place = &*next;
@@ -86,12 +86,12 @@ base::Result<const Json*> find(std::string_view path, const Json& statistics)
         path.remove_prefix(dot + 1);
         if (place->is_null()) return place;
         if (!place->is_object()) {
-            return base::fail(fmt::format("'{}' is a single value, without parts", passed));
+            return fail(fmt::format("'{}' is a single value, without parts", passed));
         }
     }
     if (place->is_object()) {
-        return base::fail(fmt::format("'{}' has parts: name one of {}", passed,
-                                      fmt::join(keys_of(*place), ", ")));
+        return fail(fmt::format("'{}' has parts: name one of {}", passed,
+                                fmt::join(keys_of(*place), ", ")));
     }
     return place;
 }
@@ -108,11 +108,11 @@ std::string_view to_text(Comparison comparison)
     case Comparison::at_least: return ">=";
     case Comparison::more: return ">";
     }
-    base::ensure(false);
+    ensure(false);
     return {};
 }
 
-base::Result<Condition> parse_condition(std::string_view text)
+Result<Condition> parse_condition(std::string_view text)
 {
     const auto at = text.find_first_of("<>=!");
     if (at != std::string_view::npos) {
@@ -125,9 +125,9 @@ base::Result<Condition> parse_condition(std::string_view text)
             return Condition{std::string{path}, comparison, *number};
         }
     }
-    return base::fail(fmt::format("'{}' is not a condition such as up.received>1000: a key of the "
-                                  "statistics, one of < <= == != >= >, and a number, true or false",
-                                  text));
+    return fail(fmt::format("'{}' is not a condition such as up.received>1000: a key of the "
+                            "statistics, one of < <= == != >= >, and a number, true or false",
+                            text));
 }
 
 std::string to_text(const Condition& condition)
@@ -135,18 +135,22 @@ std::string to_text(const Condition& condition)
     return fmt::format("{}{}{}", condition.path, to_text(condition.comparison), condition.number);
 }
 
-base::Result<bool> is_met(const Condition& condition, const Json& statistics)
+Result<std::optional<double>> value_in(const Json& statistics, const Condition& condition)
 {
     const auto found = find(condition.path, statistics);
     if (!found) return tl::unexpected{found.error()};
     const Json& value = **found;
-    if (value.is_null()) return false;
-    if (!value.is_number() && !value.is_boolean()) {
-        return base::fail(fmt::format("'{}' is not a number", condition.path));
-    }
-    const double number =
-        value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>();
-    return holds(number, condition.comparison, condition.number);
+    if (value.is_null()) return std::optional<double>{};
+    if (value.is_boolean()) return std::optional{value.get<bool>() ? 1.0 : 0.0};
+    if (value.is_number()) return std::optional{value.get<double>()};
+    return fail(fmt::format("'{}' is not a number", condition.path));
 }
 
-} // namespace hapnet::control
+Result<bool> is_met(const Condition& condition, const Json& statistics)
+{
+    return value_in(statistics, condition).map([&](std::optional<double> value) {
+        return value && holds(*value, condition.comparison, condition.number);
+    });
+}
+
+} // namespace hapnet::base

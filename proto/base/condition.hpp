@@ -6,10 +6,11 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
-namespace hapnet::control {
+namespace hapnet::base {
 
 enum class Comparison : std::uint8_t { less, at_most, equal, unequal, at_least, more };
 [[nodiscard]] std::string_view to_text(Comparison comparison);
@@ -24,12 +25,17 @@ struct Condition {
     friend bool operator==(const Condition&, const Condition&) = default;
 };
 
-[[nodiscard]] base::Result<Condition> parse_condition(std::string_view text);
+[[nodiscard]] Result<Condition> parse_condition(std::string_view text);
 [[nodiscard]] std::string to_text(const Condition& condition);
 
-/// Whether the statistics meet the condition. What has no value yet (null) meets none. The error
-/// says which keys there are when the path leads nowhere or to something that is no number.
-[[nodiscard]] base::Result<bool> is_met(const Condition& condition,
-                                        const nlohmann::ordered_json& statistics);
+/// The number that the condition is about; nullopt: it has no value yet (null). The error says
+/// which keys there are when the path leads nowhere or to something that is no number.
+[[nodiscard]] Result<std::optional<double>> value_in(const nlohmann::ordered_json& statistics,
+                                                     const Condition& condition);
 
-} // namespace hapnet::control
+/// Whether the statistics meet the condition. What has no value yet meets none. The error is that
+/// of value_in().
+[[nodiscard]] Result<bool> is_met(const Condition& condition,
+                                  const nlohmann::ordered_json& statistics);
+
+} // namespace hapnet::base
