@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "emulator/checks.hpp"
 
+#include "proto/control/core/condition.hpp"
+
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
@@ -11,7 +13,7 @@ namespace hapnet::emulator {
 base::Result<void> ensure_keys(const Checks& checks, const nlohmann::ordered_json& statistics)
 {
     for (const base::Condition& check : checks) {
-        const auto value = value_in(statistics, check);
+        const auto value = control::value_in(statistics, check);
         if (value) continue;
         return base::fail(
             fmt::format("cannot check {}: {}", to_text(check), value.error().message));
@@ -23,10 +25,10 @@ nlohmann::ordered_json judged(const Checks& checks, const nlohmann::ordered_json
 {
     auto list = nlohmann::ordered_json::array();
     for (const base::Condition& check : checks) {
-        const auto value = value_in(statistics, check).value_or(std::optional<double>{});
+        const auto value = control::value_in(statistics, check).value_or(std::optional<double>{});
         list.push_back({{"require", to_text(check)},
                         {"value", value ? nlohmann::ordered_json(*value) : nullptr},
-                        {"met", is_met(check, statistics).value_or(false)}});
+                        {"met", control::is_met(check, statistics).value_or(false)}});
     }
     return list;
 }

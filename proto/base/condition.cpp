@@ -3,21 +3,16 @@
 #include "proto/base/condition.hpp"
 
 #include "proto/base/ensure.hpp"
-#include "proto/base/reading.hpp"
 
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
-#include <vector>
 
 namespace hapnet::base {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t path_bytes_max = 200;
 
@@ -54,46 +49,6 @@ bool holds(double left, Comparison comparison, double right)
     }
     ensure(false);
     return false;
-}
-
-std::vector<std::string_view> keys_of(const Json& object)
-{
-    std::vector<std::string_view> keys;
-    for (auto member = object.begin(); member != object.end(); ++member) {
-        keys.push_back(member.key());
-    }
-    return keys;
-}
-
-/// What the path leads to: null where it goes on below a null, whose parts are still to come. The
-/// error names the keys where it leads astray.
-Result<const Json*> find(std::string_view path, const Json& statistics)
-{
-    const Json* place = &statistics;
-    std::string passed;
-    while (place->is_object()) {
-        const auto dot = path.find('.');
-        const std::string key{path.substr(0, dot)};
-        const auto next = place->find(key);
-        if (next == place->end()) {
-            return fail(fmt::format("there is no '{}' in {}: {}", key,
-                                    passed.empty() ? "the statistics" : passed,
-                                    suggestion(key, keys_of(*place))));
-        }
-        passed += (passed.empty() ? "" : ".") + key;
-        place = &*next;
-        if (dot == std::string_view::npos) break;
-        path.remove_prefix(dot + 1);
-        if (place->is_null()) return place;
-        if (!place->is_object()) {
-            return fail(fmt::format("'{}' is a single value, without parts", passed));
-        }
-    }
-    if (place->is_object()) {
-        return fail(fmt::format("'{}' has parts: name one of {}", passed,
-                                fmt::join(keys_of(*place), ", ")));
-    }
-    return place;
 }
 
 } // namespace
@@ -135,22 +90,9 @@ std::string to_text(const Condition& condition)
     return fmt::format("{}{}{}", condition.path, to_text(condition.comparison), condition.number);
 }
 
-Result<std::optional<double>> value_in(const Json& statistics, const Condition& condition)
+bool holds(const Condition& condition, double value)
 {
-    const auto found = find(condition.path, statistics);
-    if (!found) return tl::unexpected{found.error()};
-    const Json& value = **found;
-    if (value.is_null()) return std::optional<double>{};
-    if (value.is_boolean()) return std::optional{value.get<bool>() ? 1.0 : 0.0};
-    if (value.is_number()) return std::optional{value.get<double>()};
-    return fail(fmt::format("'{}' is not a number", condition.path));
-}
-
-Result<bool> is_met(const Condition& condition, const Json& statistics)
-{
-    return value_in(statistics, condition).map([&](std::optional<double> value) {
-        return value && holds(*value, condition.comparison, condition.number);
-    });
+    return holds(value, condition.comparison, condition.number);
 }
 
 } // namespace hapnet::base

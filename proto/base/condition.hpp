@@ -5,8 +5,6 @@
 #include "proto/base/result.hpp"
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -28,14 +26,7 @@ struct Condition {
 [[nodiscard]] Result<Condition> parse_condition(std::string_view text);
 [[nodiscard]] std::string to_text(const Condition& condition);
 
-/// The number that the condition is about; nullopt: it has no value yet (null). The error says
-/// which keys there are when the path leads nowhere or to something that is no number.
-[[nodiscard]] Result<std::optional<double>> value_in(const nlohmann::ordered_json& statistics,
-                                                     const Condition& condition);
-
-/// Whether the statistics meet the condition. What has no value yet meets none. The error is that
-/// of value_in().
-[[nodiscard]] Result<bool> is_met(const Condition& condition,
-                                  const nlohmann::ordered_json& statistics);
+/// Whether a value meets the condition.
+[[nodiscard]] bool holds(const Condition& condition, double value);
 
 } // namespace hapnet::base

@@ -3,6 +3,7 @@
 #include "proto/control/core/conversation.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/control/core/condition.hpp"
 #include "proto/control/core/reply.hpp"
 
 #include <algorithm>

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Hapnet authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "proto/base/condition.hpp"
+#include "proto/base/result.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+
+namespace hapnet::control {
+
+/// The number that the condition is about; nullopt: it has no value yet (null). The error says
+/// which keys there are when the path leads nowhere or to something that is no number.
+[[nodiscard]] base::Result<std::optional<double>> value_in(const nlohmann::ordered_json& statistics,
+                                                           const base::Condition& condition);
+
+/// Whether the statistics meet the condition. What has no value yet meets none. The error is that
+/// of value_in().
+[[nodiscard]] base::Result<bool> is_met(const base::Condition& condition,
+                                        const nlohmann::ordered_json& statistics);
+
+} // namespace hapnet::control
