@@ -37,10 +37,6 @@ namespace hapnet::emulator {
 
 namespace {
 
-constexpr std::string_view program = "hapnet-emulator";
-
-void say(std::string_view text) { net::say(program, text); }
-
 /// One run, from bound sockets to written files. Everything but the recorder's writing happens on
 /// the thread that constructs it.
 class Session {
@@ -65,11 +61,12 @@ public:
         run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
-    void announce() const
+    void announce()
     {
-        if (const auto shortage = run_.real_time.shortage(); !shortage.empty()) say(shortage);
-        if (run_.options.timing == Timing::spin) say(spin_warning);
-        for (const std::string& warning : scenario_.warnings) say(warning);
+        if (const auto shortage = run_.real_time.shortage(); !shortage.empty())
+            status_.say(shortage);
+        if (run_.options.timing == Timing::spin) status_.say(spin_warning);
+        for (const std::string& warning : scenario_.warnings) status_.say(warning);
         fmt::print("{}", ready_line(run_));
         std::fflush(stdout);
     }
@@ -83,21 +80,21 @@ public:
         const control::Subject subject = subject_of(emulation);
         Pacer pacer{run_.options.timing, start_};
         auto now = start_;
-        while (!stop.requested() && !base::is_due(end_, now)) {
+        while (!stop.requested() && !is_stopped_ && !base::is_due(end_, now)) {
             pacer.wait(descriptors, next_deadline());
             const bool adopted = relay_.receive() > 0;
             now = net::monotonic_now();
             path_.advance(now);
             relay_.release(now);
             run_.elapsed = now - start_;
-            if (adopted) tell(endpoints_line(relay_));
-            while (const auto notice = relay_.next_notice()) tell(*notice);
+            if (adopted) status_.say(endpoints_line(relay_));
+            while (const auto notice = relay_.next_notice()) status_.say(*notice);
             if (control_) control_->serve(subject, now, path_.next_due());
             if (stop.reload_requested()) reload(now);
             tell_of_files();
             status_.show([this] { return status_line(run_); }, now);
         }
-        status_.clear();
+        status_.finish();
     }
 
     /// The error names a check that no statistics can meet.
@@ -117,6 +114,7 @@ public:
         } catch (const std::system_error&) {
             failure = std::current_exception();
         }
+        run_.is_over = true;
         const auto statistics = statistics_of(run_);
         const std::string text = statistics.dump(2) + "\n";
         if (stats_) {
@@ -158,7 +156,9 @@ private:
         };
         return {.path = path_,
                 .statistics_json = [this] { return statistics_of(run_).dump(); },
-                .open = open};
+                .open = open,
+                .preset = preset_text,
+                .stop = [this] { is_stopped_ = true; }};
     }
 
     /// Reads the profile again. One that is wrong changes nothing.
@@ -168,12 +168,13 @@ private:
         options.replay.reset(); // stays as it was read; reading it would hold up the relay
         auto scenario = scenario_of(options);
         if (!scenario) {
-            return tell(fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
+            return status_.say(
+                fmt::format("SIGHUP: the old profile stays: {}", scenario.error().message));
         }
         // Is never refused.
         std::ignore = path_.apply(Apply{scenario->profile}, now, ChangeCause::reload);
-        tell(fmt::format("SIGHUP: {} is read again, generation {}",
-                         *run_.options.conditions.profile, path_.director().generation()));
+        status_.say(fmt::format("SIGHUP: {} is read again, generation {}",
+                                *run_.options.conditions.profile, path_.director().generation()));
     }
 
     /// Once, and while there is time to make room or to begin again.
@@ -181,14 +182,9 @@ private:
     {
         if (has_told_of_files_ || !recorder_.has_failed()) return;
         has_told_of_files_ = true;
-        tell("what this run records cannot be written any more (is the disk full?): the run goes "
-             "on, but its files will end here");
-    }
-
-    void tell(const std::string& line) const
-    {
-        status_.clear();
-        say(line);
+        status_.say(
+            "what this run records cannot be written any more (is the disk full?): the run goes "
+            "on, but its files will end here");
     }
 
     base::TimePoint start_;
@@ -200,6 +196,7 @@ private:
     std::optional<net::ResultFile> stats_;
     std::optional<base::TimePoint> end_;
     bool has_told_of_files_ = false;
+    bool is_stopped_ = false; // by a client
     Run run_;
     Status status_;
 };

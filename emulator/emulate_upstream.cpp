@@ -49,11 +49,12 @@ public:
         run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
-    void announce() const
+    void announce()
     {
-        if (const auto shortage = run_.real_time.shortage(); !shortage.empty()) tell(shortage);
-        if (run_.options.run.timing == Timing::spin) tell(std::string{spin_warning});
-        for (const std::string& warning : run_.scenario.warnings) tell(warning);
+        if (const auto shortage = run_.real_time.shortage(); !shortage.empty())
+            status_.say(shortage);
+        if (run_.options.run.timing == Timing::spin) status_.say(spin_warning);
+        for (const std::string& warning : run_.scenario.warnings) status_.say(warning);
         fmt::print("{}", ready_line(run_));
         std::fflush(stdout);
     }
@@ -71,10 +72,10 @@ public:
             now = net::monotonic_now();
             port_.release(now);
             run_.elapsed = now - start_;
-            if (const auto notice = port_.next_notice()) tell(*notice);
+            if (const auto notice = port_.next_notice()) status_.say(*notice);
             status_.show([this] { return status_line(run_); }, now);
         }
-        status_.clear();
+        status_.finish();
     }
 
     /// The error names a check that no statistics can meet.
@@ -100,12 +101,6 @@ public:
     }
 
 private:
-    void tell(const std::string& line) const
-    {
-        status_.clear();
-        net::say("hapnet-emulator", line);
-    }
-
     base::TimePoint start_;
     Recorder recorder_{Recorder::Files{}}; // of no files
     ports::Upstream port_;

@@ -108,6 +108,22 @@ constexpr const char* verify_exit_codes = R"(  0  no test failed
   1  a test failed
   2  bad usage, or a file that cannot be used)";
 
+constexpr const char* report_description =
+    "Makes one page of a run, for a browser: delay as drawn and as it came out, lateness, losses, "
+    "changes, and the tests of verify.";
+
+constexpr const char* report_footer =
+    R"(RUN is the file that --stats wrote. With --fates in that run, the page has plots.
+
+Examples:
+  hapnet-emulator --listen-a :7001 --listen-b :7002 --profile lte \
+      --duration 30s --stats run.json --fates fates.csv
+  hapnet-emulator report run.json --out run.html)";
+
+constexpr const char* report_exit_codes = R"(  0  done
+  2  bad usage, or a file that cannot be used
+  3  the page cannot be written)";
+
 /// The words of a parameter's description as a sentence: those of profiles.
 template <auto member>
 std::string words(std::string_view more = "")
@@ -371,8 +387,36 @@ base::Result<base::Duration> parse_even_spacing(const std::string& text)
     });
 }
 
+void add_check(cli::Command& command, CheckOptions& options, bool& is_list)
+{
+    command.describe(check_description);
+    command.add_footer(check_footer);
+    command.add_exit_codes(check_exit_codes);
+    add_dry_run(command, options.conditions, options.stream);
+    command.flag("--list", "Print the names of the presets and exit", is_list);
+}
+
+void add_predict(cli::Command& command, PredictOptions& options, bool& is_list)
+{
+    constexpr std::uint64_t packets_max = 1'000'000'000;
+    command.describe(predict_description);
+    command.add_footer(predict_footer);
+    command.add_exit_codes(predict_exit_codes);
+    add_dry_run(command, options.conditions, options.stream);
+    command.option(
+        "--packets", "NUMBER",
+        "Number of datagrams, each way (default: 400000, and on up to 6400000 until mean and "
+        "deviation of the delay are known to 1 %)",
+        cli::into(options.stream.packets, base::Count{1, packets_max}));
+    command.flag("--json", "Print one JSON object instead of text", options.as_json);
+    command.flag("--list", "Print the names of the presets and exit", is_list);
+}
+
 void add_verify(cli::Command& command, VerifyOptions& options)
 {
+    command.describe(verify_description);
+    command.add_footer(verify_footer);
+    command.add_exit_codes(verify_exit_codes);
     command.positional("RUN", "What a run has written", cli::into(options.run))
         .required("run.json");
     command.option("--profile", "FILE|NAME",
@@ -385,6 +429,19 @@ void add_verify(cli::Command& command, VerifyOptions& options)
                    "in time",
                    cli::into(options.spacing, parse_even_spacing));
     command.flag("--json", "Print one JSON object instead of a table", options.as_json);
+}
+
+void add_report(cli::Command& command, ReportOptions& options)
+{
+    command.describe(report_description);
+    command.add_footer(report_footer);
+    command.add_exit_codes(report_exit_codes);
+    command.positional("RUN", "What --stats of the run has written", cli::into(options.run))
+        .required("run.json");
+    command.option("--fates", "FILE", "The fates of the run (default: those that RUN names)",
+                   cli::into(options.fates));
+    command.option("--out", "FILE", "Where the page goes; - is stdout", cli::into(options.out))
+        .required("run.html");
 }
 
 /// The names of the presets, each followed by `separator`.
@@ -500,41 +557,24 @@ net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words)
     add_run_options(program, options);
     UpstreamOptions through;
     add_upstream_options(program, through);
-
-    cli::Command& check = program.command("check", "Describes a profile, stage by stage");
-    check.describe(check_description);
-    check.add_footer(check_footer);
-    check.add_exit_codes(check_exit_codes);
-    CheckOptions checking;
     bool is_list = false;
-    add_dry_run(check, checking.conditions, checking.stream);
-    check.flag("--list", "Print the names of the presets and exit", is_list);
-
+    cli::Command& check = program.command("check", "Describes a profile, stage by stage");
+    CheckOptions checking;
+    add_check(check, checking, is_list);
     cli::Command& predict =
         program.command("predict", "Predicts the effect of a profile on a stream of datagrams");
-    predict.describe(predict_description);
-    predict.add_footer(predict_footer);
-    predict.add_exit_codes(predict_exit_codes);
     PredictOptions predicting;
-    constexpr std::uint64_t packets_max = 1'000'000'000;
-    add_dry_run(predict, predicting.conditions, predicting.stream);
-    predict.option(
-        "--packets", "NUMBER",
-        "Number of datagrams, each way (default: 400000, and on up to 6400000 until mean "
-        "and deviation of the delay are known to 1 %)",
-        cli::into(predicting.stream.packets, base::Count{1, packets_max}));
-    predict.flag("--json", "Print one JSON object instead of text", predicting.as_json);
-    predict.flag("--list", "Print the names of the presets and exit", is_list);
-
+    add_predict(predict, predicting, is_list);
     cli::Command& verify =
         program.command("verify", "Tests whether the fates of a run follow its profile");
-    verify.describe(verify_description);
-    verify.add_footer(verify_footer);
-    verify.add_exit_codes(verify_exit_codes);
     VerifyOptions verifying;
     add_verify(verify, verifying);
+    cli::Command& report = program.command("report", "Makes a page of a run");
+    ReportOptions reporting;
+    add_report(report, reporting);
 
     if (auto said = program.parse(words); !said || *said) return net::answer_of(std::move(said));
+    if (report.is_chosen()) return AnyOptions{std::move(reporting)};
     if (is_list) return net::Answer{preset_list('\n')};
     if (verify.is_chosen()) return AnyOptions{std::move(verifying)};
     if (!check.is_chosen() && !predict.is_chosen()) {

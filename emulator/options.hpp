@@ -94,8 +94,15 @@ struct VerifyOptions {
     bool as_json = false;
 };
 
-using AnyOptions =
-    std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions, VerifyOptions>;
+/// `hapnet-emulator report RUN`
+struct ReportOptions {
+    std::string run;                  // what --stats wrote
+    std::optional<std::string> fates; // instead of those that RUN names
+    std::string out;                  // "-": stdout
+};
+
+using AnyOptions = std::variant<Options, UpstreamOptions, CheckOptions, PredictOptions,
+                                VerifyOptions, ReportOptions>;
 
 /// Reads the command line; the error names the option, what is wrong with it, and what would be
 /// right.

@@ -24,6 +24,7 @@ struct Run {
     const Recorder& recorder;
     net::RealTime real_time;
     base::Duration elapsed{}; // since the sockets were bound
+    bool is_over = false;     // nothing waits for the statistics any more: they may be long
 };
 
 /// The line that says that the emulator listens: "ready a=127.0.0.1:7001 b=... seed=42 ...".
@@ -35,8 +36,8 @@ struct Run {
 /// What of each direction differs from the default, as a profile says it.
 [[nodiscard]] nlohmann::ordered_json configuration_json(const Path& path);
 
-/// The changes of the conditions that a run saw, each with the settings that changed.
-[[nodiscard]] nlohmann::ordered_json changes_json(const ChangeLog& changes);
+/// The last `count_max` of the changes that a run saw, each with the settings that changed.
+[[nodiscard]] nlohmann::ordered_json changes_json(const ChangeLog& changes, std::size_t count_max);
 
 /// What --stats writes: one JSON object.
 [[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run);

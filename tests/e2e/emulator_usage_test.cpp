@@ -40,7 +40,7 @@ TEST(EmulatorUsage, PrintsHelpWithEveryOptionAndExamples)
           "--corrupt",  "--reorder",  "--rate",       "--mtu",      "--profile",   "--netem",
           "--seed",     "--stats",    "--duration",   "--timing",   "--fates",     "--replay",
           "--pcap",     "--control",  "check",        "predict",    "verify",      "--budget",
-          "--version",  "Examples",   "160ms",        "Exit codes"}) {
+          "--version",  "report",     "--require",    "Examples",   "160ms",       "Exit codes"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
 }
