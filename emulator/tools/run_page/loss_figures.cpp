@@ -31,7 +31,7 @@ std::string_view shade_of(std::size_t lost, std::size_t all)
 {
     if (lost == 0) return shades.front();
     const double share = static_cast<double>(lost) / static_cast<double>(all);
-    constexpr double steps = static_cast<double>(shades.size() - 1);
+    constexpr auto steps = static_cast<double>(shades.size() - 1);
     return shades.at(static_cast<std::size_t>(std::ceil(share * steps)));
 }
 
